@@ -15,11 +15,11 @@ CORE := $(VENV)/.core-installed
 DEV := $(VENV)/.dev-installed
 DOCS := $(VENV)/.docs-installed
 
-.PHONY: help setup plan paper test docs deep fuzz lint bench clean
+.PHONY: help setup plan paper test docs deep fuzz theorems lint bench clean
 .DEFAULT_GOAL := help
 
 help: ## list the targets
-	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-7s %s\n", $$1, $$2}' Makefile
+	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-8s %s\n", $$1, $$2}' Makefile
 
 $(CORE): pyproject.toml constraints.txt
 	@test -n "$(PYTHON)" || { echo "Python 3.11 or newer with venv and pip is needed" >&2; exit 1; }
@@ -61,6 +61,9 @@ deep: $(DEV) ## the long randomised tests
 
 fuzz: $(DEV) ## damaged texts for every reader, SECONDS=60 (by atheris where it is installed)
 	$(BIN)/python -m tests.fuzz --seconds $(SECONDS) --guided
+
+theorems: $(DEV) ## prove the theorems of qe/theorems, try the axioms at random instances
+	$(BIN)/python -m experiments.theorems
 
 lint: $(DEV) ## ruff, and mypy --strict on all packages
 	$(BIN)/ruff check .

@@ -190,7 +190,7 @@ class Plan:
         """Whether the checker accepted every certificate and the whole path is proved inside and clear of obstacles."""
         accepted = all(verdict.accepted for verdict in self.checks.values())
         clear = all(finding.is_clear for finding in self.findings)
-        follows = self.joints is None or self.joints.path.is_reachable
+        follows = self.joints is None or self.joints.is_followed
         return accepted and clear and follows and (self.path is None or self.path.is_inside)
 
 

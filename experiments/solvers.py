@@ -8,14 +8,18 @@ from pathlib import Path
 
 from experiments.problem import ROOT
 from qe.errors import InputError
-from qe.options import Method, Stage
+from qe.options import Method, Options, Projection, Stage
 
 OURS = "ours"
 WITHOUT = f"{OURS}-without-"
-METHODS = tuple(f"{OURS}-{method.value}" for method in Method if method is not Method.AUTO)
-ABLATIONS = tuple(WITHOUT + stage.value for stage in Stage)
+METHODS = {f"{OURS}-{method.value}": Options(method=method) for method in Method if method is not Method.AUTO}
+PROJECTIONS = {f"{OURS}-cad-{p.value}": Options(method=Method.CAD, projection=p) for p in Projection}
+ABLATIONS = {WITHOUT + stage.value: Options(without=frozenset([stage])) for stage in Stage}
+ENGINES = {OURS: Options(), **METHODS, **PROJECTIONS, **ABLATIONS}
+"""Our engine by name: by default, by one method, decomposition by one projection, without one stage."""
+
 PEERS = ("qepcad", "sympy-extras", "semialg", "z3", "cvc5", "yices")
-NAMES = (OURS, *METHODS, *ABLATIONS, *PEERS)
+NAMES = (*ENGINES, *PEERS)
 
 
 @dataclass(frozen=True, slots=True)

@@ -101,6 +101,7 @@ provide(
         Service.REGION: lambda: import_module("qe.api.eliminate").region,
         Service.REGION_OPERATORS: lambda: import_module("qe.api.region_operators"),
         Service.PARTIAL_PICTURE: lambda: import_module("qe.regions.partial_picture").plotted,
+        Service.TRUSTS: lambda: import_module("qe.kernel.trusts").trusts,
         Service.THEOREM: lambda: import_module("qe.certify.theorems").theorem_of,
     }
 )

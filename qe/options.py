@@ -34,10 +34,14 @@ class Method(Enum):
 
 
 class Projection(Enum):
-    """Projection operators of the cylindrical algebraic decomposition."""
+    """Projection operators of the cylindrical algebraic decomposition (``qe.cad.operators``).
+
+    Where one does not apply, Lazard's takes over.
+    """
 
     BROWN_MCCALLUM = "brown-mccallum"
     LAZARD = "lazard"
+    MCCALLUM = "mccallum"
 
 
 class Stage(Enum):
@@ -49,8 +53,8 @@ class Stage(Enum):
     ``EQUATIONS``: linear equations and Gröbner bases before anything else. ``SUBSTITUTION``: virtual substitution.
     ``CUBIC``: the same with roots of cubics, and the signs of cubics on intervals.
     ``CONSTRAINTS``: projection and lifting restricted by equational constraints. ``PARTIAL``: stacks are left as
-    soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum
-    projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
+    soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum's
+    or McCallum's before Lazard. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
     are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
     atoms that some value of a variable meets, whatever the rest is, are dropped, and squares of variables that one
@@ -58,6 +62,7 @@ class Stage(Enum):
     ``BALLS``: whether two balls meet is a closed form, and a sphere seen along one direction a segment.
     ``STABILITY``: whether a polynomial given by its real and imaginary part has roots in a half-plane is another.
     ``QUADRICS``: whether one quadric lies in another is a question about one multiplier.
+    ``FORMS``: other closed forms, which are theorems of ``qe.theorems``.
     ``RANGES``: conditions that ranges of variables exclude are refuted.
     ``SAMPLES``: sentences of inequalities are tried at points. ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
@@ -88,6 +93,7 @@ class Stage(Enum):
     BALLS = "balls"
     STABILITY = "stability"
     QUADRICS = "quadrics"
+    FORMS = "forms"
     RANGES = "ranges"
     SAMPLES = "samples"
     SEARCH = "search"

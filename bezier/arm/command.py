@@ -8,9 +8,9 @@ from fractions import Fraction
 from math import degrees
 from typing import Any
 
-from bezier.arm import path_report
+from bezier.arm import evidence, path_report
 from bezier.arm.choices import Arc, Choice, Edge, spans
-from bezier.arm.evidence import certificates
+from bezier.arm.evidence import certificates, without_certificate
 from bezier.arm.inverse import MOST_BITS, Inverse, Solution, separated, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
@@ -46,26 +46,26 @@ def inverse(
     if quaternion is None and len(arm.joints) > MOST_FOR_A_POINT:
         raise InputError(f"{arm.name} has {len(arm.joints)} joints: --quaternion W X Y Z expected, the orientation")
     found = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
-    evidence = inverse_certificate(found).to_json() if certified else ""
+    certificate = inverse_certificate(found).to_json() if certified else ""
     if json:
         data = {"status": "solved", **to_json(found), **({"certified": True} if certified else {})}
-        return json_text.dumps(data, indent=1, ensure_ascii=False), evidence
-    return "\n".join([*in_words(found), *(["certificate: accepted"] if certified else [])]), evidence
+        return json_text.dumps(data, indent=1, ensure_ascii=False), certificate
+    return "\n".join([*in_words(found), *(["certificate: accepted"] if certified else [])]), certificate
 
 
 def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: bool) -> tuple[str, str]:
     """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text, if there
     are any."""
     found = joint_path(arm, curves)
-    bundle = Certificate.bundle(certificates(found))
+    listed = certificates(found)
+    bundle = Certificate.bundle(listed)
     verdict = verify(bundle)
     if json:
         data = {"status": "solved", **path_report.to_json(found), "certified": verdict.accepted}
-        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if found.runs else ""
-    told = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
-    told = told if found.runs else "none, as there is no joint motion along a part of the path"
-    lines = [*path_report.in_words(found), f"certificates of the joint motions: {told}"]
-    return "\n".join(lines), bundle.to_json() if found.runs else ""
+        data["without_certificate"] = without_certificate(found, listed)
+        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if listed else ""
+    lines = [*path_report.in_words(found), *evidence.in_words(found, listed, verdict)]
+    return "\n".join(lines), bundle.to_json() if listed else ""
 
 
 def to_json(found: Inverse) -> dict[str, Any]:
@@ -160,7 +160,7 @@ def in_words(found: Inverse) -> list[str]:
             not solution.allowed
         )
         lines.append(f"  {k}. {positions}" + (f"  [{'; '.join(notes)}]" if notes else ""))
-    return lines
+    return lines if found.allowed_count else [*lines, "no joint position is within the limits of the joints"]
 
 
 def _positions(arm: Arm, solution: Solution, further: int) -> str:

@@ -38,6 +38,7 @@ class Reason(Enum):
 
     MERGE = "solutions meet"
     AXIS = "on the axis of the first joint"
+    ESCAPE = "a joint that slides would have to be infinitely long"
     FREE = "the second joint does not move the end effector"
     SINE = "two solutions share the sine of the last joint"
 
@@ -104,6 +105,8 @@ class AlongCurve:
         t = r.ring.index["t"]
         if len(r.coefficients) > 1:
             yield Reason.MERGE, reduced(r.equation.discriminant(t), field)
+        if r.degree is None:  # t is a length: where the leading coefficient vanishes a root has gone to infinity
+            yield Reason.ESCAPE, r.coefficients[-1]
         if r.axis is not None:
             yield Reason.AXIS, r.axis
         for reason, other in ((Reason.MERGE, r.square), (Reason.FREE, r.kappa)):
@@ -122,7 +125,7 @@ class AlongCurve:
                 raise Unable(
                     f"everywhere along the curve: {reason.value}; the number of solutions is not followed there"
                 )
-            for s in self._zeros(p):
+            for s in self.zeros(p):
                 found.setdefault(s, []).append(reason)
         return [(s, tuple(dict.fromkeys(found[s]))) for s in sorted(found)]
 
@@ -140,9 +143,9 @@ class AlongCurve:
         a0, a1, a2 = 2 * (q0 + q4), q1 + q3, q2 - q0 - q4
         both = reduced(a0 * b1 * b1 - a1 * b0 * b1 + a2 * b0 * b0, self.arm.field)
         inside = b1 * b1 - b0 * b0
-        return [s for s in self._zeros(both) if self.place(s).sign(inside) > 0] if both else []
+        return [s for s in self.zeros(both) if self.place(s).sign(inside) > 0] if both else []
 
-    def _zeros(self, p: Poly) -> list[Number]:
+    def zeros(self, p: Poly) -> list[Number]:
         """The zeros in [0, 1] of a polynomial in w and s, at the true value of w."""
         field = self.arm.field
         minimal = p.ring.from_terms({(k, 0, 0, 0): c for k, c in enumerate(field.minimal_polynomial) if c})

@@ -93,8 +93,13 @@ class Inverse:
 
     @property
     def is_reachable(self) -> bool:
-        """Whether there is a solution."""
+        """Whether there is a solution, limits of the joints aside."""
         return bool(self.solutions)
+
+    @property
+    def allowed_count(self) -> int:
+        """The number of solutions, or families, that keep the limits of the joints."""
+        return sum(s.allowed for s in self.solutions)
 
 
 def separated(found: Inverse) -> Inverse:

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
+from bezier.arm.arm_json import arm_json
 from bezier.arm.choices import Choice
 from bezier.arm.elimination import TURNS
-from bezier.arm.evidence import arm_json
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve
 from bezier.arm.model import Arm, Motion
 from bezier.arm.square_roots import square_roots

@@ -43,7 +43,13 @@ class JointPlan:
     @property
     def is_proved(self) -> bool:
         """Whether one continuous motion reaches the whole path and keeps all limits at all times."""
-        return self.path.is_reachable and self.motion is not None and self.motion.keeps_limits
+        return self.is_followed and self.motion is not None and self.motion.keeps_limits
+
+    @property
+    def is_followed(self) -> bool:
+        """Whether every point is reached, the samples by a sequence, and a continuous motion from start to goal within
+        the limits is not refuted (nor, where all that boxes hold pass a limit, left open)."""
+        return self.path.is_reachable and self.sequence is not None and not self.path.is_stopped
 
 
 def joint_plan(
@@ -63,17 +69,24 @@ def joint_plan(
     ends = tuple(total / sum(sizes) for total in accumulate(sizes))
     path = joint_path(arm, curves, note)
     remarks: list[str] = []
+    if path.is_stopped and (path.excesses or path.is_reachable):
+        within = " within the limits of the joints" if path.excesses else ""
+        remarks.append(f"no continuous motion from start to goal{within}{' is known' * (path.allowed_count is None)}")
     if not path.is_reachable:
-        return JointPlan(path, law, ends, duration, None, None, ("the path leaves what the arm can reach",))
+        within = " within the limits of its joints" if any(s.within != s.stretches for s in path.studies) else ""
+        remarks.append(f"the path leaves what the arm can reach{within}")
+        return JointPlan(path, law, ends, duration, None, None, tuple(remarks))
     sequence = motion = None
     try:
         sequence = joint_sequence(path, samples_of(ends, law, samples), note)
         remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
         run = next((run for run in path.runs if run.number == sequence.run), None)
-        if run is not None:
+        if run is not None and not run.excesses:
             motion = joint_motion(path, run, law, duration, ends)
             if not motion.keeps_limits:
                 remarks.append(f"limits of the joints are not proved to be kept; {motion.enough} s are enough")
+        elif sequence.run is not None:
+            remarks.append(f"motion {sequence.run} goes where boxes do not: its velocities have no proved bounds")
     except Unable as error:
         remarks.append(str(error))
     return JointPlan(path, law, ends, duration, sequence, motion, tuple(remarks))

@@ -92,6 +92,11 @@ class Arm:
         """The moving joints, from the base on."""
         return tuple(row.joint for row in self.rows if row.joint is not None)
 
+    @property
+    def has_limits(self) -> bool:
+        """Whether a joint has limits."""
+        return any(joint.limits is not None for joint in self.joints)
+
     @cached_property
     def field(self) -> NumberField:
         """The field of all constants."""

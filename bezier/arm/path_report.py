@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Any
 
-from bezier.arm.critical import Number, Reason
+from bezier.arm import motions_report
+from bezier.arm.critical import Reason
 from bezier.arm.joint_path import JointPath, Run
-from bezier.arm.study import Special, Study
-from bezier.curves.scalar import brief, described
+from bezier.arm.motions_report import place_to_json, short
+from bezier.arm.study import Special, Stretch, Study
+from bezier.curves.scalar import described
 
 
 def to_json(found: JointPath) -> dict[str, Any]:
-    """The path as JSON data: parameters exactly and as decimals, one entry for each curve, and the runs."""
+    """The path as JSON data: parameters exactly and as decimals, an entry for each curve, the continuous motions, and
+    the runs."""
     return {
         "arm": found.arm.name,
         "reachable": found.is_reachable,
         "curves": [
             {"name": name, **_study(studied)} for name, studied in zip(found.curves, found.studies, strict=True)
         ],
+        "motions": motions_report.to_json(found),
         "runs": [_run(found, run) for run in found.runs],
     }
 
@@ -26,9 +29,8 @@ def to_json(found: JointPath) -> dict[str, Any]:
 def _study(found: Study) -> dict[str, Any]:
     return {
         "reachable": found.is_reachable,
-        "intervals": [
-            {"from": described(p.low), "to": described(p.high), "solutions": p.count} for p in found.stretches
-        ],
+        "intervals": [_stretch(p) for p in found.stretches],
+        "within_limits": [_stretch(p) for p in found.within],
         "special": [
             {
                 "s": described(p.s),
@@ -40,8 +42,12 @@ def _study(found: Study) -> dict[str, Any]:
             if p.reasons or p.s in (0, 1)
         ],
         "shared_sine": [described(s) for s in found.shared],
-        "stops": [described(p.low) for p in found.gaps],
+        "stops": [place_to_json(p.low) for p in found.gaps],
     }
+
+
+def _stretch(part: Stretch) -> dict[str, Any]:
+    return {"from": place_to_json(part.low), "to": place_to_json(part.high), "solutions": part.count}
 
 
 def _run(found: JointPath, run: Run) -> dict[str, Any]:
@@ -52,6 +58,7 @@ def _run(found: JointPath, run: Run) -> dict[str, Any]:
         "parts": [
             {"curve": names[k], "from": str(b.low), "to": str(b.high), "boxes": len(b.pieces)} for k, b in run.parts
         ],
+        "beyond_limits": motions_report.excesses_to_json(found, run.excesses),
     }
 
 
@@ -61,35 +68,27 @@ def in_words(found: JointPath) -> list[str]:
     for name, studied in zip(found.curves, found.studies, strict=True):
         lines.append(f"{name}: " + _verdict(studied))
         lines += [
-            f"  {p.count} solution{'s' * (p.count != 1)} for every s in ({_short(p.low)}, {_short(p.high)})"
+            f"  {p.count} solution{'s' * (p.count != 1)} for every s in ({short(p.low)}, {short(p.high)})"
             for p in studied.stretches
         ]
-        lines += [f"  at s = {_short(p.s)}: {_special(p)}" for p in studied.specials if p.reasons]
-        lines += [f"  at s = {_short(s)}: {Reason.SINE.value} (nothing happens to the arm)" for s in studied.shared]
-    complete = len(found.whole_runs)
-    lines.append(f"{complete} continuous joint motion{'s' * (complete != 1)} from start to goal, proved by boxes")
-    for run in found.runs:
-        if run not in found.whole_runs:
-            first, last = run.parts[0], run.parts[-1]
-            names = list(found.curves)
-            begin, end = (
-                f"{names[k]} s = {float(s):.9g}" for k, s in ((first[0], first[1].low), (last[0], last[1].high))
-            )
-            lines.append(f"  motion {run.number} from {begin} to {end} only")
-    return lines
+        if studied.within != studied.stretches:
+            lines += [
+                f"  {p.count or 'none'} within the limits for every s in ({short(p.low)}, {short(p.high)})"
+                for p in studied.within
+            ]
+        lines += [f"  at s = {short(p.s)}: {_special(p)}" for p in studied.specials if p.reasons]
+        lines += [f"  at s = {short(s)}: {Reason.SINE.value} (nothing happens to the arm)" for s in studied.shared]
+    return lines + motions_report.in_words(found)
 
 
 def _verdict(found: Study) -> str:
+    limited = " within the limits of the joints" if found.within != found.stretches else ""
     if found.is_reachable:
-        return "every point can be reached (proved for all s in [0, 1])"
+        return f"every point can be reached{limited} (proved for all s in [0, 1])"
     first = found.gaps[0] if found.gaps else None
-    return "NOT reachable" + ("" if first is None else f" from s = {_short(first.low)} on")
+    return f"NOT reachable{limited}" + ("" if first is None else f" from s = {short(first.low)} on")
 
 
 def _special(p: Special) -> str:
     count = "infinitely many solutions" if p.inverse.count is None else f"{p.inverse.count} different solutions"
     return f"{' and '.join(r.value for r in p.reasons)}; {count}"
-
-
-def _short(s: Number) -> str:
-    return brief(s) if isinstance(s, Fraction) else f"{float(s):.12g}"

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from math import tau
 from typing import Any
 
 from bezier.arm.choices import spans
@@ -112,11 +113,15 @@ def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lam
     path: Any = nx.dijkstra_path(graph, "start", "goal")
     stands = [layers[k][i] for k, i in path[1:-1]]
     change = sum(_distance(arm, a.angles, b.angles) for a, b in pairwise(stands))
-    return JointSequence(tuple(samples), _unrolled(arm, stands), change, *_kept(arm, stands, samples))
+    run, switches = _kept(arm, stands, samples)
+    begin = _between_limits(found, stands[0], samples[0], run)
+    return JointSequence(tuple(samples), _unrolled(arm, stands, begin), change, run, switches)
 
 
 def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator[list[Stand]]:
     curves = list(found.curves.values())
+    # where some motions pass a limit and others do not, a sequence that keeps the limits is wanted
+    kept = found.kept_numbers if found.excesses else frozenset[int]()
     solved = []
     for sample in samples:
         note()
@@ -124,9 +129,11 @@ def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator
     for k, (sample, solutions) in enumerate(zip(samples, solved, strict=True)):
         places = _places(found, sample)
         around = [a for other in solved[max(k - 1, 0) : k + 2] for s in other if (a := s.angles[0]) is not None]
+        taken = [(_runs(found, places, (sample.curve, sample.s), solution), solution) for solution in solutions]
         stands = [
-            Stand(angles, _runs(found, places, sample.s, solution))
-            for solution in solutions
+            Stand(angles, runs & kept if kept else runs)
+            for runs, solution in taken
+            if runs & kept or not kept
             for angles in _offered(found.arm, solution, around)
         ]
         if not stands:
@@ -159,12 +166,19 @@ def _places(found: JointPath, sample: Sample) -> list[tuple[int, Branch, tuple[f
 
 
 def _runs(
-    found: JointPath, places: Sequence[tuple[int, Branch, tuple[float, ...]]], s: Fraction, solution: Solution
+    found: JointPath,
+    places: Sequence[tuple[int, Branch, tuple[float, ...]]],
+    at: tuple[int, Fraction],
+    solution: Solution,
 ) -> frozenset[int]:
+    curve, s = at
     angles = [a for a in solution.angles if a is not None]
-    if len(angles) < len(solution.angles):
-        return frozenset(run.number for run in found.runs)  # the axis: every motion passes there, or stops
-    return frozenset(
+    motions = frozenset[int]()
+    if found.motions is not None and len(found.covering_runs) < found.motions.count:  # else boxes tell, in less time
+        motions = found.motions.taken(curve, s, solution)
+    if len(angles) < len(solution.angles):  # the axis: every motion passes there, or stops
+        return motions if found.motions is not None else frozenset(run.number for run in found.runs)
+    return motions | frozenset(
         number
         for number, branch, near in places
         if _distance(found.arm, angles, near) < FAR and branch.contains(s, solution)
@@ -181,9 +195,25 @@ def _distance(arm: Arm, a: Sequence[float], b: Sequence[float]) -> float:
     return sum(abs(step) if joint.motion is Motion.REVOLUTE else abs(step) / SLIDE for step, joint in parts)
 
 
-def _unrolled(arm: Arm, stands: Sequence[Stand]) -> tuple[tuple[float, ...], ...]:
+def _between_limits(found: JointPath, stand: Stand, sample: Sample, number: int | None) -> tuple[float, ...]:
+    """The first angles, by full turns where the motion that is kept keeps the limits."""
+    if found.limited is not None and number is not None and number in found.limited.listed:
+        begin = zip(stand.angles, found.limited.listed[number].begin, strict=True)
+        return tuple(a if near is None else near + wrapped(a - near) for a, near in begin)
+    run = next((run for run in found.runs if run.number == number and run.turns), None)
+    branch = None if run is None else run.branch(sample.curve)
+    if run is None or branch is None or not branch.low <= sample.s <= branch.high:
+        return stand.angles
+    near = zip(stand.angles, branch.at(sample.s), run.turns, found.arm.joints, strict=True)
+    return tuple(
+        angle + tau * (round((close - angle) / tau) + turns) if joint.motion is Motion.REVOLUTE else angle
+        for angle, close, turns, joint in near
+    )
+
+
+def _unrolled(arm: Arm, stands: Sequence[Stand], begin: tuple[float, ...]) -> tuple[tuple[float, ...], ...]:
     """The angles with full turns added, so that no angle moves by more than half a turn between two samples."""
-    found = [stands[0].angles]
+    found = [begin]
     for stand in stands[1:]:
         last = found[-1]
         found.append(tuple(x + step for x, step in zip(last, _steps(arm, last, stand.angles), strict=True)))

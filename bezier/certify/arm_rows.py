@@ -107,13 +107,14 @@ def read_number(entry: Entry) -> Fraction:
 
 def read_triple(entry: Entry) -> Triple:
     """Three numbers, each a list of [q, d]: the sum of q √d, d squarefree."""
-    found = tuple(_surd(c) for c in entry.items())
+    found = tuple(read_surd(c) for c in entry.items())
     if len(found) != 3:
         raise entry.fail("expected three numbers")
     return found
 
 
-def _surd(entry: Entry) -> Surd:
+def read_surd(entry: Entry) -> Surd:
+    """A number as a list of [q, d]: the sum of q √d, d squarefree."""
     pairs = list[tuple[int, Fraction]]()
     for item in entry.items():
         parts = list(item.items())

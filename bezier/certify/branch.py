@@ -5,32 +5,39 @@
 centre + slope σ + r minus the curve at middle + σ, and any matrix C, if -C f(σ, 0) + (I - C ∂f/∂r(σ, R)) R lies in the
 interior of the box R for all σ, there is exactly one r in R with f = 0, for every σ; it lies in that image and depends
 continuously on σ. Neighbouring pieces belong together when the image of the one lies in the box of the other at their
-common parameter: then both have the same solution there.
+common parameter: then both have the same solution there. ``limits``: for each joint null, or two values between which
+it stays (``bezier.certify.joint_limits``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 from math import comb
 from typing import Any
 
 from bezier.certify import duals
+from bezier.certify.arm_rows import read_chain
 from bezier.certify.duals import Dual, Vector
+from bezier.certify.joint_limits import KeptLimits, Limits, Stretch, read_limits
 from qe.certify.kinds import BroughtKind
-from qe.exact.balls import precision
+from qe.exact.balls import ends, precision
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 
 MOST_ROWS, MOST_POINTS = 40, 60
 SIGMA, DIRECTIONS = 0, 4
 Part = Callable[[Vector], Vector]
+Points = list[tuple[Fraction, ...]]
 
 
 @dataclass(frozen=True, slots=True)
-class _Piece:
+class Piece:
+    """On [low, high] of a curve: joint values within ``radius`` of centre + slope (s - middle)."""
+
     curve: int
     low: Fraction
     high: Fraction
@@ -46,18 +53,20 @@ class _Piece:
 
 def check_branch(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    arm, curves_entry, pieces_entry = Entry(payload, "payload").fields("arm", "curves", "pieces")
-    rows = _Rows(arm)
-    curves = [_curve(entry) for entry in curves_entry.items()]
+    arm, curves_entry, limits, pieces_entry = Entry(payload, "payload").fields("arm", "curves", "limits", "pieces")
+    curves = [read_curve(entry) for entry in curves_entry.items()]
     pieces = [_piece(entry, len(curves)) for entry in pieces_entry.items()]
     if not pieces:
         raise pieces_entry.fail("expected at least one piece")
+    tubes = Tubes(arm, curves, read_limits(limits, 3))
     images = []
     for piece in pieces:
         if budget is not None:
             budget.check()
-        with precision(duals.BITS):
-            images.append(_image(rows, curves[piece.curve], piece))
+        images.append(tubes.image(piece))
+        joint = tubes.unlimited(piece, images[-1])
+        if joint is not None:
+            raise piece.entry.fail(f"joint {joint + 1} is not proved to keep its limits there")
     for (one, first), (other, second) in pairwise(zip(pieces, images, strict=True)):
         _check_link(one, first, other, second, curves)
 
@@ -125,14 +134,15 @@ def _angle(entry: Entry) -> tuple[Dual, Dual]:
         return duals.number(values[1], DIRECTIONS), duals.number(values[0], DIRECTIONS)
 
 
-def _curve(entry: Entry) -> list[tuple[Fraction, ...]]:
+def read_curve(entry: Entry) -> Points:
+    """The control points of a curve in space."""
     points = [tuple(c.rational() for c in point.items()) for point in entry.items()]
     if not 1 <= len(points) <= MOST_POINTS or any(len(p) != 3 for p in points):
         raise entry.fail(f"expected 1 to {MOST_POINTS} points of three coordinates")
     return points
 
 
-def _piece(entry: Entry, curves: int) -> _Piece:
+def _piece(entry: Entry, curves: int) -> Piece:
     curve, low, high, centre, slope, radius = entry.fields("curve", "low", "high", "centre", "slope", "radius")
     middle, slopes, radii = (tuple(v.rational() for v in part.items()) for part in (centre, slope, radius))
     if not len(middle) == len(slopes) == len(radii) == 3:
@@ -143,33 +153,65 @@ def _piece(entry: Entry, curves: int) -> _Piece:
         raise entry.fail("expected 0 <= low < high <= 1")
     if any(r <= 0 for r in radii):
         raise radius.fail("expected radii above 0")
-    return _Piece(curve.integer(), low.rational(), high.rational(), middle, slopes, radii, entry)
+    return Piece(curve.integer(), low.rational(), high.rational(), middle, slopes, radii, entry)
 
 
-def _image(rows: _Rows, points: list[tuple[Fraction, ...]], piece: _Piece) -> list[Fraction]:
-    """Radii of a box around 0 that holds the image; the image is proved to lie inside the piece's box."""
-    half = duals.around((piece.high - piece.low) / 2)
-    box = [duals.around(r) for r in piece.radius]
-    nothing = [duals.ball(Fraction(0))] * 4
-    middle = (piece.low + piece.high) / 2
-    coefficients = [_powers([p[i] for p in points]) for i in range(3)]
+class Tubes:
+    """An arm along curves, and what is proved about pieces."""
 
-    def f(sigma: Any, r: list[Any]) -> list[Dual]:
+    def __init__(self, arm: Entry, curves: Sequence[Points], limits: Sequence[Limits | None]) -> None:
+        self._rows = _Rows(arm)
+        self._coefficients = [[powers([p[i] for p in points]) for i in range(3)] for points in curves]
+        self._limits = KeptLimits(read_chain(arm), self._coefficients, limits)
+
+    def image(self, piece: Piece) -> list[Fraction]:
+        """Radii of a box around 0 that holds the image, which is proved to lie inside the piece's box."""
+        half, nothing = duals.around((piece.high - piece.low) / 2), [duals.ball(Fraction(0))] * 4
+        box = [duals.around(r) for r in piece.radius]
+        with precision(duals.BITS):
+            centre, along, whole = (
+                self._error(piece, sigma, r)
+                for sigma, r in ((nothing[0], nothing[1:]), (half, nothing[1:]), (half, box))
+            )
+            image = duals.krawczyk(centre, along, whole, half, box)
+            if image is None or not duals.strictly_within(image, piece.radius):
+                raise piece.entry.fail("the box is not proved to hold exactly one solution")
+            return [duals.radius_above(x) for x in image]
+
+    def unlimited(self, piece: Piece, radii: Sequence[Fraction]) -> int | None:
+        """The first joint that is not proved to keep its limits on a piece with an image of these radii."""
+        low, high = piece.at(piece.low), piece.at(piece.high)
+        at_end = cache(lambda end: self._at_end(piece, radii, end))
+        parts = (
+            Stretch(piece.curve, (piece.low, piece.high), j, (low[j], high[j]), radii[j], at_end) for j in range(3)
+        )
+        return next((part.joint for part in parts if not self._limits.keeps(part)), None)
+
+    def _error(self, piece: Piece, sigma: Any, r: Sequence[Any]) -> list[Dual]:
+        """f(σ, r) with its derivatives."""
         step = duals.seed(sigma, SIGMA, DIRECTIONS)
         joints = [
             duals.number(c, DIRECTIONS) + duals.number(v, DIRECTIONS) * step + duals.seed(x, j + 1, DIRECTIONS)
             for j, (c, v, x) in enumerate(zip(piece.centre, piece.slope, r, strict=True))
         ]
-        s = duals.number(middle, DIRECTIONS) + step
-        return [a - _horner(c, s) for a, c in zip(rows.end_point(joints), coefficients, strict=True)]
+        s = duals.number((piece.low + piece.high) / 2, DIRECTIONS) + step
+        curve = self._coefficients[piece.curve]
+        return [a - _horner(c, s) for a, c in zip(self._rows.end_point(joints), curve, strict=True)]
 
-    image = duals.krawczyk(f(nothing[0], nothing[1:]), f(half, nothing[1:]), f(half, box), half, box)
-    if image is None or not duals.strictly_within(image, piece.radius):
-        raise piece.entry.fail("the box is not proved to hold exactly one solution")
-    return [duals.radius_above(x) for x in image]
+    def _at_end(self, piece: Piece, radii: Sequence[Fraction], end: int) -> list[tuple[Fraction, Fraction]]:
+        """Bounds of the joints at one end: for this σ alone, the image of what holds the solution holds it too."""
+        s = (piece.low, piece.high)[end]
+        middle = piece.at(s)
+        with precision(duals.BITS):
+            sigma, nothing = duals.ball(s - (piece.low + piece.high) / 2), duals.ball(Fraction(0))
+            box = [duals.around(r) for r in radii]
+            centre = self._error(piece, sigma, [nothing] * 3)
+            image = duals.krawczyk(centre, centre, self._error(piece, sigma, box), nothing, box)
+            around = [ends(x) for x in (box if image is None else image)]
+        return [(m + low, m + high) for m, (low, high) in zip(middle, around, strict=True)]
 
 
-def _powers(values: list[Fraction]) -> list[Fraction]:
+def powers(values: list[Fraction]) -> list[Fraction]:
     """Coefficients of 1, s, s², … from Bernstein coefficients: c_k = C(n,k) Σ_j (-1)^(k-j) C(k,j) b_j."""
     n = len(values) - 1
     return [comb(n, k) * sum((-1) ** (k - j) * comb(k, j) * values[j] for j in range(k + 1)) for k in range(n + 1)]
@@ -182,9 +224,7 @@ def _horner(coefficients: list[Fraction], s: Dual) -> Dual:
     return total
 
 
-def _check_link(
-    one: _Piece, first: list[Fraction], other: _Piece, second: list[Fraction], curves: list[list[tuple[Fraction, ...]]]
-) -> None:
+def _check_link(one: Piece, first: list[Fraction], other: Piece, second: list[Fraction], curves: list[Points]) -> None:
     same = one.curve == other.curve and one.high == other.low
     if not same:
         joined = other.curve == one.curve + 1 and one.high == 1 and other.low == 0

@@ -5,7 +5,7 @@ The checker's own: whoever makes the certificates uses products of matrices and 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 
 from flint import arb, arb_mat, fmpq
@@ -40,6 +40,12 @@ class Dual:
 def number(value: Fraction, directions: int) -> Dual:
     """A constant."""
     return Dual(ball(value), (arb(0),) * directions)
+
+
+def root_sum(terms: Iterable[tuple[int, Fraction]], directions: int) -> Dual:
+    """The sum of q √d over the pairs (d, q), a constant."""
+    value = sum((arb(d).sqrt() * ball(q) for d, q in terms), arb(0))
+    return Dual(value, (arb(0),) * directions)
 
 
 def seed(value: arb, which: int, directions: int) -> Dual:

@@ -16,6 +16,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
+from bezier.arm.motions_report import number_in_words
 from bezier.check.agreement import same_data, same_rows
 from bezier.check.stated import stated_problem
 from bezier.input import stored
@@ -30,8 +31,8 @@ from bezier.planner.table import method_for
 from bezier.planner.words import NONE
 from bezier.plans import Outcome, Plan, Stated
 from bezier.problem import Problem, ends_inside, to_json
+from qe.api.verify import checked as verify
 from qe.certify.verdict import Verdict
-from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
 from qe.processes.worker import Channel
 from qe.progress import Event
@@ -228,7 +229,6 @@ def _told(plan: Plan) -> list[str]:
     if motion is not None and motion.reason:
         lines.append(f"motion.json: {motion.reason}")
     if plan.joints is not None:
-        count = len(plan.joints.path.whole_runs)
-        lines.append(f"joints_certificate.json: {count} continuous motions of the joints from start to goal")
+        lines.append(f"joints_certificate.json: {number_in_words(plan.joints.path)} from start to goal")
     joins = f"{plan.path.smoothness.name} at every join, " if plan.path.joins else ""
     return [*lines, f"{PATH}: {joins}every curve proved to lie in the workspace", f"{SUMMARY}: every entry but times"]

@@ -14,7 +14,7 @@ from math import ceil, hypot
 from typing import Any
 
 from bezier.arm import joint_plan as plans
-from bezier.arm.evidence import certificates
+from bezier.arm.evidence import certificates, without_certificate
 from bezier.arm.inverse import solve
 from bezier.arm.joint_plan import JointPlan, joint_plan
 from bezier.arm.model import Arm
@@ -58,7 +58,7 @@ def check_arm(problem: Problem) -> Problem:
 def _within_reach(problem: Problem, arm: Arm) -> Problem:
     points = {"start": problem.start, "via[0]": problem.via[0], "via[1]": problem.via[1], "goal": problem.goal}
     for name, point in points.items():
-        if not solve(arm, point).is_reachable:
+        if not solve(arm, point).allowed_count:
             told = ", ".join(map(str, point))
             raise InputError(f"{name}: a point that {arm.name} reaches expected, found ({told})")
     if not problem.radius_is_auto:
@@ -84,7 +84,7 @@ def with_joints(plan: Plan) -> Plan:
             raise
         return replace(plan, remarks=(*plan.remarks, f"the joints are not planned: {error}"))
     outcome = plan.outcome
-    if outcome.is_success and (not found.path.is_reachable or found.sequence is None):
+    if outcome.is_success and not found.is_followed:
         outcome = Outcome.OUT_OF_REACH
     elif outcome.is_success and found.motion is not None and not found.motion.keeps_limits:
         outcome = Outcome.TOO_FAST
@@ -106,11 +106,6 @@ def is_rounded(plan: Plan) -> bool:
     return plan.path is not None and any(rational(c) is None for p in plan.path.points.values() for c in p)
 
 
-def bundle(found: JointPlan) -> Certificate:
-    """The certificates of the continuous joint motions."""
-    return Certificate.bundle(certificates(found.path))
-
-
 def files(plan: Plan) -> dict[str, str]:
     """The files about the joints, by name. Raises ``CertificateRejected`` where a certificate is not accepted."""
     return {} if plan.joints is None else dict(_texts(plan.joints, is_rounded(plan)))
@@ -119,11 +114,13 @@ def files(plan: Plan) -> dict[str, str]:
 @lru_cache(maxsize=2)
 def _texts(found: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
     table, data, evidence = FILES
-    certificate = bundle(found)
+    listed = certificates(found.path)
+    certificate = Certificate.bundle(listed)
     verdict = verify(certificate)
-    if not verdict.accepted:
+    if certificate.payload and not verdict.accepted:
         raise CertificateRejected(f"{evidence}: {verdict.step}", verdict.reason)
     told = {**plans.to_json(found), "rounded": is_rounded}
+    told["without_certificate"] = without_certificate(found.path, listed)
     texts = {data: json.dumps(told, indent=1, ensure_ascii=False) + "\n", evidence: certificate.to_json()}
     if found.sequence is not None:
         texts[table] = plans.to_csv(found)
@@ -139,7 +136,7 @@ def json_entries(plan: Plan) -> dict[str, Any]:
         "joints": {
             "arm": found.path.arm.name,
             "reachable": found.path.is_reachable,
-            "continuous_motions": len(found.path.whole_runs),
+            "continuous_motions": found.path.allowed_count,
             "run": None if found.sequence is None else found.sequence.run,
             "limits": {} if found.motion is None else found.motion.kept,
             "rounded": is_rounded(plan),

@@ -7,13 +7,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
+from bezier.arm import evidence
 from bezier.arm import joint_plan as plans
-from bezier.arm.evidence import certificates
+from bezier.arm.evidence import Labelled, certificates, without_certificate
 from bezier.arm.joint_plan import JointPlan
 from bezier.arm.model import Arm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import TimeLaw
+from qe.certify.verdict import Verdict
 from qe.certify.verify import verify
 from qe.cli.shell import OK, UNABLE
 from qe.processes.worker import Channel
@@ -40,14 +43,14 @@ class Request:
 def joints(channel: Channel, request: Request) -> tuple[str, int]:
     """Plan the joints, write the files; what to print, and the exit status."""
     plan = plans.joint_plan(request.arm, request.curves, request.law, request.duration, request.samples)
-    accepted = write(plan, request.folder)
+    data, listed, verdict = write(plan, request.folder)
     (request.folder / PAGE).write_text(render(plan, request.file), encoding="utf-8")
-    data = {**plans.to_json(plan), "certified": accepted}
-    code = OK if plan.path.is_reachable and plan.sequence is not None else UNABLE
+    code = OK if plan.is_followed else UNABLE
     if request.json:
         return json.dumps(data, indent=1, ensure_ascii=False), code
     lines = plans.in_words(plan)
-    lines.append(f"certificates: {'accepted' if accepted else 'REJECTED'}; open {request.target / PAGE}")
+    lines += evidence.in_words(plan.path, listed, verdict)
+    lines.append(f"open {request.target / PAGE}")
     return "\n".join(lines), code
 
 
@@ -59,13 +62,14 @@ def render(plan: JointPlan, file: str) -> str:
     return document(page(plan, file))
 
 
-def write(plan: JointPlan, folder: Path) -> bool:
-    """Write data and certificates of the joints; whether the certificates are accepted."""
-    bundle = Certificate.bundle(certificates(plan.path))
-    accepted = verify(bundle).accepted
-    data = {**plans.to_json(plan), "certified": accepted}
+def write(plan: JointPlan, folder: Path) -> tuple[dict[str, Any], Labelled, Verdict]:
+    """Write data and certificates of the joints; these, and whether the certificates are accepted."""
+    listed = certificates(plan.path)
+    bundle, missing = Certificate.bundle(listed), without_certificate(plan.path, listed)
+    verdict = verify(bundle)
+    data = {**plans.to_json(plan), "certified": verdict.accepted, "without_certificate": missing}
     (folder / DATA).write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     (folder / EVIDENCE).write_text(bundle.to_json() + "\n", encoding="utf-8")
     if plan.sequence is not None:
         (folder / TABLE).write_text(plans.to_csv(plan), encoding="utf-8")
-    return accepted
+    return data, listed, verdict

@@ -9,6 +9,7 @@ from bezier.arm import joint_plan as plans
 from bezier.arm.joint_plan import JointPlan
 from bezier.arm.model import Motion
 from bezier.arm.motion import JointMotion
+from bezier.arm.motions_report import excesses_in_words, number_in_words
 from bezier.report import html
 from bezier.report.first import scene_box
 from bezier.report.html import Card, Page, Section, Text, toned
@@ -44,7 +45,7 @@ def section(plan: JointPlan) -> Section:
         head = ("joint", "velocity at all times", "acceleration at all times", "limits")
         content.append(html.table(head, _extremes(plan.motion)))
         content.append(html.note("Proved over the whole path by interval enclosures of the joint velocities."))
-    content += [html.note(f"{line}.") for line in (_motions(plan), *plan.remarks)]
+    content += [html.note(f"{line}.") for line in (_motions(plan), *excesses_in_words(path), *plan.remarks)]
     return Section("joints", f"The joints of {path.arm.name}", html.joined(*content), short="joints")
 
 
@@ -52,7 +53,7 @@ def page(plan: JointPlan, file: str) -> Page:
     """The page of ``bezier joints``."""
     verdict = "every point is reached, proved" if plan.path.is_reachable else "the path leaves what the arm can reach"
     if plan.path.is_reachable and plan.sequence is None:
-        verdict += ", limits of the joints aside; there is no joint sequence"
+        verdict += "; there is no joint sequence"
     arm, first = moving(plan), None
     if arm is not None:
         from bezier.pictures import scene
@@ -89,8 +90,8 @@ def _cards(plan: JointPlan) -> list[Card]:
 
 
 def _motions(plan: JointPlan) -> str:
-    count, run = len(plan.path.whole_runs), plan.sequence.run if plan.sequence is not None else None
-    told = f"{count} continuous joint motions lead from start to goal"
+    run = plan.sequence.run if plan.sequence is not None else None
+    told = f"{number_in_words(plan.path)} from start to goal"
     return told + (f"; motion {run} has the least total change" if run else "")
 
 

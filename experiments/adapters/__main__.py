@@ -17,7 +17,7 @@ from collections.abc import Callable
 from experiments.adapters import qepcad, smt, sympy_peers
 from experiments.adapters.answer import Answer, Limits, NotSupported, OtherForm
 from experiments.adapters.ours import ours
-from experiments.solvers import OURS
+from experiments.solvers import ENGINES
 from qe.errors import Unable
 from qe.formula.syntax import Formula
 from qe.io.text import CONSTANTS, read
@@ -37,7 +37,7 @@ PEERS: dict[str, Callable[[Formula, Limits], Answer]] = {
 def main(name: str) -> None:
     """Solve the problem with the solver of this name."""
     task = json.load(sys.stdin)
-    solve = ours(name) if name.startswith(OURS) else PEERS[name]
+    solve = ours(name) if name in ENGINES else PEERS[name]
     limits = Limits(task["limit"], task["memory"])
     formula = read(task["formula"], known=CONSTANTS)
     start, begun = time.perf_counter(), processor_time()

@@ -205,17 +205,20 @@ def verify(
     formula: AnyFormula = None,
     format: str = "text",
     timeout: float | None = VERIFY_SECONDS,
+    core: bool = False,
 ) -> Verdict:
     """Whether separate code accepts the certificate, within ``timeout`` seconds (None: no limit); see ``qe.certify``.
 
     With ``formula``, also whether it is about that question, or its negation, up to the names of bound variables and
-    the order of conjuncts and disjuncts; if not, it is rejected at ``claim``. Past the limit the verdict is neither
-    accepted nor ``decided``. Raises ``InputError`` for what is no certificate, a formula that cannot be read and a
-    limit that is not positive.
+    the order of conjuncts and disjuncts; if not, it is rejected at ``claim``. With ``core``, a certificate that needs
+    rules of the expert ring (``Certificate.trusts`` names them) is rejected at ``core``. Past the limit the verdict is
+    neither accepted nor ``decided``. Raises ``InputError`` for what is no certificate, a formula that cannot be read
+    and a limit that is not positive.
     """
     from qe.api.verify import verify as check
     from qe.io import formats
 
     chosen = formats.checked(format)
     asked = None if formula is None else read_formula(formula, chosen.value)
-    return check(certificate, formula=asked, timeout=arguments.seconds(timeout))
+    arguments.flag(core, "core")
+    return check(certificate, formula=asked, timeout=arguments.seconds(timeout), core=core)

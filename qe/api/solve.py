@@ -20,7 +20,7 @@ from qe.options import Budget, Options
 from qe.processes.execution import Budgets
 from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
-from qe.proving.certificates import NOT_WANTED, derived
+from qe.proving import certificates
 from qe.regions.build import described
 from qe.regions.solutions import Solutions
 from qe.regions.walk import MOST_POINTS, different_points
@@ -93,10 +93,10 @@ def parametric_witnesses(formula: AnyFormula, **settings: Unpack[ProvedBlock]) -
         log, options, budget = RunLog(), Options(certify=check), budgets()
         found = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
         formula = found.equivalent_to(given)
-        answer = Answer(Status.SOLVED, formula, question=given, log=log, reason=NOT_WANTED)
+        answer = Answer(Status.SOLVED, formula, question=given, log=log, reason=certificates.NOT_WANTED)
         if check:
             budget.keep(found.with_(replace(answer, reason=UNPROVED)))
-            proof = derived(given, log, formula, options, budget)
+            proof = certificates.derived(given, log, formula, options, budget)
             answer = replace(
                 answer, certificate=proof.certificate, unchecked_steps=proof.unchecked, reason=proof.reason
             )

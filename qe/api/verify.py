@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from qe.certify.verify import verify as checked
-from qe.errors import InternalError, Unable
+from qe.certify.verify import verify as kernel_verdict
+from qe.errors import CertificateRejected, InternalError, Unable
 from qe.formula.syntax import Formula
 from qe.options import VERIFY_SECONDS, Budget, Options
 from qe.proof.answer import UNPROVED, Answer, Guarantee
@@ -30,12 +30,17 @@ SMALL_DEGREE, SMALL_POLYNOMIALS, SMALL_TEXT = 8, 40, 20_000
 
 
 def verify(
-    certificate: Certificate, *, formula: Formula | None = None, timeout: float | None = VERIFY_SECONDS
+    certificate: Certificate,
+    *,
+    formula: Formula | None = None,
+    timeout: float | None = VERIFY_SECONDS,
+    core: bool = False,
 ) -> Verdict:
     """Whether separate code accepts the certificate within ``timeout`` seconds (None: no limit); see ``qe.certify``.
 
     With ``formula``, also whether it is about that question, or its negation, up to the names of bound variables and
-    the order of conjuncts and disjuncts; if not, it is rejected at ``claim`` (``qe.certify.claims``).
+    the order of conjuncts and disjuncts; if not, it is rejected at ``claim`` (``qe.certify.claims``). With ``core``, a
+    certificate that needs rules of the expert ring (``Certificate.trusts`` names them) is rejected at ``core``.
 
     Large certificates, and all that were read from text, are checked in a process of their own, which is killed at the
     limit (where processes cannot fork, the limit is only looked at between steps). Past it, and where the certificate
@@ -44,8 +49,37 @@ def verify(
     """
     if not isinstance(certificate, Certificate):
         return checked(certificate)  # which says what was expected
-    verdict = _limited(certificate, timeout)
+    verdict = _limited(certificate, timeout, core=core)
     return verdict if formula is None or not verdict.accepted else of_question(certificate, formula)
+
+
+def checked(certificate: Certificate, budget: Budget | None = None, *, core: bool = False) -> Verdict:
+    """The verdict on a certificate, which may be one of a former release (``qe.proving.older``).
+
+    With ``core``, one that needs the expert ring (``qe.kernel.trusts``) is rejected.
+    """
+    from qe.certify.verdict import Verdict
+    from qe.kernel.trusts import expert_parts
+
+    budget = budget or Budget()
+    try:
+        certificate = recent(certificate, budget)
+        if core and (names := expert_parts(certificate)):
+            return Verdict(False, "core", f"it needs the expert ring: {', '.join(names)}")
+        return kernel_verdict(certificate, budget)
+    except CertificateRejected as error:
+        return Verdict(False, error.step, error.reason)
+    except Unable as error:
+        return Verdict(False, "", str(error), decided=False)
+
+
+def recent(certificate: Certificate, budget: Budget) -> Certificate:
+    """The certificate in the language of this release, if it was read."""
+    if not isinstance(certificate, Certificate) or certificate.digests is None:
+        return certificate  # what was not read is of this release
+    from qe.proving import older
+
+    return older.recent(certificate, budget)
 
 
 def of_question(certificate: Certificate, asked: Formula) -> Verdict:
@@ -130,14 +164,14 @@ def with_guarantee(region: Region, budget: Budget) -> Region:
     return region
 
 
-def _limited(certificate: Certificate, timeout: float | None) -> Verdict:
+def _limited(certificate: Certificate, timeout: float | None, *, core: bool = False) -> Verdict:
     if timeout is None or not hasattr(os, "fork") or (certificate.digests is None and _is_small(certificate)):
-        return checked(certificate, Budget(timeout))
+        return checked(certificate, Budget(timeout), core=core)
     from qe.certify.verdict import Verdict
     from qe.processes.worker import run
 
     try:
-        return run(lambda channel: checked(certificate, Budget(timeout)), timeout=timeout, grace=GRACE)
+        return run(lambda channel: checked(certificate, Budget(timeout), core=core), timeout=timeout, grace=GRACE)
     except Unable as error:
         return Verdict(False, "", str(error), decided=False)
 

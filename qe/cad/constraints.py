@@ -15,7 +15,8 @@ discriminants of all factors stay, and only the resultants between two factors t
 A constraint is propagated: f = 0 and g = 0 with the same main variable imply that their resultant is zero. All this
 holds for any quantifiers and for free variables: a cell off the sections of a constraint has the truth value false
 whatever stands above it, so nothing above it is asked. Dually, where the negated matrix implies f = 0, it is true.
-The theorems are used under Brown–McCallum projection; lifting checks that nothing is nullified that must not be.
+The theorems are used under the operators of which they speak (``Operator.restricted``); lifting checks that nothing is
+nullified that must not be.
 """
 
 from __future__ import annotations

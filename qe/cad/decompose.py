@@ -1,4 +1,4 @@
-"""A prenex formula to a cell table: order, projection, lifting; Lazard where Brown–McCallum does not apply."""
+"""A prenex formula to a cell table: order, projection, lifting."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from qe.cad.constraints import Constraints, equational_constraints
 from qe.cad.lifting import Lifter, Plan, sector_levels
 from qe.cad.matrix import compile_matrix, strengthened
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.cad.operators.operator import Operator
 from qe.cad.projection import factor_lists
-from qe.errors import NotWellOriented
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.exact.watch import Watch
@@ -16,15 +17,16 @@ from qe.formula.build import convert
 from qe.formula.monotone import direction
 from qe.formula.syntax import Formula
 from qe.formula.traverse import polynomials
-from qe.options import Budget, Projection
+from qe.options import Budget
 from qe.proof.cells import CellTable
 
 
 @dataclass(frozen=True, slots=True)
 class Decomposition:
-    """The table and what it cost. ``nullified``: Lazard projection had to take over."""
+    """The table and what it cost. ``operator``: of its projection; ``nullified``: it had to take over from another."""
 
     table: CellTable
+    operator: Operator
     cells: int
     stacks: int
     factors: int
@@ -65,24 +67,21 @@ def decompose(
     quantifiers: tuple[str, ...],
     *,
     budget: Budget,
-    projection: Projection = Projection.BROWN_MCCALLUM,
+    operator: Operator = BROWN_MCCALLUM,
     thom_levels: frozenset[int] = frozenset(),
     tactics: Tactics = Tactics(),
     extra: tuple[Poly, ...] = (),
 ) -> Decomposition:
     """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
 
-    Where the chosen projection meets a nullified factor that its theorem does not allow, the work is redone
-    with Lazard projection and Lazard evaluation together. ``thom_levels``: levels at which two cells over the same cell
+    Where the operator meets a nullified factor that its theorem does not allow, the work is redone with the one that
+    takes over. ``thom_levels``: levels at which two cells over the same cell
     differ in signs (derivatives join the factors: see ``factor_lists``, and ``Lifter.lacking`` for nullified ones).
     ``extra``: polynomials over the ring of ``order`` whose factors are to be in the lists too.
     Raises ``BudgetExceeded``.
     """
-    job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, thom_levels, tactics)
-    try:
-        return job.attempt(projection, nullified=False, added=extra)
-    except NotWellOriented:
-        return job.attempt(Projection.LAZARD, nullified=True, added=extra)
+    job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, thom_levels, tactics, operator)
+    return operator.applied(lambda used: job.attempt(used, extra))
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +92,7 @@ class _Job:
     budget: Budget
     thom_levels: frozenset[int]
     tactics: Tactics
+    chosen: Operator
 
     def _constraints(self) -> Constraints:
         """The equational constraints that the tactics let take part."""
@@ -108,12 +108,12 @@ class _Job:
         free = sum(quantifier == "" for quantifier in self.quantifiers)
         return direction(self.matrix, free - 1) if 0 < free < len(self.order) else 0
 
-    def attempt(self, projection: Projection, *, nullified: bool, added: tuple[Poly, ...] = ()) -> Decomposition:
+    def attempt(self, operator: Operator, added: tuple[Poly, ...]) -> Decomposition:
         """``added``: polynomials in the factor lists besides those of the matrix."""
         size = len(self.order)
-        constraints = self._constraints() if projection is Projection.BROWN_MCCALLUM else Constraints()
+        constraints = self._constraints() if operator.restricted else Constraints()
         listed = [*polynomials(self.matrix), *added]
-        levels = factor_lists(listed, size, projection, self.budget, self.thom_levels, constraints.factors)
+        levels = factor_lists(listed, size, operator, self.budget, self.thom_levels, constraints.factors)
         places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
         strong = strengthened(self.matrix, constraints.implied, places)
         indices = {
@@ -125,7 +125,7 @@ class _Job:
         plan = Plan(
             levels,
             self.quantifiers,
-            projection,
+            operator,
             sectors_from,
             indices,
             self.tactics.partial,
@@ -136,7 +136,8 @@ class _Job:
         lifter = Lifter(plan, self.budget, anytime=self.tactics.anytime)
         root = lifter.run(Point(Ring.of(self.order), watch=Watch(self.budget.check)), compile_matrix(strong, places))
         if lifter.lacking:
-            return self.attempt(projection, nullified=nullified, added=(*added, *lifter.lacking))
+            return self.attempt(operator, (*added, *lifter.lacking))
         restricted = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()
-        table = CellTable(self.order, self.quantifiers, self.matrix, projection, levels, root, restricted)
-        return Decomposition(table, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified)
+        table = CellTable(self.order, self.quantifiers, self.matrix, operator.proof, levels, root, restricted)
+        nullified = operator != self.chosen
+        return Decomposition(table, operator, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified)

@@ -15,15 +15,16 @@ from functools import lru_cache, partial
 from typing import cast
 
 from qe.cad.matrix import Node, mentioned, specialise
+from qe.cad.operators.operator import Operator
 from qe.cad.projection import Levels
 from qe.cad.stack import SampledStack, is_nullified, restricted_stack, stack_over
-from qe.errors import BudgetExceeded, InternalError, NotWellOriented
+from qe.errors import BudgetExceeded, InternalError
 from qe.exact.lazard import lazard_derivative
 from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point
 from qe.formula.openness import is_closed, is_open
 from qe.formula.syntax import Formula
-from qe.options import Budget, Call, Helpers, Projection
+from qe.options import Budget, Call, Helpers
 from qe.proof.cells import SIGN_OF, Cell, Stack
 
 SPREAD_FROM = 200
@@ -49,7 +50,7 @@ class Plan:
 
     levels: Levels
     quantifiers: tuple[str, ...]
-    projection: Projection
+    operator: Operator
     sectors_from: int
     constraints: Mapping[int, frozenset[int]] = field(default_factory=dict)
     partial: bool = True
@@ -121,7 +122,7 @@ class Lifter:
         """The stack over a cell, by the sections of the level's constraint alone if it has one."""
         level = point.depth
         factors, constraint = self.plan.levels[level], self.plan.constraints.get(level)
-        last, lazard = level == len(self.plan.levels) - 1, self.plan.projection is Projection.LAZARD
+        last, operator = level == len(self.plan.levels) - 1, self.plan.operator
         if constraint is not None:
             stack = restricted_stack(point, factors, used, constraint)
             # A nullified factor of the constraint makes it true on the whole line: its sections then say nothing.
@@ -133,12 +134,9 @@ class Lifter:
             if not nullified:
                 return stack
         # No constraint, or one that does not apply over this cell: the sections of all factors.
-        stack = stack_over(point, factors, used, lazard=lazard)
-        # Lazard evaluation gives nullified factors sections of their own, so there nothing is amiss. Brown–McCallum
-        # projection makes factors delineable only where they are not nullified (Brown 2001). Over a single point of
-        # the last level nothing needs to be delineable: the cell below is the point, and nothing is lifted above.
-        if stack.nullified and not lazard and not (last and dimension == 0):
-            raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
+        stack = stack_over(point, factors, used, lazard=operator.evaluates)
+        if stack.nullified:
+            operator.check_nullified(level, dimension, is_needed=not last or dimension > 0)
         return stack
 
     def _stack(

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from qe.cad.constraints import equational_constraints
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.cad.order import Candidate, OrderRule, brown_order, greedy_order, preferred, sotd
 from qe.cad.projection import FactorSet, effort, factor_lists, project
 from qe.errors import BudgetExceeded
@@ -15,7 +16,7 @@ from qe.formula.build import convert
 from qe.formula.normal import Quantifier
 from qe.formula.syntax import Formula
 from qe.formula.traverse import polynomials
-from qe.options import Budget, Options, Projection, Stage
+from qe.options import Budget, Options, Stage
 
 Found = TypeVar("Found")
 
@@ -99,7 +100,7 @@ def _projected(polys: Sequence[Poly], name: str, budget: Budget) -> list[Poly]:
     if effort(inside, i) > HEAVY:
         raise BudgetExceeded("a trial projection is too heavy", limit="effort")
     left = FactorSet(f for f in factors if not f.degree(i))
-    for p in project(inside, i, Projection.BROWN_MCCALLUM):
+    for p in project(inside, i, BROWN_MCCALLUM):
         budget.check("order")
         left.add((p,))
     return list(left)
@@ -111,7 +112,7 @@ def _measured(matrix: Formula, order: tuple[str, ...], rule: OrderRule, heaviest
     levels = factor_lists(
         polynomials(matrix),
         len(order),
-        Projection.BROWN_MCCALLUM,
+        BROWN_MCCALLUM,
         budget,
         constraints=equational_constraints(matrix, len(order)).factors,
         heaviest=heaviest,

@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 from qe.cad.lifting import Lifter, Plan, sector_levels
 from qe.cad.matrix import compile_matrix, specialise
+from qe.cad.operators.lazard import LAZARD
 from qe.cad.projection import factor_lists
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
@@ -19,7 +20,7 @@ from qe.formula.build import convert
 from qe.formula.normal import nnf
 from qe.formula.syntax import Formula
 from qe.formula.traverse import polynomials
-from qe.options import Budget, Projection
+from qe.options import Budget
 
 
 def over_point(matrix: Formula, order: tuple[str, ...], free: int, *, budget: Budget) -> Callable[[Point], bool]:
@@ -30,11 +31,11 @@ def over_point(matrix: Formula, order: tuple[str, ...], free: int, *, budget: Bu
     """
     ring = Ring.of(order)
     matrix = nnf(convert(matrix, ring))
-    lists = factor_lists(polynomials(matrix), len(order), Projection.LAZARD, budget, lowest=free)
+    lists = factor_lists(polynomials(matrix), len(order), LAZARD, budget, lowest=free)
     places = {f: (k, j) for k, level in enumerate(lists) for j, f in enumerate(level)}
     node = compile_matrix(matrix, places)
     quantifiers = ("",) * free + ("E",) * (len(order) - free)
-    lifter = Lifter(Plan(lists, quantifiers, Projection.LAZARD, sector_levels(matrix, quantifiers)), budget)
+    lifter = Lifter(Plan(lists, quantifiers, LAZARD, sector_levels(matrix, quantifiers)), budget)
 
     def decide(point: Point) -> bool:
         here = node

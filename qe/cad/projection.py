@@ -1,23 +1,15 @@
-"""Projection operators of cylindrical algebraic decomposition, and the closure of a factor set under one.
-
-``brown-mccallum`` (Brown 2001, Theorem 3.1, after McCallum 1998): leading coefficients, discriminants and
-pairwise resultants; also the other coefficients where they could vanish together at isolated points (McCallum
-1998). Valid where no factor is nullified over a cell of positive dimension; lifting checks that.
-``lazard`` (Lazard 1994; McCallum, Parusiński, Păunescu 2019): additionally the trailing coefficients; valid
-for every input, provided that lifting uses Lazard evaluation.
-Both expect irreducible, pairwise coprime polynomials of positive degree in the projected variable.
-"""
+"""One projection of a set of polynomials by an operator, and the closure of a factor set under it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import combinations
+from itertools import chain, combinations, product
 from types import MappingProxyType
 
+from qe.cad.operators.operator import Operator
 from qe.errors import BudgetExceeded
-from qe.exact.from_projection import discriminant, resultant
 from qe.exact.ring import Poly
-from qe.options import Budget, Projection
+from qe.options import Budget
 
 Levels = tuple[tuple[Poly, ...], ...]
 
@@ -53,34 +45,23 @@ class FactorSet:
 def project(
     polys: Iterable[Poly],
     variable: int,
-    operator: Projection,
+    operator: Operator,
     constraint: frozenset[Poly] | None = None,
     *,
     first: bool = False,
 ) -> Iterator[Poly]:
     """The (unfactored) projection of a set of irreducible polynomials with main variable ``variable``.
 
-    With the factors of an equational ``constraint``, resultants of two other polynomials are left out (McCallum
-    2001), and in the ``first`` projection their leading coefficients and discriminants too (McCallum 1999).
+    With the factors of an equational ``constraint``, what two other polynomials contribute is left out (McCallum
+    2001), and in the ``first`` projection what each of them does, too (McCallum 1999).
     """
     listing = list(polys)
     core = listing if constraint is None else [f for f in listing if f in constraint]
+    others = [] if constraint is None else [f for f in listing if f not in constraint]
     for f in core if first else listing:
-        coefficients = f.coefficients(variable)
-        yield coefficients[-1]
-        if operator is Projection.LAZARD:
-            yield coefficients[0]
-        elif variable >= 2 and not any(c.is_constant and c for c in coefficients):
-            # The coefficients may vanish together at a point inside a cell whose sample does not show it (x*z+y-1
-            # over x = 0); with all of them in the list, a factor nullified anywhere on a cell is so at its sample.
-            yield from coefficients[:-1]
-        if f.degree(variable) >= 2:
-            yield discriminant(f, variable)
-    for f, g in combinations(core, 2):
-        yield resultant(f, g, variable)
-    if constraint is not None:
-        for e in core:
-            yield from (resultant(e, g, variable) for g in listing if g not in constraint)
+        yield from operator.of_one(f, variable)
+    for f, g in chain(combinations(core, 2), product(core, others)):
+        yield from operator.of_two(f, g, variable)
 
 
 def effort(polys: Iterable[Poly], variable: int) -> int:
@@ -92,7 +73,7 @@ def effort(polys: Iterable[Poly], variable: int) -> int:
 def factor_lists(
     polys: Iterable[Poly],
     size: int,
-    operator: Projection,
+    operator: Operator,
     budget: Budget,
     thom_levels: frozenset[int] = frozenset(),
     constraints: Mapping[int, frozenset[Poly]] = MappingProxyType({}),

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
+from qe.cad.operators.table import OPERATORS
 from qe.cells.interval import Interval, Number
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.options import Budget, Projection
+from qe.options import Budget
 from qe.proof.cells import Cell, CellTable
 
 
@@ -58,7 +59,7 @@ def first_shadow(table: CellTable) -> CellTable:
 def _stack_over(table: CellTable, cell: Cell, point: Point) -> Isolation:
     assert cell.stack is not None
     factors = tuple(table.factors[point.depth][j] for j in cell.stack.used)
-    lazard = table.projection is Projection.LAZARD
+    lazard = OPERATORS[table.projection].evaluates
     return isolate_over(point, factors, lazard=lazard) if point.depth else _first_stack(point.ring, factors, lazard)
 
 

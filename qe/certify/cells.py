@@ -53,7 +53,7 @@ def check_cells(evidence: CellEvidence, budget: Budget) -> None:
     if answer is not None and evidence.parts is not None:
         raise CertificateRejected("payload.parts", "an answer has no parts")
     parts = [compiled(part, lists, f"payload.parts[{k}]") for k, part in enumerate(evidence.parts or ())]
-    checker = StackChecker(lists, closure, table.projection)
+    checker = StackChecker(lists, closure)
     walk = _Walk(table, free, checker, matrix, answer, parts, budget)
     sample = Sample(Point(budget=budget), {}, lists.lists, [], (0,))
     if table.root.signs:

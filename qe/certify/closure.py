@@ -36,13 +36,15 @@ class Closure:
 
     ``discriminants[0]`` and ``resultants[0]`` are empty: they are constants, and are not needed. ``constraints[k]``:
     the factors whose sections alone are decomposed on level k (empty: all are). What a constraint makes unnecessary
-    is missing.
+    is missing. ``evaluates``: by Lazard's theorem, so that a factor which vanishes on a whole line has the roots of its
+    Lazard evaluation there; by Brown and McCallum's, such a line is only allowed over a single point.
     """
 
     leading: tuple[dict[int, Product], ...]
     discriminants: tuple[dict[int, Product], ...]
     resultants: tuple[dict[tuple[int, int], Product], ...]
     constraints: tuple[frozenset[int], ...]
+    evaluates: bool
 
 
 def check_closure(
@@ -54,7 +56,8 @@ def check_closure(
     """
     if projection not in (Projection.LAZARD, Projection.BROWN_MCCALLUM):
         raise CertificateRejected("payload.projection", "an operator that this checker has no theorem for")
-    constraints = _check_constraints(lists, projection, listed)
+    evaluates = projection is Projection.LAZARD
+    constraints = _check_constraints(lists, listed, allowed=not evaluates)
     leading, discriminants, resultants = [], [], []
     for k, level in enumerate(lists.lists):
         budget.check("verify")
@@ -65,7 +68,7 @@ def check_closure(
         pairs: dict[tuple[int, int], Product] = {}
         if k > 0:
             for i, f in enumerate(level):
-                if projection is Projection.LAZARD:
+                if evaluates:
                     _trailing(lists, f, k, i)
                 if i in own:
                     found[i] = _covered(lists, checked_discriminant(lists, f, k, i), k, i, "discriminant")
@@ -76,19 +79,19 @@ def check_closure(
                         pairs[j, i] = _covered(lists, checked_resultant(lists, level[j], f, k, i), k, i, what)
         discriminants.append(found)
         resultants.append(pairs)
-    return Closure(tuple(leading), tuple(discriminants), tuple(resultants), constraints)
+    return Closure(tuple(leading), tuple(discriminants), tuple(resultants), constraints, evaluates)
 
 
 def _check_constraints(
-    lists: FactorLists, projection: Projection, listed: tuple[tuple[int, ...], ...]
+    lists: FactorLists, listed: tuple[tuple[int, ...], ...], *, allowed: bool
 ) -> tuple[frozenset[int], ...]:
-    """The constraint of every level: ascending indices of some of its factors, under Brown-McCallum projection."""
+    """The constraint of every level: ascending indices of some of its factors, where the operator allows any."""
     if listed and len(listed) != len(lists.lists):
         raise CertificateRejected("payload.constraints", "expected one list per variable, or none")
     for k, own in enumerate(listed):
         if any(a >= b for a, b in pairwise(own)) or (own and not 0 <= own[0] <= own[-1] < len(lists.lists[k])):
             raise CertificateRejected(f"payload.constraints[{k}]", "not an ascending list of factors of this level")
-        if own and projection is not Projection.BROWN_MCCALLUM:
+        if own and not allowed:
             raise CertificateRejected("payload.projection", "no theorem restricts this operator by constraints")
     return tuple(frozenset(own) for own in listed) if listed else (frozenset(),) * len(lists.lists)
 

@@ -5,56 +5,49 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from qe.certify.alternatives import check_alternatives
-from qe.certify.balls import check_balls
 from qe.certify.block import check_block
 from qe.certify.boolean_search import check_boolean_search
-from qe.certify.constant import check_constant
 from qe.certify.constant_along import check_constant_along
 from qe.certify.counted_solutions import check_counted_solutions
 from qe.certify.covering import check_covering
 from qe.certify.critical_universal import check_critical_universal
 from qe.certify.critical_values import check_critical_values
-from qe.certify.cubic_interval import check_cubic_interval
 from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
-from qe.certify.distribution import check_distribution
 from qe.certify.elimination_set import check_elimination_set
-from qe.certify.exchange import check_exchange
-from qe.certify.gathering import check_gathering
-from qe.certify.half_plane import check_half_plane
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
 from qe.certify.infinity_first import check_infinity_first
 from qe.certify.linear_equation import check_guarded_linear, check_linear
-from qe.certify.miniscoping import check_miniscoping
 from qe.certify.mirror import check_mirror
 from qe.certify.named_form import check_named_form
-from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
-from qe.certify.quadrics import check_quadrics
 from qe.certify.ranges import check_ranges
-from qe.certify.redundant import check_redundant
-from qe.certify.renaming import check_renaming
-from qe.certify.replayed_block import check_replayed_block
 from qe.certify.roots_by_signs import check_roots_by_signs
 from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.shear import check_shear
 from qe.certify.sphere import check_sphere
-from qe.certify.square_alone import check_square_alone
 from qe.certify.step import Check
-from qe.certify.symmetry import check_scaling, check_translation
+from qe.certify.symmetry import check_scaling
 from qe.certify.table import check_table
-from qe.certify.value_taken import check_value_taken
-from qe.certify.witness_in_parameters import check_witness_in_parameters
 from qe.certify.zeros import check_zeros
+from qe.kernel.nested import check_converse, check_no_exception, check_steps
+from qe.kernel.quantifiers import check_quantifiers
+from qe.kernel.root import check_root
+from qe.kernel.terms import check_terms
+from qe.kernel.theorem import check_theorem
 
 RULES: Mapping[str, Check] = {
-    "renaming": check_renaming,
+    "quantifiers": check_quantifiers,
+    "steps": check_steps,
+    "converse": check_converse,
+    "no exception": check_no_exception,
+    "renaming": check_quantifiers,
     "roots counted": check_roots_counted,
-    "duality": check_negation,
-    "negation normal form": check_negation,
+    "duality": check_quantifiers,
+    "negation normal form": check_quantifiers,
     "simplification": check_block,
     "standard simplification": check_block,
     "case split on factors": check_block,
@@ -62,31 +55,25 @@ RULES: Mapping[str, Check] = {
     "signs by sums of squares": check_block,
     "Groebner basis of the equations": check_block,
     "multiple of an equation subtracted": check_block,
-    "two balls": check_balls,
     "sphere seen along a form": check_sphere,
-    "roots in a half-plane": check_half_plane,
-    "quadric in a quadric": check_quadrics,
-    "cubic on an interval": check_cubic_interval,
-    "square of a variable alone": check_square_alone,
+    "theorem": check_theorem,
+    "terms": check_terms,
+    "root": check_root,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
-    "independent parts and miniscoping": check_miniscoping,
+    "independent parts and miniscoping": check_quantifiers,
     "linear equation solved": check_linear,
     "linear equation solved under a guard": check_guarded_linear,
     "degree shift": check_degree_shift,
-    "translation of the origin": check_translation,
-    "two variables exchanged": check_exchange,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
     "linear form as a variable": check_shear,
     "linear form named": check_named_form,
     "mirror images of a convex set": check_mirror,
-    "nested blocks of one kind gathered": check_gathering,
-    "disjuncts with equations apart": check_distribution,
-    "value that is taken": check_value_taken,
-    "equations taken apart": check_replayed_block,
+    "nested blocks of one kind gathered": check_quantifiers,
+    "equations taken apart": check_steps,
     "inequations that remove no interior": check_inequations,
-    "virtual substitution": check_replayed_block,
+    "virtual substitution": check_steps,
     "critical values": check_critical_values,
     "critical values of a universal block": check_critical_universal,
     "constant along directions": check_constant_along,
@@ -99,11 +86,8 @@ RULES: Mapping[str, Check] = {
     "open block": check_open_block,
     "instance": check_sentence,
     "cells": check_table,
-    "witness in the parameters": check_witness_in_parameters,
     "shorter": check_table,
     "covering": check_covering,
-    "redundant part": check_redundant,
-    "constant": check_constant,
     "Boolean search": check_boolean_search,
     "convex": check_sentence,
     "point or multipliers": check_sentence,

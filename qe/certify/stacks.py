@@ -33,7 +33,6 @@ from qe.certify.closure import Closure, nullification_witnesses
 from qe.certify.limits import check_value
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly
-from qe.options import Projection
 from qe.proof.cells import Stack
 
 Fail = Callable[[str, str], CertificateRejected]
@@ -101,8 +100,8 @@ class Checked:
 class StackChecker:
     """Checks stacks of one table; holds only what the closure check proved."""
 
-    def __init__(self, lists: FactorLists, closure: Closure, projection: Projection) -> None:
-        self.lists, self.closure, self.projection = lists, closure, projection
+    def __init__(self, lists: FactorLists, closure: Closure) -> None:
+        self.lists, self.closure = lists, closure
         self._witnesses: dict[tuple[int, int], list[Poly]] = {}
 
     def check(self, stack: Stack, sample: Sample, fail: Fail) -> Checked:
@@ -168,14 +167,14 @@ class StackChecker:
         nullified = f.degree < 0
         if nullified:
             self._allow_nullified(i, sample, fail)
-            if self.projection is Projection.LAZARD:
+            if self.closure.evaluates:
                 original = self.lists.lists[k][i]
                 f = fibre(sample.point, lazard_evaluation(original, sample.point, sample.rationals, k), k)
             elif listed:
                 raise fail(f"sections[{listed[0]}]", f"factor {i} vanishes identically over the sample")
             else:
                 return Branch(i, f, [0] * len(at), True, None)
-        elif not lead and self.projection is Projection.BROWN_MCCALLUM:
+        elif not lead and not self.closure.evaluates:
             self._check_nowhere_nullified(i, sample, fail)
         discriminant = None
         if i in self.closure.discriminants[k] and not nullified:
@@ -186,7 +185,7 @@ class StackChecker:
         return Branch(i, f, signs, nullified, simple)
 
     def _allow_nullified(self, i: int, sample: Sample, fail: Fail) -> None:
-        if self.projection is Projection.LAZARD:
+        if self.closure.evaluates:
             return
         if sample.dimensions[-1] == 0 and sample.depth == len(self.lists.lists) - 1:
             return  # the cell is one point and the factor is zero on the whole line over it

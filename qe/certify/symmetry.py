@@ -1,14 +1,12 @@
-"""Rules "translation of the origin" and "homogeneous scaling": a block that looks the same from many points.
+"""Rule "homogeneous scaling": a block that looks the same from many points.
 
-THEOREM (translation). Let w be a vector, 0 outside the bound variables, with sum w_i dp/dv_i = 0 for every polynomial p
-of f. Then f has the same truth at v and v + t*w for all t, so where w_x /= 0:  ex x, y f iff ex y f[x = 0].
-THEOREM (scaling). Let w be weights, 0 outside the bound variables, with p(t^w v) = t^d p(v) for every p. Then f has the
-same truth at v and t^w v for all t > 0, so where w_x /= 0:  ex x, y f iff ex y f[1] or ex y f[0] or ex y f[-1]; a
-value may be left out if f implies that x has not its sign.
-Bound are the variables of the block and of quantifiers inside, which range over R before and after a translation or
-scaling; x is one of the block, and no name is bound twice on the way down or both free and bound.
+THEOREM. Let w be weights, 0 outside the bound variables, with p(t^w v) = t^d p(v) for every p. Then f has the same
+truth at v and t^w v for all t > 0, so where w_x /= 0:  ex x, y f iff ex y f[1] or ex y f[0] or ex y f[-1]; a value may
+be left out if f implies that x has not its sign. Bound are the variables of the block and of quantifiers inside, which
+range over R before and after a scaling; x is one of the block, and no name is bound twice on the way down or both free
+and bound. (With whole weights in terms of that of x it is made of the kernel's steps, see ``qe.proving.elaborators``.)
 
-Evidence: ``variable``, ``weights`` ([[name, rational], ...]); for scaling ``values`` (those put in) and ``theory``.
+Evidence: ``variable``, ``weights`` ([[name, rational], ...]), ``values`` (those put in) and ``theory``.
 """
 
 from __future__ import annotations
@@ -26,16 +24,6 @@ from qe.formula.traverse import atoms, conjuncts, subformulas
 from qe.proof.entry import Entry
 
 _SIGN = {1: Relation.GT, 0: Relation.EQ, -1: Relation.LT}
-
-
-def check_translation(claim: Claim, context: Context, limits: Limits) -> None:
-    """The polynomials are constant along the direction, and 0 is put in."""
-    variable, weights = only(claim, "variable", "weights")
-    block, x, vector = _moved(variable, weights, claim)
-    check_constant_on(_polynomials(block.body), vector, weights, limits)
-    rest = [v for v in block.variables if v != claim.ring.names[x]]
-    if claim.after != exists(rest, at_number(block.body, x, Fraction(0), claim)):
-        raise claim.fail("not the block with 0 for the variable")
 
 
 def scaling_goals(claim: Claim, context: Context) -> list[Goal]:

@@ -148,6 +148,7 @@ def check(
     formula: Annotated[
         str | None, typer.Option("--formula", metavar="FORMULA|FILE", help="The question that it has to be about.")
     ] = None,
+    core: Annotated[bool, typer.Option("--core", help="Believe the kernel and the listed theorems alone.")] = False,
     json: Json = False,
     **settings: Any,
 ) -> int:
@@ -158,7 +159,8 @@ def check(
     text, limits = _certificate(certificate, settings)
     asked = None if formula is None else read_source(formula, None)
     seconds = remaining(limits["timeout"])
-    return deliver(limited(partial(work.check, text=text, asked=asked, seconds=seconds, as_json=json), **limits), {})
+    verdict = partial(work.check, text=text, asked=asked, seconds=seconds, as_json=json, core=core)
+    return deliver(limited(verdict, **limits), {})
 
 
 @command(app, Limited, "A certificate as proofs for a proof assistant.")

@@ -22,10 +22,10 @@ from qe.cli.source import MOST_BYTES
 from qe.errors import InputError, ParseError, Unable
 from qe.io import smtlib
 from qe.io import surface as s
-from qe.io.grammar import Failing
 from qe.io.smtlib_parser import Ends, Expression, Listing, Word, parse, show
 from qe.io.smtlib_script import Script
 from qe.io.smtlib_terms import is_real
+from qe.io.text_errors import Failing
 from qe.io.total import Fill, Total
 
 MOST_LEVELS = 10_000

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -143,6 +143,7 @@ def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
         "truth": answer.truth,
         "witness": _point(answer.witness),
         "guarantee": answer.guarantee.name.lower(),
+        "trusts": list(answer.trusts),
         "stats": plain(answer.stats),
         "seconds": round(seconds, 6),
     }
@@ -153,28 +154,31 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
     return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
 
 
-def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_json: bool = False) -> Reply:
+def check(
+    channel: Channel, text: str, asked: Source | None, seconds: float, *, as_json: bool = False, core: bool = False
+) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
-    from qe.api.verify import of_question
+    from qe.api.verify import checked as verify
+    from qe.api.verify import of_question, recent
     from qe.certify.claims import claim_of, is_about, parts_of
-    from qe.certify.verify import verify
     from qe.proof.certificate import Certificate
 
     start = time.perf_counter()
     formula = None if asked is None else read_formula(channel, asked)
     certificate = Certificate.from_json(text)
-    verdict = verify(certificate, Budget(seconds, listener=channel.event))
+    verdict = verify(certificate, Budget(seconds, listener=channel.event), core=core)
     if verdict.accepted and formula is not None:
         verdict = of_question(certificate, formula)
     if not verdict.decided:
         raise Unable(f"not decided: {verdict.reason}")
     if not verdict.accepted:
         raise CertificateRejected(verdict.step, verdict.reason)
-    took = time.perf_counter() - start
+    took, trusts = time.perf_counter() - start, recent(certificate, Budget(seconds)).trusts
     if as_json:
-        data = {"status": "accepted", "claims": list(claim_of(certificate).words), "seconds": round(took, 6)}
+        claims = list(claim_of(certificate).words)
+        data = {"status": "accepted", "claims": claims, "trusts": list(trusts), "seconds": round(took, 6)}
         return Reply(json.dumps(data, indent=2, ensure_ascii=False))
-    lines = [f"accepted ({took:.3f} s)", *claim_of(certificate).words]
+    lines = [f"accepted ({took:.3f} s)", *claim_of(certificate).words, *_rests(trusts)]
     if formula is not None:
         found = parts_of(certificate, formula)
         assert found is not None
@@ -187,7 +191,7 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_
 
 def export_proof(channel: Channel, text: str, seconds: float) -> Reply:
     """``qe export-proof``: exit status 4 when the certificate is rejected, 3 where it cannot be checked or written."""
-    from qe.certify.verify import verify
+    from qe.api.verify import checked as verify
     from qe.proof.certificate import Certificate
     from qe.proof.coq import to_coq
 
@@ -219,7 +223,18 @@ def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
         kind = "counterexample" if answer.truth is False else "witness"
         lines.append(f"{kind}: " + ", ".join(f"{quoted(name)} = {value}" for name, value in answer.witness.items()))
     lines.append(f"{answer.guarantee.value} in {seconds:.3f} s")
-    return (*lines, *answer.explanation.splitlines())
+    return (*lines, *_rests(answer.trusts), *answer.explanation.splitlines())
+
+
+def _rests(trusts: Sequence[str]) -> Iterator[str]:
+    """What has to be believed beside the kernel, a line each."""
+    from qe.kernel.statements import rows
+    from qe.kernel.trusts import EXPERT
+
+    for name in trusts:
+        what = "a rule" if name in EXPERT else "a kind of certificate"
+        why = f"by {rows()[name].data['axiom']}" if name in rows() else f"{what} of the expert ring"
+        yield f"rests on: {name}, {why}"
 
 
 def plain(value: object) -> object:

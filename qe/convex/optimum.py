@@ -54,8 +54,9 @@ class Optimum:
     decided. INFEASIBLE: ``multipliers`` combine the constraints to a contradiction, seen from ``point``. UNBOUNDED:
     from ``point`` the objective improves forever along ``direction``. ``attained`` is None for both. NEAR_OPTIMAL: the
     exact numbers need a field of high degree; ``point`` satisfies all constraints with room to spare, ``value`` is the
-    objective there, and no point has one beyond ``bound``, which ``multipliers`` prove; all are rational, and |value -
-    bound| <= 10^-9 |value|. The certificate is a bundle: the contradiction of a value beyond the bound, and the point.
+    objective there, and no point has one beyond ``bound``, which ``multipliers`` prove; all are rational, and ``value``
+    and ``bound`` differ by at most 10^-9 of the former. The certificate is a bundle: the contradiction of a value
+    beyond the bound, and the point.
     ``active``: the constraints with a positive multiplier. ``attained`` and ``unique`` are None. ``guarantee``:
     CHECKED where ``check`` was asked for and separate code accepted the certificate; otherwise ``reason`` says why not.
     """

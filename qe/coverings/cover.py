@@ -27,6 +27,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.cad.projection import EFFORT_OF_A_CELL, FactorSet, effort, project
 from qe.coverings.implicant import Decided, decided_by, value
 from qe.coverings.line import Cover, Found, Interval, Line
@@ -35,7 +36,7 @@ from qe.exact.ring import Ring
 from qe.exact.sample import Point
 from qe.exact.watch import Watch
 from qe.formula.syntax import Formula
-from qe.options import Budget, Projection
+from qe.options import Budget
 
 
 @dataclass(slots=True)
@@ -116,7 +117,7 @@ def characterization(cover: Cover) -> FactorSet:
     level, found = cover.point.depth, FactorSet()
     for interval in cover.intervals:
         found.add(interval.below)
-        found.add(project(interval.own, level, Projection.BROWN_MCCALLUM))
+        found.add(project(interval.own, level, BROWN_MCCALLUM))
     for left, right in pairwise(cover.intervals):
         if left.upper is None or right.lower is None:
             raise InternalError("an interval in the middle of a covering is unbounded")

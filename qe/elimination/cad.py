@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from qe.cad.decompose import Decomposition as Table
 from qe.cad.decompose import Tactics, decompose
+from qe.cad.operators.table import OPERATORS
 from qe.cad.order_by_projection import variable_order
 from qe.cells.follows import follows
 from qe.cells.formulas import construct
@@ -21,7 +22,7 @@ from qe.formula.features import is_small, length
 from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.formula.traverse import polynomials
-from qe.options import Budget, Options, Projection, Stage
+from qe.options import Budget, Options, Stage
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
@@ -127,13 +128,13 @@ class _Question:
 
         With ``extra`` the signs of these polynomials in the free variables are wanted on every free cell.
         """
-        without = self.options.without
+        without, operator = self.options.without, OPERATORS[self.options.projection]
         return decompose(
             self.matrix,
             self.order,
             self.quantifiers,
             budget=budget,
-            projection=Projection.LAZARD if Stage.MCCALLUM in without else self.options.projection,
+            operator=operator.complete if Stage.MCCALLUM in without else operator,
             thom_levels=thom_levels,
             tactics=Tactics(
                 constraints=Stage.CONSTRAINTS not in without,
@@ -195,7 +196,7 @@ def _figures(order: Sequence[str], reason: str, found: Table, seconds: float) ->
     return {
         "order": list(order),
         "order by": reason,
-        "projection": found.table.projection.value,
+        "projection": found.operator.name.value,
         "factors": found.factors,
         "cells": found.cells,
         "stacks": found.stacks,

@@ -110,4 +110,4 @@ def settled(
     if decision.start == exists(question.free, question):
         context.log.forget_steps(mark)
         before = question
-    return context.log.step("constant", before, constant, evidence={"proof": {"steps": decision}})
+    return context.log.step("constant", before, constant, evidence={"proof": {"exceptions": [decision]}})

@@ -17,7 +17,7 @@ from qe.engine.early import early_parts, equations, gathered_block
 from qe.engine.finish import settled, shortened
 from qe.engine.local import WORK, without_locals
 from qe.engine.redundant import without_redundant_parts
-from qe.engine.strategy import SHORTCUT, SPARE, SWITCHED, Attempt, Scope, alone, attempts, complete
+from qe.engine.strategy import SHORTCUT, SPARE, SWITCHED, Attempt, Scope, alone, attempts, chosen_alone, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -322,7 +322,7 @@ class _Run:
         """One block by the strategy; raises ``Unable`` where no attempt ends."""
         found = self.first_of(Scope.BLOCK if problem.is_flat else Scope.NESTED, problem)
         if found is None:
-            raise alone(self.options.method.value)
+            raise chosen_alone(self.options.method)
         return found
 
     def inner_block(self, problem: Problem) -> Formula:

@@ -19,40 +19,62 @@ from qe.formula.traverse import atoms
 from qe.options import Method, Options, Stage
 from qe.rules.step import EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 
-METHODS = {
-    "vs": ("qe.elimination.vs.method", "VirtualSubstitution"),
-    "vs, cubic": ("qe.elimination.vs.method", "CubicSubstitution"),
-    "cad": ("qe.elimination.cad", "Decomposition"),
-    "critical": ("qe.elimination.critical.method", "CriticalValues"),
-    "critical, convex universal": ("qe.elimination.critical.method", "ConvexUniversal"),
-    "convex": ("qe.elimination.convex", "ConvexOptimisation"),
-    "witness": ("qe.elimination.witness", "PolynomialWitnesses"),
-    "samples": ("qe.elimination.samples", "SampledPoints"),
-    "search": ("qe.elimination.search.method", "BooleanSearch"),
-    "cgs": ("qe.elimination.cgs", "ComprehensiveGroebner"),
-    "coverings": ("qe.elimination.coverings", "Coverings"),
-    "infinity first": ("qe.elimination.vs.infinity_first", "InfinityFirst"),
-    "roots by signs": ("qe.elimination.rootsigns.method", "RootsBySigns"),
-    "linear form named": ("qe.elimination.named_form", "NamedForm"),
-}
-"""Where each method stands; it is loaded when it is first tried."""
 
-LEFT_OUT_BY = {
-    "vs": Stage.SUBSTITUTION,
-    "vs, cubic": Stage.CUBIC,
-    "critical": Stage.CRITICAL,
-    "critical, convex universal": Stage.CRITICAL,
-    "convex": Stage.CONVEX,
-    "witness": Stage.WITNESS,
-    "samples": Stage.SAMPLES,
-    "search": Stage.SEARCH,
-    "cgs": Stage.CGS,
-    "infinity first": Stage.INFINITY,
-    "roots by signs": Stage.ROOTS,
-    "linear form named": Stage.NAMING,
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """A method as the strategy knows it; ``suits`` and ``run`` are its own. It is loaded when it is first tried."""
+
+    module: str
+    kind: str
+    """The module, and its class there."""
+
+    sentence: str
+    """What is said not to suffice alone where the method leaves quantifiers."""
+
+    switch: Stage | None = None
+    """The stage without which it is not tried; None for decomposition, which takes what all others leave, and for what
+    the strategy never tries unbidden."""
+
+    choice: Method | None = None
+    """How callers choose it, if they can."""
+
+
+METHODS = {
+    "vs": Listed(
+        "qe.elimination.vs.method", "VirtualSubstitution", "virtual substitution", Stage.SUBSTITUTION, Method.VS
+    ),
+    "vs, cubic": Listed(
+        "qe.elimination.vs.method", "CubicSubstitution", "substitution of roots of cubics", Stage.CUBIC, Method.VS
+    ),
+    "cad": Listed("qe.elimination.cad", "Decomposition", "decomposition", choice=Method.CAD),
+    "critical": Listed(
+        "qe.elimination.critical.method",
+        "CriticalValues", "elimination by critical values", Stage.CRITICAL, Method.CRITICAL,
+    ),
+    "critical, convex universal": Listed(
+        "qe.elimination.critical.method",
+        "ConvexUniversal", "elimination by critical values", Stage.CRITICAL, Method.CRITICAL,
+    ),
+    "convex": Listed("qe.elimination.convex", "ConvexOptimisation", "convex optimisation", Stage.CONVEX, Method.CONVEX),
+    "witness": Listed(
+        "qe.elimination.witness", "PolynomialWitnesses", "the search for witnesses", Stage.WITNESS, Method.WITNESS
+    ),
+    "samples": Listed("qe.elimination.samples", "SampledPoints", "trying points", Stage.SAMPLES),
+    "search": Listed("qe.elimination.search.method", "BooleanSearch", "the Boolean search", Stage.SEARCH),
+    "cgs": Listed(
+        "qe.elimination.cgs",
+        "ComprehensiveGroebner", "elimination by comprehensive Gröbner systems", Stage.CGS, Method.CGS,
+    ),
+    "coverings": Listed("qe.elimination.coverings", "Coverings", "coverings", choice=Method.COVERINGS),
+    "infinity first": Listed(
+        "qe.elimination.vs.infinity_first", "InfinityFirst", "looking at infinity", Stage.INFINITY
+    ),
+    "roots by signs": Listed(
+        "qe.elimination.rootsigns.method", "RootsBySigns", "the signs of Hermite's forms", Stage.ROOTS, Method.ROOTS
+    ),
+    "linear form named": Listed("qe.elimination.named_form", "NamedForm", "naming a linear form", Stage.NAMING),
 }
-"""The stage without which a method is not tried. Decomposition takes what all others leave, and nobody but the caller
-asks for coverings."""
+"""Every method by its name. Attempts of ``STRATEGY`` say when it is tried, with how much work at most."""
 
 SWITCHED = {
     Stage.EQUATIONS: EQUATION_STEPS,
@@ -66,6 +88,7 @@ SWITCHED = {
     Stage.STABILITY: {StepKind.HALF_PLANE},
     Stage.QUADRICS: {StepKind.QUADRICS},
     Stage.CUBIC: {StepKind.CUBIC_INTERVAL},
+    Stage.FORMS: {StepKind.CLOSED_FORM},
     Stage.SQUARES: {StepKind.SQUARES},
     Stage.EXCHANGE: {StepKind.EXCHANGE},
     Stage.MINISCOPING: {StepKind.MINISCOPE},
@@ -75,20 +98,6 @@ SWITCHED = {
     Stage.SPLITTING: {StepKind.FACTOR_SPLIT},
 }
 """The steps of preparation that a stage left out switches off."""
-
-SPOKEN = {
-    "auto": "no method",
-    "vs": "virtual substitution alone",
-    "cad": "decomposition alone",
-    "critical": "elimination by critical values alone",
-    "convex": "convex optimisation alone",
-    "witness": "the search for witnesses alone",
-    "cgs": "elimination by comprehensive Gröbner systems alone",
-    "coverings": "coverings alone",
-    "roots": "the signs of Hermite's forms alone",
-    "infinity first": "looking at infinity alone",
-}
-"""What a method is called where it does not suffice, if not by its name."""
 
 
 class Scope(Enum):
@@ -152,11 +161,15 @@ class Attempt:
     shorten: bool = False
     spare: bool = False
 
+    @property
+    def listed(self) -> Listed:
+        """What is known of the method before it is loaded."""
+        return METHODS[self.method]
+
     def load(self) -> EliminationMethod:
         """The method itself."""
-        module, name = METHODS[self.method]
-        found: EliminationMethod = getattr(import_module(module), name)()
-        return found
+        method: EliminationMethod = getattr(import_module(self.listed.module), self.listed.kind)()
+        return method
 
 
 SHORTCUT, FIRST, PROBE, SPARE = 20_000, 60_000, 1_500, 20_000
@@ -212,12 +225,12 @@ def attempts(scope: Scope, problem: Problem, options: Options) -> Iterator[tuple
         if attempt.scope is not scope:
             continue
         if options.method is not Method.AUTO:
-            if not attempt.method.startswith(options.method.value) or attempt.method in seen:
+            if attempt.listed.choice is not options.method or attempt.method in seen:
                 continue
             seen.add(attempt.method)
             attempt, reason = replace(attempt, when=on.always, work=None), "asked for"
         else:
-            found = None if LEFT_OUT_BY.get(attempt.method) in options.without else attempt.when(problem, options)
+            found = None if attempt.listed.switch in options.without else attempt.when(problem, options)
             if found is None:
                 continue
             reason = found
@@ -231,6 +244,16 @@ def allows(options: Options, name: Method) -> bool:
     return options.method in (Method.AUTO, name)
 
 
-def alone(name: str) -> Unable:
-    """The error where a method, or all of them, leave quantifiers."""
-    return Unable(f"{SPOKEN.get(name, f'{name} alone')} does not eliminate all quantifiers of this formula")
+def alone(method: str) -> Unable:
+    """The error where a method leaves quantifiers."""
+    return _insufficient(f"{METHODS[method].sentence} alone")
+
+
+def chosen_alone(method: Method) -> Unable:
+    """The error where the method that a caller chose, or all of them, leave quantifiers."""
+    sentences = [listed.sentence for listed in METHODS.values() if listed.choice is method]
+    return _insufficient(f"{sentences[0]} alone" if sentences else "no method")
+
+
+def _insufficient(what: str) -> Unable:
+    return Unable(f"{what} does not eliminate all quantifiers of this formula")

@@ -1,8 +1,12 @@
-"""How many real roots a polynomial can have, from its exponents alone."""
+"""How many real roots a polynomial can have, from its exponents alone, or in an interval."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from itertools import pairwise
+
+from flint import fmpq, fmpq_poly
 
 from qe.exact.ring import Poly
 
@@ -20,3 +24,19 @@ def most_real_roots(poly: Poly, i: int) -> int:
         return 0
     changes = sum(1 if (high - low) % 2 else 2 for low, high in pairwise(exponents))
     return min(exponents[-1], changes + (exponents[0] > 0))
+
+
+def most_roots_between(coefficients: Sequence[Fraction], low: Fraction, high: Fraction) -> int:
+    """A bound for the number of distinct roots in an open interval, exact where it is 0 or 1, of a polynomial that is
+    not zero (coefficients from degree 0 up).
+
+    THEOREM (Descartes' rule of signs, for (1 + x)^n p(low + (high - low)/(1 + x)) with x > 0; p without its multiple
+    roots). The bound and the number differ by an even number that is not negative.
+    """
+    given = fmpq_poly([fmpq(c.numerator, c.denominator) for c in coefficients]).numer()
+    p = fmpq_poly(given // given.gcd(given.derivative()))
+    start, width = (fmpq(c.numerator, c.denominator) for c in (low, high - low))
+    moved = p(fmpq_poly([start, width])).coeffs()
+    shifted = fmpq_poly(moved[::-1])(fmpq_poly([1, 1]))
+    signs = [c > 0 for c in shifted.coeffs() if c != 0]
+    return sum(a != b for a, b in pairwise(signs))

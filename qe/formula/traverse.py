@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
 from qe.exact.ring import Poly, Ring
@@ -39,6 +39,23 @@ def subformulas(formula: Formula) -> Iterator[Formula]:
     yield formula
     for child in children(formula):
         yield from subformulas(child)
+
+
+def subformula(formula: Formula, place: Sequence[int]) -> Formula:
+    """What stands at a place: argument numbers on the way down from the root."""
+    for k in place:
+        formula = children(formula)[k]
+    return formula
+
+
+def with_child(formula: Formula, k: int, child: Formula) -> Formula:
+    """The formula with another direct subformula in the place of one."""
+    match formula:
+        case And(args) | Or(args):
+            return (conj if isinstance(formula, And) else disj)((*args[:k], child, *args[k + 1 :]))
+        case Exists(variables, _) | ForAll(variables, _):
+            return (exists if isinstance(formula, Exists) else forall)(variables, child)
+    return neg(child)
 
 
 def bound_variables(formula: Formula) -> tuple[str, ...]:

@@ -30,12 +30,13 @@ _RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
 
 def read(text: str, *, source: str = "<text>") -> Formula:
     """The formula that a source means; see ``qe.io.latex_lexer``. Raises ``ParseError`` with line and column."""
-    from qe.io.grammar import Failing, parse
     from qe.io.lowering import lower
-    from qe.io.text_parser import latex_parser
+    from qe.io.parser import parsed
+    from qe.io.text_errors import Failing
+    from qe.io.text_parser import LatexParser
 
     fail = Failing(text, source)
-    return lower(parse(latex_parser(), text, fail), fail)
+    return lower(parsed(LatexParser, text, fail), fail)
 
 
 def write(formula: Formula) -> str:

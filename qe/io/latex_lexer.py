@@ -9,11 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Generator, Iterator
 
-from qe.io.building import SIGNS
-from qe.io.lalr import Token
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, way_out
-from qe.io.text_lexer import OPERAND_ENDS, Make, State
+from qe.io.text_lexer import OPERAND_ENDS, State
+from qe.io.tokens import SIGNS, Token
 from qe.spelling import NUMERALS, QUOTED, visible
 
 _COMMANDS = {
@@ -51,7 +50,6 @@ _SIGNS = {
     **SIGNS,
     "[": "LEFT",
     "]": "RIGHT",
-    ",": "COMMA",
     ".": "DOT",
     ":": "DOT",
     "|": "BAR",
@@ -95,33 +93,22 @@ def is_latex(text: str) -> bool:
     return _MARK.search(_BACKQUOTED.sub("", text) if "`" in text else text) is not None
 
 
-def tokens(text: str, token: Make) -> Iterator[Token]:
+def tokens(text: str) -> Iterator[Token]:
     """The tokens of a source. Raises ``SyntaxFailure`` where there is none."""
-    yield from _Source(text, token).between(0, len(text))
+    yield from _Source(text).between(0, len(text))
 
 
 class _Source:
-    def __init__(self, text: str, token: Make) -> None:
-        self.text, self.state = text, State(text, token)
+    def __init__(self, text: str) -> None:
+        self.text, self.state = text, State(text)
         self.sets: list[bool] = []  # of the braces that are open: whether they stand around arguments
         self.rows = False  # inside cases, whose rows hold together
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
-        """The token, with the sign of a product in front where two factors stand side by side."""
-        last, state = self.state.last, self.state
-        factor = kind in ("NAME", "NUMBER", "OPEN", "RADICAL", "OPENBAR")
-        if factor and last in ("NAME", "NUMBER", "CLOSE", "CLOSEBAR") and not state.header:
-            yield from self.plain("TIMES", "*", at)
-        yield from self.plain(kind, value, at)
-
-    def plain(self, kind: str, value: str, at: int) -> Iterator[Token]:
-        if kind == "BAR":
-            yield from self.state.bar(at)
-            return
         if kind == "COMMA" and self.state.header and not _NEXT.match(self.text, at + 1):
             kind = "DOT"
         self.state.note(kind)
-        yield self.state.token(kind, value, at)
+        yield Token(kind, value, at)
 
     def between(self, at: int, end: int) -> Iterator[Token]:
         """The tokens from one offset to another."""
@@ -155,12 +142,12 @@ class _Source:
                 and self.state.last == "NAME"
                 and not re.match(r"\s*(,|\\in\b|\\(exists|forall))", self.text[after:])
             ):
-                yield from self.plain("DOT", ".", at)
+                yield from self.put("DOT", ".", at)
         elif name in ("{", "lbrace") and (self.state.last == "FUNCTION" or any(self.sets[-1:])):
             self.sets.append(True)
-            yield from self.plain("OPEN", "(", at)
+            yield from self.put("OPEN", "(", at)
         elif name in ("}", "rbrace") and self.sets and self.sets.pop():
-            yield from self.plain("CLOSE", ")", at)
+            yield from self.put("CLOSE", ")", at)
         elif name in _COMMANDS:
             if name in ("{", "lbrace"):
                 self.sets.append(False)
@@ -168,16 +155,16 @@ class _Source:
         elif name == "not":
             after = yield from self.negated(at, after)
         elif name == "nexists":
-            yield from self.plain("NOT", "not", at)
-            yield from self.plain("QUANTIFIER", "ex", at)
+            yield from self.put("NOT", "not", at)
+            yield from self.put("QUANTIFIER", "ex", at)
         elif name == "mid" and self.state.header:
-            yield from self.plain("DOT", ".", at)
+            yield from self.put("DOT", ".", at)
         elif name in ("frac", "dfrac", "tfrac"):
             yield from self.put("OPEN", "(", at)
             after = yield from self.group(after)
-            yield from self.plain("OVER", "/", at)
+            yield from self.put("OVER", "/", at)
             after = yield from self.group(after)
-            yield from self.plain("CLOSE", ")", at)
+            yield from self.put("CLOSE", ")", at)
         elif name == "sqrt":
             after = yield from self.root(at, after)
         elif name in _FONTS or name in ("text", "mathbb"):
@@ -188,7 +175,7 @@ class _Source:
             yield from self.function(name, at)
         elif name == "\\" and self.rows and self.state.last in OPERAND_ENDS:
             if not re.match(r"\s*\\end\b", self.text[after:]):
-                yield from self.plain("AND", "and", at)
+                yield from self.put("AND", "and", at)
         elif _LETTERS.fullmatch(name):
             after = yield from self.name(name, at, after)
         elif name not in _SKIPPED and name not in "()[]":
@@ -197,20 +184,19 @@ class _Source:
 
     def function(self, name: str, at: int) -> Iterator[Token]:
         """The name of a function, behind which a bracket opens its arguments."""
-        yield from self.put("NAME", name, at)
-        self.state.last = "FUNCTION"
+        yield from self.put("FUNCTION", name, at)
 
     def negated(self, at: int, after: int) -> Generator[Token, None, int]:
         """``\\not`` and the relation behind it; returns the offset behind both."""
         found = _NOT.match(self.text, after)
         sign = "" if found is None else found[1]
         if sign == "\\in":
-            yield from self.plain("NOTIN", "∉", at)
+            yield from self.put("NOTIN", "∉", at)
         elif sign in _NEGATED:
-            yield from self.plain("RELATION", _NEGATED[sign], at)
+            yield from self.put("RELATION", _NEGATED[sign], at)
         elif sign == "\\exists":
-            yield from self.plain("NOT", "not", at)
-            yield from self.plain("QUANTIFIER", "ex", at)
+            yield from self.put("NOT", "not", at)
+            yield from self.put("QUANTIFIER", "ex", at)
         else:
             raise SyntaxFailure("\\not cannot be read in LaTeX here", at)
         return after if found is None else found.end()
@@ -233,27 +219,25 @@ class _Source:
         inner, end = self.closing(at)
         yield from self.put("OPEN", "(", at)
         yield from self.between(inner, min(end, len(self.text)))
-        yield from self.plain("CLOSE", ")", at)
+        yield from self.put("CLOSE", ")", at)
         return end + 1 if self.text[inner - 1 : inner] == "{" else end
 
     def root(self, at: int, after: int) -> Generator[Token, None, int]:
         """``\\sqrt{t}`` or ``\\sqrt[n]{t}``: the power with exponent 1/n; for odd n, as in print, of all numbers."""
         found = re.compile(r"\s*\[\s*([0-9]{1,4})\s*\]").match(self.text, after)
         degree, inside = ("2", after) if found is None else (found[1], found.end())
-        if self.state.last in OPERAND_ENDS:
-            yield from self.plain("TIMES", "*", at)
         if degree == "3":
             yield from self.function("cbrt", at)
             return (yield from self.group(inside))
         if int(degree) % 2:
             yield from self.function("sign", at)
             yield from self.group(inside)
-            yield from self.plain("TIMES", "*", at)
+            yield from self.put("TIMES", "*", at)
             yield from self.function("abs", at)
         after = yield from self.group(inside)
-        yield from self.plain("POWER", "^", at)
+        yield from self.put("POWER", "^", at)
         for kind, value in (("OPEN", "("), ("NUMBER", "1"), ("OVER", "/"), ("NUMBER", degree), ("CLOSE", ")")):
-            yield from self.plain(kind, value, at)
+            yield from self.put(kind, value, at)
         return after
 
     def word(self, font: str, at: int, after: int) -> Generator[Token, None, int]:
@@ -262,11 +246,11 @@ class _Source:
         word = self.text[inner:end].strip()
         behind = end + 1 if self.text[inner - 1 : inner] == "{" else end
         if font == "mathbb" and word == "R":
-            yield from self.plain("REALS", "Reals", at)
+            yield from self.put("REALS", "Reals", at)
         elif font == "mathbb" and self.state.last == "IN":
-            yield from self.plain(self.state.set_named(word, at), word, at)
+            yield from self.put("NAME", word, at)
         elif font == "text" and word in _WORDS:
-            yield from self.plain(_WORDS[word], word, at)
+            yield from self.put(_WORDS[word], word, at)
         elif font != "mathit" and word in _WORDS:
             raise SyntaxFailure(f"\\{font}{{{word}}} is a variable in LaTeX; the connective is \\text{{{word}}}", at)
         elif not re.fullmatch(r"[^\W\d_]\w*", word):

@@ -9,21 +9,20 @@ Root atoms are ``x < _root_2 x^2 - y``. The writer brings the formula into prene
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
-from functools import cache
-from typing import Any
+from collections.abc import Iterator
+from typing import ClassVar
 
 from qe.exact.ring import Poly
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.notation import Notation, polynomial, positive
 from qe.formula.syntax import Formula, Relation
+from qe.io import parser as p
 from qe.io import surface as s
-from qe.io.building import CONNECTIVES, SIGNS, TERMS, Builder
-from qe.io.grammar import Failing, parse, parser
-from qe.io.lalr import Parser, Token
 from qe.io.lowering import lower
 from qe.io.names import Renaming
-from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, parsed
+from qe.io.text_errors import Failing, SyntaxFailure
+from qe.io.tokens import SIGNS, Token, kinds, matches
 
 _SESSION = re.compile(
     r"\s*\[[^\]]*\]\s*\((?P<names>[^()]*)\)\s*(?P<free>[0-9]+)\s*(?P<formula>[^.]*)\.(?P<rest>.*)", re.DOTALL
@@ -36,32 +35,19 @@ _TOKEN = re.compile(
     r"|(?P<OPERATOR><==>|==>|<==|<=|>=|/=|/\\|\\/|[-+*/^()=<>~\[\]])"
 )
 _QUANTIFIER = re.compile(r"\s*\(\s*(?P<kind>[EAFGC]|X\s*[0-9]+)\s+(?P<name>[A-Za-z][A-Za-z0-9_]*'*)\s*\)")
-_OPERATORS = {
-    **dict.fromkeys(("=", "/=", "<", "<=", ">", ">="), "RELATION"),
-    **SIGNS,
-    "[": "BEGIN",
-    "]": "END",
-    "/\\": "AND",
-    "\\/": "OR",
-    "~": "NOT",
-    "==>": "IMPLIES",
-    "<==": "REPL",
-    "<==>": "IFF",
-}
-_FORMULAS = f"""
-%declare QUANTIFIER NAME NUMBER RELATION ROOT PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA BEGIN END
-%declare AND OR NOT IMPLIES REPL IFF TRUE FALSE
-?start: formula | QUANTIFIER start -> prefixed
-{CONNECTIVES}?base: comparison | NAME ROOT sum -> root_comparison
-     | TRUE                     -> true
-     | FALSE                    -> false
-     | BEGIN formula END        -> brackets
-"""
-_TERMS = TERMS.replace(
-    "| product TIMES factor -> times", "| product TIMES factor -> times | product power -> juxtaposed"
-)
-_TERMS = _TERMS.replace("| NAME OPEN arguments CLOSE -> call", "").replace("arguments: sum | arguments COMMA sum", "")
-GRAMMAR = _FORMULAS + _TERMS
+_KINDS = SIGNS | kinds(r"""
+RELATION = /= < <= > >=
+BEGIN [
+END ]
+AND /\
+OR \/
+NOT ~
+IMPLIES ==>
+REPL <==
+IFF <==>
+TRUE TRUE
+FALSE FALSE
+""")
 
 
 def read(text: str, *, source: str = "<text>") -> Formula:
@@ -69,7 +55,7 @@ def read(text: str, *, source: str = "<text>") -> Formula:
     fail = Failing(text, source)
     session = _SESSION.fullmatch(text)
     body, start = (session["formula"], session.start("formula")) if session else (text.rstrip().removesuffix("."), 0)
-    node = parse(_parser(), " " * start + body, fail)
+    node = parsed(_Parser, " " * start + body, fail)
     formula = lower(node, fail, names=_session_names(session, fail) if session else None)
     if session:
         _check_session(session, node, fail)
@@ -97,47 +83,50 @@ def _check_session(session: re.Match[str], node: object, fail: s.Fail) -> None:
         raise fail("assumptions are not supported; write them into the formula", at)
 
 
-@cache
-def _parser() -> Parser:
-    return parser("qepcad", GRAMMAR, _tokens, _Builder())
+def _root_comparison(left: s.Term, right: s.Term, token: Token) -> s.Node:
+    relation, _, k = token.text.partition("_root_")
+    return s.Comparison([left, s.Root(s.Number(int(k)), right, None, token.at)], [Relation(relation.strip())], token.at)
 
 
-def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
-    at = 0
-    while found := _QUANTIFIER.match(text, at):
-        if found["kind"] not in ("E", "A"):
-            message = f"the quantifier {found['kind']} is not supported; use E or A"
-            raise SyntaxFailure(message, found.start("kind"))
-        yield token("QUANTIFIER", f"{found['kind']} {found['name']}", found.start("kind"))
-        at = found.end()
-    while at < len(text):
-        found = _TOKEN.match(text, at)
-        if found is None:
-            raise unknown_character(text, at)
-        kind, value = found.lastgroup, found.group()
-        if kind == "NAME" and value in ("TRUE", "FALSE"):
-            yield token(value, value, at)
-        elif kind == "OPERATOR":
-            yield token(_OPERATORS[value], value, at)
-        elif kind != "SPACE":
-            yield token(kind, value, at)
-        at = found.end()
+class _Parser(Parser):
+    """What only this format has: quantifiers in front, products without a sign, and root atoms."""
 
+    def lexed(self, text: str) -> Iterator[Token]:
+        at = 0
+        while match := _QUANTIFIER.match(text, at):
+            if match["kind"] not in ("E", "A"):
+                message = f"the quantifier {match['kind']} is not supported; use E or A"
+                raise SyntaxFailure(message, match.start("kind"))
+            yield Token("QUANTIFIER", f"{match['kind']} {match['name']}", match.start("kind"))
+            at = match.end()
+        for kind, value, start in matches(_TOKEN, text, at):
+            yield Token(_KINDS.get(value, kind), value, start)
 
-class _Builder(Builder):
-    """The actions that only this format has."""
+    def quantifier(self) -> None:
+        kind, name = self.advance().text.split()
+        self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, lambda body: s.Quantification(kind == "A", [name], body)))
 
-    def prefixed(self, c: list[Any]) -> s.Node:
-        kind, name = str(c[0]).split()
-        return s.Quantification(kind == "A", [name], c[1])
+    def term_in_brackets(self) -> None:
+        self.advance()
+        self.open(TERM, "CLOSE")
 
-    def juxtaposed(self, c: list[Any]) -> s.Term:
-        return s.Product(c[0], c[1], -1)
+    def formula_in_brackets(self) -> None:
+        self.advance()
+        self.open(FORMULA, "END")
 
-    def root_comparison(self, c: list[Any]) -> s.Node:
-        relation, _, k = str(c[1]).partition("_root_")
-        root = s.Root(s.Number(int(k)), c[2], None, c[1].start_pos)
-        return s.Comparison([self.name([c[0]]), root], [Relation(relation.strip())], c[1].start_pos)
+    calls: ClassVar = {"NAME": ()}
+    infix = {  # noqa: RUF012
+        **p.INFIX,
+        **p.REPLIED,
+        "ROOT": Infix(p.RELATION, p.RELATION, p.SIMPLE, TERM, FORMULA, _root_comparison),
+        **dict.fromkeys(("NAME", "NUMBER", "OPEN"), p.JUXTAPOSED),
+    }
+    prefix = {  # noqa: RUF012
+        **p.PREFIX,
+        "QUANTIFIER": Prefix(FORMULA, p.BODY, quantifier),
+        "OPEN": Prefix(TERM, p.PRIMARY, term_in_brackets),
+        "BEGIN": Prefix(FORMULA, p.NOT, formula_in_brackets),
+    }
 
 
 def write(formula: Formula) -> str:

@@ -8,8 +8,7 @@ REDUCE would misread (its words, letters that are not ASCII) and quotes capitals
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
-from functools import cache
+from collections.abc import Iterator
 from typing import Any
 
 from qe.errors import InputError
@@ -17,12 +16,11 @@ from qe.exact.ring import Poly
 from qe.formula.notation import Notation
 from qe.formula.syntax import Formula, Relation
 from qe.io import surface as s
-from qe.io.building import CONNECTIVES, SIGNS, TERMS, Builder
-from qe.io.grammar import Failing, parse, parser
-from qe.io.lalr import Parser, Token
 from qe.io.lowering import lower
 from qe.io.names import Renaming, check_name
-from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.io.parser import FORMULA, INFIX, NOT, PREFIX, REPLIED, Parser, Prefix, parsed
+from qe.io.text_errors import Failing, SyntaxFailure
+from qe.io.tokens import END, SIGNS, Token, kinds, matches
 
 _TOKEN = re.compile(
     r"(?P<SPACE>\s+|%[^\n]*)"
@@ -30,57 +28,21 @@ _TOKEN = re.compile(
     r"|(?P<NUMBER>[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<OPERATOR>:=|<=|>=|<>|\*\*|[-+*/^()={},<>;$])"
 )
-_WORDS = {
-    "and": "AND",
-    "or": "OR",
-    "not": "NOT",
-    "impl": "IMPLIES",
-    "repl": "REPL",
-    "equiv": "IFF",
-    "true": "TRUE",
-    "false": "FALSE",
-    "ex": "QUANTIFIER",
-    "all": "QUANTIFIER",
-    "neq": "RELATION",
-    "geq": "RELATION",
-    "leq": "RELATION",
-    "equal": "RELATION",
-    "lessp": "RELATION",
-    "greaterp": "RELATION",
-}
-_RELATIONS = {
-    "<>": "/=",
-    "neq": "/=",
-    "geq": ">=",
-    "leq": "<=",
-    "equal": "=",
-    "lessp": "<",
-    "greaterp": ">",
-}
-_OPERATORS = {
-    **dict.fromkeys(("=", "<>", "<", "<=", ">", ">="), "RELATION"),
-    **SIGNS,
-    "**": "POWER",
-    "{": "BEGIN",
-    "}": "END",
-    ",": "COMMA",
-    ":=": "ASSIGN",
-    ";": "STOP",
-    "$": "STOP",
-}
-_FORMULAS = f"""
-%declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA BEGIN END
-%declare AND OR NOT IMPLIES REPL IFF TRUE FALSE ASSIGN STOP
-?start: formula | NAME ASSIGN formula -> third | formula STOP -> first | NAME ASSIGN formula STOP -> third
-{CONNECTIVES}?base: comparison | TRUE        -> true
-     | FALSE                    -> false
-     | OPEN formula CLOSE       -> brackets
-     | QUANTIFIER OPEN variables COMMA formula CLOSE -> quantifier
-variables: NAME                 -> names
-     | BEGIN names END          -> braced
-names: NAME | names COMMA NAME
-"""
-GRAMMAR = _FORMULAS + TERMS
+_ASSIGNMENT = re.compile(r"(?:\s|%[^\n]*\n)*[A-Za-z!](?:[A-Za-z0-9_]|!.)*\s*:=")
+_WORDS = kinds("""
+AND and
+OR or
+NOT not
+IMPLIES impl
+REPL repl
+IFF equiv
+TRUE true
+FALSE false
+QUANTIFIER ex all
+RELATION neq geq leq equal lessp greaterp
+""")
+_RELATIONS = kinds("/= <> neq\n>= geq\n<= leq\n= equal\n< lessp\n> greaterp")
+_KINDS = {**SIGNS, **kinds("RELATION = <> < <= > >=\nPOWER **\nBEGIN {\nEND }\nASSIGN :=\nSTOP ; $")}
 _CAPITAL = re.compile(r"[A-Z]")
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _RESERVED = re.compile(
@@ -95,32 +57,7 @@ _RESERVED = re.compile(
 def read(text: str, *, source: str = "<text>") -> Formula:
     """The formula that a Redlog text means. Raises ``ParseError`` with line and column."""
     fail = Failing(text, source)
-    return lower(parse(_parser(), text, fail), fail)
-
-
-@cache
-def _parser() -> Parser:
-    return parser("redlog", GRAMMAR, _tokens, _Builder())
-
-
-def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
-    at = 0
-    while at < len(text):
-        found = _TOKEN.match(text, at)
-        if found is None:
-            raise unknown_character(text, at)
-        kind, value = found.lastgroup, found.group()
-        if kind == "NAME":
-            kind = _WORDS.get(value.lower(), "NAME")
-            if value.lower() in ("e", "i", "pi"):
-                raise SyntaxFailure(f"{value} is a constant in REDUCE, not a variable", at)
-            value = _RELATIONS.get(value.lower(), value) if kind == "RELATION" else value
-            yield token(kind, _unescaped(value, at) if kind == "NAME" else value.lower(), at)
-        elif kind == "OPERATOR":
-            yield token(_OPERATORS[value], _RELATIONS.get(value, value), at)
-        elif kind != "SPACE":
-            yield token(kind, value, at)
-        at = found.end()
+    return lower(parsed(_Parser, text, fail), fail)
 
 
 def _unescaped(word: str, at: int) -> str:
@@ -131,20 +68,41 @@ def _unescaped(word: str, at: int) -> str:
         raise SyntaxFailure(str(error), at) from None
 
 
-class _Builder(Builder):
-    """The actions that only this format has."""
+class _Parser(Parser):
+    """What only this format has: quantifiers as calls, an assignment in front, and a sign at the end."""
 
-    def first(self, c: list[Any]) -> Any:
-        return c[0]
+    def lexed(self, text: str) -> Iterator[Token]:
+        assignment = _ASSIGNMENT.match(text)
+        for kind, value, at in matches(_TOKEN, text, assignment.end() if assignment else 0):
+            word = value.lower()
+            if kind != "NAME":
+                yield Token(_KINDS.get(value, kind), _RELATIONS.get(value, value), at)
+            elif word in ("e", "i", "pi"):
+                raise SyntaxFailure(f"{value} is a constant in REDUCE, not a variable", at)
+            elif word in _WORDS:
+                yield Token(_WORDS[word], _RELATIONS.get(word, word), at)
+            else:
+                yield Token(kind, _unescaped(value, at), at)
 
-    def third(self, c: list[Any]) -> Any:
-        return c[2]
+    def whole(self, wants: int = FORMULA) -> Any:
+        value = self.expression(wants, "STOP", END)
+        self.advance()
+        self.take(END)
+        return value
 
-    def braced(self, c: list[Any]) -> Any:
-        return c[1]
+    def quantifier(self) -> None:
+        universal = self.advance().text == "all"
+        self.take("OPEN")
+        names = [self.take("NAME", "BEGIN").text]
+        if names == ["{"]:
+            names = [self.take("NAME").text]
+            while self.take("COMMA", "END").kind == "COMMA":
+                names.append(self.take("NAME").text)
+        self.take("COMMA")
+        self.open(FORMULA, "CLOSE", lambda parts: s.Quantification(universal, names, parts[0]))
 
-    def quantifier(self, c: list[Any]) -> s.Node:
-        return s.Quantification(str(c[0]) == "all", c[2], c[4])
+    infix = {**INFIX, **REPLIED}  # noqa: RUF012
+    prefix = {**PREFIX, "QUANTIFIER": Prefix(FORMULA, NOT, quantifier)}  # noqa: RUF012
 
 
 def write(formula: Formula) -> str:

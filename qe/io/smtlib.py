@@ -20,11 +20,11 @@ from qe.errors import InputError
 from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children, is_quantifier_free
-from qe.io.grammar import Failing
 from qe.io.names import Renaming, names_in
-from qe.io.smtlib_parser import Expression, Listing, parse
+from qe.io.smtlib_parser import Expression, Listing, parse, without_collections
 from qe.io.smtlib_script import Script
 from qe.io.surface import MAX_DEPTH
+from qe.io.text_errors import Failing
 
 _SIMPLE = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
 _RESERVED = re.compile(
@@ -48,10 +48,10 @@ _ANSWERED = re.compile(
 
 def read(text: str, *, source: str = "<text>") -> Formula:
     """The conjunction of the assertions of a script. Raises ``ParseError`` with line and column."""
-
     fail = Failing(text, source)
     try:
-        formula = _asserted(parse(text, fail), fail)
+        with without_collections():
+            formula = _asserted(parse(text, fail), fail)
         depth = _depth(formula)
     except RecursionError:
         raise fail("the script is nested too deeply", -1) from None

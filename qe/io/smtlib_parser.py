@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import re
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
@@ -42,6 +44,19 @@ class Listing(NamedTuple):
 Expression: TypeAlias = Word | Listing
 
 
+@contextmanager
+def without_collections() -> Iterator[None]:
+    """While a large tree grows, looking for circles in it takes most of the time, and there are none."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
+
+
+@without_collections()
 def parse(text: str, fail: Fail) -> list[Expression]:
     """The expressions of a script; raises what ``fail`` makes."""
     items: list[Expression] = []

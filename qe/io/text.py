@@ -15,10 +15,11 @@ from typing import cast
 
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, Relation
-from qe.io.grammar import Failing, parse
 from qe.io.lowering import lower, lower_term
+from qe.io.parser import TERM, parsed
 from qe.io.surface import Comparison, Meet, Name, Quantification, Term
-from qe.io.text_parser import is_latex, text_parser
+from qe.io.text_errors import Failing
+from qe.io.text_parser import is_latex, parser_of
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
 
@@ -33,14 +34,14 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = (), total
     """
     fail = Failing(text, source)
     total = Total() if total_division else None
-    formula = lower(parse(text_parser(), text, fail), fail, meet=_no_constants(fail, known), total=total)
+    formula = lower(parsed(parser_of(text), text, fail), fail, meet=_no_constants(fail, known), total=total)
     return formula if total is None else total.checked(formula)
 
 
 def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] = ()) -> tuple[Poly, Fraction]:
     """A polynomial p and a rational s: ``text`` means s*p. Names and errors as for ``read``."""
     fail = Failing(text, source)
-    term = parse(text_parser("term"), text, fail)
+    term = parsed(parser_of(text), text, fail, TERM)
     value = lower_term(cast(Term, term), fail, meet=_no_constants(fail, known))
     return value.poly, Fraction(1, value.den)
 
@@ -48,19 +49,19 @@ def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] 
 def read_graph(name: str, text: str) -> Formula:
     """Where a variable of this name has the value of the term that ``text`` is; names and errors as for ``read``."""
     fail = Failing(text, "<text>")
-    term = cast(Term, parse(text_parser("term"), text, fail))
+    term = cast(Term, parsed(parser_of(text), text, fail, TERM))
     equation = Comparison([Name(name, -1), term], [Relation.EQ], -1)
     return lower(equation, fail, meet=_no_constants(fail, (name,)))
 
 
 def read_term(text: str) -> Term:
     """The term that ``text`` is, as a surface tree. Names and errors as for ``read``."""
-    return cast(Term, parse(text_parser("term"), text, Failing(text, "<text>")))
+    return cast(Term, parsed(parser_of(text), text, Failing(text, "<text>"), TERM))
 
 
 def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
     """Whether the outermost quantifier of a text that can be read is universal, and its names; None without one."""
-    node = parse(text_parser(), text, Failing(text, "<text>"))
+    node = parsed(parser_of(text), text, Failing(text, "<text>"))
     return (node.universal, tuple(node.names)) if isinstance(node, Quantification) else None
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
+from dataclasses import dataclass
 
+from qe.errors import ParseError
 from qe.spelling import QUOTED
 
 _QUOTED = re.compile(QUOTED)
@@ -37,25 +39,40 @@ class SyntaxFailure(Exception):
         self.message, self.at, self.expected = message, at, expected
 
 
-class UnknownFunction(SyntaxFailure):
-    """A function that terms do not have, applied at this offset; the reader adds what it is applied to."""
+@dataclass(frozen=True, slots=True)
+class Failing:
+    """Makes errors about an offset of ``text``, which ``source`` names."""
 
-    def __init__(self, name: str, at: int) -> None:
-        super().__init__(way_out(name), at)
+    text: str
+    source: str
 
-    def about(self, text: str) -> str:
-        """The message, with the whole application that cannot be read."""
-        depth = 0
-        name = text[self.at :].partition("[")[0]
-        is_function = len(name) > 2 and name[0].isupper()  # of Mathematica's, which we do not know
-        if "[" in text[self.at :].partition("(")[0] and "unknown function" in self.message and not is_function:
-            hint = f"a variable with an index is written {name}1 or {name}_i, or `{name}[1]` between backquotes"
-            return f"{name}[…] is no function; {hint}"
-        for end in range(self.at, min(len(text), self.at + 60)):
-            depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(text[end], 0)
-            if text[end] in ")]" and depth == 0:
-                return f"{text[self.at : end + 1]}: {self.message}"
-        return self.message
+    def __call__(self, message: str, at: int, expected: str = "") -> ParseError:
+        line, column = position(self.text, max(at, 0))
+        return ParseError(message, source=self.source, line=line, column=column, expected=expected)
+
+
+def position(text: str, at: int) -> tuple[int, int]:
+    """Line and column, from 1, of an offset."""
+    return text.count("\n", 0, at) + 1, at - text.rfind("\n", 0, at)
+
+
+def unknown_function(text: str, name: str, at: int) -> SyntaxFailure:
+    """A function that terms do not have, applied at this offset, with the whole application that cannot be read."""
+    if _COMMANDS.fullmatch(name) and name != "Piecewise":
+        return SyntaxFailure(_command_hint(name), at)
+    message = way_out(name)
+    applied = text[at:]
+    name = applied.partition("[")[0].rstrip()
+    is_function = len(name) > 2 and name[0].isupper()  # of Mathematica's, which we do not know
+    if "[" in applied.partition("(")[0] and "unknown function" in message and not is_function:
+        hint = f"a variable with an index is written {name}1 or {name}_i, or `{name}[1]` between backquotes"
+        return SyntaxFailure(f"{name}[…] is no function; {hint}", at)
+    depth = 0
+    for end, character in enumerate(applied[:60], 1):
+        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(character, 0)
+        if character in ")]" and depth == 0:
+            return SyntaxFailure(f"{applied[:end]}: {message}", at)
+    return SyntaxFailure(message, at)
 
 
 def unknown_character(text: str, at: int) -> SyntaxFailure:
@@ -81,6 +98,8 @@ def unexpected_token(text: str, kind: str, value: str, at: int, expected: Collec
         return SyntaxFailure("the text ends too early", len(before), wanted)
     if kind == "CLOSE" and "CLOSE" not in expected and _unmatched_opening(text[:at]) is None:
         return SyntaxFailure("unbalanced brackets: this ')' has no partner", at)
+    if value == "=>":
+        return SyntaxFailure("'=>' is not used here; write >= for a comparison or -> for an implication", at + 1)
     hint = _word_hint(before, kind, value, expected) or _hint(text, before, kind, value, at, expected)
     if hint:
         return SyntaxFailure(hint, at)
@@ -113,7 +132,8 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
         return "a comment starts with # and goes to the end of the line"
     if value == "," and previous.isdigit() and text[at + 1 : at + 2].isdigit():
         return "a decimal number is written with a point, as in 0.5; several conditions are joined by and"
-    if value == "," and not {"NUMBER", "NAME", "DOT", "PLUS", "CLOSE"} & {*expected}:
+    complete = "PLUS" not in expected or "AND" in expected
+    if value == "," and complete and not {"NUMBER", "NAME", "DOT", "CLOSE"} & {*expected}:
         return "several conditions are joined by and, or stand in braces {…, …}"
     if kind == "POWER" and "POWER" not in expected and "TIMES" in expected and previous not in "*^":
         return "a^b^c is ambiguous; use brackets"
@@ -159,13 +179,18 @@ def _word_hint(before: str, kind: str, value: str, expected: Collection[str]) ->
     if "Piecewise" in before:
         return "a choice between cases is written if c then a else b"
     command = _COMMANDS.match(before)
-    if command is not None and command[1] == "let":
-        return "definitions are not read; put the term in the place of its name, or write ex y. y = … and …"
-    if command is not None and command[1] != "Piecewise" and (kind != "$END" or "$END" not in expected):
-        if command[1].lower()[:5] in ("minim", "maxim"):
-            return f"{command[1]} is no part of a formula; an optimum is asked for with qe.minimize or qe minimize"
-        return f"{command[1]} is a command, not a part of a formula; give the formula alone"
+    if command is not None and (command[1] == "let" or kind != "$END" or "$END" not in expected):
+        return _command_hint(command[1])
     return ""
+
+
+def _command_hint(command: str) -> str:
+    """What to write in place of a command of another system."""
+    if command == "let":
+        return "definitions are not read; put the term in the place of its name, or write ex y. y = … and …"
+    if command.lower()[:5] in ("minim", "maxim"):
+        return f"{command} is no part of a formula; an optimum is asked for with qe.minimize or qe minimize"
+    return f"{command} is a command, not a part of a formula; give the formula alone"
 
 
 _TRANSCENDENTAL = re.compile(r"a?(?:sin|cos|tan|cot|sec|csc|arc\w+)h?|exp|log|ln|log10|log2|erf|gamma", re.IGNORECASE)

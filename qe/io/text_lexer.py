@@ -1,24 +1,76 @@
 """The tokens of the text syntax: what people type for the same thing becomes one token.
 
-Bars are told apart here: between a comparison and what follows it ``|`` means "or", in front of a term it opens an
-absolute value, and the next one on the same level of brackets closes it. A product without a sign is read where nothing
-else can be meant: a number directly in front of a name or a bracket.
+A product without a sign is read where nothing else can be meant: a number
+directly in front of a name or a bracket.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from qe.errors import InputError
-from qe.io.lalr import Token
 from qe.io.names import check_name
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.io.tokens import Token, kinds
 from qe.spelling import QUOTED, WORD, unquoted
 
 _LIST = rf"(?:{WORD}|{QUOTED})"
 _PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
+KEYWORDS = kinds("""
+QUANTIFIER ex exists Ex Exists EXISTS all forall All ForAll Forall FORALL
+AND and AND
+OR or OR
+NOT not NOT
+TRUE true True TRUE
+FALSE false False FALSE
+INFINITY oo infinity Infinity inf Inf
+IMPLIES implies
+IFF iff
+IN in
+REALS Reals ℝ
+IF if
+THEN then
+ELSE else
+""")
+_OPERATORS = kinds(r"""
+QUANTIFIER ∃ ∀ \[ForAll] \[Exists]
+RELATION = == /= =/= != =!= ~= <> ≠ < <= =< ≤ ⩽ > >= ≥ ⩾ \[Equal] \[NotEqual] \[LessEqual] \[GreaterEqual]
+PLUS +
+MINUS - −
+TIMES * · × ⋅
+OVER / ÷ ⁄ ∕
+POWER ^ **
+OPEN (
+CLOSE )
+LEFT [
+RIGHT ]
+BEGIN {
+END }
+COMMA ,
+DOT . :
+AND /\ ∧ & && \[And]
+OR \/ ∨ \[Or]
+NOT ~ ¬ ! \[Not]
+IMPLIES -> ==> → ⇒ ⟹ ⟶ => \[Implies]
+IFF <-> <=> <==> ↔ ⇔ ⟺ ⟷ \[Equivalent]
+TRUE ⊤
+FALSE ⊥
+IN ∈ \[Element]
+INFINITY ∞ \[Infinity]
+RADICAL √ ∛
+UNION ∪
+COMMON ∩
+WITHOUT ∖
+BAR |
+""")
+_CALLS = kinds("""
+CONNECTIVE And Or Not Implies Equivalent Xor
+COMPARE Eq Equal Ne Unequal Lt Less Le LessEqual Gt Greater Ge GreaterEqual Inequality
+CHOICE If ITE ite
+ELEMENT Element
+""")
 _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*|[Tt]here\s+(?=exists\b))"
     r"|(?P<NONE>∄)"
@@ -28,82 +80,14 @@ _TOKEN = re.compile(
     r"|(?P<THAT>such\s+that\b|s\.\s?t\.|with\b)"
     r"|(?P<NOTIN>not\s+in\b|∉)"
     rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*[.:]))\b"
-    r"|(?P<CALL>(?:And|Or|Not|Implies|Equivalent|Xor|Eq|Equal|Ne|Unequal|Lt|Less|Le|LessEqual|Gt|Greater|Ge|GreaterEqual"
-    r"|Inequality|Element|If|ITE|ite)(?=\s*[(\[]))\b"
+    rf"|(?P<CALL>(?:{'|'.join(_CALLS)})(?=\s*[(\[]))\b"
     rf"|(?P<NAME>{WORD})"
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<RAISED>⁻?[⁰¹²³⁴-⁹]+)"
-    r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\|\||\*\*|\\\[\w+\]"
+    r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\*\*|\\\[\w+\]"
     r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
-KEYWORDS = {
-    **dict.fromkeys(("ex", "exists", "Ex", "Exists", "EXISTS", "all", "forall", "All"), "QUANTIFIER"),
-    **dict.fromkeys(("ForAll", "Forall", "FORALL"), "QUANTIFIER"),
-    **dict.fromkeys(("and", "AND"), "AND"),
-    **dict.fromkeys(("or", "OR"), "OR"),
-    **dict.fromkeys(("not", "NOT"), "NOT"),
-    **dict.fromkeys(("true", "True", "TRUE"), "TRUE"),
-    **dict.fromkeys(("false", "False", "FALSE"), "FALSE"),
-    **dict.fromkeys(("oo", "infinity", "Infinity", "inf", "Inf"), "INFINITY"),
-    "implies": "IMPLIES",
-    "iff": "IFF",
-    "in": "IN",
-    **dict.fromkeys(("Reals", "ℝ"), "REALS"),
-    "if": "IF",
-    "then": "THEN",
-    "else": "ELSE",
-}
-_OPERATORS = {
-    **dict.fromkeys(("∃", "∀"), "QUANTIFIER"),
-    **dict.fromkeys(("=", "==", "/=", "=/=", "!=", "=!=", "~=", "<>", "≠"), "RELATION"),
-    **dict.fromkeys(("<", "<=", "=<", "≤", "⩽", ">", ">=", "≥", "⩾"), "RELATION"),
-    "+": "PLUS",
-    **dict.fromkeys(("-", "−"), "MINUS"),
-    **dict.fromkeys(("*", "·", "×", "⋅"), "TIMES"),
-    **dict.fromkeys(("/", "÷", "⁄", "∕"), "OVER"),
-    **dict.fromkeys(("^", "**"), "POWER"),
-    "(": "OPEN",
-    ")": "CLOSE",
-    "[": "LEFT",
-    "]": "RIGHT",
-    "{": "BEGIN",
-    "}": "END",
-    ",": "COMMA",
-    **dict.fromkeys((".", ":"), "DOT"),
-    **dict.fromkeys(("/\\", "∧", "&", "&&"), "AND"),
-    **dict.fromkeys(("\\/", "∨", "||"), "OR"),
-    **dict.fromkeys(("~", "¬", "!"), "NOT"),
-    **dict.fromkeys(("->", "==>", "→", "⇒", "⟹", "⟶", "=>"), "IMPLIES"),
-    **dict.fromkeys(("<->", "<=>", "<==>", "↔", "⇔", "⟺", "⟷"), "IFF"),
-    "⊤": "TRUE",
-    "⊥": "FALSE",
-    "∈": "IN",
-    "∞": "INFINITY",
-    **dict.fromkeys(("√", "∛"), "RADICAL"),
-    "∪": "UNION",
-    "∩": "COMMON",
-    "∖": "WITHOUT",
-    "|": "BAR",
-}
-_NAMED = {
-    **dict.fromkeys(("ForAll", "Exists"), "QUANTIFIER"),
-    **dict.fromkeys(("Equal", "NotEqual", "LessEqual", "GreaterEqual"), "RELATION"),
-    "And": "AND",
-    "Or": "OR",
-    "Not": "NOT",
-    "Implies": "IMPLIES",
-    "Equivalent": "IFF",
-    "Element": "IN",
-    "Infinity": "INFINITY",
-}
-_CALLS = {
-    **dict.fromkeys(("And", "Or", "Not", "Implies", "Equivalent", "Xor"), "CONNECTIVE"),
-    **dict.fromkeys(("Eq", "Equal", "Ne", "Unequal", "Lt", "Less", "Le", "LessEqual"), "COMPARE"),
-    **dict.fromkeys(("Gt", "Greater", "Ge", "GreaterEqual", "Inequality"), "COMPARE"),
-    **dict.fromkeys(("If", "ITE", "ite"), "CHOICE"),
-    "Element": "ELEMENT",
-}
 _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR", "INFINITY", "REALS", "TRUE", "FALSE"))
 """Tokens after which a term or a formula may be complete."""
@@ -125,15 +109,11 @@ _KINDS_OF_NUMBERS = {
     **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),
 }
 """Words in front of the variables of a quantifier that would otherwise be taken for a variable."""
-_NO_REALS = frozenset(("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Integers", "Rationals", "Complexes", "Naturals"))
-_ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
-
-Make = Callable[..., Token]
 
 
-def tokens(text: str, token: Make) -> Iterator[Token]:
+def tokens(text: str) -> Iterator[Token]:
     """The tokens of a text. Raises ``SyntaxFailure`` where there is none."""
-    state = State(text, token)
+    state = State(text)
     at, end, match = 0, len(text.rstrip("; \t\r\n")), _TOKEN.match
     if end and text[end - 1] == ".":
         end -= 1  # a full stop
@@ -195,12 +175,9 @@ def _number(value: str, state: State, text: str, at: int) -> str:
 
 
 def _operator(value: str, at: int) -> str:
-    if not value.startswith("\\["):
-        return _OPERATORS[value]
-    kind = _NAMED.get(value[2:-1])
-    if kind is None:
+    if value not in _OPERATORS:
         raise SyntaxFailure(f"unknown character {value}", at)
-    return kind
+    return _OPERATORS[value]
 
 
 def quoted_name(text: str, at: int) -> str:
@@ -218,39 +195,26 @@ class State:
 
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
     condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
-    variables lie in. ``members``: the level inside ``Element[`` before its comma. For every level of brackets: the bars
-    that are open, and whether there was a comparison since the last connective.
+    variables lie in.
     """
 
-    def __init__(self, text: str, token: Make) -> None:
-        self.text, self.token, self.end = text, token, 0
+    def __init__(self, text: str) -> None:
+        self.text, self.end = text, 0
         self.last = ""
         self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
         self.divided = False
-        self.bars, self.compared = [0], [False]
-        self.within, self.members = 0, 0
+        self.level, self.within = 1, 0
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
-        if kind == "BAR" or (value == "||" and (self.last not in OPERAND_ENDS or self.bars[-1])):
-            for k in range(len(value)):
-                yield from self.bar(at + k)
-            return
-        if kind == "NAME" and self.last == "IN":
-            kind = self.set_named(value, at)
         if kind == "NAME" and self.header and value in _KINDS_OF_NUMBERS and _ANOTHER.match(self.text, at + len(value)):
             raise SyntaxFailure(_KINDS_OF_NUMBERS[value], at)
-        if kind == "NAME" and value in ("union", "Union") and self.last in ("CLOSE", "RIGHT", "END"):
-            kind = "UNION"
         if kind == "COMMA" and self.header:
             more = self.goes_on(at + 1)
             if self.bounded and (more or self.bounds_another(at + 1)):  # ∃ x > 0, y > 0: …
                 kind, value = "QUANTIFIER", self.quantifier
             elif self.spoken and not (more or self.bounds_another(at + 1)):
                 kind = "DOT"
-        if value == "=>" and not self.compared[-1]:
-            message = "'=>' is not used here; write >= for a comparison or -> for an implication"
-            raise SyntaxFailure(message, at + 1)
         if kind == "QUANTIFIER":
             self.spoken, self.quantifier, self.bounded = value not in _SHORT, value, False
         elif self.header and kind in ("RELATION", "IN"):
@@ -262,7 +226,7 @@ class State:
                 raise SyntaxFailure(f"{shown} is ambiguous: a product without * after a division; {hint}", at)
             yield from self.put("TIMES", "*", at)
         self.note(kind)
-        yield self.token(kind, value, at)
+        yield Token(kind, value, at)
 
     def prefix(self, value: str, at: int) -> Iterator[Token]:
         """``(E x, y)``, as in front of a formula in brackets."""
@@ -276,13 +240,7 @@ class State:
             name = found[1]
             shown = "," if name is None else quoted_name(name, at) if name[0] == "`" else name
             self.note("NAME" if name else "COMMA")
-            yield self.token("NAME" if name else "COMMA", shown, at + found.start())
-
-    def set_named(self, name: str, at: int) -> str:
-        """The kind of a set that is named."""
-        if name in _NO_REALS:
-            raise SyntaxFailure(f"all variables are real, {name} cannot be asked for", at)
-        return "REALS" if name in _ALSO_REALS else "NAME"
+            yield Token("NAME" if name else "COMMA", shown, at + found.start())
 
     def goes_on(self, at: int) -> bool:
         """Whether another variable of the quantifier comes here, not its body."""
@@ -306,43 +264,14 @@ class State:
         if kind == "QUANTIFIER":
             self.header = True
         elif kind in ("DOT", "OPEN", "LEFT"):
-            self.header, self.within = False, len(self.bars) if self.header and last in ("IN", "UNION") else self.within
-        if kind == "ELEMENT":
-            self.members = len(self.bars) + 1
-        elif kind == "COMMA" and self.members == len(self.bars):
-            self.members = 0
+            self.header, self.within = False, self.level if self.header and last in ("IN", "UNION") else self.within
         if kind == "OVER":
             self.divided = True
         elif kind not in ("NAME", "NUMBER", "POWER", "CLOSE", "RIGHT"):
             self.divided = False
         if kind in ("OPEN", "LEFT", "BEGIN"):
-            self.bars.append(0)
-            self.compared.append(False)
+            self.level += 1
         elif kind in ("CLOSE", "RIGHT", "END"):
-            if len(self.bars) > 1:
-                self.bars.pop()
-                inner = self.compared.pop()
-                self.compared[-1] = self.compared[-1] or inner
-                if self.within == len(self.bars):  # the set that a quantifier ranges over is complete
-                    self.header, self.within = True, 0
-        elif kind in ("RELATION", "IN", "TRUE", "FALSE", "ELEMENT", "COMPARE"):
-            self.compared[-1] = True
-        elif kind in ("AND", "OR", "IMPLIES", "IFF", "DOT", "COMMA", "THEN", "ELSE"):
-            self.compared[-1] = False
-
-    def bar(self, at: int) -> Iterator[Token]:
-        """A bar opens or closes an absolute value, or means "or"; in ``Element[x | y, Reals]`` both are meant."""
-        if self.last not in OPERAND_ENDS:
-            kind = "OPENBAR"
-        elif self.bars[-1]:
-            kind = "CLOSEBAR"
-        elif self.compared[-1]:
-            kind = "OR"
-        elif self.members == len(self.bars):
-            kind = "ALSO"
-        else:
-            message = "this | can be neither 'or' nor the end of an absolute value; write a product as 2*|x|"
-            raise SyntaxFailure(message, at)
-        self.bars[-1] += {"OPENBAR": 1, "CLOSEBAR": -1}.get(kind, 0)
-        self.note(kind)
-        yield self.token(kind, "|", at)
+            self.level -= 1
+            if self.within == self.level:  # the set that a quantifier ranges over is complete
+                self.header, self.within = True, 0

@@ -1,106 +1,302 @@
-"""Grammar of the text syntax: tokens to surface trees. Error messages are made in ``qe.io.text_errors``."""
+"""The text syntax beyond operators: quantifiers and what they range over, sets, lists, cases. LaTeX has the same."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cache
-from typing import Any
+from collections.abc import Callable, Iterator
+from itertools import chain
+from typing import Any, ClassVar, TypeAlias
 
 from qe.formula.relation import Relation
+from qe.io import parser, text_lexer
 from qe.io import surface as s
-from qe.io.building import ARITHMETIC, RELATIONS, Builder
-from qe.io.grammar import parser
-from qe.io.lalr import Parser, Token
+from qe.io.functions import RELATIONS
+from qe.io.parser import (
+    BODY,
+    BRACKET,
+    CLOSES,
+    EITHER,
+    ELSE,
+    FORMULA,
+    NOT,
+    PRIMARY,
+    RELATION,
+    TERM,
+    Infix,
+    Parser,
+    Prefix,
+    Waiting,
+)
 from qe.io.text_errors import SyntaxFailure
-from qe.io.text_lexer import Make, tokens
+from qe.io.tokens import Token
 
 _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
-# "c" ends with a closed formula, "o" with a quantifier whose body runs on: nothing can follow an "o" inside
-# its brackets, which makes the grammar unambiguous. Formulas and terms share the round brackets.
-_FORMULAS = """
-%declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA DOT
-%declare AND OR NOT IMPLIES IFF TRUE FALSE LEFT RIGHT BEGIN END OPENBAR CLOSEBAR IN REALS INFINITY RADICAL
-%declare IF THEN ELSE CONNECTIVE COMPARE CHOICE ELEMENT NOTIN UNION COMMON WITHOUT ALSO
-?start: c4 | o4
-?c4: c3 | c4 IFF c3             -> iff
-?o4: o3 | c4 IFF o3             -> iff
-?c3: c2 | c2 IMPLIES c3         -> implies
-?o3: o2 | c2 IMPLIES o3         -> implies
-?c2: c1 | c2 OR c1              -> some
-?o2: o1 | c2 OR o1              -> some
-?c1: c0 | c1 AND c0             -> every
-?o1: o0 | c1 AND o0             -> every
-?c0: base | NOT c0              -> negation
-?o0: quantified | NOT o0        -> negation
-     | IF start THEN start ELSE start -> either
-quantified: QUANTIFIER bound DOT start | QUANTIFIER bound quantified -> quantified_again
-closed: QUANTIFIER bound OPEN start CLOSE -> quantified_closed
-     | QUANTIFIER bound LEFT start RIGHT -> quantified_closed
-     | QUANTIFIER bound closed  -> quantified_again
-?bound: names | names IN set    -> bounded
-     | names RELATION sum       -> bounded_by
-names: NAME | names COMMA NAME | names NAME -> names_side_by_side
-?base: comparison | TRUE        -> true
-     | FALSE                    -> false
-     | OPEN start CLOSE         -> brackets
-     | LEFT formulas RIGHT      -> listed
-     | BEGIN formulas END       -> listed
-     | sum IN set               -> member
-     | sum NOTIN set            -> outside
-     | ELEMENT OPEN members COMMA set CLOSE -> element
-     | ELEMENT LEFT members COMMA set RIGHT -> element
-     | CONNECTIVE OPEN formulas CLOSE -> connective
-     | CONNECTIVE LEFT formulas RIGHT -> connective
-     | COMPARE OPEN arguments CLOSE -> compared
-     | COMPARE LEFT arguments RIGHT -> compared
-     | closed
-     | QUANTIFIER OPEN group COMMA formulas CLOSE -> quantified_call
-     | QUANTIFIER LEFT group COMMA formulas RIGHT -> quantified_call
-?group: NAME                    -> names
-     | OPEN names CLOSE         -> brackets
-     | LEFT names RIGHT         -> brackets
-     | BEGIN names END          -> brackets
-members: term | members ALSO term | BEGIN arguments END -> members_listed
-formulas: start | formulas COMMA start -> more
-?set: meet | set UNION meet     -> union
-     | set WITHOUT meet         -> difference
-?meet: simple | meet COMMON simple -> common
-simple: (OPEN | LEFT) term COMMA term (CLOSE | RIGHT) -> interval
-     | BEGIN arguments END      -> finite
-     | REALS                    -> reals
-"""
-_TERMS = f"""
-comparison: term RELATION term | comparison RELATION term
-?term: sum | IF start THEN term ELSE term -> choice
-{ARITHMETIC}
-?primary: NUMBER                -> number
-     | NAME                     -> name
-     | INFINITY                 -> infinity
-     | NAME OPEN arguments CLOSE -> call
-     | NAME LEFT arguments RIGHT -> call
-     | CHOICE OPEN start COMMA term COMMA term CLOSE -> choice_call
-     | CHOICE LEFT start COMMA term COMMA term RIGHT -> choice_call
-     | OPEN term CLOSE          -> brackets
-     | OPENBAR term CLOSEBAR    -> absolute
-     | RADICAL primary          -> radical
-arguments: term | arguments COMMA term
-"""
-GRAMMAR = _FORMULAS + _TERMS
+
+_NO_REALS = frozenset(("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Integers", "Rationals", "Complexes", "Naturals"))
+_ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
+
+Within: TypeAlias = Callable[[s.Term, int], s.Node]
+"""A set: the formula that a term, at an offset, is in it."""
 
 
-@cache
-def text_parser(start: str = "start") -> Parser:
-    """The parser of the text syntax; of its terms with ``start`` "term"."""
-    return parser("text" if start == "start" else f"text_{start}", GRAMMAR, _tokens, TextBuilder(), start=start)
+class TextParser(Parser):
+    """Reads a text that is not LaTeX."""
+
+    def lexed(self, text: str) -> Iterator[Token]:
+        return text_lexer.tokens(text)
+
+    def waiting_on(self, value: Any, kind: str) -> int:
+        return super().waiting_on(value, kind if kind != "BAR" else self.bar(value))
+
+    def bar(self, value: Any) -> str:
+        """The kind of a bar behind an operand: it ends an absolute value, else means "or", as two of them do."""
+        at, bracket = self.token.at, next(waiting for waiting in reversed(self.stack) if waiting.level == BRACKET)
+        kind = next((kind for kind in ("CLOSEBAR", "ALSO") if kind in bracket.closing), "OR")
+        if kind == "OR":
+            if not super().waiting_on(value, kind):
+                message = "this | can be neither 'or' nor the end of an absolute value; write a product as 2*|x|"
+                raise SyntaxFailure(message, at)
+            behind = next(self.tokens)
+            if (behind.kind, behind.at) != ("BAR", at + 1):
+                self.tokens = chain((behind,), self.tokens)
+        self.token = Token(kind, "|", at)
+        return kind
+
+    def joined(self, left: Any, operator: Infix) -> Any:
+        if operator.level != RELATION or self.token.kind == "RELATION":
+            return super().joined(left, operator)
+        token = self.advance()
+        return operator.make(left, self.set(), token)
+
+    # --- quantifiers -----------------------------------------------------------------------------------------
+    def quantifier(self) -> None:
+        """One or more quantifiers, to the dot or the bracket that their body stands in."""
+        token = self.advance()
+        if self.token.kind in ("OPEN", "LEFT"):
+            return self.quantified_call(token)
+        headers = [(token, *self.bound())]
+        while self.token.kind == "QUANTIFIER":
+            headers.append((self.advance(), *self.bound()))
+
+        def make(body: s.Node) -> s.Node:
+            for header in reversed(headers):
+                body = _quantified(*header, body)
+            return body
+
+        if (kind := self.advance().kind) == "DOT":
+            self.stack.append(Waiting(BODY, FORMULA, FORMULA, make))
+        else:
+            self.open(FORMULA, CLOSES[kind], lambda parts: make(parts[0]))
+        return None
+
+    def bound(self) -> tuple[list[str], Within | None]:
+        """The variables of a quantifier and what they range over, up to the token that has to follow them."""
+        ends = "DOT", "QUANTIFIER", "OPEN", "LEFT"
+        names, within = self.names(), None
+        if self.token.kind == "IN":
+            self.advance()
+            within = self.set()
+        elif self.token.kind == "RELATION":
+            relation = RELATIONS[self.advance().text]
+            bound = self.expression(TERM, *ends)
+            within = lambda term, at: s.Comparison([term, bound], [relation], at)  # noqa: E731
+        if self.token.kind not in ends:
+            raise self.unexpected(ends if within else {*ends, "COMMA", "NAME", "IN", "RELATION"})
+        return names, within
+
+    def names(self) -> list[str]:
+        """Names with commas or nothing between them."""
+        names = [self.take("NAME").text]
+        while self.token.kind in ("COMMA", "NAME"):
+            if self.token.kind == "COMMA":
+                self.advance()
+            names.append(self.take("NAME").text)
+        return names
+
+    def quantified_call(self, token: Token) -> None:
+        """``ForAll[{x, y}, condition, formula]``."""
+        closing = CLOSES[self.advance().kind]
+        if self.token.kind == "NAME":
+            names = [self.advance().text]
+        else:
+            inner = CLOSES[self.take("NAME", *CLOSES).kind]
+            names = self.names()
+            self.take(inner, "COMMA", "NAME")
+        self.take("COMMA")
+        universal = token.text in _UNIVERSAL
+
+        def make(formulas: list[s.Node]) -> s.Node:
+            if len(formulas) > 2:
+                usage = "a quantifier takes variables, perhaps a condition, and a formula"
+                raise SyntaxFailure(f"{usage}: ForAll[{{x, y}}, x > y, x^3 > y^3]", token.at)
+            *conditions, body = formulas
+            return s.Quantification(universal, names, _under(universal, conditions, body))
+
+        self.open(FORMULA, closing, make, many=True)
+
+    # --- sets ------------------------------------------------------------------------------------------------
+    def set(self) -> Within:
+        """Intersections, then from the left unions and differences."""
+        value = self.intersection()
+        while self.token.kind in ("UNION", "WITHOUT") or self.token.text in ("union", "Union"):
+            combine = _difference if self.advance().kind == "WITHOUT" else _union
+            value = combine(value, self.intersection())
+        return value
+
+    def intersection(self) -> Within:
+        value = self.simple_set()
+        while self.token.kind == "COMMON":
+            self.advance()
+            value = _intersection(value, self.simple_set())
+        return value
+
+    def simple_set(self) -> Within:
+        if self.token.text in _NO_REALS:
+            raise SyntaxFailure(f"all variables are real, {self.token.text} cannot be asked for", self.token.at)
+        if self.token.text in _ALSO_REALS:
+            self.token = self.token._replace(kind="REALS")
+        kind = self.take("OPEN", "LEFT", "BEGIN", "REALS").kind
+        if kind == "REALS":
+            return lambda term, at: s.Comparison([term, term], [Relation.EQ], at)
+        if kind == "BEGIN":
+            values = self.arguments("END")
+            return lambda term, at: s.Some([s.Comparison([term, value], [Relation.EQ], at) for value in values])
+        left = self.expression(TERM, "COMMA")
+        self.advance()
+        right = self.expression(TERM, "CLOSE", "RIGHT")
+        end = left.part if isinstance(left, s.Minus) else left
+        low = Relation.GE if kind == "LEFT" and not isinstance(end, s.Infinity) else Relation.GT
+        high = Relation.LE if self.advance().kind == "RIGHT" and not isinstance(right, s.Infinity) else Relation.LT
+        bounds = (left, low), (right, high)  # behind the term, whose names stand in front of theirs
+        return lambda term, at: s.Every([s.Comparison([term, end], [relation], at) for end, relation in bounds])
+
+    def arguments(self, closing: str) -> list[s.Term]:
+        """Terms with commas between them, and the bracket behind them."""
+        values = [self.expression(TERM, "COMMA", closing)]
+        while self.advance().kind == "COMMA":
+            values.append(self.expression(TERM, "COMMA", closing))
+        return values
+
+    def element(self) -> s.Node:
+        """``Element[x | y, Reals]``."""
+        at = self.advance().at
+        closing = CLOSES[self.take("OPEN", "LEFT").kind]
+        if self.token.kind == "BEGIN":
+            self.advance()
+            members = self.arguments("END")
+        else:
+            members = [self.expression(TERM, "ALSO", "COMMA")]
+            while self.token.kind == "ALSO":
+                self.advance()
+                members.append(self.expression(TERM, "ALSO", "COMMA"))
+        self.take("COMMA")
+        within = self.set()
+        self.take(closing)
+        return _all_within(members, within, at)
+
+    # --- lists and cases -------------------------------------------------------------------------------------
+    def listed(self) -> None:
+        """Formulas that hold together."""
+        kind = self.advance().kind
+        self.open(FORMULA, CLOSES[kind], lambda parts: s.Every(parts) if len(parts) > 1 else parts[0], many=True)
+
+    def connective(self) -> None:
+        token = self.advance()
+        closing = CLOSES[self.take("OPEN", "LEFT").kind]
+        self.open(FORMULA, closing, lambda parts: _connected(token, parts), many=True)
+
+    def compared(self) -> None:
+        token = self.advance()
+        closing = CLOSES[self.take("OPEN", "LEFT").kind]
+        self.open(TERM, closing, lambda parts: _compared(token, parts), many=True)
+
+    def cases(self) -> None:
+        """``if f then a else b``, of formulas or of terms."""
+        last, at = self.stack[-1], self.advance().at
+        condition = self.expression(FORMULA, "THEN")
+        self.advance()
+        then = self.expression(EITHER if last.wants & FORMULA else TERM, "ELSE")
+        self.advance()
+        if isinstance(then, s.Node):
+            either = s.Implication(condition, then)
+            make: Callable[[Any], Any] = lambda other: s.Every([either, s.Some([condition, other])])  # noqa: E731
+            self.stack.append(Waiting(BODY, FORMULA, FORMULA, make))
+        else:
+            self.stack.append(Waiting(ELSE, TERM, TERM, lambda other: s.Choice(condition, then, other, at)))
+
+    def cases_call(self) -> s.Term:
+        """``If[f, a, b]``."""
+        at = self.advance().at
+        closing = CLOSES[self.take("OPEN", "LEFT").kind]
+        condition = self.expression(FORMULA, "COMMA")
+        self.advance()
+        then = self.expression(TERM, "COMMA")
+        self.advance()
+        other = self.expression(TERM, closing)
+        self.advance()
+        return s.Choice(condition, then, other, at)
+
+    # --- terms -----------------------------------------------------------------------------------------------
+    def infinity(self) -> s.Term:
+        return s.Infinity(self.advance().at)
+
+    def absolute(self) -> None:
+        at = self.advance().at
+        self.open(TERM, "CLOSEBAR", lambda parts: s.Apply("abs", parts, at))
+
+    def radical(self) -> None:
+        _, sign, at = self.advance()
+        function = "cbrt" if sign == "∛" else "sqrt"
+        self.stack.append(
+            Waiting(PRIMARY, TERM, TERM | parser.SIMPLE, lambda part: s.Apply(function, [part], at))
+        )
+
+    infix = {  # noqa: RUF012
+        **parser.INFIX,
+        "IN": Infix(RELATION, RELATION, TERM, TERM, FORMULA, lambda left, within, token: within(left, token.at)),
+        "NOTIN": Infix(
+            RELATION, RELATION, TERM, TERM, FORMULA, lambda left, within, token: s.Negation(within(left, token.at))
+        ),
+    }
+    prefix = {  # noqa: RUF012
+        **parser.PREFIX,
+        "QUANTIFIER": Prefix(FORMULA, NOT, quantifier),
+        "LEFT": Prefix(FORMULA, NOT, listed),
+        "BEGIN": Prefix(FORMULA, NOT, listed),
+        "ELEMENT": Prefix(FORMULA, NOT, element),
+        "CONNECTIVE": Prefix(FORMULA, NOT, connective),
+        "COMPARE": Prefix(FORMULA, NOT, compared),
+        "IF": Prefix(EITHER, ELSE, cases),
+        "CHOICE": Prefix(TERM, PRIMARY, cases_call),
+        "INFINITY": Prefix(TERM, PRIMARY, infinity),
+        **dict.fromkeys(("OPENBAR", "BAR"), Prefix(TERM, PRIMARY, absolute)),
+        "RADICAL": Prefix(TERM, PRIMARY, radical),
+    }
 
 
-def _tokens(text: str, token: Make) -> Iterator[Token]:
-    """The tokens of a text, which may be LaTeX."""
-    if is_latex(text):
-        from qe.io import latex_lexer
+def parser_of(text: str) -> type[TextParser]:
+    """The parser of a text, which may be LaTeX."""
+    return LatexParser if is_latex(text) else TextParser
 
-        return latex_lexer.tokens(text, token)
-    return tokens(text, token)
+
+class LatexParser(TextParser):
+    """Reads the same syntax in LaTeX."""
+
+    calls: ClassVar = {"NAME": ("LEFT",), "FUNCTION": ("OPEN", "LEFT")}
+    infix: ClassVar = {
+        **TextParser.infix,
+        **dict.fromkeys(("NAME", "NUMBER", "OPEN", "RADICAL", "OPENBAR", "FUNCTION"), parser.JUXTAPOSED),
+    }
+    prefix: ClassVar = {**TextParser.prefix, "FUNCTION": parser.PREFIX["NAME"]}
+
+    def lexed(self, text: str) -> Iterator[Token]:
+        return latex_tokens(text)
+
+
+def latex_tokens(text: str) -> Iterator[Token]:
+    """The tokens of a source."""
+    from qe.io import latex_lexer
+
+    return latex_lexer.tokens(text)
 
 
 def is_latex(text: str) -> bool:
@@ -112,153 +308,64 @@ def is_latex(text: str) -> bool:
     return False
 
 
-@cache
-def latex_parser() -> Parser:
-    """The parser of the same syntax in LaTeX."""
-    from qe.io.latex_lexer import tokens as latex_tokens
+def _quantified(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
+    """A quantifier over names, which may be bounded by a set."""
+    universal = quantifier.text in _UNIVERSAL
+    if within is None:
+        return s.Quantification(universal, names, body)
+    condition = _all_within([s.Name(name, quantifier.at) for name in names], within, quantifier.at)
+    return s.Quantification(universal, names, _under(universal, [condition], body))
 
-    return parser("text", GRAMMAR, latex_tokens, TextBuilder())
+
+def _under(universal: bool, conditions: list[s.Node], body: s.Node) -> s.Node:
+    """The body of a quantifier that ranges over what has at most one condition."""
+    if not conditions:
+        return body
+    return s.Implication(conditions[0], body) if universal else s.Every([*conditions, body])
 
 
-class TextBuilder(Builder):
-    """The actions of the text syntax alone."""
+def _all_within(terms: list[Any], within: Within, at: int) -> s.Node:
+    inside = [within(term, at) for term in terms]
+    return inside[0] if len(inside) == 1 else s.Every(inside)
 
-    def quantified(self, c: list[Any]) -> s.Node:
-        return self.quantify(c[0], c[1], c[3])
 
-    quantified_closed = quantified
+def _union(one: Within, other: Within) -> Within:
+    return lambda term, at: s.Some([one(term, at), other(term, at)])
 
-    def quantified_again(self, c: list[Any]) -> s.Node:
-        return self.quantify(c[0], c[1], c[2])
 
-    def quantified_call(self, c: list[Any]) -> s.Node:
-        universal, formulas = str(c[0]) in _UNIVERSAL, c[4]
-        if len(formulas) > 2:
-            usage = "a quantifier takes variables, perhaps a condition, and a formula: ForAll[{x, y}, x > y, x^3 > y^3]"
-            raise SyntaxFailure(usage, c[0].start_pos)
-        *conditions, body = formulas
-        for condition in conditions:
-            body = s.Implication(condition, body) if universal else s.Every([condition, body])
-        return s.Quantification(universal, c[2], body)
+def _difference(one: Within, other: Within) -> Within:
+    return lambda term, at: s.Every([one(term, at), s.Negation(other(term, at))])
 
-    def quantify(self, quantifier: Any, bound: Any, body: s.Node) -> s.Node:
-        """A quantifier over names, which may be bounded by a set."""
-        universal = str(quantifier) in _UNIVERSAL
-        if isinstance(bound, list):
-            return s.Quantification(universal, bound, body)
-        names, within = bound
-        inside = [within(s.Name(name, quantifier.start_pos), quantifier.start_pos) for name in names]
-        condition = inside[0] if len(inside) == 1 else s.Every(inside)
-        return s.Quantification(
-            universal, names, s.Implication(condition, body) if universal else s.Every([condition, body])
-        )
 
-    def bounded(self, c: list[Any]) -> Any:
-        return c[0], c[2]
+def _intersection(one: Within, other: Within) -> Within:
+    return lambda term, at: s.Every([one(term, at), other(term, at)])
 
-    def bounded_by(self, c: list[Any]) -> Any:
-        return c[0], lambda term, at: s.Comparison([term, c[2]], [RELATIONS[c[1]]], at)
 
-    def closed(self, c: list[Any]) -> s.Node:
-        return c[0]  # type: ignore[no-any-return]
+def _connected(token: Token, parts: list[s.Node]) -> s.Node:
+    name = token.text
+    if name == "Not" and len(parts) == 1:
+        return s.Negation(parts[0])
+    if name == "And":
+        return s.Every(parts)
+    if name == "Or":
+        return s.Some(parts)
+    if name == "Implies" and len(parts) == 2:
+        return s.Implication(*parts)
+    if name == "Equivalent":
+        return s.Every([s.Equivalence(parts[0], part) for part in parts[1:]])
+    if name == "Xor":
+        return s.odd(parts)
+    raise SyntaxFailure(f"{name} takes {'one formula' if name == 'Not' else 'two formulas'}", token.at)
 
-    def names_side_by_side(self, c: list[Any]) -> list[str]:
-        return [*c[0], str(c[1])]
 
-    def either(self, c: list[Any]) -> s.Node:
-        return s.Every([s.Implication(c[1], c[3]), s.Some([c[1], c[5]])])
-
-    def formulas(self, c: list[Any]) -> list[s.Node]:
-        return [c[0]]
-
-    def more(self, c: list[Any]) -> list[s.Node]:
-        return [*c[0], c[2]]
-
-    def listed(self, c: list[Any]) -> s.Node:
-        return s.Every(c[1]) if len(c[1]) > 1 else c[1][0]
-
-    def connective(self, c: list[Any]) -> s.Node:
-        name, parts = str(c[0]), c[2]
-        if name == "Not" and len(parts) == 1:
-            return s.Negation(parts[0])
-        if name == "And":
-            return s.Every(parts)
-        if name == "Or":
-            return s.Some(parts)
-        if name == "Implies" and len(parts) == 2:
-            return s.Implication(*parts)
-        if name == "Equivalent":
-            return s.Every([s.Equivalence(parts[0], part) for part in parts[1:]])
-        if name == "Xor":
-            return s.odd(parts)
-        raise SyntaxFailure(f"{name} takes {'one formula' if name == 'Not' else 'two formulas'}", c[0].start_pos)
-
-    def compared(self, c: list[Any]) -> s.Node:
-        at, sides = c[0].start_pos, c[2]
-        if len(sides) < 2:
-            raise SyntaxFailure(f"{c[0]} compares two terms", at)
-        if c[0] == "Inequality":
-            named = [RELATIONS.get(part.name) if isinstance(part, s.Name) else None for part in sides[1::2]]
-            relations = [relation for relation in named if relation is not None]
-            if len(relations) < len(named) or len(sides) % 2 == 0:
-                raise SyntaxFailure("Inequality takes terms and relations: Inequality[0, Less, x, LessEqual, 1]", at)
-            return s.Comparison(sides[::2], relations, at)
-        return s.Comparison(sides, [RELATIONS[c[0]]] * (len(sides) - 1), at)
-
-    # --- sets: functions from a term and a place to a formula ------------------------------------------------
-    def interval(self, c: list[Any]) -> Any:
-        low = Relation.GE if c[0].type == "LEFT" else Relation.GT
-        high = Relation.LE if c[4].type == "RIGHT" else Relation.LT
-        left, right = c[1], c[3]
-        ends = (left.part if isinstance(left, s.Minus) else left), right
-        low = Relation.GT if isinstance(ends[0], s.Infinity) else low
-        high = Relation.LT if isinstance(ends[1], s.Infinity) else high
-        bounds = (left, low), (right, high)  # behind the term, whose names stand in front of theirs
-        return lambda term, at: s.Every([s.Comparison([term, end], [relation], at) for end, relation in bounds])
-
-    def finite(self, c: list[Any]) -> Any:
-        return lambda term, at: s.Some([s.Comparison([term, value], [Relation.EQ], at) for value in c[1]])
-
-    def reals(self, c: list[Any]) -> Any:
-        return lambda term, at: s.Comparison([term, term], [Relation.EQ], at)
-
-    def union(self, c: list[Any]) -> Any:
-        return lambda term, at: s.Some([c[0](term, at), c[2](term, at)])
-
-    def difference(self, c: list[Any]) -> Any:
-        return lambda term, at: s.Every([c[0](term, at), s.Negation(c[2](term, at))])
-
-    def common(self, c: list[Any]) -> Any:
-        return lambda term, at: s.Every([c[0](term, at), c[2](term, at)])
-
-    def outside(self, c: list[Any]) -> s.Node:
-        return s.Negation(c[2](c[0], c[1].start_pos))
-
-    def member(self, c: list[Any]) -> s.Node:
-        return c[2](c[0], c[1].start_pos)  # type: ignore[no-any-return]
-
-    def members(self, c: list[Any]) -> list[s.Term]:
-        return [c[0]] if len(c) == 1 else [*c[0], c[2]]
-
-    def members_listed(self, c: list[Any]) -> list[s.Term]:
-        return c[1]  # type: ignore[no-any-return]
-
-    def element(self, c: list[Any]) -> s.Node:
-        inside = [c[4](term, c[0].start_pos) for term in c[2]]
-        return inside[0] if len(inside) == 1 else s.Every(inside)
-
-    # --- terms -----------------------------------------------------------------------------------------------
-    def infinity(self, c: list[Any]) -> s.Term:
-        return s.Infinity(c[0].start_pos)
-
-    def choice(self, c: list[Any]) -> s.Term:
-        return s.Choice(c[1], c[3], c[5], c[0].start_pos)
-
-    def choice_call(self, c: list[Any]) -> s.Term:
-        return s.Choice(c[2], c[4], c[6], c[0].start_pos)
-
-    def absolute(self, c: list[Any]) -> s.Term:
-        return s.Apply("abs", [c[1]], c[0].start_pos)
-
-    def radical(self, c: list[Any]) -> s.Term:
-        return s.Apply("cbrt" if c[0] == "∛" else "sqrt", [c[1]], c[0].start_pos)
+def _compared(token: Token, sides: list[s.Term]) -> s.Node:
+    _, name, at = token
+    if len(sides) < 2:
+        raise SyntaxFailure(f"{name} compares two terms", at)
+    if name == "Inequality":
+        named = [RELATIONS.get(part.name) if isinstance(part, s.Name) else None for part in sides[1::2]]
+        relations = [relation for relation in named if relation is not None]
+        if len(relations) < len(named) or len(sides) % 2 == 0:
+            raise SyntaxFailure("Inequality takes terms and relations: Inequality[0, Less, x, LessEqual, 1]", at)
+        return s.Comparison(sides[::2], relations, at)
+    return s.Comparison(sides, [RELATIONS[name]] * (len(sides) - 1), at)

@@ -77,6 +77,11 @@ class Answer:
         return "" if self.guarantee is Guarantee.CHECKED else self.reason or "no check was asked for"
 
     @property
+    def trusts(self) -> tuple[str, ...]:
+        """The theorems without proof, by name, on which the certificate rests (``qe.theorems``)."""
+        return () if self.certificate is None else self.certificate.trusts
+
+    @property
     def stats(self) -> Mapping[str, Any]:
         """What was done: figures by method, choices, switches, seconds."""
         return self.log.stats()

@@ -21,6 +21,7 @@ from qe.formula.syntax import Formula
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence, cells_from_json, cells_to_json
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text, read_json
+from qe.services import Service, service
 
 FORMAT = "bezier-qe certificate"
 VERSIONS = (1, 2)
@@ -162,6 +163,12 @@ class Certificate:
             "answer": formula_to_json(answer, quantified=True),
         }
         return Certificate(Kind.DERIVATION, payload)
+
+    @property
+    def trusts(self) -> tuple[str, ...]:
+        """The theorems without proof, by name, that it needs beside the primitives of the kernel (``qe.theorems``)."""
+        names: tuple[str, ...] = service(Service.TRUSTS)(self)
+        return names
 
     @property
     def version(self) -> int:

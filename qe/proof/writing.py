@@ -49,6 +49,8 @@ RULES: Mapping[str, str] = {
     "infinity first": "Solutions near infinity follow from leading terms; elsewhere a leading coefficient is zero.",
     "comprehensive Gröbner system": "Signatures of trace forms count the real solutions of equations.",
     "only asked to be no root": "Polynomials that are not identically zero have a common point where none vanishes.",
+    "theorem": "An instance of a theorem that is listed as such, proved or believed by name.",
+    "closed form": "An instance of a theorem that is listed as such, proved or believed by name.",
     "roots in a half-plane": "All roots have negative real parts where the determinants of Hurwitz are positive "
     "(Liénard, Chipart 1914; Gantmacher 1959, chapter XV).",
     "cells": "On every cell of a cylindrical algebraic decomposition the formula has one truth value "

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.cad.projection import factor_lists
 from qe.certify.block import existential
 from qe.certify.critical_points import active_sets, vanishing
@@ -39,7 +40,7 @@ from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Exists, Formula
 from qe.formula.traverse import polynomials
-from qe.options import Budget, Options, Projection
+from qe.options import Budget, Options
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.elimination_chain import Row, chain
 
@@ -64,7 +65,7 @@ def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budg
     walls = {f.convert(outer).normal()[1] for f in surfaces}
     chains = _chains(conditions, len(names), walls, claim, budget)
     answer = [f for p in polynomials(holds) for f, _ in p.factors()[1]]
-    levels = factor_lists([*walls, *answer], len(names), Projection.BROWN_MCCALLUM, budget, frozenset())
+    levels = factor_lists([*walls, *answer], len(names), BROWN_MCCALLUM, budget, frozenset())
     cells = _Cells(conditions, claim, budget)
 
     def said(values: Values) -> Json:
@@ -99,7 +100,7 @@ def universal_evidence(claim: Claim, order: Sequence[str], options: Options, bud
         walls.update(dict.fromkeys(f.convert(outer) for f, _ in divisor.factors()[1]))
     regular = _table(normal(claim.after), outer, False, claim, options, budget)
     answer = [f for p in polynomials(holds) for f, _ in p.factors()[1]]
-    levels = factor_lists([*walls, *answer], len(names), Projection.BROWN_MCCALLUM, budget, frozenset())
+    levels = factor_lists([*walls, *answer], len(names), BROWN_MCCALLUM, budget, frozenset())
     exceptions: list[tuple[int, Fraction]] = []
 
     def said(values: Values) -> Json:

@@ -16,6 +16,7 @@ from qe.io.names import names_in
 from qe.proof.entry import Entry, Json
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
+from qe.proving.elaborators import FRESH, NAMING
 
 Prove = Callable[[Nested, Formula, Context], tuple[Formula, list[Json]]]
 """From the formula with which a checker begins, under a context, to the answer of a derivation: that, and the steps.
@@ -45,7 +46,8 @@ def names_within(value: object) -> Iterator[str]:
             yield from (value.ring.names[i] for i in value.variables)
         case Nested(start, steps, answer):
             yield from names_within([start, *steps, answer])
-        case Step(_, before, after, context, evidence):
+        case Step(rule, before, after, context, evidence):
+            yield from FRESH if rule in NAMING else ()
             yield from names_within([before, after, context, evidence])
         case RunLog():
             yield from names_within(list(value.steps()))

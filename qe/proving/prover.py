@@ -19,8 +19,9 @@ from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import And, Exists, Formula, Or
-from qe.formula.traverse import children, clashes, conjuncts
+from qe.formula.build import conj
+from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
+from qe.formula.traverse import children, clashes, conjuncts, subformula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together
@@ -29,6 +30,7 @@ from qe.proof.on_demand import completed
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 from qe.proving.counted import case_proofs
+from qe.proving.elaborators import ELABORATORS
 from qe.proving.lemma_list import EMPTY, identities
 from qe.proving.lemmas import refuting
 from qe.proving.nested import derivations_within, names_within, proved_inside
@@ -48,6 +50,21 @@ SIMPLIFYING = (
 
 CRITICAL = ("critical values", "critical values of a universal block")
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
+THEOREM, REDUNDANT = "theorem", "redundant part"
+STEPS = "steps"
+ELABORATED = (
+    "disjuncts with equations apart",
+    "homogeneous scaling",
+    "linear form as a variable",
+    "square of a variable alone",
+    "translation of the origin",
+    "two variables exchanged",
+    "value that is taken",
+    "witness in the parameters",
+)
+_PRIMITIVES = {REDUNDANT: "no exception", "constant": "no exception"}
+"""The primitive that stands in the certificate for steps of a rule."""
+
 COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
@@ -78,7 +95,7 @@ def _ring(derivation: Derivation, answer: Formula) -> Ring:
     """The ring of the derivation, with the names that the evidence of its steps brings in."""
     formulas = (derivation.start, *(step.before for step in derivation.steps), answer)
     ring = next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
-    return Ring.of(dict.fromkeys((*ring.names, *(n for step in derivation.steps for n in names_within(step.evidence)))))
+    return Ring.of(dict.fromkeys((*ring.names, *(n for step in derivation.steps for n in names_within(step)))))
 
 
 @dataclass(slots=True)
@@ -145,6 +162,12 @@ class Prover:
             yield from self._places(child, before, (*path, k))
 
     def _at(self, place: Place, step: Step, current: Formula) -> Formula:
+        if step.rule == REDUNDANT:
+            try:
+                place, step = _part_dropped(place, step)
+            except IndexError:  # there is no such part
+                self.unchecked.append(step.rule)
+                return step.after
         facts, changed = replaced(current, place, step.before, step.after, self.known, Entry(None, "place"))
         context = tuple(f for f in conjuncts(step.context) if f in facts)
         if clashes(changed, (name for fact in self.known for name in fact.free)):  # no checker would look at it
@@ -207,8 +230,13 @@ class Prover:
             evidence = completed
         if step.rule == COUNTED and not evidence:
             evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
-        own = self._tried(step.rule, step, context, evidence)
-        return None if own is None else (step.rule, own)
+        if step.rule in ELABORATED:
+            elaborated = self._elaborated(step, context, evidence)
+            if elaborated is not None or step.rule not in RULES:
+                return elaborated
+        rule = _PRIMITIVES.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
+        own = self._tried(rule, step, context, evidence)
+        return None if own is None else (rule, own)
 
     def _tried(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
         checker = RULES.get(rule)
@@ -230,6 +258,18 @@ class Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _elaborated(self, step: Step, context: Context, evidence: Json) -> tuple[str, Json] | None:
+        """Steps of the kernel that make a step of another rule."""
+        try:
+            made: list[Json] = ELABORATORS[step.rule](self._claim(step.rule, step, evidence), context, self.limits)
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        own = self._tried(STEPS, step, context, {"steps": made})
+        return None if own is None else (STEPS, own)
 
     def _positive(self, step: Step, given: object, context: Context) -> tuple[str, Json] | None:
         """Signs that follow from identities, which the rule has found."""
@@ -350,3 +390,15 @@ class Prover:
             case None | bool() | int() | str():
                 return value
         raise TypeError(f"no evidence: {type(value).__name__}")
+
+
+def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:
+    """A part that makes no difference turned into a constant, at its own place, under what stands beside it there."""
+    proof = step.evidence["proof"]
+    assert isinstance(proof, Mapping)
+    at = tuple(proof["at"])
+    parent = subformula(step.before, at[:-1])
+    part, constant = subformula(parent, at[-1:]), FALSE if isinstance(parent, Or) else TRUE
+    beside, _ = replaced(step.before, at, part, constant, (), Entry(None, "place"))
+    evidence = {"proof": {"exceptions": [proof["steps"]]}}
+    return (*place, *at), replace(step, before=part, after=constant, context=conj(beside), evidence=evidence)

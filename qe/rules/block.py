@@ -6,16 +6,13 @@ from collections.abc import Sequence
 
 from qe.formula.build import exists
 from qe.formula.syntax import FALSE, Formula
-from qe.rules.balls import two_balls
 from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cancelling import cancel_equations
 from qe.rules.cases import groebner_equations, split_factors
-from qe.rules.cubic_interval import cubic_on_interval
+from qe.rules.closed_forms import closed_form
 from qe.rules.degree_shift import shift_degree
 from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
-from qe.rules.half_plane import root_in_half_plane
-from qe.rules.quadrics import quadric_in_quadric
 from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
 from qe.rules.shear import linear_form
@@ -39,11 +36,12 @@ RULES: tuple[Rule, ...] = (
     definitions,
     excluded_by_ranges,
     independent_parts,
-    two_balls,
+    closed_form(StepKind.BALLS),
     sphere_along_form,
-    root_in_half_plane,
-    quadric_in_quadric,
-    cubic_on_interval,
+    closed_form(StepKind.HALF_PLANE),
+    closed_form(StepKind.QUADRICS),
+    closed_form(StepKind.CUBIC_INTERVAL),
+    closed_form(StepKind.CLOSED_FORM),
     linear_equation,
     known_signs,
     drop_what_can_be_met,

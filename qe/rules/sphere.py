@@ -14,6 +14,7 @@ On the sphere, polynomials that contain |v|^2 are linear in v after a multiple o
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations
 from math import prod
@@ -22,13 +23,47 @@ from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj
 from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import atoms, conjuncts, has_root_atoms, map_atoms
-from qe.rules.balls import Ball
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.step import StepKind
 from qe.rules.tree import Pending
 
 _PARTS, _VARIABLES, _TERMS = 12, 6, 300
 """Conjuncts of a block that is looked at, its variables in a sphere, terms of all atoms."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ball:
+    """lead*|x|^2 + linear.x + rest <= 0, < 0 if ``strict``; lead > 0."""
+
+    lead: int
+    linear: tuple[Poly, ...]
+    rest: Poly
+    strict: bool
+
+    @staticmethod
+    def of(part: Formula, indices: Sequence[int]) -> Ball | None:
+        """The ball that a conjunct describes in these variables, or None."""
+        if not isinstance(part, Atom) or part.relation in (Relation.EQ, Relation.NE):
+            return None
+        poly = part.poly if part.relation in (Relation.LE, Relation.LT) else -part.poly
+        squares = {poly.coefficients(i)[2] if poly.degree(i) == 2 else None for i in indices}
+        lead = squares.pop()
+        if squares or lead is None or not lead.is_constant or lead.constant_value() <= 0:
+            return None
+        ring, rest, linear = poly.ring, poly, []
+        for i in indices:
+            rest = rest - lead * ring.gen(i) ** 2
+            slope = rest.derivative(i)
+            linear.append(slope)
+            rest = rest - slope * ring.gen(i)
+        if any(p.degree(i) for p in (rest, *linear) for i in indices):
+            return None
+        return Ball(lead.constant_value(), tuple(linear), rest, part.relation.is_strict)
+
+    @property
+    def radicand(self) -> Poly:
+        """(2 * lead * radius)^2."""
+        return sum((p * p for p in self.linear), -4 * self.lead * self.rest)
 
 
 def sphere_along_form(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
@@ -111,8 +146,8 @@ def _along(
         return atom(prod((images[f] ** k for f, k in parts), start=ring.constant(unit)), found.relation)
 
     offset = sum((p * q for p, q in zip(direction, ball.linear, strict=True)), ring.constant(0))
-    bound = (ring.gen(indices[0]) * (2 * ball.lead) + offset) ** 2 - length * ball.radicand(1)
-    radius = TRUE if length.is_constant else atom(ball.radicand(1), Relation.GE)
+    bound = (ring.gen(indices[0]) * (2 * ball.lead) + offset) ** 2 - length * ball.radicand
+    radius = TRUE if length.is_constant else atom(ball.radicand, Relation.GE)
     values = atom(bound, Relation.LT if ball.strict else Relation.LE)
     return form, conj((radius, values, *(map_atoms(p, change) for p in rest)))
 

@@ -10,25 +10,18 @@ Lift: the place of the least value, or a root.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from qe.exact.ring import format_poly
-from qe.formula.build import atom, conj
-from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.build import conj
+from qe.formula.syntax import TRUE, Atom, Formula, Relation
 from qe.formula.traverse import bound_variables, conjuncts
 from qe.rules.block_context import BlockContext, Found
+from qe.rules.closed_forms import matches
 from qe.rules.lift import Lift, Solve
 from qe.rules.step import StepKind
 from qe.rules.takes_value import TakesValue
 from qe.rules.tree import Lifted, Pending
-
-_AT_LEAST_VALUE = {
-    (Relation.EQ, 1): Relation.LE,
-    (Relation.EQ, -1): Relation.LE,
-    (Relation.LE, 1): Relation.LE,
-    (Relation.LT, 1): Relation.LT,
-    (Relation.GE, -1): Relation.LE,
-    (Relation.GT, -1): Relation.LT,
-}
-"""rel' by the relation and the sign of k."""
 
 
 def square_alone(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
@@ -40,21 +33,22 @@ def square_alone(variables: tuple[str, ...], body: Formula, context: BlockContex
         having = [part for part in parts if name in part.free]
         if len(having) != 1 or name in inner or not isinstance(having[0], Atom):
             continue
-        poly, relation = having[0].poly, having[0].relation
-        i, rest = body.ring.index[name], tuple(v for v in variables if v != name)
-        if poly.degree(i) != 2:
+        solved = _solved(name, having[0], [body.ring.index[v] for v in variables if v != name])
+        if solved is None:
             continue
-        m, l, k = poly.coefficients(i)
-        if not k.is_constant or any(l.degree(body.ring.index[v]) for v in rest):
-            continue
-        sign = 1 if k.constant_value() > 0 else -1
-        least = _AT_LEAST_VALUE.get((relation, sign))
-        if least is None or all(m.degree(body.ring.index[v]) == 0 for v in rest):
-            continue
-        lift: Lift = Solve(name, -l, k * 2)
-        if relation is Relation.EQ:
-            lift = TakesValue(name, poly, relation)
-        condition = atom(k * m * 4 - l * l, least)
+        condition, lift = solved
+        rest = tuple(v for v in variables if v != name)
         node = Lifted((lift,), Pending(rest, conj(condition if part is having[0] else part for part in parts)))
-        return Found(StepKind.SQUARE_ALONE, f"{name} in {format_poly(poly)}", node, {"variable": name})
+        return Found(StepKind.SQUARE_ALONE, f"{name} in {format_poly(having[0].poly)}", node, {"variable": name})
+    return None
+
+
+def _solved(name: str, part: Atom, others: Sequence[int]) -> tuple[Formula, Lift] | None:
+    """What takes the place of the condition, and the way back, where the other variables do not get higher degrees."""
+    for match in matches(StepKind.SQUARE_ALONE.value, (name,), part):
+        k, l, m = (match.letters[letter] for letter in "klm")
+        plain = k.is_constant and not any(l.degree(i) for i in others) and any(m.degree(i) for i in others)
+        if plain and match.formula("given") == TRUE:
+            root, least = TakesValue(name, part.poly, part.relation), Solve(name, -l, k * 2)
+            return match.formula("answer"), root if part.relation is Relation.EQ else least
     return None

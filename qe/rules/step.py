@@ -20,6 +20,7 @@ class StepKind(Enum):
     HALF_PLANE = "roots in a half-plane"
     QUADRICS = "quadric in a quadric"
     CUBIC_INTERVAL = "cubic on an interval"
+    CLOSED_FORM = "closed form"
     ZEROS = "conditions on zeros that follow"
     TAKES_VALUE = "value that is taken"
     SQUARE_ALONE = "square of a variable alone"

@@ -20,7 +20,7 @@ import qe
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("qe", "bezier", "experiments", "paper_repro", "tests", "examples")
 CODE = [p for folder in FOLDERS for p in sorted((ROOT / folder).rglob("*.py"))]
-TEXT = {".py", ".md", ".toml", ".txt", ".lark", ".html", ".j2", ".css", ".js", ".json", ".cfg", ""}
+TEXT = {".py", ".md", ".toml", ".txt", ".html", ".j2", ".css", ".js", ".json", ".cfg", ""}
 
 LONG = 400
 """Lines; longer files are listed at the end of a run of the tests, for a look whether they say two things."""

@@ -15,7 +15,7 @@ import qe
 
 ROOT = Path(__file__).resolve().parents[2]
 HEAVY = (
-    *("flint", "lark", "pydantic", "sympy", "numpy", "scipy", "matplotlib", "plotly", "clarabel", "jinja2", "typer"),
+    *("flint", "pydantic", "sympy", "numpy", "scipy", "matplotlib", "plotly", "clarabel", "jinja2", "typer"),
     *("rich", "multiprocessing"),
 )
 

@@ -1,11 +1,13 @@
 """False claims made of true steps, and what today's checkers say of them.
 
 ``false_claim`` knows nothing of evidence. ``accepted_evidence`` offers a claim as a derivation of one step, with the
-evidence of the true step, with the same after the near miss, and with lemmas that are looked for anew.
+evidence of the true step, with the same after the near miss, with nested steps that begin and end as the claim says,
+and with lemmas that are looked for anew. A step of an elaborated rule is offered as the steps that are made of it.
 """
 
 from __future__ import annotations
 
+import json
 import random
 from collections.abc import Iterator
 from copy import deepcopy
@@ -14,21 +16,25 @@ from typing import Any
 
 from qe.certify.boolean import ByLemmas
 from qe.certify.derivation import check_derivation, limits_of, replaced
+from qe.certify.negation import negation, normal
 from qe.certify.registry import RULES
 from qe.certify.step import Claim
+from qe.certify.verdict import CRASHES
 from qe.certify.verify import check_certificate
 from qe.errors import CertificateRejected, QEError, Unable
 from qe.exact.ring import Ring
+from qe.formula.build import conj, exists
 from qe.formula.syntax import And, Formula, Not
 from qe.options import Budget
 from qe.proof.derivation import moved
-from qe.proof.entry import Entry, Json, formula_to_json
+from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json
+from qe.proving.elaborators import ELABORATORS
 from qe.proving.lemma_list import EMPTY
 from qe.proving.lemmas import refuting
 from tests.attacks.falsity import Point, counterexample
 from tests.attacks.near_misses import Change, Equivalence, NearMiss
 from tests.attacks.true_steps import TrueStep
-from tests.certificates.altered_derivations import polynomials
+from tests.certificates.altered_derivations import polynomials, steps
 
 SPARE = "k"
 """A letter that a near miss may need."""
@@ -82,7 +88,12 @@ def _json(formula: Formula) -> Json:
 
 
 def is_accepted(rule: str, claim: Equivalence, evidence: Json) -> bool:
-    """Whether the checker of the rule accepts the claim with this evidence."""
+    """Whether the kernel accepts the claim with this evidence; where the rule is elaborated, the steps made of it."""
+    steps = elaborated(rule, claim, evidence) if rule in ELABORATORS else None
+    if steps is not None and is_accepted("steps", claim, {"steps": steps}):
+        return True
+    if rule not in RULES:
+        return False
     try:
         check_derivation(derivation(rule, claim, evidence), Budget(SECONDS), RULES, check_certificate)
     except (CertificateRejected, Unable):
@@ -90,23 +101,74 @@ def is_accepted(rule: str, claim: Equivalence, evidence: Json) -> bool:
     return True
 
 
+def elaborated(rule: str, claim: Equivalence, evidence: Json) -> list[Json] | None:
+    """The steps of primitives that are made of a step of another rule; None where there are none."""
+    made = Claim(rule, claim.before, claim.after, claim.ring, Entry(evidence, "evidence"), "step")
+    try:
+        return ELABORATORS[rule](made, claim.facts, limits_of(Budget(SECONDS), RULES, check_certificate))
+    except CRASHES:  # nothing is trusted here, and no step came of it
+        return None
+
+
 def evidences(step: TrueStep, false: FalseClaim) -> Iterator[Json]:
-    """Evidence for a false claim: that of the true step, the same changed like the claim, and with new lemmas."""
-    yield step.evidence
+    """Evidence for a false claim: that of the true step, the same changed like the claim, and so that nested steps
+    begin and end as the claim says; and the last ones with new lemmas."""
+    changed, claim = step.evidence, false.claim
+    yield changed
     if false.change is not None:
-        yield followed(step.evidence, false.claim.ring, false.change)
-    checker = RULES[step.rule]
-    if isinstance(checker, ByLemmas) and isinstance(step.evidence, dict):
-        evidence = {**step.evidence, "theory": EMPTY}
-        made, entry = false.claim, Entry(evidence, "evidence")
-        claim = Claim(step.rule, made.before, made.after, made.ring, entry, "step")
-        limits = limits_of(Budget(TO_SEARCH), RULES, check_certificate)
-        try:
-            theory = refuting(checker.obligations(claim, made.facts), made.ring, limits)
-        except (CertificateRejected, Unable):
-            return
-        if theory is not None:
-            yield {**evidence, "theory": theory}
+        changed = followed(changed, claim.ring, false.change)
+        yield changed
+    fitted = fitting(changed, equivalence(step), claim)
+    if fitted != changed:
+        yield fitted
+    if step.rule in RULES:
+        new = deepcopy(derivation(step.rule, claim, fitted))
+        if with_new_lemmas(new, claim.ring):
+            yield new["steps"][0]["evidence"]
+
+
+def fitting(evidence: Json, true: Equivalence, false: Equivalence) -> Json:
+    """The evidence with the formulas of the false claim in place of those of the true one, and with what a primitive
+    derives from these."""
+    others = {json.dumps(_json(old)): _json(new) for old, new in zip(_ends(true), _ends(false), strict=True)}
+
+    def walk(node: Json) -> Json:
+        if isinstance(node, list):
+            other = others.get(json.dumps(node))
+            return [walk(part) for part in node] if other is None else deepcopy(other)
+        return {key: walk(part) for key, part in node.items()} if isinstance(node, dict) else node
+
+    return walk(evidence)
+
+
+def _ends(claim: Equivalence) -> Iterator[Formula]:
+    """Formulas with which nested steps begin or end."""
+    sides = (claim.before, claim.after)
+    for one, other in (sides, sides[::-1]):
+        body = conj((*map(normal, claim.facts), normal(one), negation(other)))
+        yield from (one, negation(one), body, exists(body.free, body))
+
+
+def with_new_lemmas(data: Json, ring: Ring) -> bool:
+    """Whether there are any: lemmas are looked for anew for all steps in the data that need them, also nested ones."""
+    limits, any_new = limits_of(Budget(TO_SEARCH), RULES, check_certificate), False
+    try:
+        for made in list(steps(data)):
+            checker = RULES.get(made["rule"])
+            if isinstance(checker, ByLemmas) and isinstance(made["evidence"], dict):
+                made["evidence"]["theory"] = EMPTY
+                before, after, *context = (
+                    formula_from_json(Entry(f, ""), ring, quantified=True)
+                    for f in (made["before"], made["after"], *made["context"])
+                )
+                claim = Claim(made["rule"], before, after, ring, Entry(made["evidence"], "evidence"), "step")
+                theory = refuting(checker.obligations(claim, tuple(context)), ring, limits)
+                if theory is None:
+                    return False
+                made["evidence"]["theory"], any_new = theory, True
+    except (CertificateRejected, Unable):
+        return False
+    return any_new
 
 
 def followed(evidence: Json, ring: Ring, change: Change) -> Json:

@@ -13,11 +13,15 @@ from dataclasses import dataclass, field
 
 from qe.certify.registry import RULES as CHECKERS
 from qe.errors import QEError, Unable
+from qe.proving.elaborators import ELABORATORS
 from tests.attacks.attack import accepted_evidence, derivation, equivalence, false_claim, is_accepted
 from tests.attacks.falsity import points, truth
 from tests.attacks.near_misses import CAPTURES, OTHERS
-from tests.attacks.rules import FORMER, METHODS, RULES
+from tests.attacks.rules import FORMER, METHODS, PRIMITIVES, RULES
 from tests.attacks.true_steps import Answered, TrueStep, answered_with_steps, former_step, taken_alone
+
+ATTACKED = tuple(dict.fromkeys((*CHECKERS, *ELABORATORS)))
+"""What a step of a certificate may be called, today or in former releases."""
 
 QUESTIONS = 60
 """So many for each on which a rule is to fire, and for each false claim, are tried at most."""
@@ -57,9 +61,10 @@ def _steps(rng: random.Random, name: str, counts: Counts, *, answer: bool) -> li
     if name in FORMER:
         counts.fired += 1  # by nobody any more: as often as it is made here
         return [former_step(rng, name)]
-    row = RULES[name] if name in RULES else METHODS[name]
+    rule = rng.choice(PRIMITIVES.get(name, (name,)))
+    row = RULES[rule] if rule in RULES else METHODS[rule]
     question = row.question(rng)
-    steps = list(taken_alone(question, name))
+    steps = [step for step in taken_alone(question, rule) if step.rule == name]
     if answer or not steps:
         try:
             found = answered_with_steps(question, row.options)
@@ -107,8 +112,8 @@ def main(formulas: int, claims: int, chosen: list[str]) -> int:
     """Print what comes of it; the number of holes and wrong answers."""
     total: Counter[str] = Counter()
     bad = 0
-    for name in chosen or [*CHECKERS, *(m for m in METHODS if m not in CHECKERS)]:
-        counts = campaign(name, 0, formulas, claims if name in CHECKERS else 0)
+    for name in chosen or [*ATTACKED, *(m for m in METHODS if m not in ATTACKED)]:
+        counts = campaign(name, 0, formulas, claims if name in ATTACKED else 0)
         total += counts.claims
         listed = (*counts.holes, *counts.crashes, *counts.wrong)
         bad += len(listed)

@@ -309,6 +309,17 @@ FORMER = {
 }
 """Before and after a step of a rule that nothing makes any more, filled alike; older certificates have them."""
 
+PRIMITIVES: dict[str, tuple[str, ...]] = {
+    "quantifiers": ("square of a variable alone", "two variables exchanged", "value that is taken"),
+    "steps": ("homogeneous scaling", "linear form as a variable", "witness in the parameters"),
+    "converse": ("two variables exchanged",),
+    "no exception": ("constant", "redundant part"),
+    "terms": ("linear form as a variable", "translation of the origin", "witness in the parameters"),
+    "root": ("value that is taken",),
+    "theorem": ("cubic on an interval", "quadric in a quadric", "roots in a half-plane", "two balls"),
+}
+"""Primitives of the kernel that are no rule of the engine: rules whose steps are made of them."""
+
 METHODS: dict[str, Row] = {
     "vs": RULES["virtual substitution"],
     "vs, cubic": row(

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
+from unittest.mock import patch
 
 from qe.engine.run import answered
 from qe.exact.ring import Ring
 from qe.formula.syntax import Formula
 from qe.io.names import names_in
 from qe.io.text import read
+from qe.kernel.statements import rows
 from qe.options import Budget, Options
 from qe.proof.derivation import moved, put_together
 from qe.proof.entry import Entry, Json, formula_from_json
 from qe.proof.run_log import Choice, RunLog
-from qe.proof.step import Step
+from qe.proof.step import Place, Step
+from qe.proving.elaborators import ELABORATORS
+from qe.proving.nested import names_within
 from qe.proving.prover import Prover
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
@@ -30,7 +35,10 @@ KINDS = {kind.value: kind for kind in StepKind}
 
 @dataclass(frozen=True, slots=True)
 class TrueStep:
-    """``before`` <-> ``after`` wherever the ``facts`` hold, by the theorem of the ``rule``, with accepted evidence."""
+    """``before`` <-> ``after`` wherever the ``facts`` hold, by the theorem of the ``rule``, with accepted evidence.
+
+    Of a rule that is elaborated, the evidence is that from which the steps of primitives are made.
+    """
 
     rule: str
     ring: Ring
@@ -81,9 +89,51 @@ def proved(
     """The steps of a log for which evidence is accepted, those inside it too, and the rules of the others."""
     derivation = put_together(question, log.steps(), answer)
     formulas = (question, answer, *(s.before for s in derivation.steps))
-    prover = Prover(Ring.of(dict.fromkeys(n for f in formulas for n in names_in(f))), options, Budget(TO_PROVE))
-    prover.whole(derivation, moved(derivation.start, prover.ring), moved(answer, prover.ring))
-    return tuple(_read(prover.steps, prover.ring)), tuple(prover.unchecked)
+    names = (*(n for f in formulas for n in names_in(f)), *names_within(list(derivation.steps)))
+    prover = Prover(Ring.of(dict.fromkeys(names)), options, Budget(TO_PROVE))
+    with elaborated() as steps:
+        prover.whole(derivation, moved(derivation.start, prover.ring), moved(answer, prover.ring))
+    return (*_read(prover.steps, prover.ring), *steps), tuple(prover.unchecked)
+
+
+@contextmanager
+def elaborated() -> Iterator[list[TrueStep]]:
+    """The steps of elaborated rules that provers take meanwhile, also inside evidence, with that of former releases."""
+    taken: list[TrueStep] = []
+    original = Prover._at
+
+    def at(prover: Prover, place: Place, step: Step, current: Formula) -> Formula:
+        before = len(prover.steps)
+        changed = original(prover, place, step, current)
+        if step.rule in ELABORATORS and len(prover.steps) == before + 1:
+            made = prover.steps[-1]
+            assert isinstance(made, dict)
+            evidence = former_evidence(prover, step, made)
+            if evidence is not None:
+                facts = () if step.rule == "redundant part" else _facts(made, prover.ring)
+                taken.append(TrueStep(step.rule, prover.ring, step.before, step.after, facts, evidence))
+        return changed
+
+    with patch.object(Prover, "_at", at):
+        yield taken
+
+
+def former_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
+    """The evidence that a step had as one of its own rule, seen from what was made of it; None where it was made
+    otherwise."""
+    proof, evidence = step.evidence.get("proof"), made["evidence"]
+    assert isinstance(evidence, dict)
+    match made["rule"]:
+        case "theorem":
+            return {} if rows()[str(evidence["theorem"])].family == step.rule else None
+        case "no exception":
+            exceptions = evidence["exceptions"]
+            assert isinstance(exceptions, list) and isinstance(proof, Mapping)
+            at = {"at": list(proof["at"])} if step.rule == "redundant part" else {}
+            return {**at, "steps": exceptions[0]}
+        case "steps":
+            return prover._plain(proof) if isinstance(proof, Mapping) else {}
+    return evidence if (step.rule, made["rule"]) == ("constant", "cells") else None
 
 
 def former_step(rng: random.Random, rule: str) -> TrueStep:
@@ -99,8 +149,11 @@ def former_step(rng: random.Random, rule: str) -> TrueStep:
 
 def _read(listed: list[Json], ring: Ring) -> Iterator[TrueStep]:
     for data in steps(listed):
-        before, after, *facts = (
-            formula_from_json(Entry(part, ""), ring, quantified=True)
-            for part in (data["before"], data["after"], *data["context"])
-        )
-        yield TrueStep(data["rule"], ring, before, after, tuple(facts), data["evidence"])
+        sides = (Entry(data[side], "") for side in ("before", "after"))
+        before, after = (formula_from_json(side, ring, quantified=True) for side in sides)
+        yield TrueStep(data["rule"], ring, before, after, _facts(data, ring), data["evidence"])
+
+
+def _facts(data: dict[str, Json], ring: Ring) -> tuple[Formula, ...]:
+    """What the step uses of its surroundings."""
+    return tuple(formula_from_json(e, ring, quantified=True) for e in Entry(data["context"], "").items())

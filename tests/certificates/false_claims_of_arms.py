@@ -162,7 +162,9 @@ def branch(rng: random.Random) -> Certificate | None:
                 "radius": [rng.choice(("1/8", "1/20", "1/50"))] * 3,
             }
         )
-    payload: Any = {"arm": arm, "curves": [[[str(v) for v in point] for point in (start, end)]], "pieces": pieces}
+    curves = [[[str(v) for v in point] for point in (start, end)]]
+    limits = [rng.choice((None, [str(Fraction(round((v + d) * 64), 64)) for d in (-1 / 8, 1 / 8)])) for v in q]
+    payload: Any = {"arm": arm, "curves": curves, "limits": limits, "pieces": pieces}
     try:
         check_branch(payload)
     except CertificateRejected:
@@ -171,7 +173,7 @@ def branch(rng: random.Random) -> Certificate | None:
 
 
 def leaves_the_branch(rng: random.Random, data: Data) -> bool:
-    """Whether a box holds no solution or several, or neighbouring boxes different ones."""
+    """Whether a box holds no solution or several, or neighbouring ones different ones, or a joint breaks its limits."""
     payload = data["payload"]
     before: Vector | None = None
     for piece in payload["pieces"]:
@@ -179,6 +181,9 @@ def leaves_the_branch(rng: random.Random, data: Data) -> bool:
         for s in (low, (low + high) / 2, high):
             found = _in_box(payload["arm"], _on_curve(payload["curves"][piece["curve"]], s), piece, s)
             if found is None or (s == low and before is not None and hypot(*_minus(found, before)) > 1e-5):
+                return True
+            ends = zip(found, payload["limits"])
+            if any(e is not None and not Fraction(e[0]) - 1e-6 < v < Fraction(e[1]) + 1e-6 for v, e in ends):
                 return True
             before = found
     return False
@@ -227,7 +232,7 @@ def other_positions(rng: random.Random, data: Data) -> bool:
     point = [sum((Fraction(q) for q, _ in c), Fraction(0)) for c in payload["point"]]
     boxes = [box for root in payload["roots"] for box in root["solutions"]]
     try:
-        found = solve(read_arm(_toml(payload["arm"])), point)
+        found = solve(read_arm(toml_of(payload["arm"])), point)
     except QEError:
         return False
     if found.count is None or found.count != payload["count"] or found.count != len(boxes):
@@ -241,7 +246,8 @@ def _holds(box: Any, values: Vector) -> bool:
     return all(low - 1e-7 <= v <= high + 1e-7 for (low, high), v in zip(ends, values, strict=True))
 
 
-def _toml(arm: Data) -> str:
+def toml_of(arm: Data) -> str:
+    """The text of an arm as a certificate holds it."""
     return "\n".join(_lines(arm))
 
 
@@ -251,6 +257,7 @@ def _lines(arm: Data) -> Iterator[str]:
         yield "[[row]]"
         if row["joint"]:
             yield f'joint = "t{k}"'
+            yield f'kind = "{row["joint"]}"'
         for name in ("a", "d"):
             yield f'{name} = "{row[name]}"'
         for name in ("alpha", "theta"):

@@ -5,11 +5,10 @@ from __future__ import annotations
 from functools import lru_cache
 
 from qe.cad.decompose import decompose
+from qe.cad.operators.table import OPERATORS
 from qe.io.text import read
 from qe.options import Budget, Projection
 from qe.proof.certificate import Certificate
-
-BOTH = (Projection.BROWN_MCCALLUM, Projection.LAZARD)
 
 
 @lru_cache(maxsize=64)
@@ -19,5 +18,5 @@ def cell_table(
     """The certificate of a quantifier-free matrix; ``quantifiers`` has one of ``.EA`` per variable in ``order``."""
     names = tuple(order.split())
     prefix = tuple(q.replace(".", "") for q in (quantifiers or "." * len(names)))
-    found = decompose(read(text), names, prefix, budget=Budget(60), projection=projection)
+    found = decompose(read(text), names, prefix, budget=Budget(60), operator=OPERATORS[projection])
     return Certificate.cells(found.table)

@@ -59,7 +59,7 @@ def under_or(m: pytest.MonkeyPatch) -> None:
 
 def one_rotation(m: pytest.MonkeyPatch) -> None:
     """Every polynomial counts as constant along a rotation."""
-    m.setattr(rotation, "rotations", lambda polys, pairs: [{pairs[0]: Fraction(1)}])
+    m.setattr(rotation, "rotations", lambda polys, pairs, *_: [{pairs[0]: Fraction(1)}])
 
 
 def no_plane(m: pytest.MonkeyPatch) -> None:
@@ -183,7 +183,7 @@ def test_signs_of_variables_that_move(careless: bool, monkeypatch: pytest.Monkey
     first = rotation.Turn("x", "y", frozenset("xyuv"), (("x", "y", one), ("u", "v", one)))
     second = rotation.Turn("u", "w", frozenset("xzuw"), (("x", "z", one), ("u", "w", one)))
     turns = iter([first, replace(second, moved=frozenset()) if careless else second])
-    monkeypatch.setattr(symmetry, "invariant_plane", lambda variables, body, wanted: next(turns, None))
+    monkeypatch.setattr(symmetry, "invariant_plane", lambda *_: next(turns, None))
     dot = "ex x, y, z, u, v, w. x^2 + y^2 + z^2 = a and u^2 + v^2 + w^2 = b and x*u + y*v + z*w > c"
     (step,) = steps_of(dot, TURNED)
     assert accepted(step) is not careless
@@ -239,7 +239,7 @@ def test_equations_of_which_one_is_lost(monkeypatch: pytest.MonkeyPatch) -> None
     assert accepted(untangling(given))
     from qe.simplify.simplify import simplify
 
-    monkeypatch.setattr(untangle, "simplify", lambda formula: conj(simplify(formula).args[:1]))  # type: ignore[attr-defined]
+    monkeypatch.setattr(untangle, "simplify", lambda formula, **_: conj(simplify(formula).args[:1]))  # type: ignore[attr-defined]
     assert not accepted(untangling(given))
 
 

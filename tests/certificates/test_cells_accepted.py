@@ -12,7 +12,7 @@ from qe.io.text import read
 from qe.options import Projection
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
-from tests.certificates.producing import BOTH, cell_table
+from tests.certificates.producing import cell_table
 
 THREE_BALLS = (
     "x^2 + y^2 + z^2 <= {r} and (x - {a})^2 + (y - {b})^2 + (z - {c})^2 <= {r} "
@@ -49,7 +49,7 @@ QUANTIFIED = {
 }
 
 
-@pytest.mark.parametrize("projection", BOTH)
+@pytest.mark.parametrize("projection", Projection)
 @pytest.mark.parametrize("name", FREE)
 def test_tables_over_free_variables(name: str, projection: Projection) -> None:
     certificate = cell_table(*FREE[name], projection=projection)
@@ -59,7 +59,7 @@ def test_tables_over_free_variables(name: str, projection: Projection) -> None:
     assert checker.verify(again).accepted
 
 
-@pytest.mark.parametrize("projection", BOTH)
+@pytest.mark.parametrize("projection", Projection)
 @pytest.mark.parametrize("name", QUANTIFIED)
 def test_quantified_tables(name: str, projection: Projection) -> None:
     text, order, quantifiers, truth = QUANTIFIED[name]

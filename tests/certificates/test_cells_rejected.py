@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-import qe.cad.projection as projection
 from qe.cad.decompose import decompose
+from qe.cad.operators.operator import Operator
+from qe.cad.operators.table import OPERATORS
 from qe.certify.verify import verify, verify_json
 from qe.errors import InputError
+from qe.exact.from_projection import discriminant
+from qe.exact.ring import Poly
 from qe.io.text import read
 from qe.options import Budget, Projection
 from qe.proof.certificate import Certificate
 from tests.certificates.mutation import Path, leaves, lists, other_numbers, other_signs, replaced, without
-from tests.certificates.producing import BOTH, cell_table
+from tests.certificates.producing import cell_table
 
 LENS = ("x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4", "x y")
 SOLID = ("x^2 + y^2 + z^2 <= 4", "x y z")
@@ -180,16 +185,32 @@ def test_another_version_is_refused() -> None:
         Certificate.from_json(text)
 
 
-@pytest.mark.parametrize("left_out", ["discriminant", "resultant"])
-@pytest.mark.parametrize("operator", BOTH)
-def test_a_projection_without_a_part_is_rejected(
-    left_out: str, operator: Projection, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_operator_without_a_theorem_of_the_checker_is_refused() -> None:
+    """McCallum's tables are recorded under the theorem that proves them, never under his name."""
+    made = decompose(read(LENS[0]), ("x", "y"), ("", ""), budget=Budget(60), operator=OPERATORS[Projection.MCCALLUM])
+    assert made.operator.name is Projection.MCCALLUM and made.table.projection is Projection.BROWN_MCCALLUM
+    verdict = verify_json(replaced(_whole(LENS), ("payload", "projection"), "mccallum"))
+    assert not verdict.accepted and verdict.step == "payload.projection"
+
+
+def without_discriminants(operator: Operator) -> Operator:
+    def of_one(f: Poly, variable: int) -> Iterator[Poly]:
+        yield from (p for p in operator.of_one(f, variable) if p != discriminant(f, variable))
+
+    return replace(operator, of_one=of_one)
+
+
+def without_resultants(operator: Operator) -> Operator:
+    return replace(operator, of_two=lambda f, g, variable: iter(()))
+
+
+@pytest.mark.parametrize("part", [without_discriminants, without_resultants])
+@pytest.mark.parametrize("projection", Projection)
+def test_a_projection_without_a_part_is_rejected(part: Callable[[Operator], Operator], projection: Projection) -> None:
     names, matrix = ("a", "b", "x"), read("x^3 + a*x + b < 0 and x^2 - a > b")
-    right = decompose(matrix, names, ("", "", "E"), budget=Budget(60), projection=operator).table
+    right = decompose(matrix, names, ("", "", "E"), budget=Budget(60), operator=OPERATORS[projection]).table
     assert verify(Certificate.cells(right)).accepted
-    monkeypatch.setattr(projection, left_out, lambda f, *more: f.ring.constant(1))
-    wrong = decompose(matrix, names, ("", "", "E"), budget=Budget(60), projection=operator).table
+    wrong = decompose(matrix, names, ("", "", "E"), budget=Budget(60), operator=part(OPERATORS[projection])).table
     verdict = verify(Certificate.cells(wrong))
     assert not verdict.accepted
     assert verdict.step

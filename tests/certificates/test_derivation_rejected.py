@@ -87,10 +87,13 @@ ELSEWHERE = {
     "Boolean search": "certificates/test_boolean_search",
     "comprehensive Gröbner system": "certificates/test_counted_solutions",
     "point or multipliers": "certificates/test_derivation_rejected",
-    "cubic on an interval": "unit/rules/test_cubic_interval",
-    "square of a variable alone": "unit/rules/test_square_alone",
+    "homogeneous scaling": "unit/certify/test_symmetry",
+    "linear form as a variable": "unit/rules/test_shear",
 }
 """Rules whose evidence is altered in a file of its own."""
+
+OTHERWISE = {"cells", "convex", "critical values", "infinity first", "shorter", "steps", "virtual substitution"}
+"""Rules whose evidence has tests of its own."""
 
 FORMER = {"only asked to be no root", "vanishing sum of squares split"}
 """Rules of older certificates, which nothing makes any more: see ``test_broken_producers``."""
@@ -189,7 +192,7 @@ def test_another_start_or_answer(name: str) -> None:
 def test_every_entry_of_the_evidence(whole: dict[str, Any], k: int) -> None:
     """Numbers, names and lemmas: none may be changed, and none is there for nothing."""
     step = whole["payload"]["steps"][k]
-    if step["rule"] in ("cells", "convex", "critical values", "infinity first", "shorter", "virtual substitution"):
+    if step["rule"] in OTHERWISE:
         return  # evidence with tests of its own
     for path, value in entries(step["evidence"]):
         if "samples" in path or (path[0] == "weights" and len(step["evidence"]["weights"]) == 1):

@@ -23,12 +23,14 @@ from tests.certificates.false_claims_of_arms import (
     solutions,
 )
 from tests.certificates.false_claims_of_classifications import classification, other_numbers
+from tests.certificates.false_claims_of_motions import motions, other_motions
 
 KINDS = {
     **OLDER,
     "solutions": (solutions, other_solutions),
     "branch": (branch, leaves_the_branch),
     "inverse": (inverse, other_positions),
+    "motions": (motions, other_motions),
     "classification": (classification, other_numbers),
 }
 DEEP = {
@@ -43,6 +45,7 @@ DEEP = {
     "solutions": 2000,
     "branch": 1000,
     "inverse": 400,
+    "motions": 2000,
     "classification": 1600,
 }
 PARTS = 4

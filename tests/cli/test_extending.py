@@ -86,7 +86,7 @@ def test_the_commands(tree: Path) -> None:
 
 def test_the_style_of_the_new_files(tree: Path) -> None:
     new = [named(text)[0] for language, text in BLOCKS if language == "python"]
-    assert len(new) == 5
+    assert len(new) == 6
     shutil.copy(ROOT / "pyproject.toml", tree)
     done = run(tree, sys.executable, "-m", "ruff", "check", "--ignore", "I001", *new)
     assert done.returncode == 0, done.stdout

@@ -266,7 +266,8 @@ def test_check_says_what_is_claimed(tmp_path: Path) -> None:
     lines = run("check", str(path)).stdout.splitlines()
     assert lines[0].startswith("accepted")
     assert lines[1].startswith("the sentence  all x, y, z, u, v.")
-    assert lines[2:] == ["is true", "by point or multipliers"]
+    rests = "rests on: optimum, a kind of certificate of the expert ring"
+    assert lines[2:] == ["is true", "by point or multipliers", rests]
     asked = run("check", str(path), "--formula", question.replace("x^2 + y^2", "y^2 + x^2"))
     assert asked.stdout.splitlines()[-1] == "so the question that was given has the answer  true"
     refused(run("check", str(path), "--formula", "all x. x^2 > -1"), 4, "claim", "something else")

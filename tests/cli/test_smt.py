@@ -14,9 +14,9 @@ import pytest
 
 import qe
 from qe.cli.smt import Solver
-from qe.io.grammar import Failing
 from qe.io.smtlib_parser import Listing, parse
 from qe.io.smtlib_script import Script
+from qe.io.text_errors import Failing
 
 QE = Path(sys.executable).with_name("qe")
 XY = "(declare-fun x () Real)(declare-const y Real)(declare-const p Bool)"

@@ -8,6 +8,7 @@ import pytest
 
 import qe
 from qe.cad.decompose import Tactics, decompose
+from qe.cad.operators.table import OPERATORS
 from qe.cad.order import OrderRule
 from qe.cad.order_by_projection import choose_order
 from qe.cells.formulas import construct
@@ -55,9 +56,8 @@ def _check(name: str, order: tuple[str, ...], tactics: Tactics, projection: Proj
     matrix, _, quantifiers, expected = _setting(name)
 
     def table(levels: frozenset[int] = frozenset()) -> object:
-        return decompose(
-            matrix, order, quantifiers, budget=Budget(20), projection=projection, thom_levels=levels, tactics=tactics
-        ).table
+        given = {"operator": OPERATORS[projection], "thom_levels": levels, "tactics": tactics}
+        return decompose(matrix, order, quantifiers, budget=Budget(20), **given).table  # type: ignore[arg-type]
 
     answer, proof = construct(table(), table)  # type: ignore[arg-type]
     free = tuple(v for v, q in zip(order, quantifiers, strict=True) if not q)

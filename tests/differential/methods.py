@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from qe.cad.decompose import decompose
+from qe.cad.operators.table import OPERATORS
 from qe.cells.formulas import construct
 from qe.elimination.coverings import Coverings
 from qe.elimination.protocol import Context, Problem
@@ -14,6 +15,7 @@ from qe.formula.build import disj, exists, neg
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Constant, Formula
 from qe.options import Budget, Options, Projection
+from qe.proof.cells import CellTable
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
 from qe.simplify.simplify import simplify
@@ -32,11 +34,11 @@ def by_cad(projection: Projection) -> Part:
         order = (*free, *(name for _, names in prefix for name in names))
         kinds = (*("" for _ in free), *(kind.value for kind, names in prefix for _ in names))
 
-        def refine(levels: frozenset[int]) -> object:
-            return decompose(matrix, order, kinds, budget=budget, projection=projection, thom_levels=levels).table
+        def refine(levels: frozenset[int] = frozenset()) -> CellTable:
+            operator = OPERATORS[projection]
+            return decompose(matrix, order, kinds, budget=budget, operator=operator, thom_levels=levels).table
 
-        table = decompose(matrix, order, kinds, budget=budget, projection=projection).table
-        return construct(table, refine)[0]  # type: ignore[arg-type]
+        return construct(refine(), refine)[0]
 
     return run
 
@@ -73,7 +75,6 @@ PARTS: dict[str, Part] = {
     "simplify": lambda f, budget: simplify(f),
     "prepare": lambda f, budget: prepare(f, budget=budget).formula,
     "vs": by_substitution,
-    "cad-brown-mccallum": by_cad(Projection.BROWN_MCCALLUM),
-    "cad-lazard": by_cad(Projection.LAZARD),
+    **{f"cad-{projection.value}": by_cad(projection) for projection in Projection},
     "coverings": by_coverings,
 }

@@ -31,3 +31,9 @@ def test_call(call: str) -> None:
 def test_every_stage_has_its_rows_in_the_table_of_gains() -> None:
     gains = (DOCS / "algorithms.md").read_text().partition("## What each step gains")[2]
     assert set(re.findall(r"^\| `(\w+)`", gains, re.M)) == {stage.value for stage in qe.Stage} | {"coverings"}
+
+
+def test_every_projection_operator_has_its_row_in_the_comparison() -> None:
+    text = (DOCS / "algorithms.md").read_text().partition("## The projection operators compared")[2]
+    compared = text.partition("\n## ")[0]
+    assert re.findall(r"^\| `([^`]+)` \| \d", compared, re.M) == [projection.value for projection in qe.Projection]

@@ -11,7 +11,7 @@ from experiments.adapters.__main__ import PEERS
 from experiments.adapters.answer import Limits, NotSupported
 from experiments.adapters.ours import ours
 from experiments.compare import Verdict, compare
-from experiments.solvers import ABLATIONS, METHODS, NAMES, OURS
+from experiments.solvers import ENGINES, NAMES, OURS
 from qe.errors import Unable
 from qe.io.text import read
 
@@ -30,12 +30,13 @@ WITH_PARAMETERS = {
 
 
 def solve(name, formula):
-    adapter = ours(name) if name.startswith(OURS) else PEERS[name]
+    adapter = ours(name) if name in ENGINES else PEERS[name]
     return adapter(read(formula), LIMITS)
 
 
 @pytest.mark.parametrize(
-    "name", [OURS, "ours-cad", "ours-without-partial", "sympy-extras", "z3", "cvc5", "yices", QEPCAD]
+    "name",
+    [OURS, "ours-cad", "ours-cad-mccallum", "ours-without-partial", "sympy-extras", "z3", "cvc5", "yices", QEPCAD],
 )
 def test_sentences(name):
     for formula, expected in SENTENCES.items():
@@ -77,7 +78,7 @@ def test_our_inability_is_told():
 
 
 def test_all_names_have_an_adapter():
-    assert set(NAMES) == {OURS, *METHODS, *ABLATIONS, *PEERS}
+    assert set(NAMES) == {*ENGINES, *PEERS}
 
 
 def test_the_program(root):

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from qe import Guarantee, eliminate, reference
 from qe.cad.decompose import Decomposition, Tactics, decompose
+from qe.cad.operators.table import OPERATORS
 from qe.cells.formulas import construct
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded
@@ -181,7 +182,7 @@ def test_checked_answers_where_a_free_level_may_have_a_constraint(
 def test_many_sentences_in_space(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> bool:
     found = _decomposed(matrix, quantifiers)
     try:
-        plain = decompose(matrix, NAMES, quantifiers, budget=Budget(5), projection=projection, tactics=PLAIN)
+        plain = decompose(matrix, NAMES, quantifiers, budget=Budget(5), operator=OPERATORS[projection], tactics=PLAIN)
     except BudgetExceeded:
         return False
     if found is None:

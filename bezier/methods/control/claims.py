@@ -30,7 +30,7 @@ def member(certificate: Certificate, label: str, kind: Kind) -> Any:
     """The payload of the member with this label and kind."""
     if isinstance(certificate.payload, tuple):
         for item in certificate.payload:
-            if item.label == label and item.certificate.kind is kind:
+            if item.label == label and item.certificate.kind == kind:
                 return item.certificate.payload
     raise CertificateRejected("certificate.json", f"no certificate of kind {kind.value} with the label {label!r}")
 

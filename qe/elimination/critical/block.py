@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
 
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.cad.operators.operator import Operator
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres
@@ -16,7 +18,7 @@ from qe.elimination.critical.separate import separated
 from qe.elimination.critical.system import System, systems
 from qe.elimination.critical.table import Shape, TableBuilder, Truth
 from qe.elimination.critical.walls import FEW, Box, Walls, box_around, walls_in_plane
-from qe.errors import NotWellOriented, Unable
+from qe.errors import Unable
 from qe.exact.nearby import nearby
 from qe.exact.quadratic_form import quadratic
 from qe.exact.ring import Poly, Ring
@@ -24,7 +26,7 @@ from qe.exact.sample import Point
 from qe.exact.watch import Watch
 from qe.formula.build import convert
 from qe.formula.syntax import TRUE, Formula
-from qe.options import Budget, Projection
+from qe.options import Budget
 from qe.proof.cells import CellTable
 
 Refine = Callable[[frozenset[int]], CellTable]
@@ -193,7 +195,7 @@ class Run:
         return (witness or (Fraction(0),) * size)[: self.system.free]
 
     def _levels(self, polys: frozenset[Poly]) -> Levels:
-        return self.procedures.project(polys, self.system.free, Projection.BROWN_MCCALLUM, self.budget, frozenset())
+        return self.procedures.project(polys, self.system.free, BROWN_MCCALLUM, self.budget, frozenset())
 
     def _tabulated(self, boundary: frozenset[Poly], shape: Shape, truth: Truth) -> Tabulated:
         """The table for the boundary polynomials, closed under projection, with the truth of every cell."""
@@ -201,21 +203,18 @@ class Run:
         if shape is Shape.CONVEX and size > 2 and not has_bounded_fibres(self.system.without_parameters()):
             shape = Shape.CLOSED  # the theorem of ``Shape.CONVEX`` then has only been proved in the plane
 
-        def attempt(closed: frozenset[int], projection: Projection) -> tuple[CellTable, frozenset[Poly]]:
-            levels = self.procedures.project(boundary, size, projection, self.budget, closed)
-            known = Shape.CLOSED if shape is Shape.CONVEX and size > 2 and projection is Projection.LAZARD else shape
-            builder = TableBuilder(levels, projection, boundary, known, truth, self.budget)
+        def attempt(closed: frozenset[int], operator: Operator) -> tuple[CellTable, frozenset[Poly]]:
+            levels = self.procedures.project(boundary, size, operator, self.budget, closed)
+            known = Shape.CLOSED if shape is Shape.CONVEX and size > 2 and operator.evaluates else shape
+            builder = TableBuilder(levels, operator, boundary, known, truth, self.budget)
             root = builder.run(Point(self.system.ring, watch=Watch(self.budget.check)))
             outer = Ring.of(self.system.ring.names[:size])
             factors = tuple(tuple(f.convert(outer) for f in level) for level in levels)
-            table = CellTable(outer.names, ("",) * size, TRUE, projection, factors, root)
+            table = CellTable(outer.names, ("",) * size, TRUE, operator.proof, factors, root)
             return table, frozenset(builder.unsettled)
 
         def table(closed: frozenset[int]) -> tuple[CellTable, frozenset[Poly]]:
-            try:
-                return attempt(closed, Projection.BROWN_MCCALLUM)
-            except NotWellOriented:
-                return attempt(closed, Projection.LAZARD)
+            return BROWN_MCCALLUM.applied(lambda operator: attempt(closed, operator))
 
         first, unsettled = table(frozenset())
         return Tabulated(first, lambda levels: table(levels)[0], unsettled)

@@ -9,6 +9,7 @@ from fractions import Fraction
 from itertools import permutations
 
 from qe.cad.decompose import decompose
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.cad.order import brown_order
 from qe.cad.over_point import over_point
 from qe.cad.projection import factor_lists
@@ -39,7 +40,7 @@ from qe.formula.evaluate import substituted, truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
-from qe.options import Budget, Options, Projection, Stage
+from qe.options import Budget, Options, Stage
 from qe.proof.cells import FreeCell
 from qe.proof.step import Nested, Step
 from qe.simplify.simplify import simplify
@@ -350,7 +351,7 @@ def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget
 
     def cost(order: tuple[str, ...]) -> int:
         moved = [f.convert(Ring.of(order)) for f in polys]
-        return sum(f.total_degree for f in factor_lists(moved, 2, Projection.BROWN_MCCALLUM, budget)[0])
+        return sum(f.total_degree for f in factor_lists(moved, 2, BROWN_MCCALLUM, budget)[0])
 
     return min(permutations(names), key=cost)
 

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 
+from qe.cad.operators.operator import Operator
 from qe.elimination.critical.procedures import Levels
-from qe.errors import NotWellOriented
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
-from qe.options import Budget, Projection
+from qe.options import Budget
 from qe.proof.cells import Cell, Stack
 
 Truth = Callable[[Point, frozenset[Poly]], bool]
@@ -43,7 +43,7 @@ class TableBuilder:
     """
 
     levels: Levels
-    projection: Projection
+    operator: Operator
     boundary: frozenset[Poly]
     shape: Shape
     truth: Truth
@@ -65,9 +65,9 @@ class TableBuilder:
             self.budget.check("cells", self.cells)
             return Cell(signs, self._truth(point, vanishing, dimension, neighbours))
         factors = self.levels[level]
-        isolation = isolate_over(point, factors, lazard=self.projection is Projection.LAZARD)
-        if isolation.nullified and self.projection is not Projection.LAZARD:
-            raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
+        isolation = isolate_over(point, factors, lazard=self.operator.evaluates)
+        if isolation.nullified:
+            self.operator.check_nullified(level, dimension)
         texts = isolation.sign_texts()
         cells: dict[int, Cell] = {}
         for position in (*range(0, len(texts), 2), *range(1, len(texts), 2)):

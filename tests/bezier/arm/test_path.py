@@ -253,4 +253,4 @@ def test_the_command() -> None:
     assert said["curves"][0]["intervals"][0]["solutions"] == 4
     assert verify_json(evidence).accepted
     words, _ = certify(None, ARM, {"line": Bezier.of([(400, 0, 100), (390, 0, 100)])}, json=False)  # type: ignore[arg-type]
-    assert "NOT reachable" in words and "0 continuous joint motions" in words
+    assert "NOT reachable" in words and "no continuous joint motion from start to goal (proved)" in words

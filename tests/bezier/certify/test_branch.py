@@ -34,7 +34,7 @@ THIRD = piece(1, "0", "1", "3 -3 1", "0 -2 0")
 
 def payload(*pieces: dict[str, Any], **changed: Any) -> Any:
     arm = {"convention": "standard", "rows": ROWS, **changed}
-    return {"arm": arm, "curves": [LINE, NEXT], "pieces": list(pieces)}
+    return {"arm": arm, "curves": [LINE, NEXT], "limits": [None, None, None], "pieces": list(pieces)}
 
 
 def objection(given: Any) -> str:
@@ -118,7 +118,8 @@ def test_a_turning_arm_has_two_solutions_and_a_piece_holds_one() -> None:
     still = [["1", "1", "0"], ["1", "1", "1"]]
 
     def given(*pieces: dict[str, Any]) -> Any:
-        return {"arm": {"convention": "standard", "rows": rows}, "curves": [still], "pieces": list(pieces)}
+        arm = {"convention": "standard", "rows": rows}
+        return {"arm": arm, "curves": [still], "limits": [None] * 3, "pieces": list(pieces)}
 
     quarter = "15707963/10000000"
     down, up = f"0 {quarter} 1/2", f"{quarter} -{quarter} 1/2"

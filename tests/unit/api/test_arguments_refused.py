@@ -70,7 +70,7 @@ class Door:
 EVERYWHERE = {
     "timeout": {"int", "float", "none"},
     "memory": {"none"},
-    **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process", "total_division", "anytime")},
+    **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process", "total_division", "anytime", "core")},
     "order": {"none", "list"},
     "without": {"list", "dict"},
     "race": {"list", "dict"},
@@ -290,7 +290,7 @@ def test_a_wrong_value_is_named_in_one_line(door: Door, argument: str) -> None:
         try:
             door.call(**given, **{argument: wrap(value)})
         except qe.InputError as error:
-            assert "\n" not in str(error) and 10 < len(str(error)) < 400, error
+            assert "\n" not in str(error) and 10 < len(str(error)) < 420, error
         else:
             pytest.fail(f"{kind} was taken")
 

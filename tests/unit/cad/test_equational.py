@@ -12,13 +12,14 @@ from hypothesis import strategies as st
 import qe
 from qe.cad.constraints import equational_constraints
 from qe.cad.decompose import Tactics, decompose
+from qe.cad.operators.lazard import LAZARD
 from qe.certify.verify import verify
 from qe.exact.ring import Ring, format_poly
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
 from qe.io.text import read
-from qe.options import Budget, Projection
+from qe.options import Budget
 from qe.proof.cells import Cell
 from qe.proof.certificate import Certificate
 from tests.unit.elimination.vs.line import satisfiable, specialise
@@ -62,7 +63,7 @@ def test_the_projection_gets_smaller() -> None:
     matrix = _matrix("y^2 + x^2 = 1 and y^3 - a*x > 0 and y^2*x + a < 2")
     kinds = ("", "E", "E")
     small = decompose(matrix, ORDER, kinds, budget=Budget())
-    large = decompose(matrix, ORDER, kinds, budget=Budget(), projection=Projection.LAZARD)
+    large = decompose(matrix, ORDER, kinds, budget=Budget(), operator=LAZARD)
     assert small.restricted == ("y",) and not large.restricted
     assert small.factors < large.factors
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
+from qe.cad.operators.lazard import LAZARD
 from qe.cad.projection import FactorSet, factor_lists
 from qe.exact.ring import Poly, Ring
-from qe.options import Budget, Projection
+from qe.options import Budget
 from tests.strategies import polynomials
 
 RING = Ring.of(("x", "y"))
@@ -33,7 +34,7 @@ def test_only_irreducible_factors_and_each_once(polys: list[Poly]) -> None:
 def test_projection_stops_at_the_lowest_level_wanted() -> None:
     x, y = RING.gen(0), RING.gen(1)
     circle = x**2 + y**2 - 1
-    below, above = factor_lists([circle], 2, Projection.LAZARD, Budget(), lowest=1)
+    below, above = factor_lists([circle], 2, LAZARD, Budget(), lowest=1)
     assert (below, above) == ((), (circle,))
-    below, _ = factor_lists([circle], 2, Projection.LAZARD, Budget())
+    below, _ = factor_lists([circle], 2, LAZARD, Budget())
     assert set(below) == {x - 1, x + 1}

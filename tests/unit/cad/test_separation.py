@@ -8,9 +8,10 @@ import pytest
 
 import qe
 from qe.cad.decompose import decompose
+from qe.cad.operators.lazard import LAZARD
 from qe.certify.verify import verify
 from qe.io.text import read
-from qe.options import Budget, Projection
+from qe.options import Budget
 from qe.proof.cells import Cell
 from qe.proof.certificate import Certificate
 
@@ -33,7 +34,7 @@ def test_all_cells_of_a_separated_stack_differ_in_signs() -> None:
             order,
             quantifiers,
             budget=Budget(),
-            projection=Projection.LAZARD,
+            operator=LAZARD,
             thom_levels=thom_levels,
         ).table
         assert verify(Certificate.cells(table)).accepted

@@ -16,7 +16,7 @@ from qe.io.text import read
 from qe.options import Budget, Projection
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
-from tests.certificates.producing import BOTH, cell_table
+from tests.certificates.producing import cell_table
 
 
 def table(text: str, order: str, projection: Projection = Projection.BROWN_MCCALLUM) -> CellTable:
@@ -32,7 +32,7 @@ def fibre(text: str, *values: Number, projection: Projection = Projection.BROWN_
 ROOT = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
-@pytest.mark.parametrize("projection", BOTH)
+@pytest.mark.parametrize("projection", Projection)
 @pytest.mark.parametrize(
     ("text", "values", "ends"),
     [

@@ -33,7 +33,7 @@ class Table:
         self.ring = Ring.of(tuple("xyzw"[: len(levels)]))
         lists = FactorLists(self.ring, [[self.poly(f) for f in level.split(",") if f.strip()] for level in levels])
         self.lists = lists
-        self.checker = StackChecker(lists, check_closure(lists, projection, constraints, Budget()), projection)
+        self.checker = StackChecker(lists, check_closure(lists, projection, constraints, Budget()))
 
     def poly(self, text: str) -> Poly:
         return convert(read(f"{text} = 0"), self.ring).poly  # type: ignore[attr-defined,no-any-return]

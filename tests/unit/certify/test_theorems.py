@@ -14,7 +14,6 @@ def test_every_rule_with_a_checker_has_its_theorem(rule: str) -> None:
 
 
 def test_a_rule_has_the_theorem_of_its_checker_and_no_other() -> None:
-    assert "Buchberger" not in str(theorem_of("two balls")) and "|x|^2" in theorem_of("two balls")[0]
-    assert "translation" in theorem_of("translation of the origin")[0]
+    assert "intermediate values" in theorem_of("root")[0]
     assert len(theorem_of("homogeneous scaling")) == 1
     assert theorem_of("no such rule") == ()

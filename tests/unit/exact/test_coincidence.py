@@ -6,13 +6,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from qe.cad.operators.lazard import LAZARD
 from qe.cad.projection import factor_lists
 from qe.exact import fibre_stack, sample
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.from_projection import discriminant, have_common_root, most_distinct, resultant
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.options import Budget, Projection
+from qe.options import Budget
 
 RING = Ring.of(("a", "b", "c", "x"))
 A, B, C, X = (RING.gen(i) for i in range(4))
@@ -104,7 +105,7 @@ def test_what_the_projection_knows_of_a_sample() -> None:
     assert (
         most_distinct(point.sign, f, 1, 2) is None and have_common_root(point.sign, f, g, 1) is None
     )  # nothing was computed yet
-    lists = factor_lists([f, g], 2, Projection.LAZARD, Budget())
+    lists = factor_lists([f, g], 2, LAZARD, Budget())
     assert lists[1] == (f, g) or lists[1] == (g, f)
     assert most_distinct(point.sign, f, 1, 2) == 1
     assert have_common_root(point.sign, f, g, 1) is False

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.algebraic import real_roots
-from qe.exact.descartes import most_real_roots
+from qe.exact.descartes import most_real_roots, most_roots_between
 from qe.exact.ring import Ring
 from qe.io import formats
 
@@ -32,3 +34,18 @@ def test_no_point_has_more_roots(terms, data):
 def test_small_ones(text, most):
     poly = formats.read(f"{text} + 0*x*a = 0", "text").poly.convert(RING)
     assert most_real_roots(poly, 1) == most
+
+
+@given(st.lists(st.fractions(-2, 2, max_denominator=9), min_size=1, max_size=5), st.integers(0, 1))
+def test_roots_in_an_interval_are_bounded(roots, squares):
+    """Each is counted once; two complex ones may be counted, so that the bound is even or odd as the number is."""
+    coefficients = [Fraction(1)]
+    for factor in [*([-root, Fraction(1)] for root in roots), *([Fraction(1), Fraction(1), Fraction(1)],) * squares]:
+        size = len(coefficients) + len(factor) - 1
+        pairs = [(i + j, a * b) for i, a in enumerate(coefficients) for j, b in enumerate(factor)]
+        coefficients = [sum((c for k, c in pairs if k == n), Fraction(0)) for n in range(size)]
+    low, high = Fraction(-1, 3), Fraction(1, 2)
+    inside = len({root for root in roots if low < root < high})
+    bound = most_roots_between(coefficients, low, high)
+    assert bound >= inside and (bound - inside) % 2 == 0
+    assert bound == inside or squares or inside > 1 or len(set(roots)) > 2

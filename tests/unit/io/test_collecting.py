@@ -8,7 +8,7 @@ from qe.errors import InputError
 from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.collecting import Names, chain
-from qe.io.text_parser import text_parser
+from qe.io.text_parser import TextParser
 
 
 def fail(message: str, at: int) -> InputError:
@@ -18,7 +18,7 @@ def fail(message: str, at: int) -> InputError:
 def collected(text: str) -> tuple[list[str], list[str], list[str], int, list[tuple[str, int]]]:
     met: list[tuple[str, int]] = []
     names = Names(fail, lambda name, at: met.append((name, at)))
-    names.node(text_parser().parse(text), frozenset(), 0)
+    names.node(TextParser(text).whole(), frozenset(), 0)
     return list(names.free), list(names.bound), names.all(), names.special, met
 
 

@@ -13,7 +13,8 @@ from qe.formula.relation import Relation
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
-from qe.io.text_parser import text_parser
+from qe.io.parser import TERM
+from qe.io.text_parser import TextParser
 from qe.io.total import Fill, Total
 
 
@@ -22,11 +23,11 @@ def fail(message: str, at: int) -> InputError:
 
 
 def meaning(text: str, **more: object) -> Formula:
-    return lower(text_parser().parse(text), fail, **more)  # type: ignore[arg-type]
+    return lower(TextParser(text).whole(), fail, **more)  # type: ignore[arg-type]
 
 
 def term(text: str) -> s.Term:
-    found: s.Term = text_parser("term").parse(text)
+    found: s.Term = TextParser(text).whole(TERM)
     return found
 
 

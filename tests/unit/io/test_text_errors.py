@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import pytest
 
-from qe.io.lalr import UnexpectedToken
-from qe.io.text_errors import SyntaxFailure, UnknownFunction, unexpected_token, unknown_character, way_out
-from qe.io.text_parser import text_parser
+from qe.io.text_errors import (
+    Failing,
+    SyntaxFailure,
+    position,
+    unexpected_token,
+    unknown_character,
+    unknown_function,
+    way_out,
+)
+from qe.io.text_parser import TextParser
 
 
 def failure(text: str) -> SyntaxFailure:
     """What is said about a text that cannot be read."""
     try:
-        text_parser().parse(text)
-    except UnexpectedToken as error:
-        token = error.token
-        return unexpected_token(text, token.type, str(token), token.start_pos, error.accepts)
+        TextParser(text).whole()
     except SyntaxFailure as error:
         return error
     raise AssertionError(f"{text} can be read")
@@ -32,7 +36,7 @@ def failure(text: str) -> SyntaxFailure:
         ("x +* 2 > 0", 3, "unexpected '*'", "a number, a variable or '('"),
         ("(x > 0", 0, "this '(' is never closed", ""),
         ("((x) > 0", 0, "this '(' is never closed", ""),
-        ("(x + (y > 0", 8, "unexpected '>'", "')'"),
+        ("(x + (y > 0", 8, "unexpected '>'", "an operator or ')'"),
         ("x > 0)", 5, "this ')' has no partner", ""),
         ("x === y", 4, "'===' is not used", ""),
         ("x ||| y", 2, "", ""),
@@ -117,8 +121,9 @@ def test_ways_out_of_functions(name: str, said: str) -> None:
     ],
 )
 def test_the_application_is_shown_whole_or_not_at_all(text: str, at: int, shown: str) -> None:
-    error = UnknownFunction(text[at : text.find("(", at)], at)
-    assert error.about(text) == shown + error.message
+    name = text[at : text.find("(", at)]
+    error = unknown_function(text, name, at)
+    assert (error.message, error.at) == (shown + way_out(name), at)
 
 
 @pytest.mark.parametrize(
@@ -149,3 +154,13 @@ def test_brackets_in_comments_and_names_do_not_count(text: str, at: int) -> None
 )
 def test_what_could_have_followed(kinds: set[str], shown: str) -> None:
     assert unexpected_token("x ? y", "?", "?", 2, kinds).expected == shown
+
+
+@pytest.mark.parametrize(("at", "line", "column"), [(0, 1, 1), (2, 1, 3), (3, 1, 4), (4, 2, 1), (5, 3, 1), (8, 3, 4)])
+def test_lines_and_columns(at: int, line: int, column: int) -> None:
+    assert position("abc\n\nxyz", at) == (line, column)
+
+
+def test_an_unknown_place_is_the_beginning() -> None:
+    error = Failing("x\ny", "it")("wrong", -1, "right")
+    assert (error.line, error.column, error.expected) == (1, 1, "right")

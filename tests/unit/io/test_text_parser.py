@@ -12,12 +12,13 @@ from qe.formula.relation import Relation
 from qe.formula.syntax import Formula
 from qe.io import surface as s
 from qe.io.lowering import lower
+from qe.io.parser import TERM
 from qe.io.text_errors import SyntaxFailure
-from qe.io.text_parser import latex_parser, text_parser
+from qe.io.text_parser import LatexParser, TextParser, parser_of
 
 
 def read(text: str) -> Formula:
-    return lower(text_parser().parse(text), lambda message, at: InputError(message))
+    return lower(TextParser(text).whole(), lambda message, at: InputError(message))
 
 
 @pytest.mark.parametrize(
@@ -90,19 +91,36 @@ def test_exclusive_or(count: int) -> None:
 )
 def test_wrong_numbers_of_parts(text: str, at: int, said: str) -> None:
     with pytest.raises(SyntaxFailure) as error:
-        text_parser().parse(text)
+        TextParser(text).whole()
     assert error.value.at == at and said in error.value.message
 
 
 def test_offsets_of_sets_and_functions() -> None:
-    found = text_parser().parse("x in (0, 1)")
-    assert found == s.Comparison([s.Number(0), s.Name("x", 0), s.Number(1)], [Relation.LT, Relation.LT], 2)
-    assert text_parser("term").parse("1 + |x|") == s.Sum([s.Number(1), s.Apply("abs", [s.Name("x", 5)], 4)])
-    assert text_parser("term").parse("∞") == s.Infinity(0)
+    found = TextParser("x in (0, 1)").whole()
+    x = s.Name("x", 0)
+    low, high = s.Comparison([x, s.Number(0)], [Relation.GT], 2), s.Comparison([x, s.Number(1)], [Relation.LT], 2)
+    assert found == s.Every([low, high])
+    assert TextParser("1 + |x|").whole(TERM) == s.Sum([s.Number(1), s.Apply("abs", [s.Name("x", 5)], 4)])
+    assert TextParser("∞").whole(TERM) == s.Infinity(0)
 
 
 def test_one_grammar_for_text_and_latex() -> None:
     latex = r"\forall x \colon x^{2} \geq 0 \land \frac{1}{2} > y"
     fail = lambda message, at: InputError(message)  # noqa: E731
-    assert lower(latex_parser().parse(latex), fail) == lower(text_parser().parse(latex), fail)
-    assert lower(latex_parser().parse(latex), fail) == read("all x. x^2 >= 0 and 1/2 > y")
+    assert parser_of(latex) is LatexParser and parser_of("x > 0 | y > 0") is TextParser
+    assert lower(LatexParser(latex).whole(), fail) == read("all x. x^2 >= 0 and 1/2 > y")
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("x > 0 | y > 0", "x > 0 or y > 0"),
+        ("x > 0||y > 0", "x > 0 or y > 0"),
+        ("||x| - 1| > y", "abs(abs(x) - 1) > y"),
+        ("|x| > 0 || |y| > 0", "abs(x) > 0 or abs(y) > 0"),
+        ("(x > 0 | y > 0) & |x|*|y| < 1", "(x > 0 or y > 0) and abs(x)*abs(y) < 1"),
+        ("Element[x | y, Reals] | |x| > 1", "true or abs(x) > 1"),
+    ],
+)
+def test_bars(text: str, plain: str) -> None:
+    assert read(text) == read(plain)

@@ -11,9 +11,10 @@ from qe.exact.ring import Ring
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, Relation
 from qe.io import cases, terms
+from qe.io.parser import TERM
 from qe.io.radicals import Place
 from qe.io.terms import TermError, Value
-from qe.io.text_parser import text_parser
+from qe.io.text_parser import TextParser
 from qe.io.valuation import Valuation
 
 RING = Ring.of(("x", "y", "s1", "s2", "s3"))
@@ -27,7 +28,7 @@ def made() -> Valuation:
 
 
 def value(text: str, valuation: Valuation | None = None) -> object:
-    return (valuation or made()).term(text_parser("term").parse(text))
+    return (valuation or made()).term(TextParser(text).whole(TERM))
 
 
 @pytest.mark.parametrize(

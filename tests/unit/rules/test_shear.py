@@ -13,6 +13,7 @@ import qe.rules.shear as shear
 from qe.api.input import read_formula
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall
+from qe.formula.normal import without_clashes
 from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import atoms
 from qe.proof.derivation import moved
@@ -55,7 +56,7 @@ def random_question(rng: random.Random) -> Formula:
     parts: list[Formula] = [atom(polynomial(), rng.choice(tuple(Relation))) for _ in range(rng.choice((2, 3)))]
     if rng.random() < 0.3:
         parts.append(forall(("z",), disj((parts.pop(), atom(z - b, Relation.GT)))))
-    return exists(("x", "y"), (conj if rng.random() < 0.7 else disj)(parts))
+    return without_clashes(exists(("x", "y"), (conj if rng.random() < 0.7 else disj)(parts)))
 
 
 @settings(deadline=None, max_examples=25, derandomize=True)

@@ -1,4 +1,4 @@
-"""Variables that one comparison of degree 2 looks at: what stands in their place, their values, the checker."""
+"""Variables that one comparison of degree 2 looks at: what stands in their place, and their values."""
 
 from __future__ import annotations
 
@@ -7,10 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-import qe.rules.square_alone as square_alone
 from qe.api.input import read_formula
-from qe.certify.square_alone import check_square_alone
-from qe.formula.syntax import Relation
 from qe.io.text import read
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
@@ -18,7 +15,6 @@ from qe.rules.lift import holds_at
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
-from tests.unit.certify.claims import objection
 
 CYLINDER = "ex x, y, z. x^2 + y^2 <= 1 and (x - a)^2 + (y - b)^2 + (z - c)^2 {} r^2"
 
@@ -66,39 +62,3 @@ def test_values_come_back(k: list[int], relation: str) -> None:
     other = qe.eliminate(f"ex x, y, z. {body}", process=False, without="values")
     assert answer.truth is other.truth
     assert not answer.truth or (answer.witness is not None and holds_at(read(body), answer.witness))  # type: ignore[arg-type]
-
-
-BLOCK = "ex x, y. x^2 + a*x + y <= 0 and y > b"
-
-
-@pytest.mark.parametrize(
-    ("before", "after", "variable", "reason"),
-    [
-        (BLOCK, "ex y. 4*y - a^2 <= 0 and y > b", "x", ""),
-        (BLOCK.replace("<=", "="), "ex y. 4*y - a^2 <= 0 and y > b", "x", ""),
-        (BLOCK.replace("<=", "<"), "ex y. 4*y - a^2 < 0 and y > b", "x", ""),
-        (BLOCK.replace("x^2 + a*x + y <=", "-3*x^2 - 3*a*x - 3*y >="), "ex y. 4*y - a^2 <= 0 and y > b", "x", ""),
-        (BLOCK.replace("a*x", "y*x"), "ex y. 4*y - y^2 <= 0 and y > b", "x", ""),
-        (BLOCK.replace("<=", "<"), "ex y. 4*y - a^2 <= 0 and y > b", "x", "not the block"),
-        (BLOCK, "ex y. 4*y - a^2 < 0 and y > b", "x", "not the block"),
-        (BLOCK, "ex y. 4*y + a^2 <= 0 and y > b", "x", "not the block"),
-        (BLOCK, "ex y. 4*y - a^2 <= 0", "x", "not the block"),
-        (BLOCK, "ex x, y. 4*y - a^2 <= 0 and y > b", "x", "not the block"),
-        (BLOCK.replace("<=", ">="), "ex y. 4*y - a^2 <= 0 and y > b", "x", "upper bound"),
-        (BLOCK.replace("<=", "/="), "ex y. 4*y - a^2 <= 0 and y > b", "x", "upper bound"),
-        (BLOCK.replace("x^2", "c*x^2"), "ex y. 4*c*y - a^2 <= 0 and y > b", "x", "a number"),
-        (BLOCK.replace("> b", "> x"), "ex y. 4*y - a^2 <= 0 and y > b", "x", "one comparison"),
-        (BLOCK, "ex x. x^2 + a*x + b < 0", "y", "degree 2"),
-        (BLOCK, "ex y. 4*y - a^2 <= 0 and y > b", "z", "a variable of the existential block"),
-    ],
-)
-def test_what_the_checker_says(before: str, after: str, variable: str, reason: str) -> None:
-    found = objection(check_square_alone, before, after, {"variable": variable})
-    assert reason in found and bool(found) is bool(reason)
-
-
-@pytest.mark.parametrize("wrong", [Relation.LT, Relation.GE, Relation.EQ])
-def test_a_broken_producer_is_not_believed(wrong: Relation, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(square_alone, "_AT_LEAST_VALUE", {(Relation.LE, 1): wrong})
-    (step,) = steps_of(CYLINDER.format("<="))
-    assert not accepted(step)

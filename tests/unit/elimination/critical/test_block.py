@@ -6,6 +6,9 @@ from fractions import Fraction as F
 
 import pytest
 
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.cad.operators.lazard import LAZARD
+from qe.cad.operators.operator import Operator
 from qe.elimination.critical import block
 from qe.elimination.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
 from qe.elimination.critical.method import procedures
@@ -13,7 +16,7 @@ from qe.elimination.critical.table import Shape
 from qe.errors import NotWellOriented, Unable
 from qe.formula.syntax import Exists
 from qe.io.text import read
-from qe.options import Budget, Projection
+from qe.options import Budget
 from qe.proof.cells import CellTable
 
 
@@ -80,10 +83,10 @@ def test_in_space_only_bounded_convex_sets_are_taken_for_convex(
     more: str, shape: Shape, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The theorem about convex sets needs a bounded set there, and the projection whose order it looks at."""
-    asked: list[tuple[Projection, Shape]] = []
+    asked: list[tuple[Operator, Shape]] = []
 
-    def recorded(levels: object, projection: Projection, boundary: object, shape: Shape, *_: object) -> None:
-        asked.append((projection, shape))
+    def recorded(levels: object, operator: Operator, boundary: object, shape: Shape, *_: object) -> None:
+        asked.append((operator, shape))
         raise NotWellOriented("as if")
 
     (part,) = found(f"ex x. (x - a)^2 + b^2 + c^2 <= 1{more}", "a", "b", "c")
@@ -91,7 +94,7 @@ def test_in_space_only_bounded_convex_sets_are_taken_for_convex(
     monkeypatch.setattr(block, "TableBuilder", recorded)
     with pytest.raises(NotWellOriented):
         part.found.tabulate()
-    assert asked == [(Projection.BROWN_MCCALLUM, shape), (Projection.LAZARD, Shape.CLOSED)]
+    assert asked == [(BROWN_MCCALLUM, shape), (LAZARD, Shape.CLOSED)]
 
 
 def test_sentences_and_disjuncts() -> None:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from fractions import Fraction as F
 
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.cad.projection import factor_lists
 from qe.elimination.critical.open_cells import OpenCell, OpenCells
 from qe.elimination.critical.procedures import Levels
 from qe.elimination.critical.separate import separated
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.options import Budget, Projection
+from qe.options import Budget
 
 PLANE = Ring.of(("x", "y"))
 X, Y = PLANE.gen(0), PLANE.gen(1)
@@ -21,7 +22,7 @@ def disc(values: tuple[F, ...]) -> bool:
 
 
 def explored(polys: list[Poly], holds=disc, hint=(F(0), F(0))) -> OpenCells:
-    levels = factor_lists(polys, 2, Projection.BROWN_MCCALLUM, Budget())
+    levels = factor_lists(polys, 2, BROWN_MCCALLUM, Budget())
     found = OpenCells(levels, holds, Budget(), hint)
     found.explore(Point(PLANE))
     return found

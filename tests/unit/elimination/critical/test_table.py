@@ -6,11 +6,13 @@ from fractions import Fraction
 
 import pytest
 
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.cad.operators.lazard import LAZARD
 from qe.elimination.critical.table import Shape, TableBuilder
 from qe.errors import BudgetExceeded, NotWellOriented
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.options import Budget, Projection
+from qe.options import Budget
 from qe.proof.cells import Cell
 
 RING = Ring.of(("x", "y"))
@@ -32,7 +34,7 @@ class Oracle:
 
 
 def built(shape: Shape, oracle: Oracle, levels: tuple[tuple[Poly, ...], ...] = LEVELS, **other: object) -> TableBuilder:
-    given = {"projection": Projection.BROWN_MCCALLUM, "budget": Budget(), **other}
+    given = {"operator": BROWN_MCCALLUM, "budget": Budget(), **other}
     return TableBuilder(levels, boundary=frozenset((DISC,)), shape=shape, truth=oracle, **given)  # type: ignore[arg-type]
 
 
@@ -73,5 +75,5 @@ def test_limits_and_polynomials_that_are_zero_on_a_line() -> None:
     levels = ((X,), (X * Y,))
     with pytest.raises(NotWellOriented):
         built(Shape.ANY, Oracle(X * Y, False), levels).run(Point(RING))
-    cell = built(Shape.ANY, Oracle(X * Y - 1, False), levels, projection=Projection.LAZARD).run(Point(RING))
+    cell = built(Shape.ANY, Oracle(X * Y - 1, False), levels, operator=LAZARD).run(Point(RING))
     assert cell.stack is not None and cell.stack.sectors == (Fraction(-1), Fraction(1))

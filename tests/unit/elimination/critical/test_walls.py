@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.cad.projection import factor_lists
 from qe.elimination.critical.open_cells import OpenCells
 from qe.elimination.critical.system import System, systems
@@ -18,7 +19,7 @@ from qe.exact.sample import Point
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.io.text import read as parse
-from qe.options import Budget, Projection
+from qe.options import Budget
 
 PLANE = Ring.of(("x", "y"))
 
@@ -39,7 +40,7 @@ def inside(system: System, place: tuple[F, ...]) -> bool:
 
 
 def by_cells(system: System, surfaces: frozenset[Poly]) -> OpenCells:
-    levels = factor_lists(surfaces, 2, Projection.BROWN_MCCALLUM, Budget())
+    levels = factor_lists(surfaces, 2, BROWN_MCCALLUM, Budget())
     cells = OpenCells(levels, lambda p: inside(system, p), Budget(), (F(0), F(0)))
     cells.explore(Point(PLANE))
     return cells

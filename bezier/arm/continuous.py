@@ -1,0 +1,188 @@
+"""All continuous joint motions along a path, counted exactly, also through the places where solutions meet.
+
+For arms with a plane that turns (``bezier.arm.vertical``). Between neighbouring zeros of W and of Q(√W) Q(-√W) along a
+curve every solution is simple and none escapes, so each is one arc, a continuous function of s with a constant label
+(σ, ε). A motion is a chain of arcs: it may go on from one to the next iff both have the same limit between them. With
+r = σ √W and δ = ε √Q these limits are compared by
+
+* ε: the same, or Q = 0 there;
+* σ: the same where W > 0; any where W = 0 and d /= 0; where W = 0 = d, on the axis of the first joint, the limits of
+  the direction of (x, y), times σ, have to agree: else the first joint would jump.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+
+from bezier.arm.critical import AlongCurve, Number, S
+from bezier.arm.inverse import Solution, solve
+from bezier.arm.model import Arm
+from bezier.arm.ratio import Ratio
+from bezier.arm.signs_along import SignsAlong
+from bezier.arm.vertical import Label, vertical_arm
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import sign
+from qe.errors import InternalError
+from qe.exact.nearby import rational_between
+
+Note = Callable[[], None]
+MOST_LISTED = 64
+"""Motions that are listed; all are counted."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arcs:
+    """The solutions over an open interval of a curve, by their labels in the order of ``solutions`` at ``sample``."""
+
+    curve: int
+    low: Number
+    high: Number
+    sample: Fraction
+    labels: tuple[Label, ...]
+    solutions: tuple[Solution, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Junction:
+    """Between two neighbours in the list of ``Arcs``, at ``s`` of a curve (its end, where a next one begins).
+
+    ``passes``: the pairs of labels before and after whose solutions have the same limit. ``on_axis``, ``meets``:
+    whether that is on the axis of the first joint, and whether solutions before or after it meet there."""
+
+    curve: int
+    s: Number
+    passes: frozenset[tuple[Label, Label]]
+    on_axis: bool
+    meets: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ContinuousMotion:
+    """A continuous joint motion from start to goal: the label of its arc in each interval."""
+
+    number: int
+    labels: tuple[Label, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ContinuousMotions:
+    """The arcs in the order of the path, with the junction between each two. ``count``: of all continuous motions from
+    start to goal, limits of the joints left aside."""
+
+    arm: Arm
+    curves: tuple[SignsAlong, ...]
+    arcs: tuple[Arcs, ...]
+    junctions: tuple[Junction, ...]
+
+    @cached_property
+    def count(self) -> int:
+        """The number of chains."""
+        return sum(self._onward[0].values())
+
+    @cached_property
+    def _onward(self) -> list[dict[Label, int]]:
+        """For each interval: in how many ways each arc goes on to the goal."""
+        found = [dict.fromkeys(self.arcs[-1].labels, 1)]
+        for arcs, junction in zip(self.arcs[-2::-1], self.junctions[::-1], strict=True):
+            after = found[-1]
+            found.append(
+                {one: sum(n for other, n in after.items() if (one, other) in junction.passes) for one in arcs.labels}
+            )
+        return found[::-1]
+
+    @cached_property
+    def motions(self) -> tuple[ContinuousMotion, ...]:
+        """The motions, if they are not more than ``MOST_LISTED``; else as many of them."""
+        chains = (chain for _, chain in zip(range(MOST_LISTED), self._chains(()), strict=False))
+        return tuple(ContinuousMotion(k, chain) for k, chain in enumerate(chains, start=1))
+
+    def _chains(self, begun: tuple[Label, ...]) -> Iterator[tuple[Label, ...]]:
+        k = len(begun)
+        if k == len(self.arcs):
+            yield begun
+            return
+        for label, ways in self._onward[k].items():
+            if ways and (not begun or (begun[-1], label) in self.junctions[k - 1].passes):
+                yield from self._chains((*begun, label))
+
+    def taken(self, curve: int, s: Fraction, solution: Solution) -> frozenset[int]:
+        """The numbers of the motions that take this solution (found by ``solve``) at s."""
+        plane = vertical_arm(self.arm)
+        assert plane is not None, "only such arms have arcs"
+        label = plane.label(solution)
+        here = [k for k, a in enumerate(self.arcs) if a.curve == curve and a.low <= s <= a.high]
+        return frozenset(m.number for m in self.motions if any(_agree(label, m.labels[k]) for k in here))
+
+
+def _agree(one: Label, other: Label) -> bool:
+    return all(0 in (a, b) or a == b for a, b in zip(one, other, strict=True))
+
+
+def continuous_motions(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None) -> ContinuousMotions | None:
+    """All continuous motions along a path, or None for arms without such a plane.
+
+    Raises ``Unable`` where a whole curve is on the axis or along a border, or where the second joint is free.
+    """
+    plane = vertical_arm(arm)
+    if plane is None:
+        return None
+    listed = [SignsAlong.of(plane, AlongCurve(arm, curve)) for curve in curves.values()]
+    arcs, junctions = list[Arcs](), list[Junction]()
+    for k, along in enumerate(listed):
+        note()
+        places = along.places
+        marks: list[Number] = [Fraction(0), *(s for s in places if 0 < s < 1), Fraction(1)]
+        for i, (low, high) in enumerate(pairwise(marks)):
+            if arcs:
+                before = (listed[k - 1], Fraction(1)) if i == 0 else (along, low)
+                last, s = arcs[-1], before[1]
+                arcs.append(_arcs(along, k, low, high))
+                junctions.append(_junction(before, (along, low), last, arcs[-1], s))
+            else:
+                arcs.append(_arcs(along, k, low, high))
+            note()
+    return ContinuousMotions(arm, tuple(listed), tuple(arcs), tuple(junctions))
+
+
+def _arcs(along: SignsAlong, curve: int, low: Number, high: Number) -> Arcs:
+    sample = rational_between(low, high)
+    found = solve(along.along.arm, along.along.curve.point(sample)).solutions
+    labels = tuple(along.plane.label(solution) for solution in found)
+    if len(set(labels)) != len(labels) or set(labels) != along.labels(sample):
+        raise InternalError("the solutions of an arm contradict the signs that tell them apart")
+    return Arcs(curve, low, high, sample, labels, found)
+
+
+def _junction(
+    before: tuple[SignsAlong, Number], after: tuple[SignsAlong, Number], one: Arcs, other: Arcs, s: Number
+) -> Junction:
+    along, at = before
+    vanishes, empty = along.has_no_square(at), along.empty_sides(at)
+    on_axis = vanishes and sign(along.plane.offset) == 0
+    turns = {_turn(before, after)} if on_axis else {1, -1} if vanishes else {1}
+    passes = frozenset(
+        (a, b) for a in one.labels for b in other.labels if a[0] * b[0] in turns and (a[1] == b[1] or a[0] in empty)
+    )
+    return Junction(one.curve, s, passes, on_axis, bool(empty) or (vanishes and not on_axis))
+
+
+def _turn(before: tuple[SignsAlong, Number], after: tuple[SignsAlong, Number]) -> int:
+    """1 or -1 if the direction of (x, y) is the same or the opposite one before and after the axis, else 0."""
+    x, y, k = before[0].direction(before[1])
+    if before == after:
+        return -1 if k % 2 else 1
+    u, v, _ = after[0].direction(after[1])
+    a, b, c, d = (_read(p, s) for (_, s), p in ((before, x), (before, y), (after, u), (after, v)))
+    here = before[0].along.place(Fraction(0))
+    across, along = (here.sign(p.top) for p in (a * d - b * c, a * c + b * d))
+    return 0 if across else along if k % 2 == 0 else -along
+
+
+def _read(p: Ratio, s: Number) -> Ratio:
+    """p at an end of a curve."""
+    assert s in (0, 1), "curves join at their ends"
+    return Ratio(p.top.compose({S: p.top.ring.constant(int(s == 1))}), p.bottom, p.field)

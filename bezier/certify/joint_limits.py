@@ -1,0 +1,165 @@
+"""Whether a branch of an arm keeps the limits of its joints for every s, those that it touches included.
+
+On a piece a joint lies within a radius of a straight line in s (``bezier.certify.branch``). Where that does not tell
+that it keeps a limit L, and L is a length or the angle 0, the arm with this joint held at L does: G(s) is a polynomial
+that vanishes wherever it can be at the curve's point (``bezier.certify.held_joint``). THEOREM. The joint is continuous,
+and differs from L where G does not vanish. So if G has no zero within a piece, and the joint keeps L strictly at one
+end, it does within; if one, and it does at both ends, it does up to that zero and behind it, and at the zero it keeps L
+by continuity. If G is zero everywhere because of a relation F(s, q) that holds for all values q of this joint, F(s, L)
+= 0, and if at one s the joint lies in an interval with L in which ∂F/∂q has no zero, it is L there and close by; it is
+an analytic function of s, so it is L all along.
+
+Zeros of G, whose coefficients are sums of square roots, are among those of the product of its conjugates, a rational
+polynomial; Descartes' rule of signs, for it without multiple factors, bounds their number. An angle of a rational
+number of radians other than 0 is transcendental in its sine and cosine: there a box has to tell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+from bezier.certify import duals
+from bezier.certify import square_roots as sr
+from bezier.certify.arm_rows import Chain
+from bezier.certify.held_joint import Held, Rigid, slid, turned
+from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
+from qe.exact.balls import precision
+from qe.exact.descartes import most_roots_between
+from qe.proof.entry import Entry
+
+PROBES = (-5, -2, -1, 1, 2, 3, 7)
+"""Lengths, and tangents of half of angles. A condition of a relation is of degree at most 3 in a length, in cosine and
+sine: where it vanishes for seven values it vanishes for all."""
+
+Limits = tuple[Fraction, Fraction]
+Range = tuple[Fraction, Fraction]
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """What is known of one joint between two parameters of a curve: it is within ``radius`` of the straight line with
+    ``values`` at the ends. ``at_end(0)``, ``at_end(1)``: closer bounds of all joints at the ends."""
+
+    curve: int
+    ends: Range
+    joint: int
+    values: Range
+    radius: Fraction
+    at_end: Callable[[int], Sequence[Range]]
+
+
+@dataclass(frozen=True, slots=True)
+class _Along:
+    """A polynomial in s."""
+
+    p: Polynomial
+
+    def __add__(self, other: _Along) -> _Along:
+        return _Along(sr.add(self.p, other.p))
+
+    def __sub__(self, other: _Along) -> _Along:
+        return _Along(sr.add(self.p, sr.scaled(other.p, -ONE)))
+
+    def __mul__(self, other: _Along) -> _Along:
+        return _Along(sr.times(self.p, other.p))
+
+
+def read_limits(entry: Entry, joints: int) -> list[Limits | None]:
+    """For each joint null, or its least and its greatest value."""
+    found = list[Limits | None]()
+    for item in entry.items():
+        ends = None if item.value is None else tuple(v.rational() for v in item.items())
+        if ends is not None and (len(ends) != 2 or ends[0] >= ends[1]):
+            raise item.fail("expected null, or a least value below a greatest one")
+        found.append(None if ends is None else (ends[0], ends[1]))
+    if len(found) != joints:
+        raise entry.fail(f"expected limits of {joints} joints")
+    return found
+
+
+class KeptLimits:
+    """The limits of the joints of one arm along curves, given by the coefficients of 1, s, s², …"""
+
+    def __init__(
+        self, chain: Chain, curves: Sequence[Sequence[Sequence[Fraction]]], limits: Sequence[Limits | None]
+    ) -> None:
+        self._chain, self._curves, self.limits = chain, curves, limits
+        self._zeros = cache(self._zeros_at)
+
+    def keeps(self, part: Stretch) -> bool:
+        """Whether a joint is proved to keep its limits on a closed stretch."""
+        for limit, side in zip(self.limits[part.joint] or (), (1, -1), strict=False):
+            if min(side * (value - limit) for value in part.values) >= part.radius:
+                continue
+            if limit and self._chain.turns[part.joint]:
+                return False
+            zeros = self._zeros(part.curve, part.joint, limit)
+            if not zeros:
+                if not self._stands(part, limit):
+                    return False
+                continue
+            inside = most_roots_between(zeros, *part.ends)
+            if inside > 1:
+                return False
+            clear = [min(side * (value - limit) for value in part.at_end(k)[part.joint]) > 0 for k in range(2)]
+            if not (all(clear) if inside else any(clear)):
+                return False
+        return True
+
+    def _zeros_at(self, curve: int, joint: int, limit: Fraction) -> list[Fraction]:
+        """The coefficients of a polynomial that vanishes wherever the joint can be at its limit; none if that is
+        everywhere."""
+        point = [_Along(sr.trimmed([Surd.rational(c) for c in row])) for row in self._curves[curve]]
+        value = Surd.rational(limit)
+        parts = (ONE, ZERO) if self._chain.turns[joint] else (value,)
+        held = self._held(joint, parts, lambda c: _Along(sr.trimmed([c])))
+        holding = (relation.p for relation, needs in held.relations(point) if not any(c.p for c in needs))
+        return _rational(next((p for p in holding if p), []))
+
+    def _held(self, joint: int, value: tuple[Any, ...], lift: Any) -> Held:
+        """With a joint held at a length, or at a cosine and a sine, which ``lift`` makes numbers of another kind."""
+
+        def lifted(motion: Rigid) -> Rigid:
+            return [[lift(c) for c in row] for row in motion[0]], [lift(c) for c in motion[1]]
+
+        zero, one = lift(ZERO), lift(ONE)
+        parts = [lift(v) if isinstance(v, Surd) else v for v in value]
+        motion = turned(parts[0], parts[1], zero, one) if len(parts) == 2 else slid(parts[0], zero, one)
+        return Held.of([lifted(c) for c in self._chain.constants], self._chain.turns, joint, motion)
+
+    def _stands(self, part: Stretch, limit: Fraction) -> bool:
+        """Whether the joint is at its limit all along: it is halfway, by a relation that holds for all its values."""
+        joint, s, middle = part.joint, (part.ends[0] + part.ends[1]) / 2, (part.values[0] + part.values[1]) / 2
+        if abs(middle - limit) > part.radius:
+            return False
+        turns, rows = self._chain.turns[joint], self._curves[part.curve]
+        probes = [self._held(joint, _circle(k) if turns else (Surd.rational(k),), lambda c: c) for k in PROBES]
+        point = [sum((c * s**k for k, c in enumerate(row)), Fraction(0)) for row in rows]
+        listed = [[not any(needs) for _, needs in held.relations(list(map(Surd.rational, point)))] for held in probes]
+        with precision(duals.BITS):
+            value = duals.seed(duals.ball(middle) + duals.around(part.radius), 0, 1)
+            parts = value.sine_cosine()[::-1] if turns else (value,)
+            relations = self._held(joint, parts, lambda c: duals.root_sum(c.terms, 1)).relations(
+                [duals.number(c, 1) for c in point]
+            )
+            return any(
+                not relation.slope[0].contains(0)
+                for (relation, _), holds in zip(relations, zip(*listed, strict=True), strict=True)
+                if all(holds)
+            )
+
+
+def _rational(p: Polynomial) -> list[Fraction]:
+    """The product of the conjugates over the rational numbers."""
+    while roots := [d for c in p for d, _ in c.terms if d > 1]:
+        prime = next(k for k in range(2, roots[0] + 1) if roots[0] % k == 0)
+        p = sr.times(p, [Surd(tuple((d, -q if d % prime == 0 else q) for d, q in c.terms)) for c in p])
+    return [c.terms[0][1] if c else Fraction(0) for c in p]
+
+
+def _circle(k: int) -> tuple[Surd, Surd]:
+    return Surd.rational(Fraction(1 - k * k, 1 + k * k)), Surd.rational(Fraction(2 * k, 1 + k * k))

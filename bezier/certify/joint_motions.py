@@ -1,0 +1,350 @@
+"""Checker for certificates of kind "motions": all continuous motions of an arm along curves, limits left aside.
+
+An arm whose first joint turns about z, while the other two keep the end point in a plane parallel to z: with a
+horizontal unit normal h and e = h x z it is r e + d h + z e_z, d constant. Let W = x² + y² - d² for the point (x, y, z)
+of the curve in the frame of the first joint. The point is reached by r with r² = W where Q(r, z) >= 0, in one position
+of the two joints for each δ with δ² = Q, and this is continuous in (r, z, δ):
+
+* both turn, links L1, L2 from the centre (a, c): D = (r - a)² + (z - c)², Q = 4 L1² L2² - (D - L1² - L2²)²: the law
+  of cosines, δ = 2 L1 L2 sin(elbow); the second joint is free where D = 0, so only where L1 = L2;
+* the second turns, the third slides on a line at the distance b: Q = D - b², D = 0 only where b = 0;
+* the second slides, the third turns on a radius L: Q = L² - w², w the distance from the line that its centre runs on;
+* both slide, orthogonally: one position (no Q).
+
+The first joint is the angle from r e + d h to (x, y), unique where these are not 0. So with A + r B = Q, between
+neighbouring zeros of W and of N = A² - W B² the solutions are as many arcs, labelled by the signs (σ, ε) of r and δ.
+A motion goes on from an arc to another one iff they have the same limit between them: the same r (σ is the same, or
+W = 0), the same δ (ε is the same, or Q = 0), and where (x, y) = 0 the same limit of σ times its direction.
+
+``places``: for each curve intervals around all zeros of W and N; ``factor``: a polynomial in s with one simple zero in
+the interval (null: N), powers of which W and N are, times what is not zero there. ``solutions``: the numbers of arcs
+in the order of the path; ``through``: the numbers of pairs that go on, between each two of these; ``motions``: the
+number of chains from start to goal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from bezier.certify import square_roots as sr
+from bezier.certify.arm_rows import Chain, read_chain, read_number, read_surd
+from bezier.certify.branch import powers, read_curve
+from bezier.certify.constant_sign import constant_sign
+from bezier.certify.motions import Triple, back, dot
+from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
+from qe.certify.kinds import BroughtKind
+from qe.errors import Unable
+from qe.options import Budget
+from qe.proof.entry import Entry, Json
+
+Label = tuple[int, int]
+Split = tuple[Polynomial, Polynomial]
+"""A + r B."""
+
+SIGNS, FOUR = (1, -1), Surd.rational(4)
+
+
+@dataclass(frozen=True, slots=True)
+class _Plane:
+    """``size``: 4 L1² L2², b² or L²; ``rest``: L1² + L2²; ``line``: the direction (along e, up) of the second joint
+    that slides. ``may_fold``: whether D may vanish where a point is reached."""
+
+    turns: tuple[bool, ...]
+    offset: Surd
+    centre: tuple[Surd, Surd]
+    size: Surd
+    rest: Surd
+    line: tuple[Surd, Surd]
+    may_fold: bool
+
+    @staticmethod
+    def of(chain: Chain, entry: Entry) -> _Plane:
+        if len(chain.turns) != 3 or not chain.turns[0]:
+            raise entry.fail("expected three joints, the first of which turns")
+        (first, o), (second, b), (_, tip) = chain.constants[1:]
+        axis = _column(first)
+        radius = dot(tip[:2], tip[:2])
+        third = _column(second)
+        still = (ZERO, ZERO, tip[2]) if chain.turns[2] else tip  # what the third joint does not turn
+        reach = tuple(x + dot(row, still) for x, row in zip(b, second, strict=True))
+        outer = tuple(dot(row, third) for row in first)
+        size = rest = ZERO
+        may_fold = False
+        if chain.turns[1]:
+            normal, centre = axis, tuple(o)
+            flat = not (third[0] or third[1]) if chain.turns[2] else not third[2]
+            base = tuple(x + n * reach[2] for x, n in zip(o, normal, strict=True))
+            if chain.turns[2]:
+                inside = dot(b[:2], b[:2])
+                size, rest, may_fold = FOUR * inside * radius, inside + radius, not (inside - radius)
+                flat = flat and bool(size)
+            else:
+                lever = reach[0] * third[1] - reach[1] * third[0]
+                size, may_fold = lever * lever, not lever
+        else:
+            base = centre = tuple(x + dot(row, reach) for x, row in zip(o, first, strict=True))
+            normal = outer if chain.turns[2] else _cross(axis, outer)
+            flat = not dot(normal, axis) and (bool(radius) or not chain.turns[2])
+            size = radius
+        if not flat or normal[2] or dot(normal, normal) != ONE:
+            raise entry.fail("the second and the third joint are not proved to move in a plane along the first axis")
+        along = (normal[1], -normal[0])
+        return _Plane(
+            chain.turns,
+            dot(normal, base),
+            (dot(along, centre[:2]), centre[2]),
+            size,
+            rest,
+            (dot(along, axis[:2]), axis[2]),
+            may_fold,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Along:
+    """Polynomials in s: x, y, W, D, Q (None where there is none) and N."""
+
+    x: Polynomial
+    y: Polynomial
+    w: Polynomial
+    distance: Split
+    quality: Split | None
+    norm: Polynomial | None
+    plane: _Plane
+
+    @staticmethod
+    def of(plane: _Plane, target: list[Polynomial], entry: Entry) -> _Along:
+        x, y, z = target
+        w = sr.add(sr.add(sr.times(x, x), sr.times(y, y)), sr.trimmed([-(plane.offset * plane.offset)]))
+        a, c = plane.centre
+        height = sr.add(z, sr.trimmed([-c]))
+        d = _plus(_times((sr.trimmed([-a]), [ONE]), (sr.trimmed([-a]), [ONE]), w), (sr.times(height, height), []))
+        quality: Split | None
+        match plane.turns[1:]:
+            case (True, True):
+                rest = _plus(d, (sr.trimmed([-plane.rest]), []))
+                quality = _plus(([plane.size], []), _scaled(_times(rest, rest, w), -ONE))
+            case (True, False):
+                quality = _plus(d, (sr.trimmed([-plane.size]), []))
+            case (False, True):
+                r, up = plane.line
+                across = (sr.add(sr.scaled(height, r), sr.trimmed([a * up])), sr.trimmed([-up]))
+                quality = _plus(([plane.size], []), _scaled(_times(across, across, w), -ONE))
+            case _:
+                quality = None
+        norm = None if quality is None else _norm(quality, w)
+        if not w or norm == []:
+            raise Unable(f"{entry.path}: the whole curve is on the first axis or along a border")
+        return _Along(x, y, w, d, quality, norm, plane)
+
+    def labels(self, s: Fraction) -> list[Label]:
+        """Of the solutions where neither W nor N vanishes."""
+        if sr.at(self.w, s).sign() < 0:
+            return []
+        if self.quality is None:
+            return [(side, 1) for side in SIGNS]
+        even, odd, norm = (sr.at(p, s).sign() for p in (*self.quality, self.norm or []))
+        # |A| > |B √W| or less: the sign of A + σ √W B is that of the larger one
+        return [(side, end) for side in SIGNS if (even if norm > 0 else side * odd) > 0 for end in SIGNS]
+
+
+@dataclass(frozen=True, slots=True)
+class _Between:
+    """What holds between two neighbouring intervals: whether W = 0, the σ with Q = 0, and what σ is multiplied by where
+    the direction of (x, y) turns into the opposite one on the axis (0: into another one)."""
+
+    vanishes: bool
+    empty: frozenset[int]
+    turn: int
+
+    def goes_on(self, plane: _Plane, one: Label, other: Label) -> bool:
+        """Whether two arcs have the same limit."""
+        if self.vanishes and not plane.offset:
+            side = one[0] * self.turn == other[0]
+        else:
+            side = self.vanishes or one[0] == other[0]
+        return side and (one[1] == other[1] or one[0] in self.empty)
+
+
+def check_motions(payload: dict[str, Json], budget: Budget | None = None) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
+    whole, budget = Entry(payload, "payload"), budget or Budget()
+    names = ("arm", "curves", "places", "solutions", "through", "motions")
+    arm, curves, places, solutions, through, motions = whole.fields(*names)
+    chain, budgeted = read_chain(arm), list(zip(curves.items(), places.items(), strict=False))
+    if not budgeted or len(budgeted) != len(list(curves.items())) or len(budgeted) != len(list(places.items())):
+        raise places.fail("expected a list for each of at least one curve")
+    plane, before, last = _Plane.of(chain, arm), None, None
+    counts, ways, chains = list[int](), list[int](), dict[Label, int]()
+    for curve, listed in budgeted:
+        points = read_curve(curve)
+        if last is not None and points[0] != last:
+            raise curve.fail("the curve does not begin where the one before ends")
+        along, last = _Along.of(plane, _target(chain, points), curve), points[-1]
+        betweens, samples = _cut(along, listed, budget)
+        for i, sample in enumerate(samples):
+            labels = along.labels(sample)
+            if before is None:
+                chains = dict.fromkeys(labels, 1)
+            else:
+                between = betweens[i - 1] if i else _joint(before, along, listed)
+                passes = [(a, b) for a in chains for b in labels if between.goes_on(plane, a, b)]
+                ways.append(len(passes))
+                chains = {b: sum(chains[a] for a, other in passes if other == b) for b in labels}
+            counts.append(len(labels))
+            before = along
+    for entry, expected in ((solutions, counts), (through, ways)):
+        if [item.integer() for item in entry.items()] != expected:
+            raise entry.fail("not the numbers that were found")
+    if motions.integer() != sum(chains.values()):
+        raise motions.fail("not the number of continuous motions")
+
+
+def _target(chain: Chain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
+    """The curve in the frame of the first joint."""
+    rows, shift = back(chain.constants[0])
+    curve = [sr.trimmed([Surd.rational(c) for c in powers([p[i] for p in points])]) for i in range(3)]
+    found = list[Polynomial]()
+    for row, o in zip(rows, shift, strict=True):
+        total = sr.trimmed([o])
+        for factor, part in zip(row, curve, strict=True):
+            total = sr.add(total, sr.scaled(part, factor))
+        found.append(total)
+    return found
+
+
+def _cut(along: _Along, listed: Entry, budget: Budget) -> tuple[list[_Between], list[Fraction]]:
+    """What holds at the listed places inside (0, 1), and a parameter in each of the intervals between them, in which
+    neither W nor N vanishes (N where W > 0)."""
+    begin, betweens, samples = Fraction(0), list[_Between](), list[Fraction]()
+    is_last = False
+    for entry in listed.items():
+        budget.check()
+        low, high, between = _place(along, entry)
+        if is_last or not low < high or (low <= begin and (samples or begin or not low < 0 < high)):
+            raise entry.fail("expected intervals in ascending order, around 0 or 1 only if the zero is there")
+        if low > 0:
+            samples.append(_sample(along, begin, low, entry))
+            betweens.append(between)
+        is_last, begin = high > 1, high
+    if is_last:
+        betweens.pop()
+    else:
+        samples.append(_sample(along, begin, Fraction(1), listed))
+    return betweens, samples
+
+
+def _sample(along: _Along, low: Fraction, high: Fraction, entry: Entry) -> Fraction:
+    if not low < high:
+        raise entry.fail("expected intervals in ascending order")
+    side = constant_sign(along.w, low, high)
+    if not side or (side > 0 and along.norm is not None and not constant_sign(along.norm, low, high)):
+        raise entry.fail("the number of solutions is not proved to be constant up to here")
+    return (low + high) / 2
+
+
+def _place(along: _Along, entry: Entry) -> tuple[Fraction, Fraction, _Between]:
+    """One zero of W or N."""
+    low_entry, high_entry, factor_entry = entry.fields("low", "high", "factor")
+    low, high = read_number(low_entry), read_number(high_entry)
+    if not low < high:
+        raise entry.fail("expected an interval")
+    factor = along.norm if factor_entry.value is None else sr.trimmed([read_surd(c) for c in factor_entry.items()])
+    if not factor or len(factor) < 2:
+        raise factor_entry.fail("expected a polynomial that is not constant")
+    slope = sr.trimmed([Surd.rational(k) * c for k, c in enumerate(factor)][1:])
+    if sr.at(factor, low).sign() * sr.at(factor, high).sign() >= 0 or not constant_sign(slope, low, high):
+        raise factor_entry.fail("not proved to have exactly one zero in the interval, a simple one")
+    for end in (Fraction(0), Fraction(1)):
+        if low <= end <= high and sr.at(factor, end):
+            raise entry.fail("an end of the curve is in the interval, and not the zero")
+
+    def order(p: Polynomial) -> int:
+        k = 0
+        while len(p) >= len(factor) and not (parts := sr.divided(p, factor))[1]:
+            p, k = parts[0], k + 1
+        if not constant_sign(p, low, high):
+            raise entry.fail("W, N or Q is not proved to vanish only at one place in the interval, if at all")
+        return k
+
+    vanishes, empty = order(along.w), frozenset[int]()
+    meets = order(along.norm) if along.norm is not None else 0
+    if not vanishes and not meets:
+        raise entry.fail("neither W nor N vanishes there")
+    if along.quality is not None and meets:
+        even, odd = along.quality
+        if along.plane.may_fold and not constant_sign(_norm(along.distance, along.w), low, high):
+            raise entry.fail("the second joint may be free in the interval")
+        sides = [constant_sign(p, low, high) if p else 0 for p in (even, odd)]
+        if vanishes or not even or (not all(sides) and order(even)):
+            empty = frozenset(SIGNS)  # N = A² where W = 0; where W > 0 and A = 0, B = 0
+        elif all(sides):
+            empty = frozenset({-sides[0] * sides[1]})
+        else:
+            raise entry.fail("which Q vanishes is not proved")
+    return low, high, _Between(vanishes > 0, empty, (-1) ** (vanishes // 2))
+
+
+def _joint(one: _Along, other: _Along, entry: Entry) -> _Between:
+    """What holds where the next curve begins."""
+    end = Fraction(1)
+    if one.quality is None:
+        empty = frozenset[int]()
+    else:
+        even, odd, w = (sr.at(p, end) for p in (*one.quality, one.w))
+        is_empty = one.norm is not None and not sr.at(one.norm, end)
+        if is_empty and one.plane.may_fold and not sr.at(_norm(one.distance, one.w), end):
+            raise entry.fail("the second joint is free where the curve begins")
+        sides = SIGNS if not even or not w else (-even.sign() * odd.sign(),)
+        empty = frozenset(sides if is_empty else ())
+    if sr.at(one.w, end):
+        return _Between(False, empty, 1)
+    turn = 1
+    if not one.plane.offset:
+        (a, b, k), (c, d, _) = _direction(one, end), _direction(other, Fraction(0))
+        turn = 0 if a * d - b * c else (-1) ** k * (a * c + b * d).sign()
+    return _Between(True, empty, turn)
+
+
+def _direction(along: _Along, s: Fraction) -> tuple[Surd, Surd, int]:
+    """The first derivatives of x and y that do not both vanish at s, and their order."""
+    x, y, k = along.x, along.y, 0
+    while not (sr.at(x, s) or sr.at(y, s)):
+        x, y = (sr.trimmed([Surd.rational(i) * c for i, c in enumerate(p)][1:]) for p in (x, y))
+        k += 1
+    return sr.at(x, s), sr.at(y, s), k
+
+
+def _plus(a: Split, b: Split) -> Split:
+    return sr.add(a[0], b[0]), sr.add(a[1], b[1])
+
+
+def _scaled(a: Split, factor: Surd) -> Split:
+    return sr.scaled(a[0], factor), sr.scaled(a[1], factor)
+
+
+def _times(a: Split, b: Split, w: Polynomial) -> Split:
+    even = sr.add(sr.times(a[0], b[0]), sr.times(sr.times(a[1], b[1]), w))
+    return even, sr.add(sr.times(a[0], b[1]), sr.times(a[1], b[0]))
+
+
+def _norm(a: Split, w: Polynomial) -> Polynomial:
+    return _times(a, (a[0], sr.scaled(a[1], -ONE)), w)[0]
+
+
+def _column(rows: Sequence[Triple]) -> Triple:
+    return tuple(row[2] for row in rows)
+
+
+def _cross(a: Triple, b: Triple) -> Triple:
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def _claim(payload: Entry) -> str:
+    motions = payload.fields("arm", "curves", "places", "solutions", "through", "motions")[-1].integer()
+    return f"an arm has exactly {motions} continuous joint motions along curves, limits of joints left aside"
+
+
+KIND = BroughtKind(check_motions, _claim)

@@ -1,0 +1,410 @@
+"""Steps of rules that are no primitives, made of steps of primitives (``qe.kernel``).
+
+Nothing here is trusted: the kernel checks what comes out. An elaborator is given a step, as its rule's evidence says,
+and says by which steps of the kernel it is made. Steps that the engine takes today go through it, and those that
+certificates of former releases have (``qe.proving.older``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from fractions import Fraction
+
+from qe.certify.block import block_goals, existential
+from qe.certify.boolean import Goal, equivalence
+from qe.certify.derivation import replaced
+from qe.certify.linear_equation import term
+from qe.certify.step import Claim, Context, Limits, only
+from qe.errors import CertificateRejected
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, disj, exists
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.traverse import children, conjuncts, disjuncts, map_atoms, subformula, with_child
+from qe.kernel.root import root_goals
+from qe.kernel.terms import Quotient, at_terms, terms_goals
+from qe.kernel.theorem import theorem_goals
+from qe.proof.certificate import written
+from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proving.lemma_list import EMPTY
+from qe.proving.lemmas import refuting
+from qe.proving.simplified import Simplified
+from qe.rules.closed_forms import matches
+
+Elaborator = Callable[[Claim, Context, Limits], list[Json]]
+"""The steps that lead from ``claim.before`` to ``claim.after``; ``CertificateRejected`` where there are none."""
+
+
+def closed_form(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """An instance of a theorem of the family that is called like the rule, and what the answer was simplified to."""
+    before, after = existential(claim)
+    if not isinstance(before, Exists):
+        raise claim.fail("a block expected")
+    steps = by_theorems(before, context, claim, limits)
+    same = next((step for step, answer in steps if answer == after), None)
+    if same is not None:
+        return [same]
+    for step, answer in by_theorems(before, context, claim, limits):
+        with suppress(CertificateRejected):
+            return [step, simplified(answer, after, context, claim, limits)]
+    raise claim.fail("not an instance of a theorem")
+
+
+def by_theorems(
+    block: Exists, context: Context, claim: Claim, limits: Limits, place: tuple[int, ...] = ()
+) -> Iterator[tuple[Json, Formula]]:
+    """Steps from a block to its answer by theorems of the family that is called like the rule, and the answers."""
+    for match in matches(claim.rule, block.variables, block.body):
+        answer = nnf(match.formula("answer"))
+        evidence = {**match.evidence, "theory": EMPTY}
+        step = replace(claim, rule="theorem", before=block, after=answer, evidence=Entry(evidence, claim.path))
+        theory = refuting(theorem_goals(step, context), claim.ring, limits)
+        if theory is not None:
+            yield written("theorem", place, block, answer, context, {**evidence, "theory": theory}), answer
+
+
+def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A variable that one condition looks at, as a parabola: that condition in a block of its own, by a theorem."""
+    (variable,) = only(claim, "variable")
+    block, name, _ = claim.variable(variable)
+    parts = conjuncts(block.body)
+    part = next((f for f in parts if name in f.free), TRUE)
+    inner, rest = Exists((name,), part), tuple(v for v in block.variables if v != name)
+    body = conj(inner if f is part else f for f in parts)
+    middle = Exists(rest, body) if rest else body  # the blocks stay two, also where one stands in the other alone
+    place = (*((0,) if rest else ()), *((parts.index(part),) if len(parts) > 1 else ()))
+    solved = next(by_theorems(inner, (), claim, limits, place), None)
+    if solved is None:
+        raise claim.fail("not an instance of a theorem")
+    return [*_regrouped(block, middle), solved[0]]
+
+
+def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A variable of which one comparison alone asks something: a value far out, or a root, meets it."""
+    variable = only(claim, "variable", optional=("theory",))[0]
+    block, name, _ = claim.variable(variable)
+    parts = conjuncts(block.body)
+    part = next((f for f in parts if name in f.free), TRUE)
+    others = tuple(f for f in parts if f is not part)
+    inner, rest = Exists((name,), part), tuple(v for v in block.variables if v != name)
+    middle = exists(rest, conj((inner, *others)))
+    place = (*((0,) if rest else ()), *((0,) if others else ()))
+    facts = replaced(middle, place, inner, TRUE, context, variable)[0]
+    is_odd = isinstance(part, Atom) and part.poly.degree(claim.ring.index[name]) % 2
+    for rising in (0,) if is_odd else (1, -1):
+        evidence: dict[str, Json] = {"low": None, "high": None, "rising": rising, "theory": EMPTY}
+        step = replace(claim, rule="root", before=inner, after=TRUE, evidence=Entry(evidence, claim.path))
+        theory = refuting(root_goals(step, facts), claim.ring, limits)
+        if theory is not None:
+            taken = written("root", place, inner, TRUE, facts, {**evidence, "theory": theory})
+            return [*_regrouped(block, middle), taken]
+    raise claim.fail("not shown that the value is taken")
+
+
+def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """The sum and the product of two variables in their place, which get two names that are free in the ring."""
+    (listed,) = only(claim, "variables")
+    names, fresh = [entry.text() for entry in listed.items()], [name for name in FRESH if name in claim.ring.index]
+    if len(names) != 2 or len(fresh) != 2 or not set(names) <= claim.ring.index.keys() - {*FRESH}:
+        raise listed.fail("expected two variables, and two names for their sum and product in the order")
+    (x, y), (z, w) = names, fresh
+    (before, after), ring = existential(claim), claim.ring
+    if not isinstance(before, Exists) or not isinstance(after, Exists):
+        raise claim.fail("two blocks expected")
+    one, other = ring.var(z), ring.var(w)
+    by = {ring.index[x]: one + other, ring.index[y]: one * other}
+    apart_by = {ring.index[x]: one, ring.index[y]: other}
+    apart = tuple({x: z, y: w}.get(v, v) for v in after.variables)
+    renamed = exists(apart, map_atoms(before.body, lambda a: atom(a.poly.compose(apart_by), a.relation)))
+    image = exists(apart, map_atoms(after.body, lambda a: atom(a.poly.compose(by), a.relation)))
+    sums = [Atom((ring.var(v) - poly).normal()[1], Relation.EQ) for v, poly in ((x, one + other), (y, one * other))]
+    solved = [_solved(equation, v) for v, equation in zip((x, y), sums, strict=True)]
+    named = Exists(tuple(dict.fromkeys((*apart, *after.variables))), conj((*sums, *conjuncts(after.body))))
+    inner = Exists((z, w), conj(sums))
+    middle = exists(after.variables, conj((*conjuncts(after.body), inner)))
+    back = written("linear equation solved", (), named, image, (), {"solved": solved, "theory": EMPTY})
+    place = (0, len(conjuncts(after.body)))
+    theorem = next(by_theorems(inner, (), claim, limits, place), None)
+    if theorem is None:
+        raise claim.fail("not an instance of a theorem")
+    return [
+        written("quantifiers", (), before, renamed, (), {}),
+        simplified(renamed, image, (), claim, limits),
+        written("converse", (), image, named, (), {"steps": [back]}),
+        written("quantifiers", (), named, middle, (), {}),
+        theorem[0],
+    ]
+
+
+def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """The cases of the sign of a variable, in each of which the others are measured in powers of it."""
+    variable, weights, values, _ = only(claim, "variable", "weights", "values", optional=("theory",))
+    (block, name, x), ring = claim.variable(variable), claim.ring
+    powers = _moves(weights, name, claim)
+    if any(power.denominator > 1 for power in powers.values()):
+        raise weights.fail("a root of the variable would be needed")
+    rest, one = [v for v in block.variables if v != name], ring.constant(1)
+    cases = [(s, exists(block.variables, conj((atom(ring.gen(x), _SIDE[s]), block.body)))) for s in (1, 0, -1)]
+    kept = [case for case in cases if case[0] in {entry.integer(-1) for entry in values.items()}]
+    current = disj(case for _, case in kept)
+    steps = [simplified(block, current, context, claim, limits)]
+    for s, case in kept:
+        after = exists(rest, _at_number(block.body, x, s))
+        if current == TRUE or case not in disjuncts(current):  # another case has settled it
+            continue
+        place = () if current == case else (disjuncts(current).index(case),)
+        if s:
+            times = {v: _times(ring, v, ring.gen(x) * s, power.numerator) for v, power in powers.items()}
+            back = {v: _times(ring, v, ring.gen(x) * s, -power.numerator) for v, power in powers.items()}
+            known = (atom(ring.gen(x), _SIDE[s]),)
+            moved = moved_inside(case, place, times, back, known, steps, claim, limits, start=True)
+            image = _image(after, {v: q for v, q in back.items() if v in rest}, known, rest, ring)
+            regular = exists(block.variables, conj((*known, image)))
+            current = replaced(current, place, case, moved, (), variable)[1]
+            if moved != regular:
+                current = _simplified_inside(place, moved, regular, current, steps, claim, limits)
+            outer = {v: q for v, q in back.items() if v in rest}
+            steps.append(terms(regular, after, {name: (one * s, one)}, outer, (), claim, limits, place))
+            current = replaced(current, place, regular, after, (), variable)[1]
+        else:
+            evidence: dict[str, Json] = {"solved": [[name, poly_to_text(ring.gen(x)), 1]], "theory": EMPTY}
+            steps.append(written("linear equation solved", place, case, after, (), evidence))
+            current = replaced(current, place, case, after, (), variable)[1]
+    return steps
+
+
+def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A variable at 0, the others moved along; those bound inside first."""
+    variable, weights = only(claim, "variable", "weights")
+    (block, name, x), ring = claim.variable(variable), claim.ring
+    steps, moves = list[Json](), _moves(weights, name, claim)
+    there = {v: _along(ring, v, by, name) for v, by in moves.items()}
+    back = {v: _along(ring, v, -by, name) for v, by in moves.items()}
+    moved = moved_inside(block, (), there, back, (), steps, claim, limits, start=True)
+    rest = [v for v in block.variables if v != name]
+    after = exists(rest, _at_number(block.body, x, 0))
+    outer = {v: q for v, q in back.items() if v in rest}
+    zero = {name: (ring.constant(0), ring.constant(1))}
+    return [*steps, terms(moved, after, zero, outer, (), claim, limits)]
+
+
+def _moves(weights: Entry, name: str, claim: Claim) -> dict[str, Fraction]:
+    """How the other variables move where this one moves by 1."""
+    rows = [entry.row("name", "weight") for entry in weights.items()]
+    by_name = {row[0].text(): row[1].rational() for row in rows}
+    if not by_name.get(name) or not by_name.keys() <= claim.ring.index.keys():
+        raise weights.fail(f"{name} does not move, or what moves is no variable")
+    return {other: weight / by_name[name] for other, weight in by_name.items() if other != name}
+
+
+def moved_inside(
+    formula: Formula,
+    place: tuple[int, ...],
+    there: Mapping[str, Quotient],
+    back: Mapping[str, Quotient],
+    known: Context,
+    steps: list[Json],
+    claim: Claim,
+    limits: Limits,
+    *,
+    start: bool = False,
+) -> Formula:
+    """The formula with these terms for the variables that quantifiers inside bind, and the steps to it.
+
+    ``start``: the outermost quantifier is left alone.
+    """
+    if isinstance(formula, Exists | ForAll) and not start and (names := set(formula.variables) & there.keys()):
+        inner, outer = ({v: of[v] for v in sorted(names)} for of in (there, back))
+        by = {claim.ring.index[v]: quotient for v, quotient in inner.items()}
+        moved = map_atoms(formula, lambda a: atom(at_terms(a.poly, by), a.relation))
+        steps.append(terms(formula, moved, inner, outer, known, claim, limits, place))
+        formula = moved
+    for k, child in enumerate(children(formula)):
+        changed = moved_inside(child, (*place, k), there, back, known, steps, claim, limits)
+        formula = formula if changed == child else with_child(formula, k, changed)
+    return formula
+
+
+def _simplified_inside(
+    place: tuple[int, ...],
+    before: Formula,
+    after: Formula,
+    current: Formula,
+    steps: list[Json],
+    claim: Claim,
+    limits: Limits,
+) -> Formula:
+    """The formula ``current`` with one part made simpler, also under quantifiers."""
+
+    def evidence(one: Formula, other: Formula, used: Context) -> Json | None:
+        try:
+            return {"theory": _theory(equivalence(one, other, used), claim, limits)}
+        except CertificateRejected:
+            return None
+
+    found = Simplified(evidence, (), steps).inside(place, before, after, current)
+    if found is None:
+        raise claim.fail("not shown that this was simplified to that")
+    return found
+
+
+def _image(formula: Formula, back: Mapping[str, Quotient], known: Context, rest: list[str], ring: Ring) -> Formula:
+    """The body of a block at these terms for its variables."""
+    by = {ring.index[v]: quotient for v, quotient in back.items()}
+    body = formula.body if isinstance(formula, Exists) and rest else formula
+    return map_atoms(body, lambda a: atom(at_terms(a.poly, by), a.relation))
+
+
+def _times(ring: Ring, name: str, unit: Poly, power: int) -> Quotient:
+    """name * unit^power, as a quotient."""
+    return ring.var(name) * unit ** max(power, 0), unit ** max(-power, 0)
+
+
+def _at_number(formula: Formula, x: int, value: int) -> Formula:
+    return map_atoms(formula, lambda a: atom(a.poly.at_rational(x, value), a.relation))
+
+
+def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
+    """name + by * variable, as a quotient."""
+    bottom = ring.constant(by.denominator)
+    return ring.var(name) * bottom + ring.var(variable) * by.numerator, bottom
+
+
+_SIDE = {1: Relation.GT, 0: Relation.EQ, -1: Relation.LT}
+
+
+def _regrouped(before: Formula, after: Formula) -> list[Json]:
+    """A step that moves quantifiers, unless nothing moves."""
+    return [] if before == after else [written("quantifiers", (), before, after, (), {})]
+
+
+def _solved(equation: Atom, name: str) -> Json:
+    """An equation for a variable with a number as coefficient, and the sign of that, as the kernel wants them."""
+    lead = equation.poly.leading(equation.poly.ring.index[name])
+    return [name, poly_to_text(equation.poly), 1 if lead.constant_value() > 0 else -1]
+
+
+def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
+    """A step that signs of polynomials prove."""
+    empty = Entry({"theory": EMPTY}, claim.path)
+    step = replace(claim, rule="simplification", before=before, after=after, evidence=empty)
+    theory = _theory(block_goals(step, context), claim, limits)
+    return written("simplification", (), before, after, context, {"theory": theory})
+
+
+def terms(
+    before: Formula,
+    after: Formula,
+    there: Mapping[str, Quotient],
+    back: Mapping[str, Quotient],
+    context: Context,
+    claim: Claim,
+    limits: Limits,
+    place: tuple[int, ...] = (),
+) -> Json:
+    """A change of variables by these terms."""
+    evidence: dict[str, Json] = {"there": _rows(there), "back": _rows(back), "theory": EMPTY}
+    step = replace(claim, rule="terms", before=before, after=after, evidence=Entry(evidence, claim.path))
+    theory = _theory(terms_goals(step, context), claim, limits)
+    return written("terms", place, before, after, context, {**evidence, "theory": theory})
+
+
+def _rows(of: Mapping[str, Quotient]) -> list[Json]:
+    return [[name, poly_to_text(top), poly_to_text(bottom)] for name, (top, bottom) in of.items()]
+
+
+def _theory(goals: Sequence[Goal], claim: Claim, limits: Limits) -> Json:
+    theory = refuting(goals, claim.ring, limits) if goals else EMPTY
+    if theory is None:
+        raise claim.fail("no lemmas show what has to be shown")
+    return theory
+
+
+def _at(quotient: Quotient, terms: Mapping[int, Quotient]) -> Quotient:
+    """A quotient whose bottom is a number, at such terms."""
+    (top, bottom), ((i, (_, lead)),) = quotient, terms.items()
+    degree = top.degree(i)
+    even = degree + (degree % 2 if lead.constant_value() < 0 else 0)
+    return at_terms(top, terms), bottom * lead**even
+
+
+def redundant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A part that makes no difference, turned into a constant at its own place."""
+    at, steps = only(claim, "at", "steps")
+    place = [entry.integer() for entry in at.items()]
+    parent = subformula(claim.before, place[:-1])
+    part, constant = subformula(parent, place[-1:]), FALSE if isinstance(parent, Or) else TRUE
+    facts, _ = replaced(claim.before, place, part, constant, (), at)
+    return [written("no exception", place, part, constant, facts, {"exceptions": [steps.value]})]
+
+
+def constant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A formula that holds nowhere, or everywhere: by steps, or by a table."""
+    value = claim.evidence.value
+    if isinstance(value, dict) and "certificate" in value:
+        return [written("cells", (), claim.before, claim.after, context, value)]
+    steps = only(claim, "steps")[0]
+    return [written("no exception", (), claim.before, claim.after, (), {"exceptions": [steps.value]})]
+
+
+def witness(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """Terms in the parameters that satisfy a block."""
+    equations, block = only(claim, "equations", optional=("theory",))[0], claim.block()
+    there: dict[str, Quotient] = {}
+    for entry in equations.items():
+        pivot = term(entry, block.variables, block.body, claim)
+        one = {claim.ring.index[pivot.name]: (-pivot.rest, pivot.lead)}
+        there = {name: _at(quotient, one) for name, quotient in there.items()}
+        there[pivot.name] = (-pivot.rest, pivot.lead)
+    return [terms(claim.before, TRUE, there, {}, context, claim, limits)]
+
+
+def sheared(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """m*x + n as the new x; where m may vanish, the case that it does stays as it is."""
+    variable, form = only(claim, "variable", "form")
+    (block, name, x), ring = claim.variable(variable), claim.ring
+    linear = form.polynomial(ring)
+    if linear.degree(x) != 1:
+        raise form.fail("expected a polynomial of degree 1 in the variable")
+    n, m = linear.coefficients(x)
+    if m.is_constant and m.constant_value() < 0:
+        m, n = -m, -n
+    there, back = {name: (ring.gen(x) - n, m)}, {name: (m * ring.gen(x) + n, ring.constant(1))}
+    if m.is_constant:
+        return [terms(block, claim.after, there, back, context, claim, limits)]
+    if not isinstance(claim.after, Or):
+        raise claim.fail("two cases expected")
+    cases = [exists(block.variables, conj((atom(m, rel), block.body))) for rel in (Relation.NE, Relation.EQ)]
+    regular = next(part for part in claim.after.args if part != cases[1])
+    middle = disj(cases)
+    inner = terms(cases[0], regular, there, back, (), claim, limits, place=(0,))
+    return [simplified(block, middle, context, claim, limits), inner]
+
+
+def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A block that goes into a disjunction."""
+    return [simplified(claim.before, claim.after, (), claim, limits)]
+
+
+FRESH = ("'", "''")
+NAMING = frozenset(("two variables exchanged",))
+"""Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
+
+ELABORATORS: Mapping[str, Elaborator] = {
+    "cubic on an interval": closed_form,
+    "two variables exchanged": exchanged,
+    "homogeneous scaling": scaled,
+    "translation of the origin": translated,
+    "two balls": closed_form,
+    "quadric in a quadric": closed_form,
+    "roots in a half-plane": closed_form,
+    "square of a variable alone": square_alone,
+    "value that is taken": value_taken,
+    "redundant part": redundant,
+    "constant": constant,
+    "witness in the parameters": witness,
+    "linear form as a variable": sheared,
+    "disjuncts with equations apart": distributed,
+}

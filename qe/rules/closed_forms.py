@@ -1,0 +1,215 @@
+"""Blocks that are instances of listed theorems (``qe.theorems``), whose answers take their place.
+
+A theorem says: where ``given`` holds, ``block`` <-> ``answer``, for all values of its letters. The conditions of a
+block are held against those of the theorem one by one; the letters stand for what has none of the block's variables.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import permutations, product
+from math import isqrt, prod
+
+from qe.errors import Unable
+from qe.exact.ring import Poly, Ring
+from qe.formula.normal import nnf
+from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
+from qe.formula.traverse import conjuncts, polynomials
+from qe.kernel.statements import Row, Theorem, rows, theorem
+from qe.proof.entry import Json, poly_to_text
+from qe.rules.block_context import BlockContext, Found, Rule
+from qe.rules.step import StepKind
+from qe.rules.tree import Leaf
+
+MOST_TERMS = 2_000
+"""With more terms in a polynomial an answer is of no use."""
+
+MOST_CONDITIONS = 8
+"""Longer conjunctions are not held against theorems: their conditions are tried in every order."""
+
+Letters = Mapping[str, Poly]
+Terms = Mapping[tuple[int, ...], Poly]
+"""Polynomials in the letters or parameters, by the powers of the block's variables before which they stand."""
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A comparison of a theorem's block: its relation, and terms in the letters by the powers of its variables."""
+
+    relation: Relation
+    terms: Terms
+
+
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """A theorem with the variables and conditions of its block; ``roots``: by letters that do not stand there, terms
+    whose square roots they are."""
+
+    theorem: Theorem
+    row: Row
+    variables: tuple[str, ...]
+    conditions: tuple[Condition, ...]
+    roots: Mapping[str, ast.expr]
+
+
+def patterns(family: str, body: Formula, variables: Sequence[str], conditions: int) -> Iterator[Pattern]:
+    """Those of a family that the block may be an instance of, by its size and the number of its parameters."""
+    parameters = len(set(body.free) - set(variables))
+    degrees = (p.degree(p.ring.index[v]) for p in polynomials(body) for v in variables)
+    size = frozenset((len(variables), max(degrees, default=0)))
+    for row in rows().values():
+        if row.family == family and row.data.get("parameters", 0) <= parameters:
+            for found in (pattern(row.name, words) for words in row.choices(size)):
+                if len(found.variables) == len(variables) and len(found.conditions) == conditions:
+                    yield found
+
+
+@cache
+def pattern(name: str, words: tuple[str, ...]) -> Pattern:
+    """The pattern of a theorem."""
+    used = theorem(name, words)
+    assert used is not None
+    block = used.generic("block")
+    assert isinstance(block, Exists) and block.ring is not None
+    indices = [block.ring.index[v] for v in block.variables]
+    parts = [part for part in conjuncts(block.body) if isinstance(part, Atom)]
+    conditions = tuple(Condition(p.relation, p.poly.collected(indices)) for p in parts)
+    return Pattern(used, rows()[name], block.variables, conditions, dict(_roots(used, block)))
+
+
+def _roots(used: Theorem, block: Formula) -> Iterator[tuple[str, ast.expr]]:
+    """Letters that what is given says to be square roots, as in T^2 = 4*R*S."""
+    for node in ast.walk(used.trees["given"]):
+        match node:
+            case ast.Compare(ast.BinOp(ast.Name(name), ast.Pow(), ast.Constant(2)), [ast.Eq()], [square]):
+                if name not in block.free:
+                    yield name, square
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """The theorem, and what its letters and variables stand for."""
+
+    theorem: Theorem
+    letters: Letters
+    variables: Mapping[str, str]
+    ring: Ring
+
+    def formula(self, part: str) -> Formula:
+        """A part of the theorem about what its letters stand for."""
+        return self.theorem.formula(part, self.letters, self.variables, self.ring)
+
+    @property
+    def evidence(self) -> dict[str, Json]:
+        """What the kernel needs beside the formulas, but for lemmas."""
+        return {
+            "theorem": self.theorem.name,
+            "words": list(self.theorem.words),
+            "letters": {name: poly_to_text(poly) for name, poly in self.letters.items()},
+            "variables": dict(self.variables),
+        }
+
+
+def matches(family: str, variables: Sequence[str], body: Formula) -> Iterator[Match]:
+    """The theorems of a family of which ``exists variables. body`` is an instance, but for what is given."""
+    parts = [part for part in conjuncts(body) if isinstance(part, Atom)]
+    if body.ring is None or len(parts) < len(conjuncts(body)) or len(parts) > MOST_CONDITIONS:
+        return
+    for found in patterns(family, body, variables, len(parts)):
+        if found.row.data.get("dense") and not all(set(variables) <= set(part.free) for part in parts):
+            continue
+        for names in permutations(variables) if len(variables) < 3 else [tuple(variables)]:
+            indices = [body.ring.index[name] for name in names]
+            for letters in _assigned(found.conditions, parts, indices, {}):
+                yield from _completed(found, letters, names, variables, body)
+
+
+def _completed(
+    found: Pattern, letters: Letters, names: Sequence[str], variables: Sequence[str], body: Formula
+) -> Iterator[Match]:
+    """The matches, with names for the variables that only the answer binds and square roots, if the block fits."""
+    assert body.ring is not None
+    others = [v for v in found.theorem.variables if v not in found.variables]
+    if len(others) > len(variables):
+        return
+    named = dict(zip((*found.variables, *others), (*names, *variables), strict=False))
+    whole = {name: letters.get(name, body.ring.constant(0)) for name in found.theorem.letters}
+    match = Match(found.theorem, whole, named, body.ring)
+    block = match.formula("block")
+    if not isinstance(block, Exists) or set(conjuncts(block.body)) != set(conjuncts(body)):
+        return
+    roots = {name: square_root(match.theorem.term(tree, whole, body.ring)) for name, tree in found.roots.items()}
+    if None not in roots.values():
+        for signs in product((1, -1), repeat=len(roots)):
+            signed = {name: root * s for (name, root), s in zip(roots.items(), signs, strict=True) if root is not None}
+            yield replace(match, letters={**whole, **signed})
+
+
+def square_root(poly: Poly) -> Poly | None:
+    """A polynomial with this square, or None."""
+    if not poly:
+        return poly
+    unit, factors = poly.factors()
+    if unit < 0 or isqrt(unit) ** 2 != unit or any(multiplicity % 2 for _, multiplicity in factors):
+        return None
+    return prod((factor ** (times // 2) for factor, times in factors), start=poly.ring.constant(isqrt(unit)))
+
+
+def _assigned(
+    conditions: Sequence[Condition], parts: Sequence[Atom], indices: Sequence[int], known: Letters
+) -> Iterator[Letters]:
+    """The letters, so that each condition of the theorem is one of the parts."""
+    if not conditions:
+        yield known
+        return
+    first, *rest = conditions
+    for k, part in enumerate(parts):
+        for sign, relation in ((1, part.relation), (-1, part.relation.flipped)):
+            if relation is first.relation:
+                letters = _read_off(first.terms, (part.poly * sign).collected(indices), known)
+                if letters is not None:
+                    yield from _assigned(rest, [*parts[:k], *parts[k + 1 :]], indices, letters)
+
+
+def _read_off(terms: Terms, of: Terms, known: Letters) -> Letters | None:
+    """The letters with which the polynomial ``of`` may have these terms, as far as single letters tell."""
+    if not of.keys() <= terms.keys():
+        return None
+    zero = next(iter(of.values())) * 0
+    letters = dict(known)
+    for powers, term in terms.items():
+        if term.term_count() == 1 and term.total_degree == 1:
+            ((exponents, coefficient),) = term.terms()
+            name = term.ring.names[exponents.index(1)]
+            if abs(coefficient) == 1:
+                letters.setdefault(name, of.get(powers, zero) * coefficient)
+    return letters
+
+
+def closed_form(kind: StepKind) -> Rule:
+    """The rule that takes the answers of the theorems of the family that is called like the step."""
+
+    def rule(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+        if kind not in context.enabled:
+            return None
+        with suppress(Unable):  # a determinant is too large
+            for match in matches(kind.value, variables, body):
+                if _holds(match.formula("given"), context):
+                    answer = nnf(match.formula("answer"))
+                    if all(p.term_count() <= MOST_TERMS for p in polynomials(answer)):
+                        return Found(kind, match.theorem.name, Leaf((), answer), match.evidence)
+        return None
+
+    return rule
+
+
+def _holds(given: Formula, context: BlockContext) -> bool:
+    """Whether what is given is known, comparison by comparison."""
+    return all(
+        part == TRUE or (isinstance(part, Atom) and context.facts.signs(part.poly) <= part.relation.signs)
+        for part in conjuncts(given)
+    )

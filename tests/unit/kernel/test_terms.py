@@ -1,0 +1,60 @@
+"""The primitive "terms": changes of variables, and what is no change of variables."""
+
+from __future__ import annotations
+
+import pytest
+
+from qe.certify.step import Claim
+from qe.errors import CertificateRejected
+from qe.kernel.terms import terms_goals
+from qe.proof.entry import Entry
+from qe.proving.lemmas import refuting
+from tests.unit.certify.claims import NO_LEMMAS, RING, formula, limits, objection
+
+Terms = dict[str, str | tuple[str, str]]
+
+
+def rows(terms: Terms) -> list[list[str]]:
+    return [[name, *(t if isinstance(t, tuple) else (t, "1"))] for name, t in terms.items()]
+
+
+def refused(before: str, after: str, there: Terms, back: Terms) -> str:
+    """Why the step is rejected, with all lemmas that the prover finds for what it has to show; nothing if it is not."""
+    evidence = {"there": rows(there), "back": rows(back), "theory": NO_LEMMAS}
+    claim = Claim("terms", formula(before), formula(after), RING, Entry(evidence, "evidence"), "step")
+    try:
+        goals = terms_goals(claim, ())
+    except CertificateRejected as error:
+        return str(error)
+    return objection("terms", before, after, {**evidence, "theory": refuting(goals, RING, limits()) or NO_LEMMAS})
+
+
+ACCEPTED: dict[str, tuple[str, str, Terms, Terms]] = {
+    "translation": ("ex x, y. x - y > 1", "ex y. -y > 1", {"x": "0"}, {"y": "-x + y"}),
+    "shear": ("ex x, y. x + y > a and x > 0", "ex x, y. x > a and x - y > 0", {"x": "x - y"}, {"x": "x + y"}),
+    "stretched": ("ex x. a*x > 1 and a /= 0", "ex x. x > 1 and a /= 0", {"x": ("x", "a")}, {"x": "a*x"}),
+    "other names": ("ex x. x^2 = a", "ex y. y^2 = a", {"x": "y"}, {"y": "x"}),
+    "a number": ("ex x. x^2 = 4", "true", {"x": "2"}, {}),
+    "for all": ("all x, y. x - y <= 1", "all y. -y <= 1", {"x": "0"}, {"y": "-x + y"}),
+}
+
+REJECTED: dict[str, tuple[str, str, Terms, Terms]] = {
+    "not invariant": ("ex x, y. x - y > 1 and x > 3", "ex y. -y > 1", {"x": "0"}, {"y": "-x + y"}),
+    "denominator may vanish": ("ex x. a*x > 1 or b = 0", "ex x. x > 1 or b = 0", {"x": ("x", "a")}, {"x": "a*x"}),
+    "sign of the denominator": ("ex x. x > b and a /= 0", "ex x. x > a*b and a /= 0", {"x": ("x", "a")}, {"x": "a*x"}),
+    "sign of a quotient": ("ex x. x > 0 and a*x = b and b > 0", "b > 0 and a /= 0", {"x": ("b", "a")}, {}),
+    "not onto": ("ex x. x = a", "ex x. x^2 = a", {"x": "x^2"}, {"x": "x"}),
+    "the variable is free outside": ("ex x. x = y", "ex y. y = y + 1 - 1", {"x": "y"}, {"y": "x"}),
+    "captured inside": ("ex x. (ex y. x^2 - y = 1)", "ex z. (ex y. z^2 - y = 1)", {"x": "y"}, {"z": "x"}),
+    "a variable without a term": ("ex x, y. x > y", "ex z. z > 0", {"x": "z"}, {"z": "x - y"}),
+}
+
+
+@pytest.mark.parametrize("name", ACCEPTED)
+def test_a_change_of_variables_is_accepted(name: str) -> None:
+    assert not refused(*ACCEPTED[name])
+
+
+@pytest.mark.parametrize("name", REJECTED)
+def test_what_is_no_change_of_variables_is_rejected(name: str) -> None:
+    assert refused(*REJECTED[name])

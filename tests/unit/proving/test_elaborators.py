@@ -1,0 +1,188 @@
+"""Steps of rules that are no primitives, in the language of the kernel: true ones are, false ones cannot be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import qe
+from tests.unit.certify.claims import NO_LEMMAS, line, step
+from tests.unit.proving.elaborated import refused
+
+Step = tuple[str, str, str, Any, str]
+"""Rule, before, after, evidence, and what is given."""
+
+
+def of_theorem(rule: str, before: str, after: str, given: str = "true") -> Step:
+    """A step of a former rule, whose evidence its elaborator does not need."""
+    return rule, before, after, {"theory": NO_LEMMAS}, given
+
+
+def by(*equations: tuple[str, str]) -> dict[str, Any]:
+    return {"equations": [[name, line(text)] for name, text in equations], "theory": NO_LEMMAS}
+
+
+WITNESS, SHEAR, APART = "witness in the parameters", "linear form as a variable", "disjuncts with equations apart"
+REDUNDANT, CONSTANT = "redundant part", "constant"
+BLOCK = "ex x. (x = a or x = b) and x > c and (x < 1 or x > 2)"
+FIRST = "(ex x. x > c and (x < 1 or x > 2) and x = a) or (ex x. x > c and (x < 1 or x > 2) and x = b)"
+SECOND = "(ex x. (x = a or x = b) and x > c and x < 1) or (ex x. (x = a or x = b) and x > c and x > 2)"
+MIDDLE = ("x", "a + b - 2*x")
+SOLVED = {"solved": [["x", "-a + x", 1]], "theory": NO_LEMMAS}
+NOWHERE = [step("linear equation solved", "ex a, x. x = a and x > a", "false", SOLVED)]
+BESIDE = [step("linear equation solved", "ex a, b, x. b <= 0 and x = a and x > a", "false", SOLVED)]
+
+VALUE_TAKEN = [
+    ("ex x. x = a and b > 0", "b > 0", "true"),
+    ("ex x. x^3 + a*x < b", "true", "true"),
+    ("ex x, y. x^3 - y = 0 and y > b", "ex y. y > b", "true"),
+    ("ex x. a*x^3 = b and a /= 0", "a /= 0", "true"),
+    ("ex x. a*x > b", "true", "a < 0"),
+    ("ex x. a*x^2 > b and a > 0", "a > 0", "true"),
+    ("ex x. a*x^2 >= b and a > 0", "a > 0", "true"),
+    ("ex x. a*x^2 < b and a < 0", "a < 0", "true"),
+    ("ex x. a*x^2 <= b and a < 0", "a < 0", "true"),
+    ("ex x. a*x^2 /= b and a < 0", "a < 0", "true"),
+    ("ex x. a*x^2 + b*x /= c and a /= 0", "a /= 0", "true"),
+]
+VALUE_NOT_TAKEN = [
+    ("ex x. a*x > b", "true", "true"),
+    ("ex x. a*x^2 > b and a < 0", "a < 0", "true"),
+    ("ex x. a*x^2 > b and a >= 0", "a >= 0", "true"),
+    ("ex x. a*x^2 < b and a > 0", "a > 0", "true"),
+    ("ex x. a*x^2 <= b and a > 0", "a > 0", "true"),
+    ("ex x. a*x^2 + x /= b", "true", "true"),
+    ("ex x. x^2 = b", "true", "true"),
+    ("ex x. x > a and x < b", "true", "true"),
+    ("ex x. x > a or x < b", "true", "true"),
+    ("ex x. x = a and b > 0", "true", "true"),
+    ("ex x, y. x = a and y > b", "y > b", "true"),
+    ("all x. x = a and b > 0", "b > 0", "true"),
+    ("ex x, y. y*x > b", "true", "y > 0"),
+]
+PARABOLA = [
+    ("ex x, y. x^2 + a*x + y <= 0 and y > b", "ex y. 4*y - a^2 <= 0 and y > b"),
+    ("ex x, y. x^2 + a*x + y = 0 and y > b", "ex y. 4*y - a^2 <= 0 and y > b"),
+    ("ex x, y. x^2 + a*x + y < 0 and y > b", "ex y. 4*y - a^2 < 0 and y > b"),
+    ("ex x. 1 - x^2 > a", "a < 1"),
+]
+NO_PARABOLA = [
+    ("ex x, y. x^2 + a*x + y < 0 and y > b", "ex y. 4*y - a^2 <= 0 and y > b"),
+    ("ex x, y. x^2 + a*x + y > 0 and y > b", "ex y. 4*y - a^2 > 0 and y > b"),
+    ("ex x, y. x^2 + a*x + y <= 0 and y > x", "ex y. 4*y - a^2 <= 0 and y > b"),
+    ("ex x, y. c*x^2 + a*x + y <= 0 and y > b", "ex y. 4*c*y - a^2 <= 0 and y > b"),
+]
+FREE = {"variable": "x", "theory": NO_LEMMAS}
+TAKEN = "value that is taken"
+BALLS, PLANE, QUADRICS = "two balls", "roots in a half-plane", "quadric in a quadric"
+CUBIC, ALONE = "cubic on an interval", "square of a variable alone"
+DISCS = "ex x, y. x^2 + y^2 <= b^2 and (x - a)^2 + y^2 <= c^2"
+GAP = "4*a^2 - 4*b^2 - 4*c^2"
+RADII = "4*b^2 >= 0 and 4*c^2 >= 0"
+TWO_BALLS = "4*a >= 0 and (4*b^2 - 4*a - 4 <= 0 or (4*b^2 - 4*a - 4)^2 - 64*a <= 0)"
+ROOTS = "x^2 - y^2 + b*x + c = 0 and 2*x*y + b*y = 0"
+INTERVAL = "ex x. x >= 0 and x <= 1 and x^3 + a*x^2 + b*x + c < 0"
+BOTH = "b + 3*c >= 0 and a + 2*b + 3*c >= 0"
+EDGES = "(c > 0 or b + 3*c > 0) and (a + 2*b + 3*c > 0 or a + b + c + 1 > 0)"
+D = "a^2*b^2 - 4*b^3 - 4*a^3*c + 18*a*b*c - 27*c^2"
+SOMEWHERE = f"not (c >= 0 and a + b + c + 1 >= 0 and ({BOTH} or {D} <= 0 and {EDGES}))"
+SQUARE = "ex x, y. x^2 + a*x + y <= 0 and y > b"
+OUTSIDE = "ex x, y. x^2 + y^2 <= a and x^2 + b*x + 2*y^2 > c"
+
+TRUE_STEPS: list[Step] = [
+    of_theorem(BALLS, "ex x, y. x^2 + y^2 <= a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
+    of_theorem(BALLS, DISCS, f"{RADII} and ({GAP} - 8*b*c <= 0 or {GAP} + 8*b*c <= 0)"),
+    of_theorem(BALLS, DISCS, f"{RADII} and {GAP} - 8*b*c <= 0", "b >= 0 and c > 0"),
+    of_theorem(PLANE, f"ex x, y. {ROOTS} and x >= 0", "b <= 0 or c <= 0"),
+    of_theorem(PLANE, f"all x, y. not ({ROOTS}) or x < 0", "b > 0 and c > 0"),
+    of_theorem(PLANE, f"ex x, y. {ROOTS} and x <= 0", "b >= 0 or c <= 0"),
+    of_theorem(CUBIC, INTERVAL, SOMEWHERE),
+    of_theorem(CUBIC, INTERVAL.replace("x >= 0", "x > 0"), SOMEWHERE),
+    (ALONE, SQUARE, "ex y. 4*y - a^2 <= 0 and y > b", {"variable": "x"}, "true"),
+    (ALONE, SQUARE.replace("<=", "<"), "ex y. 4*y - a^2 < 0 and y > b", {"variable": "x"}, "true"),
+    (ALONE, SQUARE.replace("a*x", "y*x"), "ex y. 4*y - y^2 <= 0 and y > b", {"variable": "x"}, "true"),
+    (WITNESS, "ex x. x > a and x < b", "true", by(MIDDLE), "a < b"),
+    (WITNESS, "ex x. x >= a", "true", by(("x", "a - x")), "true"),
+    (WITNESS, "ex x, y. y > x and x > a", "true", by(("y", "x - y + 1"), ("x", "a - x + 1")), "true"),
+    (WITNESS, "ex x, y. y = 2*x and x = a", "true", by(("y", "2*x - y"), ("x", "a - x")), "true"),
+    (APART, BLOCK, FIRST, {}, "true"),
+    (APART, BLOCK, SECOND, {}, "true"),
+    (APART, "ex x. x = a or x = b", "(ex x. x = a) or (ex x. x = b)", {}, "true"),
+    (SHEAR, "ex x. x + a > b and x + a < c", "ex x. x > b and x < c", {"variable": "x", "form": "a + x"}, "true"),
+    (
+        SHEAR,
+        "ex x. a*x + b > c and (a*x + b)^2 < 1",
+        "(ex x. a /= 0 and x > c and x^2 < 1) or (ex x. a = 0 and a*x + b > c and (a*x + b)^2 < 1)",
+        {"variable": "x", "form": "a*x + b"},
+        "true",
+    ),
+    *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_TAKEN),
+    *((ALONE, before, after, {"variable": "x"}, "true") for before, after in PARABOLA),
+    (CONSTANT, "x = a and x > a", "false", {"steps": NOWHERE}, "true"),
+    (CONSTANT, "x /= a or x <= a", "true", {"steps": NOWHERE}, "true"),
+    (REDUNDANT, "b > 0 or (x = a and x > a)", "b > 0", {"at": [1], "steps": BESIDE}, "true"),
+]
+
+FALSE_STEPS: list[Step] = [
+    of_theorem(BALLS, "ex x, y. x^2 + 2*y^2 <= a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
+    of_theorem(BALLS, "ex x, y. x^2 + y^2 < a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
+    of_theorem(BALLS, "ex x, y. x^2 + y^2 <= a or (x - b)^2 + y^2 <= 1", TWO_BALLS),
+    of_theorem(BALLS, "ex x, y. c*x^2 + c*y^2 <= a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
+    of_theorem(BALLS, DISCS, f"{RADII} and {GAP} - 8*b*c <= 0"),
+    of_theorem(BALLS, DISCS, f"{RADII} and {GAP} + 8*b*c <= 0"),
+    of_theorem(BALLS, DISCS, "1 < 0"),
+    of_theorem(BALLS, "ex x. x^2 = 1 and (x - b)^2 = a", "a >= 0 and (b^2 - 1 - a)^2 - 4*a <= 0"),
+    of_theorem(PLANE, f"ex x, y. {ROOTS} and x >= 0", "b <= 0 or c < 0"),
+    of_theorem(PLANE, f"ex x, y. {ROOTS} and x <= 0", "b <= 0 or c <= 0"),
+    of_theorem(PLANE, f"ex x, y. {ROOTS} and x > 0", "b < 0 or c < 0"),
+    of_theorem(PLANE, f"ex x, y. {ROOTS} and a*x >= 0", "b <= 0 or c <= 0"),
+    of_theorem(PLANE, f"ex x, y. {ROOTS.replace('+ b*y', '- b*y')} and x >= 0", "b <= 0 or c <= 0"),
+    of_theorem(QUADRICS, OUTSIDE, "true"),
+    of_theorem(QUADRICS, OUTSIDE, "a > 0", "a > 0"),
+    of_theorem(CUBIC, INTERVAL.replace("c < 0", "c <= 0"), SOMEWHERE),
+    of_theorem(CUBIC, INTERVAL.replace("x <= 1", "x <= 2"), SOMEWHERE),
+    of_theorem(CUBIC, INTERVAL, SOMEWHERE.replace("27*c^2", "26*c^2")),
+    of_theorem(CUBIC, INTERVAL, SOMEWHERE.replace(f" and {EDGES}", "")),
+    of_theorem(CUBIC, INTERVAL, SOMEWHERE.replace("not (", "(")),
+    (ALONE, SQUARE.replace("<=", "<"), "ex y. 4*y - a^2 <= 0 and y > b", {"variable": "x"}, "true"),
+    (ALONE, SQUARE.replace("<=", ">="), "ex y. 4*y - a^2 <= 0 and y > b", {"variable": "x"}, "true"),
+    (ALONE, SQUARE, "ex y. 4*y + a^2 <= 0 and y > b", {"variable": "x"}, "true"),
+    (ALONE, SQUARE.replace("> b", "> x"), "ex y. 4*y - a^2 <= 0 and y > b", {"variable": "x"}, "true"),
+    (WITNESS, "ex x. x > a and x < b", "true", by(MIDDLE), "true"),
+    (WITNESS, "ex x. x > a and x < b", "true", by(MIDDLE), "a <= b"),
+    (WITNESS, "ex x. x > a and x < b", "true", by(("x", "a - x")), "a < b"),
+    (WITNESS, "ex x. x > a and x < b", "true", by(), "a < b"),
+    (WITNESS, "ex x. x > a", "true", by(("x", "a*x - 1")), "true"),
+    (WITNESS, "ex x. x^2 > a", "true", by(("x", "x - 1")), "x > a"),  # of another x
+    (APART, BLOCK, "(ex x. x > c and (x < 1 or x > 2) and x = a)", {}, "true"),
+    (APART, BLOCK, "(ex x. (x < 1 or x > 2) and x = a) or (ex x. (x < 1 or x > 2) and x = b)", {}, "true"),
+    (APART, "all x. x = a or x = b", "(all x. x = a) or (all x. x = b)", {}, "true"),
+    (APART, "ex x. x > a and x < b", "(ex x. x > a) and (ex x. x < b)", {}, "true"),
+    (SHEAR, "ex x. x + a > b and x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a + x"}, "true"),
+    (SHEAR, "ex x. a*x > b and a*x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a*x"}, "true"),
+    *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_NOT_TAKEN),
+    *((ALONE, before, after, {"variable": "x"}, "true") for before, after in NO_PARABOLA),
+    (CONSTANT, "x = a and x > a", "true", {"steps": NOWHERE}, "true"),
+    (CONSTANT, "x /= a or x <= a", "false", {"steps": NOWHERE}, "true"),
+    (CONSTANT, "x = a and x > a", "a > 0", {"steps": NOWHERE}, "true"),
+    (REDUNDANT, "b > 0 or (x = a and x > a)", "x = a and x > a", {"at": [0], "steps": NOWHERE}, "true"),
+    (REDUNDANT, "b > 0 or (x = a and x > a)", "b > 0", {"at": [1], "steps": []}, "true"),
+]
+
+
+@pytest.mark.parametrize(("rule", "before", "after", "evidence", "given"), TRUE_STEPS)
+def test_a_true_step_is_one_of_the_kernel(rule: str, before: str, after: str, evidence: Any, given: str) -> None:
+    assert refused(rule, before, after, evidence, given) == ""
+
+
+@pytest.mark.parametrize(("rule", "before", "after", "evidence", "given"), FALSE_STEPS)
+def test_a_false_step_is_none(rule: str, before: str, after: str, evidence: Any, given: str) -> None:
+    assert refused(rule, before, after, evidence, given)
+
+
+def test_a_case_that_settles_a_scaling_ends_it() -> None:
+    """The cases after one that is true were looked for in "true": AttributeError."""
+    evidence = {"variable": "x", "weights": [["x", "1"], ["y", "1"]], "values": [1, 0], "theory": NO_LEMMAS}
+    assert qe.eliminate("ex y, x. y^3 + 2*x^3 > 0 and y^2*x = 0", check=True).guarantee is qe.Guarantee.CHECKED
+    assert refused("homogeneous scaling", "ex x, y. x >= 0 and x + y > 0", "false", evidence)
