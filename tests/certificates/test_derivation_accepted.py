@@ -56,7 +56,7 @@ def test_what_is_not_checked_is_named() -> None:
         assert answer.certificate is None or answer.certificate.kind != Kind.DERIVATION
     else:
         assert answer.certificate is not None
-        assert answer.certificate.kind is Kind.DERIVATION
+        assert answer.certificate.kind == Kind.DERIVATION
 
 
 def test_versions() -> None:

@@ -108,7 +108,7 @@ def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
 
 def optimum_members(certificate: qe.Certificate) -> Members:
     """The certificate of an optimum under its label, or both parts of that of a point near it."""
-    if certificate.kind is Kind.OPTIMUM:
+    if certificate.kind == Kind.OPTIMUM:
         return [(OPTIMUM, certificate)]
     payload: Any = certificate.payload
     return [(label, part.certificate) for label, part in zip(NEAR, payload, strict=True)]
