@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from qe.api.groebner import comprehensive_groebner, real_root_classification
     from qe.api.optimum import maximize, minimize
     from qe.api.solve import find_instances, parametric_witnesses, reduce, solve
-    from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
@@ -41,6 +40,7 @@ if TYPE_CHECKING:
     from qe.io.expressions import Expression, Statement, exists, forall, variables
     from qe.io.sympy import Exists, ForAll
     from qe.io.z3_door import from_z3
+    from qe.kernel.verdict import Verdict
     from qe.optimization.global_optimum import GlobalOptimum
     from qe.optimization.parametric_optimum import ParametricOptimum
     from qe.proof.answer import Answer, Guarantee, Status
@@ -72,7 +72,7 @@ _ELSEWHERE = {
     "RealAlgebraic": "qe.exact.algebraic",
     "Region": "qe.regions.region",
     "Solutions": "qe.regions.solutions",
-    "Verdict": "qe.certify.verdict",
+    "Verdict": "qe.kernel.verdict",
 }
 """Where public names stand that are neither here nor in ``qe.api.eliminate``.
 
@@ -101,7 +101,7 @@ provide(
         Service.REGION: lambda: import_module("qe.api.eliminate").region,
         Service.REGION_OPERATORS: lambda: import_module("qe.api.region_operators"),
         Service.PARTIAL_PICTURE: lambda: import_module("qe.regions.partial_picture").plotted,
-        Service.TRUSTS: lambda: import_module("qe.kernel.trusts").trusts,
+        Service.TRUSTS: lambda: import_module("qe.certify.trusts").trusts,
         Service.THEOREM: lambda: import_module("qe.certify.theorems").theorem_of,
     }
 )

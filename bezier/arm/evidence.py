@@ -10,8 +10,8 @@ from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.limited_pieces import limited_pieces
 from bezier.arm.motion_chain import Piece
 from bezier.arm.motions_evidence import motions_certificate
-from qe.certify.verdict import Verdict
 from qe.errors import BudgetExceeded, Unable
+from qe.kernel.verdict import Verdict
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Json
 

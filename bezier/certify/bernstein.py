@@ -12,8 +12,8 @@ from fractions import Fraction
 from itertools import pairwise
 from math import comb
 
-from qe.certify.arithmetic.numbers import read_number
-from qe.certify.arithmetic.residue import ZERO, Residue, RootField, add, of_rationals, scale
+from qe.expert.arithmetic.numbers import read_number
+from qe.expert.arithmetic.residue import ZERO, Residue, RootField, add, of_rationals, scale
 from qe.proof.entry import Entry
 
 Vector = list[Residue]

@@ -14,10 +14,10 @@ from __future__ import annotations
 from fractions import Fraction
 
 from bezier.certify.bernstein import MAX_DEGREE, Vector, constant, product, read_points, restricted
-from qe.certify.arithmetic.numbers import read_field
-from qe.certify.arithmetic.residue import Residue, RootField, add, scale
 from qe.certify.kinds import BroughtKind
 from qe.errors import CertificateRejected
+from qe.expert.arithmetic.numbers import read_field
+from qe.expert.arithmetic.residue import Residue, RootField, add, scale
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 

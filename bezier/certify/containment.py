@@ -12,10 +12,10 @@ from __future__ import annotations
 from fractions import Fraction
 
 from bezier.certify.bernstein import Vector, product, read_points, restricted, total
-from qe.certify.arithmetic.numbers import read_field, read_number
-from qe.certify.arithmetic.residue import Residue, RootField, add, of_rationals, scale
 from qe.certify.kinds import BroughtKind
 from qe.errors import CertificateRejected
+from qe.expert.arithmetic.numbers import read_field, read_number
+from qe.expert.arithmetic.residue import Residue, RootField, add, of_rationals, scale
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 

@@ -32,8 +32,8 @@ from bezier.planner.words import NONE
 from bezier.plans import Outcome, Plan, Stated
 from bezier.problem import Problem, ends_inside, to_json
 from qe.api.verify import checked as verify
-from qe.certify.verdict import Verdict
 from qe.errors import CertificateRejected, InputError
+from qe.kernel.verdict import Verdict
 from qe.processes.worker import Channel
 from qe.progress import Event
 from qe.proof.certificate import Certificate

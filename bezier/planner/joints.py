@@ -16,9 +16,9 @@ from bezier.arm.joint_plan import JointPlan
 from bezier.arm.model import Arm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import TimeLaw
-from qe.certify.verdict import Verdict
 from qe.certify.verify import verify
 from qe.cli.shell import OK, UNABLE
+from qe.kernel.verdict import Verdict
 from qe.processes.worker import Channel
 from qe.proof.certificate import Certificate
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from qe.certify.classification import read_question
 from qe.certify.verify import verify
 from qe.engine.run import solve
 from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.exact.univariate import from_univariate
+from qe.expert.classification import read_question
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.groebner.counting import RealRootClassification

@@ -22,7 +22,7 @@ from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
-    from qe.certify.verdict import Verdict
+    from qe.kernel.verdict import Verdict
     from qe.regions.region import Region
 
 WHOLE_SHARE, PARTS_SHARE = 0.5, 0.85

@@ -17,7 +17,7 @@ from qe.proof.certificate import Certificate, Labelled
 from qe.proving.certificates import without_loss
 
 if TYPE_CHECKING:
-    from qe.certify.verdict import Verdict
+    from qe.kernel.verdict import Verdict
     from qe.proof.entry import Json
     from qe.regions.region import Region
 
@@ -56,10 +56,10 @@ def verify(
 def checked(certificate: Certificate, budget: Budget | None = None, *, core: bool = False) -> Verdict:
     """The verdict on a certificate, which may be one of a former release (``qe.proving.older``).
 
-    With ``core``, one that needs the expert ring (``qe.kernel.trusts``) is rejected.
+    With ``core``, one that needs the expert ring (``qe.certify.trusts``) is rejected.
     """
-    from qe.certify.verdict import Verdict
-    from qe.kernel.trusts import expert_parts
+    from qe.certify.trusts import expert_parts
+    from qe.kernel.verdict import Verdict
 
     budget = budget or Budget()
     try:
@@ -85,7 +85,7 @@ def recent(certificate: Certificate, budget: Budget) -> Certificate:
 def of_question(certificate: Certificate, asked: Formula) -> Verdict:
     """The verdict on an accepted certificate: whether it is about a question."""
     from qe.certify.claims import claim_of, parts_of
-    from qe.certify.verdict import Verdict
+    from qe.kernel.verdict import Verdict
 
     if parts_of(certificate, asked) is not None:
         return Verdict(True)
@@ -167,7 +167,7 @@ def with_guarantee(region: Region, budget: Budget) -> Region:
 def _limited(certificate: Certificate, timeout: float | None, *, core: bool = False) -> Verdict:
     if timeout is None or not hasattr(os, "fork") or (certificate.digests is None and _is_small(certificate)):
         return checked(certificate, Budget(timeout), core=core)
-    from qe.certify.verdict import Verdict
+    from qe.kernel.verdict import Verdict
     from qe.processes.worker import run
 
     try:

@@ -1,1 +1,1 @@
-"""The independent checker: certificates verified by code that produces no answers."""
+"""The entrance: certificates are read, their claims named, and every entry given to the checker of its ring."""

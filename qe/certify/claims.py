@@ -9,15 +9,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from qe.certify.kinds import brought_kind
-from qe.certify.negation import negation, normal
-from qe.certify.renaming import arranged, same_up_to_names
-from qe.certify.sentence import RELATIONS, read_polynomial
-from qe.certify.solutions import system_of
-from qe.certify.table import is_prenex_form
 from qe.exact.ring import Ring, format_poly
+from qe.expert.solutions import system_of
 from qe.formula.build import atom, conj, convert, exists, forall
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
+from qe.kernel.negation import negation, normal
+from qe.kernel.renaming import arranged, same_up_to_names
+from qe.kernel.sentence import RELATIONS, read_polynomial
+from qe.kernel.table import is_prenex_form
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind

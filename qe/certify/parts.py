@@ -15,13 +15,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 
 from qe.certify.claims import parts_of
-from qe.certify.negation import negation, normal
-from qe.certify.renaming import arranged, same_up_to_names
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import FALSE, And, Exists, ForAll, Formula, Or
+from qe.kernel.negation import negation, normal
+from qe.kernel.renaming import arranged, same_up_to_names
 from qe.options import Budget
 from qe.proof.certificate import Certificate, certificate_from
 from qe.proof.entry import Entry, Json, formula_from_json

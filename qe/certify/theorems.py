@@ -5,8 +5,8 @@ from __future__ import annotations
 import inspect
 import sys
 
-from qe.certify.boolean import ByLemmas
 from qe.certify.registry import RULES
+from qe.kernel.boolean import ByLemmas
 
 THEOREM = "THEOREM"
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from qe.arguments import shown
 from qe.certify.kinds import Checker, brought_kind
-from qe.certify.verdict import CRASHES, Verdict
 from qe.errors import CertificateRejected, InputError, Unable
+from qe.kernel.verdict import CRASHES, Verdict
 from qe.options import Budget
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind, Labelled
@@ -59,7 +59,7 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
     if not isinstance(certificate.kind, Kind):
         raise CertificateRejected("kind", "unknown kind of certificate")
     if isinstance(payload, CellEvidence) and certificate.kind == Kind.CELLS:
-        from qe.certify.cells import check_cells
+        from qe.kernel.cells import check_cells
 
         check_cells(payload, budget)
     elif isinstance(payload, dict) and (checker := _checker(certificate.kind)) is not None:
@@ -83,12 +83,12 @@ def _checker(kind: Kind) -> Checker | None:
     """The checker of a kind of objects; each is loaded where it is needed, as most questions need one."""
     match kind:
         case Kind.DERIVATION:
-            from qe.certify.derivation import check_derivation
             from qe.certify.registry import RULES
+            from qe.kernel.derivation import check_derivation
 
             return lambda payload, budget: check_derivation(payload, budget, RULES, check_certificate)
         case Kind.CLASSIFICATION:
-            from qe.certify.classification import check_classification
+            from qe.expert.classification import check_classification
 
             return lambda payload, budget: check_classification(payload, budget, check_certificate)
         case Kind.PARTS:
@@ -96,19 +96,19 @@ def _checker(kind: Kind) -> Checker | None:
 
             return lambda payload, budget: check_parts(payload, budget, check_certificate)
         case Kind.WITNESS:
-            from qe.certify.witness import check_witness
+            from qe.kernel.witness import check_witness
 
             return check_witness
         case Kind.OPTIMUM:
-            from qe.certify.optimum import check_optimum
+            from qe.expert.optimum import check_optimum
 
             return check_optimum
         case Kind.SUBSTITUTION:
-            from qe.certify.gauss import check_substitution
+            from qe.kernel.gauss import check_substitution
 
             return check_substitution
         case Kind.SOLUTIONS:
-            from qe.certify.solutions import check_solutions
+            from qe.expert.solutions import check_solutions
 
             return check_solutions
     brought = brought_kind(kind.value)

@@ -228,8 +228,8 @@ def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
 
 def _rests(trusts: Sequence[str]) -> Iterator[str]:
     """What has to be believed beside the kernel, a line each."""
+    from qe.expert.rules import EXPERT
     from qe.kernel.statements import rows
-    from qe.kernel.trusts import EXPERT
 
     for name in trusts:
         what = "a rule" if name in EXPERT else "a kind of certificate"

@@ -1,4 +1,4 @@
-"""What proves a covering, for ``qe.certify.covering``: its polynomials, and line by line roots and intervals."""
+"""What proves a covering, for ``qe.kernel.covering``: its polynomials, and line by line roots and intervals."""
 
 from __future__ import annotations
 

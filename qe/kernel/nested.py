@@ -12,11 +12,11 @@ sentences that is not false as it stands.
 
 from __future__ import annotations
 
-from qe.certify.block import existential
-from qe.certify.negation import negation, normal
-from qe.certify.step import Claim, Context, Limits, only
 from qe.formula.build import conj, exists
 from qe.formula.syntax import FALSE
+from qe.kernel.block import existential
+from qe.kernel.negation import negation, normal
+from qe.kernel.step import Claim, Context, Limits, only
 
 
 def check_steps(claim: Claim, context: Context, limits: Limits) -> None:

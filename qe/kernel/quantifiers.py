@@ -16,11 +16,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from qe.certify.negation import normal
-from qe.certify.renaming import shape
-from qe.certify.step import Claim, Context, Limits, only
 from qe.formula.build import conj, disj, exists, forall
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or
+from qe.kernel.negation import normal
+from qe.kernel.renaming import shape
+from qe.kernel.step import Claim, Context, Limits, only
 
 
 def check_quantifiers(claim: Claim, context: Context, limits: Limits) -> None:

@@ -14,11 +14,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from qe.certify.limits import check_power
 from qe.errors import InputError, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.kernel.limits import check_power
 
 PRODUCTS = 1_000_000
 """The terms of two factors multiplied, at most."""

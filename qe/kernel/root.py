@@ -18,13 +18,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from qe.certify.boolean import ByLemmas, Goal
-from qe.certify.negation import negation
-from qe.certify.step import Claim, Context, only, outside
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
+from qe.kernel.boolean import ByLemmas, Goal
+from qe.kernel.negation import negation
+from qe.kernel.step import Claim, Context, only, outside
 from qe.kernel.terms import Quotient, at_terms
 from qe.proof.entry import Entry
 

@@ -17,16 +17,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from qe.certify.block import existential
-from qe.certify.boolean import ByLemmas, Goal
-from qe.certify.limits import check_power
-from qe.certify.negation import negation, normal
-from qe.certify.step import Claim, Context, only, outside
-from qe.certify.substitution import mapped
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
+from qe.kernel.block import existential
+from qe.kernel.boolean import ByLemmas, Goal
+from qe.kernel.limits import check_power
+from qe.kernel.negation import negation, normal
+from qe.kernel.step import Claim, Context, only, outside
+from qe.kernel.substitution import mapped
 from qe.proof.entry import Entry
 
 Quotient = tuple[Poly, Poly]

@@ -13,14 +13,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from qe.certify.block import existential
-from qe.certify.boolean import ByLemmas, Goal
-from qe.certify.negation import negation, normal
-from qe.certify.step import Claim, Context, only
 from qe.exact.ring import Poly
 from qe.formula.traverse import conjuncts
+from qe.kernel.block import existential
+from qe.kernel.boolean import ByLemmas, Goal
+from qe.kernel.negation import negation, normal
 from qe.kernel.quantifiers import unordered
 from qe.kernel.statements import Theorem, theorem
+from qe.kernel.step import Claim, Context, only
 from qe.proof.entry import Entry
 
 

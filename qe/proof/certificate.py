@@ -155,7 +155,7 @@ class Certificate:
 
     @staticmethod
     def derivation(order: Sequence[str], start: Formula, steps: Iterable[Json], answer: Formula) -> Certificate:
-        """That ``start`` <-> ``answer`` (over the ring of ``order``) by these steps, see ``qe.certify.derivation``."""
+        """That ``start`` <-> ``answer`` (over the ring of ``order``) by these steps, see ``qe.kernel.derivation``."""
         payload: dict[str, Json] = {
             "order": list(order),
             "start": formula_to_json(start, quantified=True),

@@ -1,7 +1,7 @@
 """Evidence about a convex optimisation problem, as pure data: what a certificate of kind "optimum" holds.
 
 The problem: minimise f(x) subject to forms p_i(x) <= 0, p_i(x) < 0 or p_i(x) = 0 (then linear), f and p_i convex
-quadratic polynomials over Q. The statements that the data proves are those of ``qe.certify.optimum``.
+quadratic polynomials over Q. The statements that the data proves are those of ``qe.expert.optimum``.
 """
 
 from __future__ import annotations

@@ -3,14 +3,14 @@ it is trusted."""
 
 from __future__ import annotations
 
-from qe.certify.block import check_block
-from qe.certify.counted_solutions import by_lemmas, sentences
-from qe.certify.step import Claim, Limits
 from qe.elimination.cad import certificate_for
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
+from qe.expert.counted_solutions import by_lemmas, sentences
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import TRUE, Formula
+from qe.kernel.block import check_block
+from qe.kernel.step import Claim, Limits
 from qe.options import Options
 from qe.proof.entry import Entry, Json
 from qe.proving.lemma_list import EMPTY

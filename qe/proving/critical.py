@@ -1,4 +1,4 @@
-"""Evidence for the rule "critical values" (``qe.certify.critical_values``): chains of elimination, samples of the open
+"""Evidence for the rule "critical values" (``qe.expert.critical_values``): chains of elimination, samples of the open
 cells, and what shows for each of them whether the block holds there. Nothing here is trusted."""
 
 from __future__ import annotations
@@ -9,21 +9,6 @@ from itertools import pairwise
 
 from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.cad.projection import factor_lists
-from qe.certify.block import existential
-from qe.certify.critical_points import active_sets, vanishing
-from qe.certify.critical_universal import Exceeding, read_parts
-from qe.certify.critical_values import (
-    Quadratic,
-    are_weights,
-    common,
-    is_positive,
-    is_strict,
-    over,
-    read_conditions,
-    weighted,
-)
-from qe.certify.negation import negation, normal
-from qe.certify.step import Claim
 from qe.convex.violation import proposed
 from qe.elimination.cad import certificate_for
 from qe.elimination.critical.boundary import critical_hypersurfaces
@@ -36,10 +21,25 @@ from qe.exact.nearby import rational_between
 from qe.exact.quadratic_form import Quadratic as Form
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from qe.expert.critical_points import active_sets, vanishing
+from qe.expert.critical_universal import Exceeding, read_parts
+from qe.expert.critical_values import (
+    Quadratic,
+    are_weights,
+    common,
+    is_positive,
+    is_strict,
+    over,
+    read_conditions,
+    weighted,
+)
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Exists, Formula
 from qe.formula.traverse import polynomials
+from qe.kernel.block import existential
+from qe.kernel.negation import negation, normal
+from qe.kernel.step import Claim
 from qe.options import Budget, Options
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.elimination_chain import Row, chain

@@ -12,18 +12,18 @@ from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
-from qe.certify.block import block_goals, existential
-from qe.certify.boolean import Goal, equivalence
-from qe.certify.derivation import replaced
-from qe.certify.linear_equation import term
-from qe.certify.step import Claim, Context, Limits, only
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import children, conjuncts, disjuncts, map_atoms, subformula, with_child
+from qe.kernel.block import block_goals, existential
+from qe.kernel.boolean import Goal, equivalence
+from qe.kernel.derivation import replaced
+from qe.kernel.linear_equation import term
 from qe.kernel.root import root_goals
+from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.kernel.theorem import theorem_goals
 from qe.proof.certificate import written

@@ -5,14 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from qe.certify.cubic_root import SOME, existence
-from qe.certify.elimination_points import Tried, implies, is_real
-from qe.certify.elimination_set import require_cover
-from qe.certify.lowered_degree import lowered
-from qe.certify.step import Limits
-from qe.certify.turning_cover import Around, Cover, Met
-from qe.certify.turning_points import Turn
-from qe.certify.virtual_substitution import TestPoint, whichever
 from qe.elimination.vs.points import CubicRoot, Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
 from qe.elimination.vs.radical_free import convex_family, lone_quadratic
 from qe.elimination.vs.trace import Attempt, Substituted, Trace
@@ -21,6 +13,14 @@ from qe.formula.build import atom, conj
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
+from qe.kernel.cubic_root import SOME, existence
+from qe.kernel.elimination_points import Tried, implies, is_real
+from qe.kernel.elimination_set import require_cover
+from qe.kernel.lowered_degree import lowered
+from qe.kernel.step import Limits
+from qe.kernel.turning_cover import Around, Cover, Met
+from qe.kernel.turning_points import Turn
+from qe.kernel.virtual_substitution import TestPoint, whichever
 from qe.proof.derivation import moved
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.simplify.facts import NOTHING

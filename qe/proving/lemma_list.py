@@ -6,13 +6,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from qe.certify.boolean import Theory
-from qe.certify.signs import read_lemma
-from qe.certify.step import Limits
 from qe.exact.algebraic import real_roots
 from qe.exact.digits import digits
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
+from qe.kernel.boolean import Theory
+from qe.kernel.signs import read_lemma
+from qe.kernel.step import Limits
 from qe.proof.entry import Entry, Json, poly_to_text
 
 Term = tuple[int, tuple[tuple[Poly, int], ...]]

@@ -1,4 +1,4 @@
-"""Lemmas about the signs of polynomials, as evidence for boolean steps; ``qe.certify.signs`` has what they say.
+"""Lemmas about the signs of polynomials, as evidence for boolean steps; ``qe.kernel.signs`` has what they say.
 
 What is found here is checked where it is read: nothing depends on its being right, or complete.
 """
@@ -11,9 +11,6 @@ from fractions import Fraction
 from itertools import pairwise
 from math import lcm, prod
 
-from qe.certify.boolean import Theory
-from qe.certify.negation import normal
-from qe.certify.step import Limits
 from qe.elimination.search.linear_forms import is_square
 from qe.elimination.search.monomial_bounds import MonomialBounds
 from qe.errors import BudgetExceeded, Unable
@@ -22,6 +19,9 @@ from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import children, conjuncts
+from qe.kernel.boolean import Theory
+from qe.kernel.negation import normal
+from qe.kernel.step import Limits
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
-from qe.certify.step import Check, Claim, Context, Limits
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
 from qe.io.names import names_in
+from qe.kernel.step import Check, Claim, Context, Limits
 from qe.proof.entry import Entry, Json
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step

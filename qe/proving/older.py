@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Container
 from dataclasses import replace
 
-from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
-from qe.certify.verdict import CRASHES
 from qe.certify.verify import check_certificate
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
+from qe.kernel.derivation import limits_of
+from qe.kernel.step import Claim
+from qe.kernel.verdict import CRASHES
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Labelled
 from qe.proof.entry import Entry, Json, formula_from_json

@@ -9,11 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from qe.certify.block import existential
-from qe.certify.boolean import ByLemmas
-from qe.certify.derivation import Accepted, check_derivation, limits_of, replaced, step_key
 from qe.certify.registry import RULES
-from qe.certify.step import Claim, Context, Limits, check_names
 from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
@@ -22,6 +18,10 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
 from qe.formula.traverse import children, clashes, conjuncts, subformula
+from qe.kernel.block import existential
+from qe.kernel.boolean import ByLemmas
+from qe.kernel.derivation import Accepted, check_derivation, limits_of, replaced, step_key
+from qe.kernel.step import Claim, Context, Limits, check_names
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from qe.certify.block import refuted_block
-from qe.certify.boolean_search import Cases
-from qe.certify.step import Claim, Limits
 from qe.errors import Unable
 from qe.extras import lacking
 from qe.formula.syntax import Atom
+from qe.kernel.block import refuted_block
+from qe.kernel.boolean_search import Cases
+from qe.kernel.step import Claim, Limits
 from qe.proof.entry import Json, formula_from_json
 
 MOST_LEARNT = 20_000

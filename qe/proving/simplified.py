@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from qe.certify.derivation import replaced
-from qe.certify.negation import negation
-from qe.certify.step import Context
 from qe.errors import CertificateRejected
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or
+from qe.kernel.derivation import replaced
+from qe.kernel.negation import negation
+from qe.kernel.step import Context
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json
 from qe.proof.step import Place

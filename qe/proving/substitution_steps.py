@@ -1,4 +1,4 @@
-"""From the trace of virtual substitution to steps with evidence (``qe.certify.elimination_set`` and its neighbours).
+"""From the trace of virtual substitution to steps with evidence (``qe.kernel.elimination_set`` and its neighbours).
 
 Nothing here is trusted. What the engine's sign knowledge left out (guards that cannot hold, constituents that cannot
 degenerate) becomes a point at which the problem is kept, and a step that shows that it is false there.
@@ -8,9 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 
-from qe.certify.elimination_set import block_of, start
-from qe.certify.open_block import inside, shows_open
-from qe.certify.step import Limits
 from qe.elimination.vs.trace import (
     Alternatives,
     Apart,
@@ -28,6 +25,9 @@ from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import conjuncts
+from qe.kernel.elimination_set import block_of, start
+from qe.kernel.open_block import inside, shows_open
+from qe.kernel.step import Limits
 from qe.proof.certificate import Certificate, Root
 from qe.proof.derivation import moved
 from qe.proof.entry import Json, formula_to_json

@@ -14,17 +14,17 @@ from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any
 
-from qe.certify.boolean import ByLemmas
-from qe.certify.derivation import check_derivation, limits_of, replaced
-from qe.certify.negation import negation, normal
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
-from qe.certify.verdict import CRASHES
 from qe.certify.verify import check_certificate
 from qe.errors import CertificateRejected, QEError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, exists
 from qe.formula.syntax import And, Formula, Not
+from qe.kernel.boolean import ByLemmas
+from qe.kernel.derivation import check_derivation, limits_of, replaced
+from qe.kernel.negation import negation, normal
+from qe.kernel.step import Claim
+from qe.kernel.verdict import CRASHES
 from qe.options import Budget
 from qe.proof.derivation import moved
 from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json

@@ -15,7 +15,7 @@ from bezier.interface import work
 from bezier.methods.control import optimal_path
 from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
-from qe.certify.verdict import Verdict
+from qe.kernel.verdict import Verdict
 
 CUBIC = {"start": [-4, 2, 1], "via": [["-3/2", 2, 3], ["3/2", 2, 3]], "goal": [4, 2, 1], "radius": 6, "method": "cubic"}
 

@@ -7,10 +7,7 @@ import random
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from qe.certify.covering import check_covering
-from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
 from qe.certify.verify import check_certificate
 from qe.coverings.cover import Search
 from qe.coverings.evidence import evidence
@@ -22,6 +19,9 @@ from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Formula, Relation
 from qe.io import formats
+from qe.kernel.covering import check_covering
+from qe.kernel.derivation import limits_of
+from qe.kernel.step import Claim
 from qe.options import Budget, Options
 from qe.proof.entry import Entry, formula_to_json
 from qe.proof.run_log import RunLog

@@ -9,12 +9,7 @@ from fractions import Fraction
 from itertools import product
 from typing import Any
 
-from qe.certify.derivation import limits_of
-from qe.certify.elimination_points import read_points
-from qe.certify.elimination_set import check_elimination_set, start
-from qe.certify.lowered_degree import lowered
 from qe.certify.registry import RULES
-from qe.certify.step import Claim, Limits
 from qe.certify.verify import check_certificate
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.trace import Substituted
@@ -25,6 +20,11 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, Exists, Formula, Relation
 from qe.formula.traverse import polynomials
 from qe.io.text import read
+from qe.kernel.derivation import limits_of
+from qe.kernel.elimination_points import read_points
+from qe.kernel.elimination_set import check_elimination_set, start
+from qe.kernel.lowered_degree import lowered
+from qe.kernel.step import Claim, Limits
 from qe.options import Budget, Options
 from qe.proof.derivation import put_together
 from qe.proof.entry import Entry, formula_to_json

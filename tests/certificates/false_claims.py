@@ -17,7 +17,6 @@ from typing import Any
 from bezier.curves.curve import Bezier
 from bezier.obstacles.evidence import clearance_certificate
 from qe.certify.claims import claim_of
-from qe.certify.sentence import RELATIONS, read_polynomial
 from qe.convex.optimum import NotConvex, minimize
 from qe.elimination.cad import certificate_for
 from qe.engine.run import solve
@@ -26,6 +25,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, exists, forall
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import TRUE, Constant, Formula, Relation
+from qe.kernel.sentence import RELATIONS, read_polynomial
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Kind, digest
 from qe.proof.entry import Entry, formula_from_json, formula_to_json, poly_to_text

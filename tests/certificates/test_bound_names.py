@@ -15,9 +15,6 @@ from hypothesis import strategies as st
 
 import qe
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
-from qe.certify.substitution import mapped
-from qe.certify.verdict import Verdict
 from qe.certify.verify import verify
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
@@ -26,6 +23,9 @@ from qe.formula.evaluate import substituted
 from qe.formula.syntax import TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Quantified, Relation
 from qe.formula.traverse import children
 from qe.io.text import read
+from qe.kernel.step import Claim
+from qe.kernel.substitution import mapped
+from qe.kernel.verdict import Verdict
 from qe.proof.certificate import Certificate, written
 from qe.proof.entry import Entry, formula_to_json
 from qe.proving.elaborators import ELABORATORS

@@ -10,9 +10,9 @@ import pytest
 
 import qe
 from qe.certify.claims import claim_of
-from qe.certify.classification import read_question
 from qe.certify.verify import verify, verify_json
 from qe.errors import CertificateRejected, Unable
+from qe.expert.classification import read_question
 from qe.groebner.counting import RealRootClassification
 from qe.proof.entry import Entry
 from tests.certificates.mutation import replaced, without

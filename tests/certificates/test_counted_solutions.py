@@ -14,18 +14,18 @@ import qe.elimination.cgs as cgs
 import qe.groebner.counting as counting
 import qe.groebner.trace_form as trace_form
 from qe.api.input import read_formula
-from qe.certify.counted_solutions import check_counted_solutions, sentences
-from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
 from qe.certify.verify import check_certificate
 from qe.elimination.protocol import Context, Problem
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
+from qe.expert.counted_solutions import check_counted_solutions, sentences
 from qe.formula.build import conj, neg
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.groebner.counting import SolutionCount
 from qe.groebner.signs import SignatureConditions
+from qe.kernel.derivation import limits_of
+from qe.kernel.step import Claim
 from qe.options import Budget, Options
 from qe.proof.derivation import moved
 from qe.proof.entry import Entry, Json

@@ -12,15 +12,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-import qe.certify.critical_universal as checker
-from qe.certify.derivation import limits_of
+import qe.expert.critical_universal as checker
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
 from qe.certify.verify import check_certificate, verify_json
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import TRUE
 from qe.io.text import read
+from qe.kernel.derivation import limits_of
+from qe.kernel.step import Claim
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import moved

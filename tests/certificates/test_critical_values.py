@@ -14,20 +14,20 @@ from hypothesis import strategies as st
 
 import qe
 from qe.api.input import read_formula
-from qe.certify.critical_values import check_critical_values
-from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.regular_set import check_regular
-from qe.certify.step import Claim
 from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.critical.method import by_critical_values
 from qe.elimination.protocol import Context
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
+from qe.expert.critical_values import check_critical_values
+from qe.expert.regular_set import check_regular
 from qe.formula.build import conj, convert, disj
 from qe.formula.syntax import Exists, Formula
 from qe.io.names import names_in
+from qe.kernel.derivation import limits_of
+from qe.kernel.step import Claim
 from qe.options import Budget, Options
 from qe.proof.cells_json import CellEvidence
 from qe.proof.derivation import moved

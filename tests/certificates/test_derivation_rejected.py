@@ -13,9 +13,9 @@ import pytest
 
 import qe
 from qe.certify.registry import RULES
-from qe.certify.verdict import Verdict
 from qe.certify.verify import verify, verify_json
 from qe.exact.ring import Ring
+from qe.kernel.verdict import Verdict
 from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import Entry, formula_from_json
 from tests.certificates.derivations import CASES, certificate, data, rules

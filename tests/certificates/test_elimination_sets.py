@@ -12,13 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.certify.elimination_points import implies
 from qe.elimination.vs import block, candidates, plan, radical_free, substitute
 from qe.formula.build import conj, convert, disj
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Formula, Or
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
+from qe.kernel.elimination_points import implies
 from qe.proof.derivation import moved
 from qe.proving.prover import Prover
 from tests.certificates.elimination_claims import (

@@ -10,12 +10,10 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from qe.certify.arithmetic import root_patterns
 
 import qe
-from qe.certify.arithmetic import root_patterns
-from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
 from qe.certify.verify import check_certificate
 from qe.elimination.protocol import Problem
 from qe.elimination.rootsigns import forms, method, question, theory
@@ -25,6 +23,8 @@ from qe.formula.build import atom, conj, convert, disj
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or, Relation
 from qe.io.text import read
+from qe.kernel.derivation import limits_of
+from qe.kernel.step import Claim
 from qe.options import Budget
 from qe.proof.entry import Entry
 

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.certify.cubic_root import asks_one
 from qe.elimination.vs import candidates, clusters, cubic, points, roots
 from qe.formula.syntax import Not, Relation
+from qe.kernel.cubic_root import asks_one
 from tests.certificates.elimination_claims import accepted, claimed, evidence_for, examined, unchecked
 from tests.certificates.test_elimination_sets import over_ring
 

@@ -15,12 +15,12 @@ from qe.cad.decompose import decompose
 from qe.cad.operators.operator import Operator
 from qe.cad.operators.table import OPERATORS
 from qe.cad.projection import FactorSet, factor_lists, project
-from qe.certify.arithmetic.products import FactorLists
-from qe.certify.closure import check_closure
 from qe.errors import NotWellOriented
 from qe.exact.ring import Poly, Ring
 from qe.formula.traverse import polynomials
 from qe.io.text import read
+from qe.kernel.arithmetic.products import FactorLists
+from qe.kernel.closure import check_closure
 from qe.options import Budget, Projection
 
 RING = Ring.of(("a", "b", "x", "y"))

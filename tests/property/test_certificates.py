@@ -14,14 +14,6 @@ from hypothesis import strategies as st
 
 from qe.cad.decompose import decompose
 from qe.cad.operators.table import OPERATORS
-from qe.certify.arithmetic.fibre import AlgebraicFibre, fibre
-from qe.certify.arithmetic.sturm import (
-    _count_by_enclosure,
-    count_real_roots,
-    count_roots_between,
-    sylvester_determinant,
-)
-from qe.certify.arithmetic.triangular import ORIGIN, Coordinate
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded
 from qe.exact.algebraic import real_roots
@@ -29,6 +21,14 @@ from qe.exact.ring import Ring
 from qe.exact.univariate import from_univariate
 from qe.formula.build import conj, disj
 from qe.formula.syntax import Atom, Formula
+from qe.kernel.arithmetic.fibre import AlgebraicFibre, fibre
+from qe.kernel.arithmetic.sturm import (
+    _count_by_enclosure,
+    count_real_roots,
+    count_roots_between,
+    sylvester_determinant,
+)
+from qe.kernel.arithmetic.triangular import ORIGIN, Coordinate
 from qe.options import Budget, Projection
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate

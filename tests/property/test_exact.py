@@ -10,12 +10,12 @@ from flint import fmpq, fmpz_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from qe.certify.arithmetic.sturm import count_real_roots
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.isolate import simplest_between
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
+from qe.kernel.arithmetic.sturm import count_real_roots
 from tests.strategies import integers
 from tests.strategies import rationals as any_rationals
 

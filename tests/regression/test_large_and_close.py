@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 import qe
 from qe.api.input import read_formula
-from qe.certify.arithmetic.sturm import count_roots_between
 from qe.cli.app import main
 from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic
@@ -25,6 +24,7 @@ from qe.exact.sample import FibreRoot, Point
 from qe.formula.build import atom, exists
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Relation
+from qe.kernel.arithmetic.sturm import count_roots_between
 from tests.differential.generate import at_point
 from tests.strategies import HUGE, close_roots
 

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 import qe
 import qe.api.eliminate as api
-from qe.certify.verdict import Verdict
 from qe.certify.verify import verify, verify_json
 from qe.cli.app import main
+from qe.kernel.verdict import Verdict
 from qe.options import Budget
 from qe.proof.certificate import Certificate, digest
 from tests.certificates.producing import cell_table

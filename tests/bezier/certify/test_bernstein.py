@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bezier.certify.bernstein import constant, product, read_points, restricted, total
-from qe.certify.arithmetic.residue import Residue, RootField, of_rationals
 from qe.errors import CertificateRejected
+from qe.expert.arithmetic.residue import Residue, RootField, of_rationals
 from qe.proof.entry import Entry
 
 FIELD = RootField((0, 1), Fraction(0), Fraction(0), "rationals")

@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 
 import qe
 from qe.cad.decompose import Tactics, decompose
-from qe.certify.cells import one_way
 from qe.certify.verify import verify
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj
 from qe.formula.monotone import direction
 from qe.formula.syntax import Formula, Relation
 from qe.io.text import read
+from qe.kernel.cells import one_way
 from qe.options import Budget, Projection
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.step import Check, Claim, Limits
 from qe.certify.verify import check_certificate
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
@@ -14,6 +12,8 @@ from qe.formula.build import conj, convert
 from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
+from qe.kernel.derivation import limits_of
+from qe.kernel.step import Check, Claim, Limits
 from qe.options import Budget
 from qe.proof.entry import Entry, formula_to_json, poly_to_text
 

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from qe.certify.sentence import check_sentence
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.io.text import read
+from qe.kernel.sentence import check_sentence
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import formula_to_json
 from tests.unit.certify.claims import objection

@@ -7,12 +7,12 @@ from itertools import pairwise
 
 import pytest
 
-from qe.certify.arithmetic.fibre import AlgebraicFibre, SimplePart, fibre, lazard_evaluation, values
-from qe.certify.arithmetic.triangular import ORIGIN, Coordinate, Point
 from qe.errors import InternalError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.io.text import read
+from qe.kernel.arithmetic.fibre import AlgebraicFibre, SimplePart, fibre, lazard_evaluation, values
+from qe.kernel.arithmetic.triangular import ORIGIN, Coordinate, Point
 
 RING = Ring.of(("x", "y", "z"))
 

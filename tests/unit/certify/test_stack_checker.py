@@ -8,15 +8,15 @@ from fractions import Fraction
 
 import pytest
 
-from qe.certify.arithmetic.fibre import fibre
-from qe.certify.arithmetic.products import FactorLists
-from qe.certify.arithmetic.triangular import Coordinate, Point
-from qe.certify.closure import check_closure
-from qe.certify.stacks import Checked, Sample, StackChecker
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.io.text import read
+from qe.kernel.arithmetic.fibre import fibre
+from qe.kernel.arithmetic.products import FactorLists
+from qe.kernel.arithmetic.triangular import Coordinate, Point
+from qe.kernel.closure import check_closure
+from qe.kernel.stacks import Checked, Sample, StackChecker
 from qe.options import Budget, Projection
 from qe.proof.cells import Cell, Stack
 

@@ -7,12 +7,12 @@ from fractions import Fraction
 
 import pytest
 
-from qe.certify.verdict import Verdict
 from qe.certify.verify import verify
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import Formula, Relation
 from qe.io.text import read
+from qe.kernel.verdict import Verdict
 from qe.options import Projection
 from qe.proof.cells import Cell, CellTable, Stack
 from qe.proof.certificate import Certificate

@@ -6,10 +6,10 @@ from fractions import Fraction as F
 
 import pytest
 
-from qe.certify.optimum import check_optimum
 from qe.convex.optimum import NotConvex, Optimum, OptimumStatus, maximize, minimize
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.ring import Ring
+from qe.expert.optimum import check_optimum
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.options import Budget

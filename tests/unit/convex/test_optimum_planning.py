@@ -6,9 +6,9 @@ from fractions import Fraction as F
 
 import pytest
 
-from qe.certify.optimum import check_optimum
 from qe.convex.optimum import OptimumStatus, maximize, minimize
 from qe.exact.field import FieldElement
+from qe.expert.optimum import check_optimum
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Relation
 from tests.optimum_problems import CUBIC_LABELS, at_most_zero, cubic, quadratic

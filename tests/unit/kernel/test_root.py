@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from qe.certify.step import Claim
 from qe.errors import CertificateRejected
 from qe.formula.traverse import conjuncts
 from qe.kernel.root import root_goals
+from qe.kernel.step import Claim
 from qe.proof.entry import Entry
 from qe.proving.lemmas import refuting
 from tests.unit.certify.claims import NO_LEMMAS, RING, formula, limits, objection

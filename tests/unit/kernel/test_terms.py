@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from qe.certify.step import Claim
 from qe.errors import CertificateRejected
+from qe.kernel.step import Claim
 from qe.kernel.terms import terms_goals
 from qe.proof.entry import Entry
 from qe.proving.lemmas import refuting

@@ -10,14 +10,14 @@ import pytest
 import qe
 from experiments.theorems import accepted, instances, stored, tried
 from experiments.z3_oracle import decide as z3_decides
-from qe.certify.negation import negation
-from qe.certify.step import Claim, Context
 from qe.errors import CertificateRejected, InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, exists, neg
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import conjuncts
+from qe.kernel.negation import negation
 from qe.kernel.statements import Theorem, rows, theorem
+from qe.kernel.step import Claim, Context
 from qe.kernel.theorem import check_theorem
 from qe.proof.certificate import Kind
 from qe.proof.entry import Entry, Json, poly_to_text

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
+from qe.kernel.step import Claim
 from qe.proof.entry import Entry
 from qe.proving.elaborators import ELABORATORS, FRESH
 from tests.unit.certify.claims import RING, formula, limits

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from qe.certify.boolean import Theory
-from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.signs import read_lemma, read_polynomials
 from qe.certify.verify import check_certificate
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.io.text import read
+from qe.kernel.boolean import Theory
+from qe.kernel.derivation import limits_of
+from qe.kernel.signs import read_lemma, read_polynomials
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 from qe.proving.lemmas import polynomials_outside, refuting

@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given, settings
 
 import qe
-from qe.certify.boolean import equivalence
-from qe.certify.derivation import check_derivation
 from qe.certify.registry import RULES
 from qe.certify.verify import check_certificate
 from qe.exact.ring import Ring
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.io.text import read
+from qe.kernel.boolean import equivalence
+from qe.kernel.derivation import check_derivation
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import moved, put_together

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
 from qe.certify.verify import check_certificate
 from qe.elimination.vs.block import eliminate_block
@@ -14,6 +13,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert, neg
 from qe.formula.syntax import Exists, Formula
 from qe.io.text import read
+from qe.kernel.derivation import limits_of
 from qe.options import Budget
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json

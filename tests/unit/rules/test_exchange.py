@@ -10,12 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.certify.step import Claim, Limits
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import Exists, ForAll, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
+from qe.kernel.step import Claim, Limits
 from qe.options import Budget
 from qe.proof.entry import Entry
 from qe.proof.run_log import RunLog

@@ -13,13 +13,13 @@ from hypothesis import strategies as st
 
 import qe
 import qe.rules.ranges as ranges
-from qe.certify.ranges import check_ranges
 from qe.certify.registry import RULES
-from qe.certify.step import Claim
 from qe.errors import CertificateRejected
+from qe.expert.ranges import check_ranges
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Exists, Formula
 from qe.io.text import read
+from qe.kernel.step import Claim
 from qe.options import Budget, Options
 from qe.proof.entry import Entry
 from qe.proof.run_log import RunLog

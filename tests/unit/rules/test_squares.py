@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.certify.verdict import Verdict
 from qe.io.text import read
+from qe.kernel.verdict import Verdict
 from qe.proof.answer import Guarantee
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind

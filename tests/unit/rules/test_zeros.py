@@ -9,16 +9,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.certify.step import Claim, Limits
-from qe.certify.zeros import check_zeros
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
+from qe.expert.zeros import check_zeros
 from qe.formula.build import atom, conj, disj
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf
 from qe.formula.syntax import Exists, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
+from qe.kernel.step import Claim, Limits
 from qe.options import Budget
 from qe.proof.entry import Entry
 from qe.rules.preparation import prepare

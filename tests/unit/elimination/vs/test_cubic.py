@@ -10,9 +10,6 @@ from itertools import product
 import pytest
 
 import qe
-from qe.certify.cubic_root import asks_one as checker_asks_one
-from qe.certify.cubic_root import at_root
-from qe.certify.cubic_root import discriminant as checker_discriminant
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.clusters import asks_one
 from qe.elimination.vs.cubic import at_cubic
@@ -25,6 +22,9 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import atoms
 from qe.io.text import read
+from qe.kernel.cubic_root import asks_one as checker_asks_one
+from qe.kernel.cubic_root import at_root
+from qe.kernel.cubic_root import discriminant as checker_discriminant
 from qe.options import Budget
 from qe.simplify.simplify import simplify
 from tests.unit.elimination.vs.line import satisfiable, specialise

@@ -1,1 +1,0 @@
-"""The arithmetic of the checkers, which share none with the producers of answers."""

@@ -1,0 +1,66 @@
+"""What a certificate rests on beside the primitives: theorems without a proof of their own, and the expert ring.
+
+A step, or a certificate inside one, is looked at by the checker that its rule, or its kind, names. So what is not named
+anywhere in a certificate has no part in its verdict.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from qe.expert.rules import EXPERT
+from qe.kernel.statements import rows
+from qe.proof.certificate import Certificate
+from qe.proof.entry import Json
+
+CORE_KINDS = frozenset({"derivation", "cells", "witness", "substitution", "parts", "bundle"})
+"""Kinds of certificates that need nothing of the second ring."""
+
+
+def trusts(certificate: Certificate) -> tuple[str, ...]:
+    """The names of the axioms of which its steps are instances, and of the expert rules and kinds that it uses; of a
+    step of a former release, the axioms of its family."""
+    return tuple(dict.fromkeys((*_names(certificate), *expert_parts(certificate))))
+
+
+def expert_parts(certificate: Certificate) -> tuple[str, ...]:
+    """The rules and kinds of the second ring that the certificate names."""
+    return tuple(dict.fromkeys(_expert(certificate)))
+
+
+def _expert(certificate: Certificate) -> Iterator[str]:
+    if certificate.kind.value not in CORE_KINDS:
+        yield certificate.kind.value
+    if isinstance(certificate.payload, tuple):
+        for member in certificate.payload:
+            yield from _expert(member.certificate)
+    pending: list[Json] = [certificate.payload] if isinstance(certificate.payload, dict) else []
+    while pending:
+        node = pending.pop()
+        if isinstance(node, list):
+            pending += reversed(node)
+        elif isinstance(node, dict):
+            pending += reversed(node.values())
+            if isinstance(rule := node.get("rule"), str) and rule in EXPERT:
+                yield rule
+            if isinstance(kind := node.get("kind"), str) and "payload" in node and kind not in CORE_KINDS:
+                yield kind
+
+
+def _names(certificate: Certificate) -> Iterator[str]:
+    if isinstance(certificate.payload, tuple):
+        for member in certificate.payload:
+            yield from _names(member.certificate)
+    axioms = [row for row in rows().values() if "axiom" in row.data]
+    names, families = {row.name for row in axioms}, {row.family for row in axioms}
+    pending: list[Json] = [certificate.payload] if isinstance(certificate.payload, dict) else []
+    while pending:
+        node = pending.pop()
+        if isinstance(node, list):
+            pending += reversed(node)
+        elif isinstance(node, dict):
+            pending += reversed(node.values())
+            if isinstance(name := node.get("theorem"), str) and name in names:
+                yield name
+            if isinstance(rule := node.get("rule"), str) and rule in families:
+                yield from (row.name for row in axioms if row.family == rule)

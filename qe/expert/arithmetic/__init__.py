@@ -1,0 +1,1 @@
+"""The arithmetic of the second ring: ideals, algebraic numbers, signatures of forms."""

@@ -1,0 +1,207 @@
+"""Checker for certificates of kind "classification": parameter space by the number of real solutions.
+
+Payload: ``variables``, ``parameters``, ``constants`` ([name, minimal polynomial, low, high]: a parameter that is its
+only root in between), ``polynomials``, ``positive``, ``equal`` and ``nonzero`` (polynomials in the parameters),
+``classes`` ([count or null, condition]) and ``proofs``.
+
+It says: for all real values of the parameters at which ``equal`` vanish and nothing of ``nonzero`` does, the system
+polynomials = 0 has exactly ``count`` different real solutions with all of ``positive`` positive iff the condition
+holds, and infinitely many complex solutions iff that of ``null`` does; no other count occurs.
+
+The checker divides parameter space into cases with a Gröbner basis each (``arithmetic.parametric``). Over a case with
+finitely many complex solutions the count is a combination of signatures of Hermite's trace forms (Ben-Or, Kozen, Reif
+1986), and a signature is read off the signs of the coefficients of the characteristic polynomial: all its roots are
+real, so by Descartes' rule it is the number of sign variations minus that of the polynomial with x replaced by -x. So
+every case is one sentence about the parameters; ``proofs`` are certificates that these are true, in the same order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import product as choices
+
+from qe.certify.claims import is_about
+from qe.errors import CertificateRejected, Unable
+from qe.exact.ring import Poly, Ring
+from qe.expert.arithmetic.parametric import Case, Conditions, Terms, cases
+from qe.expert.arithmetic.parametric_forms import ParametricForms
+from qe.formula.build import atom, conj, disj, forall, iff, implies, neg
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.kernel.arithmetic.sturm import count_roots_between
+from qe.options import Budget
+from qe.proof.certificate import Certificate, Kind, certificate_from
+from qe.proof.entry import Entry, Json, formula_from_json
+
+MOST_SOLUTIONS, MOST_POSITIVE = 8, 2
+"""Complex solutions of a case, and conditions, of which formulas are made."""
+
+Classes = Sequence[tuple[int | None, Formula]]
+
+
+@dataclass(frozen=True)
+class Question:
+    """A parametric system. ``ring``: of the parameters, constants first. ``constants``: conditions that single them
+    out. ``polys`` and ``positive`` have coefficients in ``ring``; ``size``: how many variables."""
+
+    ring: Ring
+    constants: tuple[Formula, ...]
+    polys: tuple[Terms, ...]
+    positive: tuple[Terms, ...]
+    equal: tuple[Poly, ...]
+    nonzero: tuple[Poly, ...]
+    size: int
+
+    def sentences(self, classes: Classes, tick: Callable[[], None]) -> Iterator[Formula]:
+        """One for each case: they hold iff the classes are right. Raises ``Unable`` beyond the limits."""
+        where = Conditions.of(self.ring, self.equal, self.nonzero, tick)
+        for case in cases(self.polys, self.size, where):
+            here = [*self.constants]
+            here += [atom(p, Relation.EQ) for p in case.where.equal]
+            here += [atom(p, Relation.NE) for p in case.where.nonzero]
+            counts = _counts(case, self.positive)
+            claims = [iff(condition, counts.pop(count, FALSE)) for count, condition in classes]
+            yield forall(self.ring.names, implies(conj(here), conj([*claims, *map(neg, counts.values())])))
+
+
+def check_classification(
+    payload: dict[str, Json], budget: Budget, check_leaf: Callable[[Certificate, Budget], None]
+) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails. Raises ``Unable``."""
+    question, classes, proofs = read_question(Entry(payload, "payload"))
+    listed = iter(list(proofs.items()))
+    for sentence in question.sentences(classes, lambda: budget.check("verify")):
+        if sentence == TRUE:
+            continue
+        entry = next(listed, None)
+        if entry is None:
+            raise proofs.fail("a case is left without a proof")
+        certificate = certificate_from(entry)
+        if certificate.kind == Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
+            raise entry.fail("not a proof of the sentence of this case")
+        try:
+            check_leaf(certificate, budget)
+        except CertificateRejected as error:
+            raise CertificateRejected(f"{entry.path}.{error.step}", error.reason) from None
+    if (entry := next(listed, None)) is not None:
+        raise entry.fail("there are not so many cases")
+
+
+def read_question(payload: Entry) -> tuple[Question, Classes, Entry]:
+    """What is claimed, and the entry with the proofs. Raises ``CertificateRejected`` for malformed entries."""
+    entries = payload.fields(
+        *("variables", "parameters", "constants", "polynomials", "positive", "equal", "nonzero", "classes", "proofs")
+    )
+    variables_entry, parameters_entry, constants_entry, *lists, classes_entry, proofs = entries
+    variables, parameters = (entry.names() for entry in (variables_entry, parameters_entry))
+    fixed = [list(e.items()) for e in constants_entry.items()]
+    if any(len(parts) != 4 for parts in fixed):
+        raise constants_entry.fail("expected [name, minimal polynomial, low, high]")
+    names = [*(parts[0].text() for parts in fixed), *parameters]
+    if not variables or len({*variables, *names}) < len(variables) + len(names):
+        raise variables_entry.fail("expected different variables, at least one, and no parameter among them")
+    ring, whole = Ring.of(names), Ring.of((*names, *variables))
+    polys, positive, equal, nonzero = (
+        [e.polynomial(whole if k < 2 else ring) for e in entry.items()] for k, entry in enumerate(lists)
+    )
+    constants, minimal = [], []
+    for parts in fixed:
+        formulas, poly = _constant(parts, ring)
+        constants += formulas
+        minimal.append(poly)
+    found: list[tuple[int | None, Formula]] = []
+    for entry in classes_entry.items():
+        number, condition = entry.row("count or null", "condition")
+        count = None if number.value is None else number.integer()
+        if count in [known for known, _ in found]:
+            raise entry.fail("a count is listed twice")
+        found.append((count, formula_from_json(condition, ring)))
+    split = [tuple(_split(p, ring, len(variables)) for p in group) for group in (polys, positive)]
+    question = Question(ring, tuple(constants), split[0], split[1], (*minimal, *equal), tuple(nonzero), len(variables))
+    return question, tuple(found), proofs
+
+
+def _constant(parts: list[Entry], ring: Ring) -> tuple[list[Formula], Poly]:
+    """Formulas that hold for one number only, and its polynomial."""
+    name, poly, low, high = parts[0].text(), parts[1], parts[2].rational(), parts[3].rational()
+    p = poly.polynomial(ring)
+    i = ring.index[name]
+    if p.variables != (i,):
+        raise poly.fail("expected a polynomial in the constant")
+    x = ring.gen(i)
+    ends = (low.denominator * x - low.numerator, high.numerator - high.denominator * x)
+    at_ends = [not p.at_rational(i, end) for end in (low, high)]
+    is_single = at_ends == [True, True] if low == high else low < high and at_ends == [False, False]
+    if not is_single or (low < high and count_roots_between(p.to_univariate(i), low, high) != 1):
+        raise poly.fail("expected one root in the interval")
+    return [atom(p, Relation.EQ), *(atom(end, Relation.GE) for end in ends)], p
+
+
+def _split(p: Poly, ring: Ring, size: int) -> Terms:
+    """A polynomial by its monomials in the variables, which stand last in its ring."""
+    found: dict[tuple[int, ...], dict[tuple[int, ...], int]] = {}
+    for e, c in p.terms():
+        found.setdefault(tuple(e[ring.size :]), {})[tuple(e[: ring.size])] = c
+    assert all(len(e) == size for e in found), "the variables stand last"
+    return {e: ring.from_terms(part) for e, part in found.items()}
+
+
+# --- numbers of solutions ----------------------------------------------------------------------------------------
+
+
+def _counts(case: Case, positive: Sequence[Terms]) -> dict[int | None, Formula]:
+    """For every number of solutions when a case has it; None for infinitely many complex ones."""
+    if not case.is_finite:
+        return {None: TRUE}
+    size = len(case.monomials)
+    if size > MOST_SOLUTIONS or len(positive) > MOST_POSITIVE:
+        raise Unable(
+            f"a case has more than {MOST_SOLUTIONS} complex solutions, or more than {MOST_POSITIVE} conditions"
+        )
+    if not size:
+        return {0: TRUE}
+    forms = ParametricForms(case)
+    products: list[Terms] = [{(0,) * case.size: case.where.ring.constant(1)}]
+    for g in positive:  # (s + s^2)/2 is 1 for a positive sign s, and 0 for the others
+        products = [p for q in products for p in (_product(q, g), _product(_product(q, g), g))]
+    rows = [forms.coefficients(forms.matrix(h)) if h else None for h in products]
+    signatures = [_signatures(row, size) if row is not None else {0: TRUE} for row in rows]
+    scale = 1 << len(positive)
+    parts: dict[int, list[Formula]] = {k: [] for k in range(size + 1)}
+    for chosen in choices(*(s.items() for s in signatures)):
+        total, rest = divmod(sum(value for value, _ in chosen), scale)
+        if not rest and 0 <= total <= size:  # no other combination occurs
+            parts[total].append(conj([condition for _, condition in chosen]))
+    return {k: disj(group) for k, group in parts.items()}
+
+
+def _product(a: Terms, b: Terms) -> Terms:
+    found: Terms = {}
+    for e, c in a.items():
+        for f, d in b.items():
+            place = tuple(i + j for i, j in zip(e, f, strict=True))
+            found[place] = found[place] + c * d if place in found else c * d
+    return {e: c for e, c in found.items() if c}
+
+
+def _signatures(coefficients: Sequence[Poly], size: int) -> dict[int, Formula]:
+    """For every signature of a symmetric matrix when it has it, by the characteristic polynomial."""
+
+    @cache
+    def following(k: int, last: int, mirrored: int, so_far: int) -> dict[int, Formula]:
+        """``last`` and ``mirrored``: the last signs other than 0, of the polynomial and of that with -x."""
+        if k > size:
+            return {so_far: TRUE}
+        found: dict[int, list[Formula]] = {}
+        for sign, relation in ((1, Relation.GT), (0, Relation.EQ), (-1, Relation.LT)):
+            condition = atom(coefficients[k], relation)
+            if condition == FALSE:
+                continue
+            turned = sign if k % 2 == 0 else -sign
+            after = so_far + ((sign != last) - (turned != mirrored) if sign else 0)
+            for value, f in following(k + 1, sign or last, turned or mirrored, after).items():
+                found.setdefault(value, []).append(conj([condition, f]))
+        return {value: disj(group) for value, group in found.items()}
+
+    return following(1, 1, 1, 0)

@@ -1,0 +1,180 @@
+"""Checker for certificates of kind "solutions": the real solutions of a system, all of them.
+
+Payload: ``order`` (variables), ``equations`` and ``conditions`` ([polynomial g, one of ">", ">=", "/="]: g compared
+with 0), ``weights`` (of the variables, for the monomial order in which the checker works), ``form`` (an integer for
+each variable) and ``solutions``. A solution has a ``field`` (its minimal polynomial and an interval of its generator
+theta) and ``values``, a number of the field for each variable.
+
+There are at least as many solutions as are listed: every one of them satisfies the equations and the conditions,
+exactly, and they are different, since the linear form takes the value theta at each, and the intervals are disjoint.
+There are no more: signatures of trace forms for products of powers of the g count the solutions (Hermite 1853; Ben-Or,
+Kozen, Reif 1986), and a Gröbner basis, the quotient and the signatures are worked out from the equations alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import reduce
+from itertools import product as choices
+
+from qe.errors import Unable
+from qe.exact.ring import Poly, Ring
+from qe.expert.arithmetic.ideal import Ideal, TraceForms, product, terms_of
+from qe.expert.arithmetic.numbers import read_field, read_number
+from qe.expert.arithmetic.residue import Residue, RootField, add, of_rationals, scale
+from qe.formula.build import atom
+from qe.formula.syntax import Formula, Relation
+from qe.options import Budget
+from qe.proof.entry import Entry, Json
+
+INDICATORS: dict[str, tuple[Fraction, Fraction, Fraction]] = {
+    ">": (Fraction(0), Fraction(1, 2), Fraction(1, 2)),
+    ">=": (Fraction(1), Fraction(1, 2), Fraction(-1, 2)),
+    "/=": (Fraction(0), Fraction(0), Fraction(1)),
+}
+"""Weights of s^0, s, s^2 for a sign s: their sum is 1 where the relation holds, and 0 elsewhere."""
+
+MOST_SIGNATURES = 250
+MOST_WEIGHT = 10_000
+"""Weights are small, so that degrees are."""
+
+
+def check_solutions(payload: dict[str, Json], budget: Budget | None = None) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
+    order, equations_entry, conditions_entry, weights_entry, form_entry, listed = Entry(payload, "payload").fields(
+        "order", "equations", "conditions", "weights", "form", "solutions"
+    )
+    names = order.names()
+    if not names:
+        raise order.fail("expected different variables, at least one")
+    ring = Ring.of(names)
+    equations = [e.polynomial(ring) for e in equations_entry.items()]
+    conditions = [_condition(e, ring) for e in conditions_entry.items()]
+    weights = [_weight(e) for e in weights_entry.items()]
+    form = [_integer(e) for e in form_entry.items()]
+    for entry, numbers in ((weights_entry, weights), (form_entry, form)):
+        if len(numbers) != len(names):
+            raise entry.fail(f"expected {len(names)} integers, one for each variable")
+    checked = budget or Budget()
+    points = [_Solution(e, len(names), checked) for e in listed.items()]
+    for point in points:
+        point.check(equations, conditions, form)
+    for i, one in enumerate(points):
+        for other in points[:i]:
+            if one.low <= other.high and other.low <= one.high:
+                raise one.entry.fail("the interval of theta meets that of another solution")
+    found = _count(equations, conditions, weights, equations_entry, checked)
+    if found != len(points):
+        raise listed.fail(f"there are {found} solutions, and {len(points)} are listed")
+
+
+def system_of(payload: Entry) -> tuple[Ring, tuple[Formula, ...], Entry]:
+    """The ring of such a certificate, its equations and conditions as comparisons with 0, and its list of solutions."""
+    order, equations, conditions, _, _, solutions = payload.fields(
+        "order", "equations", "conditions", "weights", "form", "solutions"
+    )
+    ring = Ring.of(order.names())
+    listed = [_condition(e, ring) for e in conditions.items()]
+    parts = [atom(e.polynomial(ring), Relation.EQ) for e in equations.items()]
+    return ring, (*parts, *(atom(p, Relation(relation)) for p, relation in listed)), solutions
+
+
+def _condition(entry: Entry, ring: Ring) -> tuple[Poly, str]:
+    poly, relation = entry.row("polynomial", '">" or ">=" or "/="')
+    if relation.text() not in INDICATORS:
+        raise relation.fail('expected ">" or ">=" or "/="')
+    return poly.polynomial(ring), relation.text()
+
+
+def _weight(entry: Entry) -> int:
+    if entry.integer(1) > MOST_WEIGHT:
+        raise entry.fail(f"expected at most {MOST_WEIGHT}")
+    return entry.integer(1)
+
+
+def _integer(entry: Entry) -> int:
+    if not isinstance(entry.value, int) or isinstance(entry.value, bool):
+        raise entry.fail("expected an integer")
+    return entry.value
+
+
+class _Solution:
+    """A point over the field of a root, with the ends of the interval as they are written."""
+
+    def __init__(self, entry: Entry, size: int, budget: Budget) -> None:
+        field, values = entry.fields("field", "values")
+        self.entry, self.field = entry, read_field(field, budget)
+        self.low, self.high = Fraction(self.field.a, self.field.unit), Fraction(self.field.b, self.field.unit)
+        self.values = [read_number(e, self.field) for e in values.items()]
+        self.values_entry = values
+        if len(self.values) != size:
+            raise values.fail(f"expected {size} numbers, one for each variable")
+
+    def check(self, equations: Sequence[Poly], conditions: Sequence[tuple[Poly, str]], form: Sequence[int]) -> None:
+        """That the equations, the conditions and the linear form have the values that they should have."""
+        for p in equations:
+            if not value(p, self.values, self.field).is_zero:
+                raise self.values_entry.fail("the numbers do not satisfy an equation")
+        for g, relation in conditions:
+            sign = self.field.sign(value(g, self.values, self.field))
+            if not _indicator(relation, sign):
+                raise self.values_entry.fail("the numbers do not satisfy a condition")
+        total = of_rationals([Fraction(0)])
+        for c, v in zip(form, self.values, strict=True):
+            total = add(total, scale(v, Fraction(c)))
+        if total != _generator(self.field):
+            raise self.values_entry.fail("the linear form has another value than the generator of the field")
+
+
+def _generator(field: RootField) -> Residue:
+    if field.degree == 1:
+        return of_rationals([Fraction(-field.p[0], field.p[1])])
+    return of_rationals([Fraction(0), Fraction(1)])
+
+
+def value(p: Poly, point: Sequence[Residue], field: RootField) -> Residue:
+    """A polynomial at a point."""
+    total = of_rationals([Fraction(0)])
+    for exponents, c in p.terms():
+        term = of_rationals([Fraction(c)])
+        for v, k in zip(point, exponents, strict=True):
+            for _ in range(k):
+                term = field.multiply(term, v)
+        total = add(total, term)
+    return total
+
+
+def _indicator(relation: str, sign: int) -> bool:
+    weights = INDICATORS[relation]
+    return weights[0] + weights[1] * sign + weights[2] * sign * sign == 1
+
+
+def _count(
+    equations: Sequence[Poly],
+    conditions: Sequence[tuple[Poly, str]],
+    weights: Sequence[int],
+    entry: Entry,
+    budget: Budget,
+) -> Fraction:
+    """The number of real solutions with the conditions."""
+
+    def tick() -> None:
+        budget.check("verify")
+
+    ideal = Ideal([terms_of(p) for p in equations], weights, tick)
+    if not ideal.is_finite:
+        raise entry.fail("the equations have infinitely many complex solutions")
+    powers = [[(k, w) for k, w in enumerate(INDICATORS[relation]) if w] for _, relation in conditions]
+    if reduce(lambda a, b: a * len(b), powers, 1) > MOST_SIGNATURES:
+        raise Unable(f"{len(conditions)} conditions need more than {MOST_SIGNATURES} signatures")
+    forms, total = TraceForms(ideal), Fraction(0)
+    one = terms_of(equations[0].ring.constant(1))
+    for chosen in choices(*powers):
+        h, weight = one, Fraction(1)
+        for (g, _), (k, w) in zip(conditions, chosen, strict=True):
+            weight *= w
+            for _ in range(k):
+                h = ideal.remainder(product(h, terms_of(g)))
+        total += weight * forms.signature(h)
+    return total

@@ -1,0 +1,1 @@
+"""The arithmetic of the kernel, which shares none with the producers of answers: Sturm sequences, points, fibres."""

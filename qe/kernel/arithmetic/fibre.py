@@ -1,0 +1,312 @@
+"""Univariate polynomials over a triangular point: what a polynomial of the next level is on a cell's fibre.
+
+``fibre`` gives a ``RationalFibre`` (integer coefficients) or an ``AlgebraicFibre`` (coefficients are polynomials
+at the point); both know their true degree, signs at rational numbers, the count of distinct real roots by Sturm's
+theorem, greatest common divisors and squarefree parts. Every answer is exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from flint import acb_poly, arb, ctx, fmpz_poly
+
+from qe.exact.ring import Poly
+from qe.exact.univariate import from_univariate
+from qe.kernel.arithmetic.sturm import (
+    complex_enclosures,
+    count_real_roots,
+    count_roots_between,
+    exact,
+    irreducible_factor_at,
+    rational_root,
+    real_among,
+    sign_of,
+    variations,
+)
+from qe.kernel.arithmetic.triangular import (
+    FIRST_BITS,
+    Coordinate,
+    Point,
+    fibre_balls,
+    gcd,
+    pseudo_remainder,
+    quotient,
+    reduce,
+    trim,
+)
+
+ENCLOSURE_BITS = (64, 256, 1024)
+LONG_BITS = (64, 256, 1024, 4096, 16384)  # a quotient loses many bits by cancellation
+Values = list[tuple[Fraction, Any, Any]]
+
+
+def values(numbers: tuple[Fraction, ...]) -> Values:
+    """Rational numbers prepared for ``signs``: with their exact FLINT form and a ball."""
+    saved = ctx.prec
+    ctx.prec = FIRST_BITS
+    try:
+        return [(x, exact(x), arb(exact(x))) for x in numbers]
+    finally:
+        ctx.prec = saved
+
+
+class RationalFibre:
+    """A polynomial in one variable with integer coefficients. ``degree`` is -1 for zero.
+
+    ``check`` is called between the steps of long computations, to end them.
+    """
+
+    __slots__ = ("check", "degree", "index", "p", "ring")
+
+    def __init__(self, ring: Any, index: int, p: fmpz_poly, check: Callable[[], None]) -> None:
+        self.ring, self.index, self.p, self.check, self.degree = ring, index, p, check, int(p.degree())
+
+    def _with(self, p: fmpz_poly) -> RationalFibre:
+        return RationalFibre(self.ring, self.index, p, self.check)
+
+    def signs(self, at: Values) -> list[int]:
+        """The exact signs at rational numbers."""
+        p = self.p
+        return [sign_of(p(x)) for _, x, _ in at]
+
+    def derivative(self) -> RationalFibre:
+        """The derivative in the variable."""
+        return self._with(self.p.derivative())
+
+    def gcd(self, other: Fibre) -> RationalFibre:
+        """The greatest common divisor."""
+        assert isinstance(other, RationalFibre)
+        return self._with(self.p.gcd(other.p))
+
+    def squarefree(self) -> RationalFibre:
+        """The product of the distinct irreducible factors."""
+        return self._with(self.p / self.p.gcd(self.p.derivative()))
+
+    def count(self) -> int:
+        """The number of distinct real roots."""
+        return count_real_roots(self.p)
+
+    def count_between(self, low: Fraction, high: Fraction) -> int:
+        """The number of distinct real roots in (low, high); neither end is a root."""
+        return count_roots_between(self.p, low, high, self.check)
+
+    def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
+        """The root between low and high, if exactly one irreducible factor changes sign there and only once."""
+        found = irreducible_factor_at(self.p, exact(low), exact(high))
+        if found is None:
+            return None
+        if found.degree() == 1:
+            return rational_root(found)
+        poly = from_univariate(self.ring, self.index, found)
+        return Coordinate(self.index, poly, low, high, sign_of(found(exact(high))))
+
+
+class AlgebraicFibre:
+    """A polynomial in variable ``index`` over a point; ``poly`` is trimmed: its leading coefficient is not 0 there."""
+
+    __slots__ = ("_balls", "degree", "index", "point", "poly")
+
+    def __init__(self, point: Point, index: int, poly: Poly) -> None:
+        self.point, self.index, self.poly = point, index, poly
+        self.degree = poly.degree(index) if poly else -1
+        self._balls: Any = None
+
+    def signs(self, at: Values) -> list[int]:
+        """The exact signs at rational numbers."""
+        saved = ctx.prec
+        ctx.prec = FIRST_BITS
+        try:
+            if self._balls is None:
+                self._balls = fibre_balls(self.point, self.poly, self.index, FIRST_BITS)
+            q, found = self._balls, []
+            for number, _, x in at:
+                value = q(x)
+                s = 1 if value > 0 else -1 if value < 0 else self.point.sign(self.poly.at_rational(self.index, number))
+                found.append(s)
+            return found
+        finally:
+            ctx.prec = saved
+
+    def derivative(self) -> AlgebraicFibre:
+        """The derivative in the variable."""
+        return AlgebraicFibre(self.point, self.index, self.poly.derivative(self.index))
+
+    def gcd(self, other: Fibre) -> AlgebraicFibre:
+        """The greatest common divisor over the point."""
+        assert isinstance(other, AlgebraicFibre)
+        a, b = (self, other) if self.degree >= other.degree else (other, self)
+        return AlgebraicFibre(self.point, self.index, gcd(self.point, a.poly, b.poly, self.index))
+
+    def squarefree(self) -> AlgebraicFibre | SimplePart:
+        """A polynomial with the same roots, all simple: self over its common divisor with its derivative."""
+        shared = self._repeated()
+        if shared is None:
+            return self
+        if shared.degree == 1 or shared._repeated() is None:
+            return SimplePart(self, shared)
+        return self.divided(shared)
+
+    def divided(self, divisor: AlgebraicFibre) -> AlgebraicFibre:
+        """The exact quotient by a divisor."""
+        return AlgebraicFibre(self.point, self.index, quotient(self.point, self.poly, divisor.poly, self.index))
+
+    def _repeated(self) -> AlgebraicFibre | None:
+        """The greatest common divisor with the derivative, or None if all roots are simple."""
+        if self.degree < 2:
+            return None
+        shared = gcd(self.point, self.poly, self.poly.derivative(self.index), self.index)
+        return None if shared.degree(self.index) == 0 else AlgebraicFibre(self.point, self.index, shared)
+
+    def enclosures(self, bits: int) -> list[Any] | None:
+        """Disjoint balls around all complex roots, or None if ``bits`` do not suffice or a root is multiple."""
+        with ctx.workprec(bits):
+            q = self.balls(bits)
+            return None if q[self.degree].contains(0) else complex_enclosures(acb_poly(q), bits)
+
+    def balls(self, bits: int) -> Any:
+        """The coefficients as balls; the working precision must be ``bits``."""
+        return fibre_balls(self.point, self.poly, self.index, bits)
+
+    def shares_root(self, other: Fibre, low: Fraction, high: Fraction) -> bool:
+        """True if self and other, known to have a common complex root, provably have one in (low, high).
+
+        A common root lies in a ball of each; if one pair of balls only meets, the root is there, and it is real
+        because its conjugate is common too.
+        """
+        if not isinstance(other, AlgebraicFibre):
+            return False
+        for bits in ENCLOSURE_BITS:
+            mine, theirs = self.enclosures(bits), other.enclosures(bits)
+            if mine is None or theirs is None:
+                continue
+            meeting = [z for z in mine for w in theirs if z.overlaps(w)]
+            if len(meeting) == 1:
+                place = meeting[0].real
+                return bool(place > arb(exact(low)) and place < arb(exact(high)))
+        return False
+
+    def count(self) -> int:
+        """The number of distinct real roots: from enclosures of all complex roots if these separate them, else by
+        the signed remainder sequence over the point's field."""
+        for bits in ENCLOSURE_BITS:
+            roots = self.enclosures(bits)
+            found = None if roots is None else real_among(roots)
+            if found is not None:
+                return found
+        return self.count_by_remainders()
+
+    def count_by_remainders(self) -> int:
+        """The number of distinct real roots, by the signed remainder sequence over the point's field (Sturm)."""
+        i, point = self.index, self.point
+        a, b = self.poly, self.poly.derivative(i)
+        leads = [(point.sign(a.leading(i)), a.degree(i))]
+        while b:
+            leads.append((point.sign(b.leading(i)), b.degree(i)))
+            if b.degree(i) == 0:
+                break
+            remainder, s = pseudo_remainder(point, a, b, i)
+            remainder, t = reduce(point, remainder)
+            a, b = b, trim(point, remainder * (-s * t), i)
+        return variations([s if d % 2 == 0 else -s for s, d in leads]) - variations([s for s, _ in leads])
+
+    def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
+        """The root between low and high of a squarefree polynomial that has exactly one there, or None."""
+        ends = self.signs(values((low, high)))
+        if ends[0] * ends[1] >= 0:
+            return None
+        return Coordinate(self.index, self.poly, low, high, ends[1])
+
+
+class SimplePart:
+    """f / g for g = gcd(f, f') squarefree: the roots of f, each once (so f has no root of multiplicity above 2).
+
+    It is never written out exactly: signs are products, and the enclosures of its roots come from a division of
+    ball polynomials, which encloses the exact quotient.
+    """
+
+    __slots__ = ("degree", "f", "g")
+
+    def __init__(self, f: AlgebraicFibre, g: AlgebraicFibre) -> None:
+        self.f, self.g, self.degree = f, g, f.degree - g.degree
+
+    def signs(self, at: Values) -> list[int]:
+        """The exact signs at rational numbers, up to a common factor, where f is nonzero."""
+        return [a * b for a, b in zip(self.f.signs(at), self.g.signs(at), strict=True)]
+
+    def squarefree(self) -> SimplePart:
+        return self
+
+    def count(self) -> int:
+        """The number of real roots."""
+        for bits in LONG_BITS:
+            with ctx.workprec(bits):
+                dividend, divisor = self.f.balls(bits), self.g.balls(bits)
+                if dividend[self.f.degree].contains(0) or divisor[self.g.degree].contains(0):
+                    continue
+                roots = complex_enclosures(acb_poly(dividend // divisor), bits)
+                found = None if roots is None or len(roots) != self.degree else real_among(roots)
+            if found is not None:
+                return found
+        return self.f.divided(self.g).count()
+
+    def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
+        """The root of f between low and high where f has exactly one: a simple root of g, or else of f."""
+        return self.g.coordinate(low, high) or self.f.coordinate(low, high)
+
+
+Fibre = RationalFibre | AlgebraicFibre
+Simple = Fibre | SimplePart
+
+
+def fibre(point: Point, poly: Poly, index: int, *, leading_nonzero: bool = False) -> Fibre:
+    """``poly`` over the point as a polynomial in variable ``index``; rational coordinates already substituted.
+
+    ``leading_nonzero`` says that the leading coefficient is already proved nonzero at the point.
+    """
+    if not point.indices or all(i == index for i in poly.variables):
+        return RationalFibre(poly.ring, index, poly.to_univariate(index), point.check)
+    if leading_nonzero:
+        return AlgebraicFibre(point, index, poly)
+    poly = trim(point, poly, index)
+    if all(i == index for i in poly.variables):
+        return RationalFibre(poly.ring, index, poly.to_univariate(index), point.check)
+    return AlgebraicFibre(point, index, poly)
+
+
+def lift_up(f: Fibre, point: Point) -> AlgebraicFibre:
+    """The same polynomial as one over the point, so that both operands of a gcd are of one kind."""
+    if isinstance(f, AlgebraicFibre):
+        return f
+    return AlgebraicFibre(point, f.index, from_univariate(f.ring, f.index, f.p))
+
+
+def lazard_evaluation(f: Poly, point: Point, rationals: dict[int, Fraction], index: int) -> Poly:
+    """The Lazard evaluation of f in the variables below ``index``, as a polynomial at the point in that variable.
+
+    For each variable in turn, f is divided by the highest power of (x_i - a_i) that divides it and x_i is set to
+    a_i (Lazard 1994; McCallum, Parusinski, Paunescu 2019, section 2). Up to a positive factor the result is the
+    partial derivative of that order at a_i.
+    """
+    for i in range(index):
+        while True:
+            point.check()
+            restricted = f.at_rational(i, rationals[i]) if i in rationals else f
+            if not _identically_zero(restricted, point, i):
+                f = restricted
+                break
+            f = f.derivative(i)
+    return f
+
+
+def _identically_zero(p: Poly, point: Point, i: int) -> bool:
+    """Whether p vanishes at the point's coordinates up to variable i for all values of the later variables."""
+    if not p:
+        return True
+    later = [p]
+    for v in range(i + 1, p.ring.size):
+        later = [c for q in later for c in q.coefficients(v) if c]
+    here = point.below(i + 1)
+    return all(here.sign(c) == 0 for c in later)

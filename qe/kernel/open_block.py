@@ -1,0 +1,71 @@
+"""Rule "open block": where the solutions form an open set, equations that hold nowhere inside it are left out.
+
+THEOREM. Let every atom of F with a variable of v or x be <, > or /=, in an and/or combination. Then T = {v: ex x F}
+is open for all values of the parameters. Let T be the union of the sets of F1, ..., Fk, and Fi' be Fi with "p
+vanishes identically in v" for p = 0, and that or p < 0 for p <= 0, in and/or combinations. Then ex v, x F iff ex v
+F1' or ... or ex v Fk'. Proof. Fi' implies Fi. A point of T outside all Fi' lies on the zeros of a polynomial that
+does not vanish identically; finitely many such sets contain no nonempty open set. (Some Fi may be left as they are.)
+
+Evidence: ``variable`` x, ``steps`` from ex x F to F1 or ... or Fk, ``pieces`` F1, ..., Fk, and ``parts``: for each
+the steps from ex v Fi' on. The claim is the disjunction of what they lead to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from qe.formula.build import atom, conj, disj
+from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation, RootAtom
+from qe.formula.traverse import map_atoms
+from qe.kernel.elimination_set import block_of, check_parts
+from qe.kernel.step import Claim, Context, Limits, only, outside
+from qe.proof.entry import formula_from_json
+
+
+def check_open_block(claim: Claim, context: Context, limits: Limits) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
+    variable, steps, pieces, parts = only(claim, "variable", "steps", "pieces", "parts")
+    block, name, _ = claim.variable(variable)
+    if not shows_open(block.body, set(block.variables)):
+        raise claim.fail("the solutions need not form an open set")
+    listed = [formula_from_json(piece, claim.ring, quantified=True) for piece in pieces.items()]
+    known = outside(context, block.variables)
+    if limits.replay(steps, block_of((name,), block.body, claim.ring), known, claim.ring) != disj(listed):
+        raise pieces.fail("not the formulas to which the steps lead")
+    rest = [v for v in block.variables if v != name]
+    check_parts(claim, [block_of(rest, inside(f, rest), claim.ring) for f in listed], parts, context, limits)
+
+
+def shows_open(formula: Formula, names: Collection[str]) -> bool:
+    """Whether the syntax shows that the solutions in these variables form an open set."""
+    if not set(names) & set(formula.free):
+        return formula.is_quantifier_free
+    match formula:
+        case Atom(_, relation):
+            return relation.is_strict
+        case And(args) | Or(args):
+            return all(shows_open(a, names) for a in args)
+    return False
+
+
+def inside(formula: Formula, names: Collection[str]) -> Formula:
+    """The formula Fi' of the theorem; other than and/or combinations of atoms stay as they are."""
+    return map_atoms(formula, lambda found: _inside(found, names)) if _is_plain(formula) else formula
+
+
+def _is_plain(formula: Formula) -> bool:
+    if isinstance(formula, And | Or):
+        return all(map(_is_plain, formula.args))
+    return isinstance(formula, Atom | RootAtom | Constant)
+
+
+def _inside(found: Atom | RootAtom, names: Collection[str]) -> Formula:
+    if isinstance(found, RootAtom) or found.relation.is_strict or not set(names) & set(found.free):
+        return found
+    ring = found.poly.ring
+    coefficients = found.poly.collected([ring.index[n] for n in names])
+    nothing = conj(atom(c, Relation.EQ) for c in coefficients.values())
+    if found.relation is Relation.EQ:
+        return nothing
+    strict = Relation.LT if found.relation is Relation.LE else Relation.GT
+    return disj((Atom(found.poly, strict), nothing))

@@ -1,0 +1,74 @@
+"""The rules of derivations that the kernel decides, each with its checker: one line a rule."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from qe.kernel.alternatives import check_alternatives
+from qe.kernel.block import check_block
+from qe.kernel.boolean_search import check_boolean_search
+from qe.kernel.covering import check_covering
+from qe.kernel.degree_shift import check_degree_shift
+from qe.kernel.elimination_set import check_elimination_set
+from qe.kernel.independent_parts import check_independent_parts
+from qe.kernel.inequations import check_inequations, check_only_nonzero
+from qe.kernel.linear_equation import check_guarded_linear, check_linear
+from qe.kernel.nested import check_converse, check_no_exception, check_steps
+from qe.kernel.open_block import check_open_block
+from qe.kernel.quantifiers import check_quantifiers
+from qe.kernel.root import check_root
+from qe.kernel.sentence import check_sentence
+from qe.kernel.step import Check
+from qe.kernel.table import check_table
+from qe.kernel.terms import check_terms
+from qe.kernel.theorem import check_theorem
+
+PRIMITIVES: Mapping[str, Check] = {
+    # frame
+    "steps": check_steps,
+    "virtual substitution": check_steps,
+    "equations taken apart": check_steps,
+    "converse": check_converse,
+    "no exception": check_no_exception,
+    "instance": check_sentence,
+    "convex": check_sentence,
+    "point or multipliers": check_sentence,
+    # signs
+    "simplification": check_block,
+    "standard simplification": check_block,
+    "case split on factors": check_block,
+    "boundary apart": check_block,
+    "signs by sums of squares": check_block,
+    "Groebner basis of the equations": check_block,
+    "multiple of an equation subtracted": check_block,
+    "Boolean search": check_boolean_search,
+    # quantifiers
+    "quantifiers": check_quantifiers,
+    "renaming": check_quantifiers,
+    "duality": check_quantifiers,
+    "negation normal form": check_quantifiers,
+    "independent parts and miniscoping": check_quantifiers,
+    "nested blocks of one kind gathered": check_quantifiers,
+    "alternatives": check_alternatives,
+    "independent parts": check_independent_parts,
+    # terms, and roots that exist
+    "terms": check_terms,
+    "root": check_root,
+    "linear equation solved": check_linear,
+    "linear equation solved under a guard": check_guarded_linear,
+    "degree shift": check_degree_shift,
+    # test points
+    "elimination set": check_elimination_set,
+    # cylinders
+    "cells": check_table,
+    "shorter": check_table,
+    "covering": check_covering,
+    # open sets
+    "inequations that remove no interior": check_inequations,
+    "open block": check_open_block,
+    # theorems
+    "theorem": check_theorem,
+    # nothing makes these any more; older certificates have them
+    "only asked to be no root": check_only_nonzero,
+    "vanishing sum of squares split": check_block,
+}

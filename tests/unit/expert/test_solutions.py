@@ -1,0 +1,107 @@
+"""All real solutions of a system: these, and as many as there are."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from qe.errors import CertificateRejected, Unable
+from qe.exact.ring import Ring
+from qe.expert.arithmetic.numbers import read_field
+from qe.expert.arithmetic.residue import of_rationals
+from qe.expert.solutions import check_solutions, value
+from qe.proof.entry import Entry
+
+SQRT2 = {"minimal_polynomial": ["-2", "0", "1"], "interval": ["1", "2"]}
+MINUS = {"minimal_polynomial": ["-2", "0", "1"], "interval": ["-2", "-1"]}
+
+
+def point(field: Any, *values: list[str]) -> dict[str, Any]:
+    return {"field": field, "values": list(values)}
+
+
+def payload(**other: Any) -> dict[str, Any]:
+    """x^2 = 2 and y = x + 1."""
+    return {
+        "order": ["x", "y"],
+        "equations": ["x^2 - 2", "x - y + 1"],
+        "conditions": [],
+        "weights": [1, 1],
+        "form": [1, 0],
+        "solutions": [point(MINUS, ["0", "1"], ["1", "1"]), point(SQRT2, ["0", "1"], ["1", "1"])],
+        **other,
+    }
+
+
+ONE = [payload()["solutions"][1]]
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        {},
+        {"weights": [3, 2]},
+        {"solutions": payload()["solutions"][::-1]},
+        {"conditions": [["x", ">"]], "solutions": ONE},
+        {"conditions": [["y", ">"]], "solutions": ONE},
+        {"conditions": [["x", ">"], ["y - 2", ">="], ["x - 1", "/="]], "solutions": ONE},
+        {"conditions": [["x^2 - 2", ">="]]},
+        {"conditions": [["x^2 - 2", ">"]], "solutions": []},
+        {"conditions": [["x^2 - 2", "/="]], "solutions": []},
+        {"conditions": [["x", "/="]]},
+    ],
+)
+def test_the_solutions(other: Any) -> None:
+    check_solutions(payload(**other))
+
+
+@pytest.mark.parametrize(
+    ("other", "reason"),
+    [
+        ({"solutions": ONE}, "there are 2 solutions, and 1 are listed"),
+        ({"solutions": []}, "there are 2 solutions"),
+        ({"solutions": ONE * 2}, "meets that of another"),
+        ({"conditions": [["x", ">"]]}, "do not satisfy a condition"),
+        ({"conditions": [["x^2 - 2", ">"]]}, "do not satisfy a condition"),
+        ({"conditions": [["x", "<"]]}, 'expected ">" or ">=" or "/="'),
+        ({"form": [0, 1]}, "the linear form has another value"),
+        ({"form": [2, 0]}, "the linear form has another value"),
+        ({"form": [1]}, "expected 2 integers"),
+        ({"form": [1, True]}, "expected an integer"),
+        ({"weights": [1]}, "expected 2 integers"),
+        ({"weights": [1, 0]}, "expected an integer of at least 1"),
+        ({"weights": [1, 10**6]}, "at most"),
+        ({"order": ["x", "x"]}, "listed twice"),
+        ({"order": []}, "different variables"),
+        ({"equations": ["x^2 - 2"], "solutions": []}, "infinitely many"),
+        ({"equations": ["x^2 - 2", "x - y + 2"]}, "do not satisfy an equation"),
+        ({"solutions": [point(SQRT2, ["0", "1"])]}, "expected 2 numbers"),
+    ],
+)
+def test_what_is_refused(other: Any, reason: str) -> None:
+    with pytest.raises(CertificateRejected, match=reason):
+        check_solutions(payload(**deepcopy(other)))
+
+
+def test_rational_solutions_have_their_own_field() -> None:
+    three = {"minimal_polynomial": ["-3", "2"], "interval": ["3/2", "3/2"]}
+    given = payload(order=["x"], equations=["2*x - 3"], weights=[1], form=[1], solutions=[point(three, ["3/2"])])
+    check_solutions(given)
+    with pytest.raises(CertificateRejected):
+        check_solutions({**given, "solutions": [point(three, ["1"])]})
+
+
+def test_too_many_conditions() -> None:
+    with pytest.raises(Unable, match="signatures"):
+        check_solutions(payload(conditions=[["x", ">"]] * 9, solutions=[]))
+
+
+def test_values_at_a_point() -> None:
+    field = read_field(Entry(SQRT2, "field"), None)
+    ring = Ring.of(("x", "y"))
+    at = [of_rationals([Fraction(0), Fraction(1)]), of_rationals([Fraction(1), Fraction(1)])]
+    assert value(ring.var("x") ** 2 * 3 - 6, at, field).is_zero
+    assert value(ring.var("x") * ring.var("y") - 1, at, field) == of_rationals([Fraction(1), Fraction(1)])

@@ -1,0 +1,99 @@
+"""Cell tables as steps: whether the prefix and the matrix of a table are a prenex form of the formula."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import pytest
+
+from qe.api.input import read_formula
+from qe.exact.ring import Ring
+from qe.formula.build import convert
+from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.kernel.table import is_prenex_form
+from qe.options import Projection
+from qe.proof.cells import Cell, CellTable
+from qe.proof.certificate import Certificate
+from tests.certificates.producing import cell_table
+from tests.unit.certify.claims import formula, objection
+
+
+def table(matrix: str, order: str, quantifiers: str) -> CellTable:
+    names = tuple(order.split())
+    kinds = tuple(q.replace(".", "") for q in quantifiers)
+    matrix_: Formula = convert(read_formula(matrix), Ring.of(names))
+    return CellTable(names, kinds, matrix_, Projection.LAZARD, tuple(() for _ in names), Cell("", None))
+
+
+@pytest.mark.parametrize(
+    ("text", "matrix", "order", "quantifiers", "right"),
+    [
+        ("ex x. x > a", "x > a", "a x", ".E", True),
+        ("all x. x > a", "x > a", "a x", ".E", False),
+        ("ex x. x > a", "x >= a", "a x", ".E", False),
+        ("ex x. x > a", "x > a", "a x", "..", False),
+        ("ex x. x > a", "x > a", "a x", "EE", False),  # a is free
+        ("ex x. all y. x*y > a", "x*y > a", "a x y", ".EA", True),
+        ("ex x. all y. x*y > a", "x*y > a", "a y x", ".AE", False),
+        ("ex x, y. x*y > a", "x*y > a", "a y x", ".EE", True),
+        ("(ex x. x > a) and (all y. y^2 > a)", "x > a and y^2 > a", "a x y", ".EA", True),
+        ("(ex x. x > a) and (all y. y^2 > a)", "y^2 > a and x > a", "a y x", ".AE", True),
+        ("(ex x. x > a) or (all y. y^2 > a)", "x > a and y^2 > a", "a x y", ".EA", False),
+        ("(ex x. x > a) and (all x. x^2 > a)", "x > a and x^2 > a", "a x", ".E", False),  # bound twice
+        ("(ex x. x > a) and (ex x. x < a)", "x > a and x < a", "a x", ".E", False),  # no value need do for both
+        ("x > a and (ex x. x^2 > a)", "x > a and x^2 > a", "a x", ".E", False),  # free and bound
+        ("not (ex x. x > a)", "x <= a", "a x", ".A", True),
+        ("not (ex x. x > a)", "x <= a", "a x", ".E", False),
+        ("ex x. (all y. y > x) and (ex z. z < x)", "y > x and z < x", "x z y", "EEA", True),
+        ("ex x. (all y. y > x) and (ex z. z < x)", "y > x and z < x", "z x y", "EEA", True),  # neighbours of one kind
+        ("all z. ex x. all y. z*x > y", "z*x > y", "x z y", "EAA", False),
+        ("all z. ex x. all y. z*x > y", "z*x > y", "z x y", "AEA", True),
+        ("all z. ex x. all y. z*x > y", "z*x > y", "z y x", "AAE", False),
+        ("ex x. x > a", "x > a", "a x y", ".EA", True),  # a variable that does not occur
+    ],
+)
+def test_prenex_forms(text: str, matrix: str, order: str, quantifiers: str, right: bool) -> None:
+    assert is_prenex_form(formula(text), table(matrix, order, quantifiers)) is right
+
+
+def test_constants_and_a_ring_of_just_the_variables() -> None:
+    asked, claimed = convert(read_formula("ex x. x > a"), Ring.of(("a", "x"))), table("x > a", "a x", ".E")
+    assert is_prenex_form(asked, claimed)
+    for constant, other in ((TRUE, FALSE), (FALSE, TRUE)):
+        assert is_prenex_form(constant, table(str(constant), "a x", ".E"))
+        assert not is_prenex_form(constant, table(str(other), "a x", ".E"))
+        assert not is_prenex_form(constant, claimed) and not is_prenex_form(asked, table(str(constant), "a x", ".E"))
+
+
+@lru_cache
+def evidence(text: str, order: str, quantifiers: str, answer: str | None) -> Any:
+    found = cell_table(text, order, quantifiers)
+    if answer is None:
+        return {"certificate": found.to_data()}
+    names = tuple(order.split())
+    told = convert(read_formula(answer), Ring.of(names))
+    return {"certificate": Certificate.cells(found.payload.table, told).to_data()}  # type: ignore[union-attr]
+
+
+SQUARE = ("x^2 < a", "a x", ".E")
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "given", "reason"),
+    [
+        ("ex x. x^2 < a", "a > 0", (*SQUARE, "a > 0"), ""),
+        ("ex x. not (x^2 >= a)", "not (a <= 0)", (*SQUARE, "a > 0"), ""),
+        ("ex x. x^2 < a", "a > 0", (*SQUARE, None), "with an answer"),
+        ("ex x. x^2 < a", "a > 0", (*SQUARE, "a >= 0"), "differs from the truth value"),
+        ("ex x. x^2 < a", "a >= 0", (*SQUARE, "a > 0"), "another answer"),
+        ("ex x. x^2 <= a", "a > 0", (*SQUARE, "a > 0"), "another formula"),
+        ("all x. x^2 < a", "a > 0", (*SQUARE, "a > 0"), "another formula"),
+        ("ex x. x^2 < b", "b > 0", (*SQUARE, "a > 0"), "other variables"),
+        ("ex x. x^2 < a", "a > 0", ("x^2 < u", "u x", ".E", "u > 0"), "other variables"),
+    ],
+)
+def test_a_table_is_about_the_step(before: str, after: str, given: Any, reason: str) -> None:
+    for rule in ("cells", "shorter"):
+        found = objection(rule, before, after, evidence(*given))
+        assert reason in found and bool(found) is bool(reason), found
