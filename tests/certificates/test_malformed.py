@@ -30,7 +30,7 @@ from tests.certificates.derivations import CASES, data
 from tests.certificates.false_claims import Data, text_of
 from tests.unit.certify import test_parts
 from tests.unit.certify.claims import NO_LEMMAS, RING, step
-from tests.unit.certify.test_degenerate_truth_set import by, contradiction
+from tests.unit.expert.test_degenerate_truth_set import by, contradiction
 
 Path = tuple[str | int, ...]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from tests.unit.kernel.test_elimination_points import RULE, by, point
 
 from qe.proof.entry import poly_to_text
 from tests.unit.certify.claims import objection, poly
+from tests.unit.kernel.test_elimination_points import RULE, by, point
 
 FAR = point([], -1), point([], 1)
 ROOTS = point(["-a", "1"])

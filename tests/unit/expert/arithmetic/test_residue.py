@@ -7,10 +7,10 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from qe.expert.arithmetic import residue
 
 from qe.errors import CertificateRejected
 from qe.exact.field import NumberField
+from qe.expert.arithmetic import residue
 from qe.expert.arithmetic.numbers import read_field, read_number
 from qe.expert.arithmetic.residue import ZERO, Residue, RootField, add, of_rationals, scale
 from qe.proof.entry import Entry
