@@ -12,7 +12,7 @@ from qe.api.limits import limits_of, read_under
 from qe.api.settings import Limited, Proved, with_settings
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.groebner import MonomialOrder
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.groebner.counting import RealRootClassification, classified
@@ -134,7 +134,7 @@ def read_system(
     others = tuple(sorted(set[str]().union(*occurring.values()) - {*largest, *fixed})) if named is None else named
     _check_names(largest, others, fixed, occurring)
     ring = Ring.of((*fixed, *reversed(others), *reversed(largest)))
-    block = Block(
+    block = BlockOrder(
         tuple(ring.index[n] for n in largest), tuple(ring.index[n] for n in (*others, *reversed([*fixed]))), order
     )
     read = [tuple(p.convert(ring) for p in group) for group in lists]

@@ -13,10 +13,11 @@ from qe.cad.order_by_projection import variable_order
 from qe.cells.follows import follows
 from qe.cells.formulas import construct
 from qe.cells.sampled_cells import deciding_point
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.errors import BudgetExceeded, Contradiction
 from qe.exact.number import Values
 from qe.exact.ring import Poly, Ring
+from qe.formula.block import Block
 from qe.formula.build import convert
 from qe.formula.features import is_small, length
 from qe.formula.normal import nnf, prenex
@@ -40,11 +41,11 @@ class Decomposition:
 
     name = "cad"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Every problem."""
         return "complete for every formula"
 
-    def run(self, problem: Problem, context: Context) -> Outcome:
+    def run(self, problem: Block, context: Context) -> Outcome:
         """The answer read off the cells, with a witness of a sentence and a certificate. Raises ``BudgetExceeded``."""
         return decomposed(problem.formula, context.options, context.budget, context.log)
 

@@ -20,17 +20,18 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.errors import InternalError
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.number import Values, simplest
 from qe.exact.polynomial_system import solve_system
 from qe.exact.quotient import PositiveDimensional, independent_sets
 from qe.exact.ring import Poly, Ring
 from qe.exact.zeros import Zero
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import atoms, ring_of
+from qe.formula.traverse import ring_of
 from qe.groebner.counting import SolutionCount
 from qe.groebner.evidence import Condition, solutions_certificate
 from qe.groebner.kapur_sun_wang import segments
@@ -50,11 +51,11 @@ class ComprehensiveGroebner:
 
     name = "cgs"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Flat blocks."""
         return "trace forms count its solutions" if problem.is_flat else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """The block; of variables that no equation binds one goes, others stay. None for conditions of another kind.
 
         Raises ``Unable`` where bases or trace forms grow past their limits, ``BudgetExceeded``.
@@ -62,7 +63,7 @@ class ComprehensiveGroebner:
         dual = problem.dual
         free = dual.formula.free
         ring = Ring.of((*free, *dual.variables))
-        if _length(dual.body) > MOST_CONJUNCTIONS or not all(isinstance(a, Atom) for a in atoms(dual.body)):
+        if _length(dual.body) > MOST_CONJUNCTIONS or dual.has_root_atoms:
             return None
         parts = list(_conjunctions(convert(dual.body, ring)))
         read = [_Conjunction.of(part, ring, dual.variables) for part in parts]
@@ -80,7 +81,7 @@ class ComprehensiveGroebner:
 
 
 def _outcome(
-    problem: Problem, context: Context, found: Formula, witness: Values | None, refuted: OnDemand | None = None
+    problem: Block, context: Context, found: Formula, witness: Values | None, refuted: OnDemand | None = None
 ) -> Outcome:
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(problem.formula)
@@ -163,7 +164,7 @@ class _Conjunction:
         inner = tuple(index[v] for v in variables)
         others = tuple(i for i in reversed(range(self.ring.size)) if i not in inner)
         found = []
-        for segment in segments(equations, Block(inner, others), budget, equal=zero, nonzero=nonzero):
+        for segment in segments(equations, BlockOrder(inner, others), budget, equal=zero, nonzero=nonzero):
             if not segment.is_unit:
                 found.append(conj([condition_of(segment), self._of_segment(segment, variables, budget)]))
         return disj(found)
@@ -212,7 +213,7 @@ class _Conjunction:
             return everywhere()
         others = tuple(i for i in reversed(range(self.ring.size)) if i != x)
         found = []
-        for segment in segments((p,), Block((x,), others), budget):
+        for segment in segments((p,), BlockOrder((x,), others), budget):
             if segment.dimension == 0:
                 found.append(conj([condition_of(segment), SolutionCount(segment, conditions, budget).is_positive]))
             elif segment.dimension == 1:

@@ -8,8 +8,9 @@ from fractions import Fraction
 from qe.convex.linear_point import linear_point
 from qe.convex.optimum import Decision, decide
 from qe.convex.system import NotConvex
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome, witness_of
 from qe.exact.number import Number
+from qe.formula.block import Block
 from qe.formula.syntax import FALSE, TRUE, Exists
 from qe.options import Budget, Options
 
@@ -19,11 +20,11 @@ class ConvexOptimisation:
 
     name = "convex"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Sentences of one block."""
         return f"{len(problem.variables)} variables, a convex set" if problem.is_flat and not problem.free else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """A decision with its certificate; None where the set is not a convex one that can be read."""
         dual = problem.dual
         known: Mapping[str, Number] | None = linear_point(dual.body, budget=context.budget)
@@ -37,7 +38,7 @@ class ConvexOptimisation:
                 context.log.step("convex", problem.formula, answer, evidence=evidence)
                 return Outcome(answer, certificate=found.certificate)
         values = {name: known.get(name, Fraction(0)) for name in dual.variables}
-        evidence = {"proof": {"certificate": dual.witnessed(values)}}
+        evidence = {"proof": {"certificate": witness_of(dual, values)}}
         answer = context.log.step("convex", problem.formula, problem.asked(TRUE), evidence=evidence)
         return Outcome(answer, values)
 

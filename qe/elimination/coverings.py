@@ -10,10 +10,11 @@ from qe.coverings.cover import Search
 from qe.coverings.evidence import evidence
 from qe.coverings.line import Cover
 from qe.coverings.parameters import parameter_cells
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.errors import InternalError
 from qe.exact.number import Values
 from qe.exact.ring import Ring
+from qe.formula.block import Block
 from qe.formula.build import convert
 from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
@@ -29,11 +30,11 @@ class Coverings:
 
     name = "coverings"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Every problem."""
         return "for any prefix and parameters"
 
-    def run(self, problem: Problem, context: Context) -> Outcome:
+    def run(self, problem: Block, context: Context) -> Outcome:
         """The answer by the signs of the polynomials of parameter space, or a truth value, with values where there are
         some. Raises ``NotWellOriented`` where a polynomial is zero on a whole line and its order is needed beside it,
         ``BudgetExceeded``.
@@ -65,7 +66,7 @@ class Coverings:
 
 def covered(formula: Formula, options: Options, budget: Budget, log: RunLog) -> None:
     """The steps of the method for a formula that begins with a quantifier, in the log."""
-    problem = Problem.of(formula)
+    problem = Block.of(formula)
     if problem is not None:
         Coverings().run(problem, Context(options, budget, log))
 

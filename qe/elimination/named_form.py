@@ -17,12 +17,13 @@ from fractions import Fraction
 from itertools import chain, combinations
 from math import gcd, prod
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.exact.ideals import fresh
 from qe.exact.ring import Poly, Ring
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import atoms, conjuncts, has_root_atoms
+from qe.formula.traverse import atoms, conjuncts
 from qe.options import Options
 
 MOST_FACTORS, MOST_TERMS, ROUNDS = 4, 200, 6
@@ -34,12 +35,12 @@ class NamedForm:
 
     name = "linear form named"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """A block of two variables and more with parameters, over a quantifier-free body."""
         flat = problem.is_flat and len(problem.variables) > 1 and problem.free
-        return self.name if flat and not has_root_atoms(problem.body) else None
+        return self.name if flat and not problem.has_root_atoms else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """The nested problem; None where the conditions are not of this kind."""
         found = _named(problem.dual)
         if found is None:
@@ -116,7 +117,7 @@ class _Quadratic:
         return (y * self.square + slope) * y + offset
 
 
-def _named(problem: Problem) -> tuple[Formula, list[Fraction]] | None:
+def _named(problem: Block) -> tuple[Formula, list[Fraction]] | None:
     """The nested problem, and for its outer conditions the numbers b of the theorem (for the atoms as they stand)."""
     parts, ring = conjuncts(problem.body), problem.body.ring
     assert ring is not None
@@ -194,7 +195,7 @@ def _size(found: _Quadratic) -> int:
 
 
 def _nested(
-    problem: Problem, linear: Sequence[Formula], conditions: Sequence[Atom], form: Poly, found: Sequence[_Quadratic]
+    problem: Block, linear: Sequence[Formula], conditions: Sequence[Atom], form: Poly, found: Sequence[_Quadratic]
 ) -> tuple[Formula, list[Fraction]] | None:
     """The right side of the theorem; None where two conditions become one, or one becomes constant."""
     ring = form.ring

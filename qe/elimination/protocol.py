@@ -8,69 +8,18 @@ from typing import Protocol
 
 from qe.exact.number import Values
 from qe.exact.ring import Ring
-from qe.formula.build import convert, exists, forall
-from qe.formula.normal import nnf
-from qe.formula.syntax import Exists, ForAll, Formula
+from qe.formula.block import Block
+from qe.formula.build import convert
+from qe.formula.syntax import Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Root
 from qe.proof.run_log import RunLog
 
 
-@dataclass(frozen=True, slots=True)
-class Problem:
-    """One block of quantifiers of one kind: ``ex variables. body``, or ``all variables. body`` if ``universal``.
-
-    The body may hold further quantifiers. A method that knows existential blocks only works on the dual problem,
-    ``ex variables. positive``, and turns its formula back by ``asked``.
-    """
-
-    variables: tuple[str, ...]
-    body: Formula
-    universal: bool = False
-
-    @staticmethod
-    def of(formula: Formula) -> Problem | None:
-        """The outermost block of a formula; None where it does not begin with a quantifier."""
-        if isinstance(formula, Exists | ForAll):
-            return Problem(formula.variables, formula.body, isinstance(formula, ForAll))
-        return None
-
-    @property
-    def formula(self) -> Formula:
-        """The problem as one formula."""
-        return (forall if self.universal else exists)(self.variables, self.body)
-
-    @property
-    def free(self) -> tuple[str, ...]:
-        """The parameters."""
-        return self.formula.free
-
-    @property
-    def is_flat(self) -> bool:
-        """Whether nothing inside is quantified."""
-        return self.body.is_quantifier_free
-
-    @property
-    def positive(self) -> Formula:
-        """The body of the existential problem that is this one, or its negation if ``universal``."""
-        return nnf(self.body, negate=self.universal)
-
-    @property
-    def dual(self) -> Problem:
-        """The existential problem that is this one, or its negation if ``universal``, in negation normal form."""
-        positive = self.positive
-        return Problem(self.variables, positive) if self.universal or positive != self.body else self
-
-    def witnessed(self, values: Values) -> Certificate:
-        """That the body of the existential dual, quantifier-free, holds at these values of the variables."""
-        ring = Ring.of(self.variables)
-        return Certificate.witness(
-            convert(self.positive, ring), self.variables, [Root.of(values[name]) for name in self.variables]
-        )
-
-    def asked(self, formula: Formula) -> Formula:
-        """The answer to this problem, from one to its dual."""
-        return nnf(formula, negate=self.universal)
+def witness_of(block: Block, values: Values) -> Certificate:
+    """That the body of the existential dual, quantifier-free, holds at these values of the variables."""
+    ring, names = Ring.of(block.variables), block.variables
+    return Certificate.witness(convert(block.positive, ring), names, [Root.of(values[name]) for name in names])
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +70,6 @@ class Method(Protocol):
 
     name: str
 
-    def suits(self, problem: Problem, options: Options) -> str | None: ...
+    def suits(self, problem: Block, options: Options) -> str | None: ...
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None: ...
+    def run(self, problem: Block, context: Context) -> Outcome | None: ...

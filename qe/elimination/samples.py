@@ -12,9 +12,10 @@ import random
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome, witness_of
 from qe.exact.number import Values
 from qe.exact.ring import Poly
+from qe.formula.block import Block
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, polynomials
@@ -41,20 +42,20 @@ class SampledPoints:
 
     name = "samples"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Sentences of one block without equations."""
         if not problem.is_flat or problem.free or violation(problem.positive) is None:
             return None
         return "inequalities alone"
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """A point that was verified; None says nothing."""
         dual = problem.dual
         known = find(dual.body, context.budget)
         if known is None:
             return None
         values: Values = {name: known.get(name, Fraction(0)) for name in dual.variables}
-        evidence = {"proof": {"certificate": dual.witnessed(values)}}
+        evidence = {"proof": {"certificate": witness_of(dual, values)}}
         answer = context.log.step("point or multipliers", problem.formula, problem.asked(TRUE), evidence=evidence)
         return Outcome(answer, values)
 

@@ -18,10 +18,11 @@ from fractions import Fraction
 from itertools import chain, combinations, islice
 from math import lcm
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.errors import InputError
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, format_poly
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart
@@ -57,11 +58,11 @@ class PolynomialWitnesses:
 
     name = "witness"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Universal blocks with quantifiers inside."""
         return "polynomials may solve the inner blocks" if problem.universal and not problem.is_flat else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """TRUE where witnesses were found and proved; None says nothing."""
         log = RunLog()
         found = find(problem.formula, budget=context.budget, log=log)

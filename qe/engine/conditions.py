@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import prod
 
-from qe.elimination.protocol import Problem
+from qe.formula.block import Block
 from qe.formula.syntax import And, Atom, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, connected, polynomials, subformulas
+from qe.formula.traverse import connected, subformulas
 from qe.options import Options, Stage
 
-Condition = Callable[[Problem, Options], str | None]
+Condition = Callable[[Block, Options], str | None]
 
 CAD_VARIABLES = 3
 """Up to this many variables decomposition is fast and its answers are short (measured: tens of milliseconds)."""
@@ -45,47 +45,47 @@ CONVEX_PARTS = 24
 """In more variables, conditions that fall apart into some without common variables are not one convex problem."""
 
 
-def always(problem: Problem, options: Options) -> str | None:
+def always(problem: Block, options: Options) -> str | None:
     """A method of last resort."""
     return "nothing speaks against it"
 
 
-def complete(problem: Problem, options: Options) -> str | None:
+def complete(problem: Block, options: Options) -> str | None:
     """Decomposition takes everything; the reason says how much there is."""
-    total = _sizes(problem)[1]
+    total = problem.total
     short = (
-        ": decomposition is cheap and its answer short" if total <= CAD_VARIABLES else f" of degree {_degree(problem)}"
+        ": decomposition is cheap and its answer short" if total <= CAD_VARIABLES else f" of degree {problem.degree}"
     )
     return f"{total} variables in all{short}"
 
 
-def never(problem: Problem, options: Options) -> str | None:
+def never(problem: Block, options: Options) -> str | None:
     """Only where the caller asks for the method."""
     return None
 
 
-def inner_blocks(problem: Problem, options: Options) -> str | None:
+def inner_blocks(problem: Block, options: Options) -> str | None:
     """Quantifiers inside a universal block."""
     return "blocks inside a universal one" if problem.universal and not problem.is_flat else None
 
 
-def many_cases(problem: Problem, options: Options) -> str | None:
+def many_cases(problem: Block, options: Options) -> str | None:
     """A sentence with ``CASES_FROM`` disjunctions or more."""
     cases = case_count(problem)
-    if cases < CASES_FROM or _curved(problem) > CURVED_CASES or hopeless_cases(problem, options):
+    if cases < CASES_FROM or problem.curved > CURVED_CASES or hopeless_cases(problem, options):
         return None
     return f"a sentence with {cases} case distinctions"
 
 
-def hopeless_cases(problem: Problem, options: Options) -> str | None:
+def hopeless_cases(problem: Block, options: Options) -> str | None:
     """A sentence with so many cases that no other method will end, or with linear conditions alone."""
     cases = case_count(problem)
-    if cases and len(problem.variables) >= LINEAR_VARIABLES and not _curved(problem):
+    if cases and len(problem.variables) >= LINEAR_VARIABLES and not problem.curved:
         return f"a linear sentence with {cases} case distinctions"
     return f"a sentence with {cases} case distinctions, too many for other methods" if cases >= HOPELESS_CASES else None
 
 
-def case_count(problem: Problem) -> int:
+def case_count(problem: Block) -> int:
     """The disjunctions in a sentence of one block that may be searched; 0 for any other."""
     if problem.free or not problem.is_flat:
         return 0
@@ -93,39 +93,35 @@ def case_count(problem: Problem) -> int:
     return sum(1 for f in subformulas(problem.body) if isinstance(f, kind))
 
 
-def _curved(problem: Problem) -> int:
-    return sum(p.total_degree > 1 for p in polynomials(problem.body))
-
-
-def closed_in_many_variables(problem: Problem, options: Options) -> str | None:
+def closed_in_many_variables(problem: Block, options: Options) -> str | None:
     """A sentence in at least ``CONVEX_FROM`` variables, or in one less and ``CONVEX_CURVED`` curved conditions."""
     count = len(problem.variables)
     if count < CONVEX_FROM - 1 or not problem.is_flat or problem.free:
         return None
-    if count < CONVEX_FROM and _curved(problem) < CONVEX_CURVED:
+    if count < CONVEX_FROM and problem.curved < CONVEX_CURVED:
         return None
     if count > CONVEX_PARTS and _falls_apart(problem):
         return None  # preparation takes the parts apart, and each is decided alone
     return f"a sentence in {count} variables"
 
 
-def curved_inequalities(problem: Problem, options: Options) -> str | None:
+def curved_inequalities(problem: Block, options: Options) -> str | None:
     """A sentence in at least ``CONVEX_FROM`` variables, not linear, in which no conjunct is an equation."""
-    if len(problem.variables) < CONVEX_FROM or not problem.is_flat or problem.free or not _curved(problem):
+    if len(problem.variables) < CONVEX_FROM or not problem.is_flat or problem.free or not problem.curved:
         return None
-    if any(isinstance(part, Atom) and part.relation is Relation.EQ for part in conjuncts(problem.positive)):
+    if any(isinstance(part, Atom) and part.relation is Relation.EQ for part in problem.conditions):
         return None
     return f"inequalities in {len(problem.variables)} variables"
 
 
-def _falls_apart(problem: Problem) -> bool:
+def _falls_apart(problem: Block) -> bool:
     """Whether some conjuncts share no variable with the others."""
     block = frozenset(problem.variables)
-    parts = conjuncts(problem.positive)
+    parts = problem.conditions
     return len(connected(parts, lambda part: block.intersection(part.free))[1]) > 1
 
 
-def equations_bind_a_sentence(problem: Problem, options: Options) -> str | None:
+def equations_bind_a_sentence(problem: Block, options: Options) -> str | None:
     """A conjunction with as many equations as variables, four or more, and neither few nor many complex solutions.
 
     Preparation would solve the equations one by one and make them longer. Measured: the cyclic 5-roots with a > b, 70
@@ -133,7 +129,7 @@ def equations_bind_a_sentence(problem: Problem, options: Options) -> str | None:
     """
     if not problem.is_flat or problem.free or len(problem.variables) < EQUATIONS_FROM:
         return None
-    parts = conjuncts(problem.positive)
+    parts = problem.conditions
     if not all(isinstance(part, Atom) for part in parts):
         return None
     degrees = [a.poly.total_degree for a in parts if isinstance(a, Atom) and a.relation is Relation.EQ]
@@ -143,14 +139,14 @@ def equations_bind_a_sentence(problem: Problem, options: Options) -> str | None:
     return f"{len(degrees)} equations bind {count} variables"
 
 
-def curved_in_the_block(problem: Problem, options: Options) -> str | None:
+def curved_in_the_block(problem: Block, options: Options) -> str | None:
     """A universal block of degree above 2 in its variables: substitution cannot do it."""
     if not problem.universal or not problem.is_flat:
         return None
-    return "degree above 2 in the quantified variables" if _degree(problem) > 2 else None
+    return "degree above 2 in the quantified variables" if problem.degree > 2 else None
 
 
-def curved_with_parameters(problem: Problem, options: Options) -> str | None:
+def curved_with_parameters(problem: Block, options: Options) -> str | None:
     """The same, of one variable: an inner block whose outer one has other variables than the parameters it looks at.
 
     Measured: best approximations of cubics on [-1, 1] by lines took 10 s and more, with the inner block first 0.7 s.
@@ -158,30 +154,30 @@ def curved_with_parameters(problem: Problem, options: Options) -> str | None:
     return curved_in_the_block(problem, options) if len(problem.variables) == 1 and problem.free else None
 
 
-def several_parameters(problem: Problem, options: Options) -> str | None:
+def several_parameters(problem: Block, options: Options) -> str | None:
     """More variables in all than decomposition takes."""
-    total = len(problem.body.free)
+    total = problem.total
     return f"{total} variables in all" if problem.free and total > CAD_FIRST_VARIABLES else None
 
 
-def one_variable_and_parameters(problem: Problem, options: Options) -> str | None:
+def one_variable_and_parameters(problem: Block, options: Options) -> str | None:
     """A block of one variable with parameters."""
     return "one variable and parameters" if len(problem.variables) == 1 and problem.free else None
 
 
-def convex_conditions(problem: Problem, options: Options) -> str | None:
+def convex_conditions(problem: Block, options: Options) -> str | None:
     """Weak convex conditions in several quantified variables and few parameters."""
-    bound, total = _sizes(problem)
+    bound, total = problem.occurring, problem.total
     if bound <= 1 or total <= CAD_VARIABLES or total - bound > CRITICAL_PARAMETERS or not _is_convex(problem.positive):
         return None
     return "convex conditions on several quantified variables: critical values are few"
 
 
-def low_degrees(problem: Problem, options: Options) -> str | None:
+def low_degrees(problem: Block, options: Options) -> str | None:
     """Where substitution is quick, or the variables are too many for anything else."""
     if convex_conditions(problem, options) is not None:
         return None
-    (bound, total), degree = _sizes(problem), _degree(problem)
+    bound, total, degree = problem.occurring, problem.total, problem.degree
     if degree <= 1:
         return "every quantified variable is linear"
     if total <= CAD_VARIABLES:
@@ -191,64 +187,52 @@ def low_degrees(problem: Problem, options: Options) -> str | None:
     return None if total <= CAD_FIRST_VARIABLES else f"{total} variables: substitution removes what it can first"
 
 
-def cubic_and_many_parameters(problem: Problem, options: Options) -> str | None:
+def cubic_and_many_parameters(problem: Block, options: Options) -> str | None:
     """A variable of degree 3, and too many others for a quick decomposition."""
     if Stage.CUBIC in options.without or convex_conditions(problem, options) is not None:
         return None
-    total = _sizes(problem)[1]
+    total = problem.total
     if total <= CAD_VARIABLES or not _has_cubic(problem):
         return None
     return f"a short try of roots of cubics before decomposing {total} variables"
 
 
-def curved_and_many_parameters(problem: Problem, options: Options) -> str | None:
+def curved_and_many_parameters(problem: Block, options: Options) -> str | None:
     """One variable, of degree 3 or more, and as many parameters.
 
     The roots of a cubic under a condition are left to substitution: its answers are a third as long (measured on monic
     and general cubics with linear and quadratic conditions: 382 characters for 573, 605 for 2093, 770 for 2720).
     """
-    total = _sizes(problem)[1]
-    if len(problem.variables) > 1 or total <= CAD_VARIABLES or _degree(problem) < 3:
+    total = problem.total
+    if len(problem.variables) > 1 or total <= CAD_VARIABLES or problem.degree < 3:
         return None
-    if _degree(problem) == 3 and not _one_but_for_bounds(problem):
+    if problem.degree == 3 and not _one_but_for_bounds(problem):
         return None
-    return f"one variable of degree {_degree(problem)} and {total - 1} parameters"
+    return f"one variable of degree {problem.degree} and {total - 1} parameters"
 
 
-def _one_but_for_bounds(problem: Problem) -> bool:
+def _one_but_for_bounds(problem: Block) -> bool:
     """Whether one polynomial has the variable, beside numbers or letters that it is compared with."""
     (name,) = problem.variables
-    found = {p for p in polynomials(problem.body) if name in p.ring.index and p.degree(p.ring.index[name])}
+    found = {p for p in problem.polynomials if name in p.ring.index and p.degree(p.ring.index[name])}
     leads = [(p.degree(x), p.leading(x)) for p in found for x in (p.ring.index[name],)]
     return sum(not (degree == 1 and lead.is_constant) for degree, lead in leads) <= 1
 
 
-def _has_cubic(problem: Problem) -> bool:
+def _has_cubic(problem: Block) -> bool:
     """Whether some polynomial has degree 3 in a quantified variable."""
     bound = frozenset(problem.variables)
-    return any(p.degree(i) == 3 for p in polynomials(problem.body) for i in p.variables if p.ring.names[i] in bound)
+    return any(p.degree(i) == 3 for p in problem.polynomials for i in p.variables if p.ring.names[i] in bound)
 
 
-def worth_a_short_try(problem: Problem, options: Options) -> str | None:
+def worth_a_short_try(problem: Block, options: Options) -> str | None:
     """Where decomposition goes first but has many variables: a small complete answer may come at once."""
     if low_degrees(problem, options) is not None or convex_conditions(problem, options) is not None:
         return None
     if cubic_and_many_parameters(problem, options) is not None:
         return None  # which tries the same, and roots of cubics
-    total = _sizes(problem)[1]
+    total = problem.total
     return f"a short try before decomposing {total} variables" if total > CAD_VARIABLES else None
-
-
-def _sizes(problem: Problem) -> tuple[int, int]:
-    """(quantified variables that occur, all variables)."""
-    names = problem.body.free
-    return sum(v in names for v in problem.variables), len(names)
-
-
-def _degree(problem: Problem) -> int:
-    """The highest degree of a quantified variable."""
-    named = [(p, p.ring.index[v]) for p in polynomials(problem.body) for v in problem.variables if v in p.ring.index]
-    return max((p.degree(i) for p, i in named), default=0)
 
 
 def _is_convex(body: Formula) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from qe.elimination.protocol import Problem
+from qe.formula.block import Block
 from qe.formula.build import conj
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
@@ -52,7 +52,7 @@ def equations(formula: Formula, variables: tuple[str, ...]) -> Iterator[Atom]:
             yield part
 
 
-def gathered_block(formula: Formula) -> Problem | None:
+def gathered_block(formula: Formula) -> Block | None:
     """The existential block of a conjunction together with the conditions that preparation moved out of it."""
     args = formula.args if isinstance(formula, And) else (formula,)
     blocks = [a for a in args if isinstance(a, Exists)]
@@ -60,4 +60,4 @@ def gathered_block(formula: Formula) -> Problem | None:
         return None
     rest = [a for a in args if a is not blocks[0]]
     body = conj((*rest, blocks[0].body))
-    return Problem(blocks[0].variables, body) if body.is_quantifier_free else None
+    return Block(blocks[0].variables, body) if body.is_quantifier_free else None

@@ -12,13 +12,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.elimination.protocol import Outcome, Problem
+from qe.elimination.protocol import Outcome
 from qe.engine.conditions import CASES_FROM, case_count, hopeless_cases
 from qe.exact.number import Values
+from qe.formula.block import Block
 from qe.formula.build import conj, exists
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
-from qe.formula.traverse import atoms, conjuncts, connected, polynomials
+from qe.formula.traverse import atoms, conjuncts, connected
 from qe.options import Options
 from qe.proof.step import Nested, Step
 from qe.rules.step import StepKind
@@ -68,12 +69,12 @@ class WithoutLocals:
         return values
 
 
-def without_locals(problem: Problem, options: Options, eliminate: Eliminate) -> WithoutLocals | None:
+def without_locals(problem: Block, options: Options, eliminate: Eliminate) -> WithoutLocals | None:
     """An existential sentence, or the dual of a universal one, without local variables whose conditions do not grow;
     None where there are none."""
     if len(problem.variables) < VARIABLES_FROM or case_count(problem) < CASES_FROM:
         return None
-    if any(p.total_degree > 1 for p in polynomials(problem.body)):
+    if problem.curved:
         return None
     problem = problem.dual
     for most in SHARED_BY:
@@ -91,11 +92,11 @@ def without_locals(problem: Problem, options: Options, eliminate: Eliminate) -> 
 
 def _is_left_to_search(formula: Formula, options: Options) -> bool:
     """Whether no cases are left, or still so many that the search takes them: a few are slower for other methods."""
-    left = Problem.of(formula)
+    left = Block.of(formula)
     return left is None or not case_count(left) or hopeless_cases(left, options) is not None
 
 
-def _local(problem: Problem, most: int) -> Iterator[tuple[tuple[str, ...], list[Formula]]]:
+def _local(problem: Block, most: int) -> Iterator[tuple[tuple[str, ...], list[Formula]]]:
     """Conditions, some of all, and the variables that occur in no others, each of them in so many at most."""
     parts = conjuncts(problem.body)
     times = Counter(name for part in parts for name in part.free)
@@ -113,7 +114,7 @@ def _shorter(own: tuple[str, ...], parts: list[Formula], eliminate: Eliminate) -
     return found
 
 
-def _without(problem: Problem, found: list[tuple[tuple[str, ...], list[Formula], Nested]]) -> WithoutLocals | None:
+def _without(problem: Block, found: list[tuple[tuple[str, ...], list[Formula], Nested]]) -> WithoutLocals | None:
     """The sentence with these blocks moved inwards and eliminated; None where no other variable is left."""
     gone = {name for own, _, _ in found for name in own}
     left = tuple(name for name in problem.variables if name not in gone)

@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.engine.early import early_parts, equations, gathered_block
 from qe.engine.finish import settled, shortened
 from qe.engine.local import WORK, without_locals
@@ -21,6 +21,7 @@ from qe.engine.strategy import SHORTCUT, SPARE, SWITCHED, Attempt, Scope, alone,
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
+from qe.formula.block import Block
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
@@ -103,7 +104,7 @@ class _Run:
         gone, ring = {*features(formula).bound} - {*features(ready.formula).bound}, formula.ring
         assert ring is not None
         own = Ring.of(name for name in ring.names if name not in gone)  # as without the names: orders go by the ring
-        found, problem = self.unnamed(convert(ready.formula, own)), Problem.of(formula)
+        found, problem = self.unnamed(convert(ready.formula, own)), Block.of(formula)
         found = replace(found, formula=convert(found.formula, ring))
         known = found.witness if type(ready.formula) is type(formula) else {}
         if problem is None or problem.free or known is None or found.formula != problem.asked(TRUE):
@@ -113,7 +114,7 @@ class _Run:
 
     def unnamed(self, formula: Formula) -> Outcome:
         """As ``question``, for a formula without definitions."""
-        problem, mark = Problem.of(formula), self.log.mark()
+        problem, mark = Block.of(formula), self.log.mark()
         found = None
         if problem is not None:
             found = self.by_local_variables(problem) or self.first_of(Scope.ASKED, problem)
@@ -130,7 +131,7 @@ class _Run:
             return found
         return replace(found, formula=self.finished(found.formula, formula, mark))
 
-    def sentence(self, problem: Problem) -> Outcome:
+    def sentence(self, problem: Block) -> Outcome:
         """A sentence of one outermost block, by its existential dual, with values for the block's variables."""
         dual = problem.dual
         mark = self.log.mark()
@@ -141,13 +142,13 @@ class _Run:
             return self.block(problem)
         return self.turned_back(ready, self.decided(ready.formula), problem)
 
-    def turned(self, problem: Problem) -> None:
+    def turned(self, problem: Block) -> None:
         """The step from a problem to its existential dual."""
         rule = "duality" if problem.universal else "negation normal form"
         dual = problem.dual.formula
         self.log.step(rule, problem.formula, negated(dual) if problem.universal else dual)
 
-    def turned_back(self, ready: Prepared, found: Outcome, problem: Problem) -> Outcome:
+    def turned_back(self, ready: Prepared, found: Outcome, problem: Block) -> Outcome:
         """The answer to a problem from that to its prepared dual, with the values of its variables."""
         truth = problem.asked(found.formula)
         if found.formula != TRUE or found.witness is None:
@@ -162,7 +163,7 @@ class _Run:
             self.log.switch("no witness", error)
             return None
 
-    def by_local_variables(self, problem: Problem) -> Outcome | None:
+    def by_local_variables(self, problem: Block) -> Outcome | None:
         """A sentence by one without its local variables (``qe.engine.local``)."""
         if self.options.method is not Method.AUTO or Stage.MINISCOPING in self.options.without:
             return None
@@ -194,7 +195,7 @@ class _Run:
             found = self.first_of(Scope.PREPARED, gathered)
         if found is None:
             self.log.forget_steps(mark)
-        problem = Problem.of(ready)
+        problem = Block.of(ready)
         if found is None and problem is not None:
             found = self.first_of(Scope.ASKED, problem) or self.eliminated(problem)
         return found if found is not None else Outcome(self.without_quantifiers(ready))
@@ -242,7 +243,7 @@ class _Run:
             case Or(args):
                 return next((found for found in map(self.decided, args) if found.formula == TRUE), Outcome(FALSE))
             case Exists(variables, body) | ForAll(variables, body):
-                problem = Problem(variables, body, isinstance(formula, ForAll))
+                problem = Block(variables, body, isinstance(formula, ForAll))
                 return self.first_of(Scope.ASKED, problem) or self.eliminated(problem)
         return Outcome(self.without_quantifiers(formula))
 
@@ -268,11 +269,11 @@ class _Run:
             case Not(arg):
                 return neg(self.without_quantifiers(arg, inner=inner))
             case Exists(variables, body) | ForAll(variables, body):
-                problem = Problem(variables, body, isinstance(formula, ForAll))
+                problem = Block(variables, body, isinstance(formula, ForAll))
                 return self.inner_block(problem) if inner else self.eliminated(problem).formula
         return formula
 
-    def reduced(self, problem: Problem) -> Problem | Formula:
+    def reduced(self, problem: Block) -> Block | Formula:
         """The problem, simplified, without the inner blocks that can be eliminated; a formula if none is left."""
         body = self.without_quantifiers(problem.body, inner=True)
         if not body.is_quantifier_free:
@@ -281,19 +282,19 @@ class _Run:
         simple = problem.asked(simplify(nnf(body, negate=problem.universal), watch=self.budget.check))
         after = (forall if problem.universal else exists)(problem.variables, simple)
         self.log.step("simplification", before, after)
-        return Problem.of(after) or after
+        return Block.of(after) or after
 
-    def eliminated(self, problem: Problem) -> Outcome:
+    def eliminated(self, problem: Block) -> Outcome:
         """The block without quantifiers."""
         early = self.by_early_equations(problem)
         if early is not None:
             return early
         reduced = self.reduced(problem)
-        if not isinstance(reduced, Problem):
+        if not isinstance(reduced, Block):
             return Outcome(reduced, {} if reduced == (FALSE if problem.universal else TRUE) else None)
         return self.block(reduced)
 
-    def by_early_equations(self, problem: Problem) -> Outcome | None:
+    def by_early_equations(self, problem: Block) -> Outcome | None:
         """The block by equations that some of its parts amount to (``qe.engine.early``), which prepare the others."""
         dual = problem.dual
         off = not self.options.without.isdisjoint((Stage.EQUATIONS, Stage.EARLY))
@@ -318,23 +319,23 @@ class _Run:
             self.log.step("negation normal form", negated(found.formula), problem.asked(found.formula))
         return self.turned_back(ready, found, problem)
 
-    def block(self, problem: Problem) -> Outcome:
+    def block(self, problem: Block) -> Outcome:
         """One block by the strategy; raises ``Unable`` where no attempt ends."""
         found = self.first_of(Scope.BLOCK if problem.is_flat else Scope.NESTED, problem)
         if found is None:
             raise chosen_alone(self.options.method)
         return found
 
-    def inner_block(self, problem: Problem) -> Formula:
+    def inner_block(self, problem: Block) -> Formula:
         """A block inside another, eliminated if the strategy has an attempt that ends; as it was otherwise."""
         reduced = self.reduced(problem)
-        if not isinstance(reduced, Problem):
+        if not isinstance(reduced, Block):
             return reduced
         found = self.first_of(Scope.INNER, reduced) if reduced.is_flat else None
         return reduced.formula if found is None else found.formula
 
     # --- the loop -------------------------------------------------------------------------------------
-    def first_of(self, scope: Scope, problem: Problem) -> Outcome | None:
+    def first_of(self, scope: Scope, problem: Block) -> Outcome | None:
         """What the first attempt gives that comes to an end; None if there is none."""
         last: Unable | None = None
         spare: _Spare | None = None
@@ -362,13 +363,13 @@ class _Run:
             raise last
         return None
 
-    def spared(self, spare: _Spare, problem: Problem) -> Outcome:
+    def spared(self, spare: _Spare, problem: Block) -> Outcome:
         """The outcome that was put aside."""
         self.log.choice(spare.name, problem.variables, "its answer is long, but known")
         self.log.take_up(spare.steps)
         return self.whole_of(spare.outcome, problem, spare.attempt, spare.name)
 
-    def whole_of(self, found: Outcome, problem: Problem, attempt: Attempt, name: str) -> Outcome:
+    def whole_of(self, found: Outcome, problem: Block, attempt: Attempt, name: str) -> Outcome:
         """An outcome without what a method left quantified, and short where that is worth a look."""
         formula = found.formula
         if not formula.is_quantifier_free and attempt.scope is not Scope.INNER:

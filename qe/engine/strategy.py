@@ -12,9 +12,10 @@ from enum import Enum
 from importlib import import_module
 
 from qe.elimination.protocol import Method as EliminationMethod
-from qe.elimination.protocol import Outcome, Problem
+from qe.elimination.protocol import Outcome
 from qe.engine import conditions as on
 from qe.errors import Unable
+from qe.formula.block import Block
 from qe.formula.traverse import atoms
 from qe.options import Method, Options, Stage
 from qe.rules.step import EQUATION_STEPS, SYMMETRY_STEPS, StepKind
@@ -112,27 +113,27 @@ class Scope(Enum):
     NESTED = "nested"
 
 
-def any_outcome(outcome: Outcome, problem: Problem) -> bool:
+def any_outcome(outcome: Outcome, problem: Block) -> bool:
     """Whatever the method found."""
     return True
 
 
-def complete(outcome: Outcome, problem: Problem) -> bool:
+def complete(outcome: Outcome, problem: Block) -> bool:
     """Nothing is left quantified."""
     return outcome.formula.is_quantifier_free
 
 
-def complete_if_closed(outcome: Outcome, problem: Problem) -> bool:
+def complete_if_closed(outcome: Outcome, problem: Block) -> bool:
     """A sentence is decided, for its witness; with parameters something may be left."""
     return bool(problem.free) or complete(outcome, problem)
 
 
-def complete_and_small(outcome: Outcome, problem: Problem) -> bool:
+def complete_and_small(outcome: Outcome, problem: Block) -> bool:
     """A complete answer of at most ``SMALL_ATOMS`` atoms."""
     return complete(outcome, problem) and sum(1 for _ in atoms(outcome.formula)) <= SMALL_ATOMS
 
 
-def complete_and_small_or_alone(outcome: Outcome, problem: Problem) -> bool:
+def complete_and_small_or_alone(outcome: Outcome, problem: Block) -> bool:
     """The same, or any complete answer in ``ALONE_FROM`` variables or more."""
     many = len(problem.variables) + len(problem.free) >= ALONE_FROM
     return complete(outcome, problem) if many else complete_and_small(outcome, problem)
@@ -157,7 +158,7 @@ class Attempt:
     method: str
     when: on.Condition
     work: int | None = None
-    keep: Callable[[Outcome, Problem], bool] = any_outcome
+    keep: Callable[[Outcome, Block], bool] = any_outcome
     shorten: bool = False
     spare: bool = False
 
@@ -216,7 +217,7 @@ STRATEGY: tuple[Attempt, ...] = (
 )
 
 
-def attempts(scope: Scope, problem: Problem, options: Options) -> Iterator[tuple[Attempt, EliminationMethod, str]]:
+def attempts(scope: Scope, problem: Block, options: Options) -> Iterator[tuple[Attempt, EliminationMethod, str]]:
     """The attempts that the strategy makes of a problem, with their reasons. A method that the caller asked for is the
     only one, without conditions and limits of work.
     """

@@ -31,7 +31,7 @@ _TRIALS = ((4, 16), (8, 128), (24, 1024), (96, 8192))
 
 
 @dataclass(frozen=True, slots=True)
-class Block:
+class BlockOrder:
     """Variables and parameters by ring index, largest first, and the order of the variables' monomials."""
 
     variables: tuple[int, ...]
@@ -58,7 +58,7 @@ class Block:
         return not set(self.variables) & set(poly.variables)
 
 
-def parametric_basis(polys: Sequence[Poly], block: Block, limits: Limits = LIMITS) -> tuple[Poly, ...]:
+def parametric_basis(polys: Sequence[Poly], block: BlockOrder, limits: Limits = LIMITS) -> tuple[Poly, ...]:
     """The reduced Groebner basis over Q in the order "variables first, then parameters by degree and reverse lex".
 
     () for the zero ideal, (1,) for the unit ideal. Raises ``Unable`` at a limit.
@@ -84,7 +84,7 @@ def parametric_basis(polys: Sequence[Poly], block: Block, limits: Limits = LIMIT
     return basis.polys
 
 
-def _weighted_basis(given: list[Poly], block: Block, limits: Limits) -> Basis | None:
+def _weighted_basis(given: list[Poly], block: BlockOrder, limits: Limits) -> Basis | None:
     """By the first weights that give the order of the block; None at a limit."""
     everything = (*block.variables, *block.parameters)
     for most, scale in _TRIALS:
@@ -108,7 +108,7 @@ def _plain_basis(given: list[Poly], variables: tuple[int, ...], order: MonomialO
     return groebner_basis(given, variables=variables, order=order, limits=limits)
 
 
-def _agrees(basis: Basis, block: Block) -> bool:
+def _agrees(basis: Basis, block: BlockOrder) -> bool:
     """Whether every element has the leading monomial that the order of the block gives it."""
     size, places = len(block.variables), (*block.variables, *block.parameters)
     for poly, lead in zip(basis.polys, basis.leads, strict=True):
@@ -118,7 +118,7 @@ def _agrees(basis: Basis, block: Block) -> bool:
     return True
 
 
-def _key(block: Block, exponents: list[int], size: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
+def _key(block: BlockOrder, exponents: list[int], size: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
     return block.order.key(exponents[:size]), MonomialOrder.DEGREVLEX.key(exponents[size:])
 
 

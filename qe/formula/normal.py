@@ -23,7 +23,7 @@ class Quantifier(StrEnum):
         return Quantifier.FORALL if self is Quantifier.EXISTS else Quantifier.EXISTS
 
 
-Block = tuple[Quantifier, tuple[str, ...]]
+PrefixBlock = tuple[Quantifier, tuple[str, ...]]
 
 
 def nnf(formula: Formula, *, negate: bool = False) -> Formula:
@@ -32,17 +32,17 @@ def nnf(formula: Formula, *, negate: bool = False) -> Formula:
     Equivalent over R; ``Not`` remains only in front of a ``RootAtom``, whose negation is not a root atom
     because it is false where the root does not exist. A formula of that form is returned itself.
     """
+    if formula.is_normal and not negate:
+        return formula
     match formula:
         case Not(arg):
             return nnf(arg, negate=not negate)
         case And(args) | Or(args):
             join = conj if isinstance(formula, And) is not negate else disj
-            joined = join([nnf(arg, negate=negate) for arg in args])
-            return formula if joined == formula else joined
+            return join([nnf(arg, negate=negate) for arg in args])
         case Exists(variables, body) | ForAll(variables, body):
             quantify = exists if isinstance(formula, Exists) is not negate else forall
-            rebuilt = quantify(variables, nnf(body, negate=negate))
-            return formula if rebuilt == formula else rebuilt
+            return quantify(variables, nnf(body, negate=negate))
     return neg(formula) if negate else formula
 
 
@@ -187,7 +187,7 @@ def rename(formula: Formula, names: Mapping[str, str]) -> Formula:
     return map_atoms(formula, change)
 
 
-def prenex(formula: Formula) -> tuple[tuple[Block, ...], Formula]:
+def prenex(formula: Formula) -> tuple[tuple[PrefixBlock, ...], Formula]:
     """(prefix, matrix): equivalent to ``formula``, matrix quantifier-free and in negation normal form.
 
     Bound variables are renamed apart first, so every quantifier may move outwards past ``and`` and ``or`` (its
@@ -202,11 +202,11 @@ def prenex(formula: Formula) -> tuple[tuple[Block, ...], Formula]:
     return prefix, _matrix(apart)
 
 
-def _cost(blocks: tuple[Block, ...]) -> int:
+def _cost(blocks: tuple[PrefixBlock, ...]) -> int:
     return len(blocks)
 
 
-def _blocks(formula: Formula, first: Quantifier) -> tuple[Block, ...]:
+def _blocks(formula: Formula, first: Quantifier) -> tuple[PrefixBlock, ...]:
     names: list[list[str]] = []
 
     def place(part: Formula, level: int) -> None:
@@ -235,7 +235,7 @@ def _matrix(formula: Formula) -> Formula:
     return formula
 
 
-def close(prefix: Iterable[Block], matrix: Formula) -> Formula:
+def close(prefix: Iterable[PrefixBlock], matrix: Formula) -> Formula:
     """The prenex formula with this prefix and matrix; the inverse of taking it apart."""
     for kind, names in reversed(list(prefix)):
         matrix = (exists if kind is Quantifier.EXISTS else forall)(names, matrix)

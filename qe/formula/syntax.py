@@ -27,15 +27,16 @@ NO_NAMES = frozenset[str]()
 class Formula(Connected, SymPyForm):
     """Base class of all nodes; ``str()`` prints the text syntax.
 
-    ``ring``, ``free``, ``bound``, ``is_quantifier_free`` and the hash are worked out when they are first asked for and
+    ``ring``, ``free``, ``bound``, ``is_quantifier_free``, ``is_normal`` and the hash are worked out when they are first asked for and
     then kept. They are no part of what a node is equal to, of its ``repr`` or of its pickle.
     """
 
-    __slots__ = ("_bound", "_free", "_hash", "_is_quantifier_free", "_ring")
+    __slots__ = ("_bound", "_free", "_hash", "_is_normal", "_is_quantifier_free", "_ring")
     __match_args__: ClassVar[tuple[str, ...]] = ()
     _bound: frozenset[str]
     _free: tuple[str, ...]
     _hash: int
+    _is_normal: bool
     _is_quantifier_free: bool
     _ring: Ring | None
 
@@ -79,6 +80,16 @@ class Formula(Connected, SymPyForm):
             object.__setattr__(self, "_is_quantifier_free", free)
             return free
 
+    @property
+    def is_normal(self) -> bool:
+        """Whether it is in negation normal form: nothing is negated but root atoms."""
+        try:
+            return self._is_normal
+        except AttributeError:
+            normal = self._find_normal()
+            object.__setattr__(self, "_is_normal", normal)
+            return normal
+
     def __hash__(self) -> int:
         try:
             return self._hash
@@ -98,6 +109,9 @@ class Formula(Connected, SymPyForm):
 
     def _find_bound(self) -> frozenset[str]:
         return NO_NAMES
+
+    def _find_normal(self) -> bool:
+        return True
 
     def __str__(self) -> str:
         return self.written(text_notation(self.free))
@@ -218,6 +232,9 @@ class Connective(Formula):
     def _find_bound(self) -> frozenset[str]:
         return NO_NAMES.union(*(arg.bound for arg in self.args))
 
+    def _find_normal(self) -> bool:
+        return all(arg.is_normal for arg in self.args)
+
 
 @_node
 class And(Connective):
@@ -253,6 +270,9 @@ class Not(Formula):
     def _find_bound(self) -> frozenset[str]:
         return self.arg.bound
 
+    def _find_normal(self) -> bool:
+        return isinstance(self.arg, RootAtom)
+
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         if isinstance(self.arg, RootAtom) or notation.strict:
             return notation.negation + bracketed(self.arg, notation.brackets, notation)
@@ -277,6 +297,9 @@ class Quantified(Formula):
 
     def _find_bound(self) -> frozenset[str]:
         return self.body.bound.union(self.variables)
+
+    def _find_normal(self) -> bool:
+        return self.body.is_normal
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         prefix = notation.quantifier(isinstance(self, ForAll), self.variables)

@@ -15,7 +15,7 @@ from typing import TypeVar
 from qe import arguments
 from qe.errors import CertificateRejected, InputError
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.groebner import MonomialOrder
 from qe.exact.ring import Poly, Ring
 from qe.groebner.segment import Segment, monomial_names
@@ -23,7 +23,7 @@ from qe.proof.certificate import digest
 from qe.proof.entry import Entry, Json, poly_to_text, read_json
 
 Result = TypeVar("Result")
-Parts = tuple[tuple[Poly, ...], Block, dict[str, RealAlgebraic], tuple[Segment, ...]]
+Parts = tuple[tuple[Poly, ...], BlockOrder, dict[str, RealAlgebraic], tuple[Segment, ...]]
 """Generators, variables and parameters, constants, segments."""
 
 VERSION = 1
@@ -85,7 +85,7 @@ def texts(polys: Sequence[Poly]) -> list[Json]:
 
 
 def system_data(
-    polys: Sequence[Poly], block: Block, constants: Mapping[str, RealAlgebraic], segments: Sequence[Segment]
+    polys: Sequence[Poly], block: BlockOrder, constants: Mapping[str, RealAlgebraic], segments: Sequence[Segment]
 ) -> dict[str, Json]:
     """A system as plain data: polynomials as text, constants as text and as [minimal polynomial, index of the root]."""
     names = polys[0].ring.names
@@ -130,7 +130,7 @@ def system_parts(entry: Entry) -> Parts:
     except ValueError:
         raise order.fail(f"expected one of {', '.join(o.value for o in MonomialOrder)}") from None
     places = tuple(ring.index[n] for n in (*others, *reversed([*constants])))
-    block = Block(tuple(ring.index[n] for n in largest), places, chosen)
+    block = BlockOrder(tuple(ring.index[n] for n in largest), places, chosen)
     given = polynomials(polys, ring)
     if not given:
         raise polys.fail("expected at least one polynomial")
@@ -153,7 +153,7 @@ def _number(entry: Entry) -> RealAlgebraic:
         raise entry.fail(str(error)) from None
 
 
-def _segment(entry: Entry, block: Block, ring: Ring) -> Segment:
+def _segment(entry: Entry, block: BlockOrder, ring: Ring) -> Segment:
     names = ("equal", "nonzero", "some_nonzero", "basis", "elements", "leading", "dimension")
     *lists, _, _, faithful = entry.fields(*names, optional=("faithful",))
     equal, nonzero, some, basis, elements = (polynomials(e, ring) for e in lists)

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import prod
 
-from qe.exact.block_order import Block, parametric_basis
+from qe.exact.block_order import BlockOrder, parametric_basis
 from qe.exact.groebner import groebner_basis
 from qe.exact.ideals import LIMITS, has_zeros
 from qe.exact.ring import Poly
@@ -32,7 +32,7 @@ class _Task:
 
 def segments(
     polys: Sequence[Poly],
-    block: Block,
+    block: BlockOrder,
     budget: Budget,
     *,
     equal: Sequence[Poly] = (),
@@ -52,7 +52,7 @@ def segments(
         yield from found
 
 
-def _step(task: _Task, block: Block) -> tuple[list[Segment], list[_Task]]:
+def _step(task: _Task, block: BlockOrder) -> tuple[list[Segment], list[_Task]]:
     equal = _simpler(task.equal, task.nonzero, block)
     if not has_zeros(equal, task.nonzero):
         return [], []
@@ -89,7 +89,7 @@ def _step(task: _Task, block: Block) -> tuple[list[Segment], list[_Task]]:
     return found, branches
 
 
-def _simpler(equal: Sequence[Poly], nonzero: Sequence[Poly], block: Block) -> tuple[Poly, ...]:
+def _simpler(equal: Sequence[Poly], nonzero: Sequence[Poly], block: BlockOrder) -> tuple[Poly, ...]:
     """Equations with the same zeros where nothing of ``nonzero`` vanishes: squarefree, reduced, without its factors."""
     current = tuple(p for p in equal if p)
     while current:
@@ -100,7 +100,7 @@ def _simpler(equal: Sequence[Poly], nonzero: Sequence[Poly], block: Block) -> tu
     return current
 
 
-def _open(nonzero: Sequence[Poly], equal: Sequence[Poly], block: Block) -> tuple[Poly, ...]:
+def _open(nonzero: Sequence[Poly], equal: Sequence[Poly], block: BlockOrder) -> tuple[Poly, ...]:
     """Without those that are constants modulo the equations."""
     if not equal or not nonzero:
         return tuple(nonzero)
@@ -121,7 +121,7 @@ def _conditions(polys: Sequence[Poly], nonzero: Sequence[Poly]) -> tuple[Poly, .
     return () if any(p.is_constant for p in parts) else tuple(dict.fromkeys(parts))
 
 
-def _minimal(rest: Sequence[Poly], block: Block) -> tuple[Poly, ...]:
+def _minimal(rest: Sequence[Poly], block: BlockOrder) -> tuple[Poly, ...]:
     """A minimal Dickson basis: every leading monomial is a multiple of one of theirs, none of one another."""
     leads = {p: block.lead(p) for p in rest}
     ranked = sorted(rest, key=lambda p: (block.order.key(leads[p][0]), _size(leads[p][1]), p.term_count()))
@@ -136,7 +136,7 @@ def _size(poly: Poly) -> tuple[int, int]:
     return poly.total_degree, poly.term_count()
 
 
-def _factors(minimal: Sequence[Poly], block: Block) -> tuple[Poly, ...]:
+def _factors(minimal: Sequence[Poly], block: BlockOrder) -> tuple[Poly, ...]:
     """The irreducible factors of the leading coefficients, each once, small ones first."""
     found = dict.fromkeys(f for p in minimal for f, _ in block.lead(p)[1].factors()[1])
     return tuple(sorted(found, key=_size))

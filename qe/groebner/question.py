@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.ring import Poly, Ring
 from qe.exact.univariate import from_univariate
 from qe.groebner.faithful import with_faithful
@@ -22,7 +22,7 @@ class ParametricSystem:
     """
 
     ring: Ring
-    block: Block
+    block: BlockOrder
     polys: tuple[Poly, ...]
     constants: Mapping[str, RealAlgebraic]
     equal: tuple[Poly, ...] = ()

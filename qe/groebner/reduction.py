@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from qe.exact.block_order import Block, Exponents, Terms
+from qe.exact.block_order import BlockOrder, Exponents, Terms
 from qe.exact.groebner import Basis
 from qe.exact.ring import Poly, Ring
 
@@ -16,7 +16,7 @@ class Divisor:
     """A polynomial split into terms, highest first; its leading coefficient vanishes nowhere on the segment."""
 
     poly: Poly
-    block: Block
+    block: BlockOrder
 
     @cached_property
     def terms(self) -> Terms:
@@ -36,7 +36,7 @@ def divides(a: Exponents, b: Exponents) -> bool:
     return all(i <= j for i, j in zip(a, b, strict=True))
 
 
-def monomial(block: Block, exponents: Sequence[int], poly: Poly) -> Poly:
+def monomial(block: BlockOrder, exponents: Sequence[int], poly: Poly) -> Poly:
     """The polynomial times a monomial in the variables."""
     for i, k in zip(block.variables, exponents, strict=True):
         if k:
@@ -44,12 +44,12 @@ def monomial(block: Block, exponents: Sequence[int], poly: Poly) -> Poly:
     return poly
 
 
-def joined(terms: Terms, block: Block, ring: Ring) -> Poly:
+def joined(terms: Terms, block: BlockOrder, ring: Ring) -> Poly:
     """The polynomial of these terms."""
     return sum((monomial(block, e, c) for e, c in terms.items()), start=ring.constant(0))
 
 
-def remainder(poly: Poly, divisors: Sequence[Divisor], block: Block, base: Basis | None) -> tuple[Poly, Poly]:
+def remainder(poly: Poly, divisors: Sequence[Divisor], block: BlockOrder, base: Basis | None) -> tuple[Poly, Poly]:
     """(s, r): s*poly - r is a combination of the divisors where the base vanishes, no monomial of r is a multiple of
     one of their leading monomials, and s is a product of leading coefficients and integers.
 
@@ -84,7 +84,7 @@ def remainder(poly: Poly, divisors: Sequence[Divisor], block: Block, base: Basis
     return scale * s, found
 
 
-def cleared(poly: Poly, block: Block) -> Poly:
+def cleared(poly: Poly, block: BlockOrder) -> Poly:
     """The polynomial over the greatest common divisor of its coefficients, which divides the leading one."""
     common = poly.ring.constant(0)
     for c in block.terms(poly).values():
@@ -94,7 +94,7 @@ def cleared(poly: Poly, block: Block) -> Poly:
     return poly.exact_divide(common).normal()[1] if not common.is_constant else poly.normal()[1]
 
 
-def reduced_basis(polys: Iterable[Poly], block: Block, base: Basis | None) -> tuple[Poly, ...]:
+def reduced_basis(polys: Iterable[Poly], block: BlockOrder, base: Basis | None) -> tuple[Poly, ...]:
     """Every element replaced by its remainder by the others, content divided out; ascending by leading monomial.
 
     The leading monomials must be minimal, the leading coefficients vanish nowhere on the segment.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import prod
 
-from qe.exact.block_order import Block, Exponents
+from qe.exact.block_order import BlockOrder, Exponents
 from qe.exact.groebner import Basis, groebner_basis
 from qe.exact.ideals import LIMITS
 from qe.exact.quotient import independent_sets
@@ -27,7 +27,7 @@ class Segment:
     the segment as ``elements``, so that they, too, specialise to Groebner bases.
     """
 
-    block: Block
+    block: BlockOrder
     equal: tuple[Poly, ...]
     nonzero: tuple[Poly, ...]
     some: tuple[Poly, ...]

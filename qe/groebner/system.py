@@ -10,7 +10,7 @@ from typing import TypeVar
 from qe import arguments
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.block_order import Block, parametric_basis
+from qe.exact.block_order import BlockOrder, parametric_basis
 from qe.exact.number import Number
 from qe.exact.polynomial_system import solve_system
 from qe.exact.quotient import PositiveDimensional
@@ -48,7 +48,7 @@ class ComprehensiveGroebnerSystem:
     """
 
     polys: tuple[Poly, ...]
-    block: Block
+    block: BlockOrder
     constants: Mapping[str, RealAlgebraic]
     segments: tuple[Segment, ...]
 

@@ -8,13 +8,14 @@ from fractions import Fraction
 
 from qe.cad.decompose import decompose
 from qe.cells.pieces import merge
-from qe.elimination.protocol import Problem
+from qe.elimination.protocol import witness_of
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import ExactPoint, Values, optimum_in_latex, point_text, simplest
 from qe.exact.polynomial_system import solve_system
 from qe.exact.ring import Ring
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, Atom, Constant, Formula, Relation
 from qe.optimization.finite import listed
@@ -168,10 +169,10 @@ def _without(status: OptimumStatus, goal: Goal, answer: Answer) -> GlobalOptimum
 
 def _proof_of(place: Formula, known: Values) -> Members:
     """A certificate of the point; none where the constraints have quantifiers."""
-    problem = Problem.of(place)
+    problem = Block.of(place)
     if problem is None or not problem.is_flat:
         return []
-    return [(POINT, problem.witnessed({name: known.get(name, Fraction(0)) for name in problem.variables}))]
+    return [(POINT, witness_of(problem, {name: known.get(name, Fraction(0)) for name in problem.variables}))]
 
 
 def stationary(goal: Goal, value: Number) -> tuple[ExactPoint, ...]:

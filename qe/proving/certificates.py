@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
-from qe.elimination.protocol import Outcome, Problem
+from qe.elimination.protocol import Outcome, witness_of
 from qe.errors import Contradiction, Unable
+from qe.formula.block import Block
 from qe.formula.normal import without_clashes
 from qe.formula.syntax import Formula
 from qe.options import Budget, Options
@@ -42,14 +43,14 @@ def certificate_of(
 
     ``asked``: the formula of the caller; ``question``: the same with its root atoms counted and its variables renamed.
     """
-    problem = Problem.of(question)
+    problem = Block.of(question)
     if found.certificate is not None:
         from qe.elimination.cad import claims
 
         if claims(found.certificate, question, found.formula):
             return Proof(_as_asked(found.certificate, problem, found.formula))
     if found.witness is not None and problem is not None and problem.is_flat and not problem.free:
-        return Proof(_as_asked(problem.witnessed(found.witness), problem, found.formula))
+        return Proof(_as_asked(witness_of(problem, found.witness), problem, found.formula))
     linear = substitution_certificate(question, found.formula)
     if linear is not None or not options.certify:
         return Proof(linear, reason="" if linear is not None else NOT_WANTED)
@@ -111,7 +112,7 @@ def _table(question: Formula, answer: Formula, log: RunLog, options: Options, bu
     return without_loss(made, lambda reason: log.switch("no certificate", reason))
 
 
-def _as_asked(certificate: Certificate, problem: Problem | None, answer: Formula) -> Certificate:
+def _as_asked(certificate: Certificate, problem: Block | None, answer: Formula) -> Certificate:
     """A certificate about a universal sentence itself, where a method made one about its negation."""
     if problem is None or not problem.universal or certificate.kind not in (Kind.WITNESS, Kind.OPTIMUM):
         return certificate

@@ -12,9 +12,10 @@ from qe.certify.verify import check_certificate
 from qe.coverings.cover import Search
 from qe.coverings.evidence import evidence
 from qe.elimination.coverings import Coverings
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.protocol import Context
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Formula, Relation
@@ -81,9 +82,9 @@ QUESTIONS = [
 
 def answered(formula: Formula, budget: Budget) -> tuple[Formula, dict[str, Any]]:
     """What the method answers, and its evidence."""
-    problem, log = Problem.of(formula), RunLog()
+    problem, log = Block.of(formula), RunLog()
     if problem is None:
-        problem = Problem((), formula)
+        problem = Block((), formula)
     Coverings().run(problem, Context(Options(certify=True), budget, log))
     step = next(s for s in log.steps() if s.rule == "covering")
     assert formula.ring is not None and "proof" in step.evidence

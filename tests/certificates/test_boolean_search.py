@@ -11,13 +11,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.elimination.search.clauses import Clauses
 from qe.elimination.search.method import RULE, BooleanSearch
 from qe.elimination.search.theory import Theory
 from qe.engine.run import _Run
 from qe.errors import InternalError
 from qe.exact.difference_graph import DifferenceGraph
+from qe.formula.block import Block
 from qe.formula.build import conj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
@@ -41,7 +42,7 @@ def decide(sentence: Formula, budget: Budget) -> Outcome:
 
 def step_of(sentence: Formula) -> Step:
     """The step of a search that decides the sentence."""
-    problem, log = Problem.of(sentence), RunLog()
+    problem, log = Block.of(sentence), RunLog()
     assert problem is not None
     BooleanSearch().run(problem, Context(Options(certify=True), Budget(120), log, decide))
     return next(step for step in log.steps() if step.rule == RULE)
@@ -184,7 +185,7 @@ def test_a_conjunction_of_few_variables_of_many_is_refuted_in_their_own_ring() -
     cases = " and ".join(f"(a{k} > {k} or a{k} < -x - {k} or a{k}*x > y)" for k in range(1, 28))
     names = ", ".join(f"a{k}" for k in range(1, 28))
     sentence = read(f"ex {names}, x, y, z. {cases} and x > 1 and y > 1 + z^2 and x*y < 1")
-    problem = Problem.of(sentence)
+    problem = Block.of(sentence)
     assert problem is not None and sentence.ring is not None and sentence.ring.is_wide
     asked: list[Formula] = []
 

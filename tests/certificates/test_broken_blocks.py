@@ -14,7 +14,8 @@ import qe.engine.run as run
 import qe.formula.counting as counting
 from qe.api.input import read_formula
 from qe.elimination.critical.method import ConvexUniversal
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
+from qe.formula.block import Block
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
@@ -41,7 +42,7 @@ def unproved(given: Formula, log: RunLog, answer: Formula) -> set[str]:
 def infinity(text: str) -> set[str]:
     """By the rule "infinity first" alone."""
     given, log = read_formula(text), RunLog()
-    problem = Problem.of(given)
+    problem = Block.of(given)
     assert problem is not None
     found = infinity_first.InfinityFirst().run(problem, Context(Options(), Budget(), log))
     assert found is not None
@@ -51,7 +52,7 @@ def infinity(text: str) -> set[str]:
 def terms(text: str) -> set[str]:
     """By the rule "witness in the parameters" alone."""
     given, log = read_formula(text), RunLog()
-    problem = Problem.of(given)
+    problem = Block.of(given)
     assert problem is not None
     found = witness.PolynomialWitnesses().run(problem, Context(Options(), Budget(), log))
     assert found is not None
@@ -68,7 +69,7 @@ def roots(text: str) -> set[str]:
 def thin(text: str) -> set[str]:
     """By the rule "degenerate truth set" alone."""
     given, log = read_formula(text), RunLog()
-    problem = Problem.of(given)
+    problem = Block.of(given)
     assert problem is not None
     found = ConvexUniversal().run(problem, Context(Options(), Budget(), log))
     assert found is not None
@@ -150,7 +151,7 @@ def another_equation(m: pytest.MonkeyPatch) -> None:
     )
 
 
-def _thin_run(self: ConvexUniversal, problem: Problem, context: Context) -> Outcome | None:
+def _thin_run(self: ConvexUniversal, problem: Block, context: Context) -> Outcome | None:
     """As if the set had no interior points."""
     block = problem.formula
     assert isinstance(block, ForAll)

@@ -14,7 +14,8 @@ import qe.elimination.critical.apart as apart
 from qe.api.input import read_formula
 from qe.certify.verify import verify_json
 from qe.elimination.critical.method import ConvexUniversal
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.protocol import Context
+from qe.formula.block import Block
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.run_log import RunLog
@@ -76,7 +77,7 @@ def test_another_formula_of_the_same_form_is_refused():
 
 def steps_of(text: str) -> list[Step]:
     """The steps of the rule as the method logs them."""
-    problem, log = Problem.of(read_formula(text)), RunLog()
+    problem, log = Block.of(read_formula(text)), RunLog()
     assert problem is not None
     assert ConvexUniversal().run(problem, Context(Options(), Budget(20), log)) is not None
     return [step for step in log.steps() if step.rule == RULE]

@@ -16,10 +16,11 @@ import qe.groebner.trace_form as trace_form
 from qe.api.input import read_formula
 from qe.certify.registry import RULES
 from qe.certify.verify import check_certificate
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.protocol import Context
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
 from qe.expert.counted_solutions import check_counted_solutions, sentences
+from qe.formula.block import Block
 from qe.formula.build import conj, neg
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.groebner.counting import SolutionCount
@@ -55,7 +56,7 @@ def limits() -> Any:
 
 def step(text: str) -> Claim:
     """What the method says about a block, without its evidence."""
-    log, problem = RunLog(), Problem.of(read_formula(text))
+    log, problem = RunLog(), Block.of(read_formula(text))
     assert problem is not None
     cgs.ComprehensiveGroebner().run(problem, Context(Options(), Budget(60), log))
     (found,) = log.steps()

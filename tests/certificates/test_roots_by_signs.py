@@ -15,10 +15,10 @@ from qe.certify.arithmetic import root_patterns
 import qe
 from qe.certify.registry import RULES
 from qe.certify.verify import check_certificate
-from qe.elimination.protocol import Problem
 from qe.elimination.rootsigns import forms, method, question, theory
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or, Relation
@@ -51,7 +51,7 @@ def claimed(before: Formula, after: Formula) -> bool:
 
 
 def produced(before: Formula) -> Formula:
-    problem = Problem.of(before)
+    problem = Block.of(before)
     assert problem is not None
     x = problem.body.ring.index[problem.variables[0]]
     asked = question.read(problem.dual.body, x)

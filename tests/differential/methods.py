@@ -8,9 +8,10 @@ from qe.cad.decompose import decompose
 from qe.cad.operators.table import OPERATORS
 from qe.cells.formulas import construct
 from qe.elimination.coverings import Coverings
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.protocol import Context
 from qe.elimination.vs.block import eliminate_block
 from qe.errors import BudgetExceeded, NotWellOriented
+from qe.formula.block import Block
 from qe.formula.build import disj, exists, neg
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Constant, Formula
@@ -46,7 +47,7 @@ def by_cad(projection: Projection) -> Part:
 def by_coverings(formula: Formula, budget: Budget) -> Formula:
     """Coverings of the lines of all variables; what they do not take for a side condition is as good as no time."""
     try:
-        return Coverings().run(Problem((), formula), Context(Options(), budget.part(1500), RunLog())).formula
+        return Coverings().run(Block((), formula), Context(Options(), budget.part(1500), RunLog())).formula
     except NotWellOriented as error:
         raise BudgetExceeded(str(error)) from None
 

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 import qe
 from qe.elimination.cad import decomposed
 from qe.elimination.critical.method import CriticalValues
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.protocol import Context
 from qe.engine.run import _Run
 from qe.exact.ring import Poly, Ring
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
@@ -25,7 +26,7 @@ RELATIONS = (Relation.LE, Relation.LT, Relation.EQ, Relation.GE, Relation.GT, Re
 def eliminated(variables: tuple[str, ...], body: Formula, seconds: float = 60) -> Formula:
     """By critical values, what these leave open by decomposition; without the preparation that would solve many."""
     budget = Budget(seconds)
-    formula = CriticalValues().run(Problem(variables, body), Context(Options(), budget, RunLog())).formula
+    formula = CriticalValues().run(Block(variables, body), Context(Options(), budget, RunLog())).formula
     return _Run(Options(method=Method.CAD), budget).without_quantifiers(formula)
 
 

@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.engine.strategy import STRATEGY, Attempt
 from qe.errors import Unable
+from qe.formula.block import Block
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import Constant, Formula, Not
@@ -22,7 +23,7 @@ SHAPES = (SMALL[0], SMALL[1], SMALL[3], Shape(0, 2, 2, 4), Shape(1, 2, 1, 3))
 SEEDS = range(24)
 
 
-def outcome(attempt: Attempt, problem: Problem) -> Outcome | None:
+def outcome(attempt: Attempt, problem: Block) -> Outcome | None:
     """What the method makes of the problem, None where it does not take it."""
     method = attempt.load()
     if method.suits(problem, Options()) is None:
@@ -33,10 +34,10 @@ def outcome(attempt: Attempt, problem: Problem) -> Outcome | None:
         return None
 
 
-def problems(seed: int) -> tuple[Problem, Problem] | None:
+def problems(seed: int) -> tuple[Block, Block] | None:
     """A block over a body in negation normal form, and over the negation of the negated body."""
     plain = nnf(rename_apart(random_formula(random.Random(seed), SHAPES[seed % len(SHAPES)])))
-    problem = Problem.of(plain)
+    problem = Block.of(plain)
     if problem is None or not problem.is_flat:
         return None
     body = nnf(problem.body, negate=True)

@@ -29,12 +29,13 @@ from qe.elimination.critical import (
 )
 from qe.elimination.critical.apart import Piece, taken_apart
 from qe.elimination.critical.degenerate import thin_universal
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.errors import Unable
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import approximation, rational_values
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.evaluate import substituted, truth_under
 from qe.formula.normal import nnf
@@ -61,11 +62,11 @@ class CriticalValues:
 
     name = "critical"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Blocks over quantifier-free bodies."""
         return "critical values are few" if problem.is_flat else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome:
+    def run(self, problem: Block, context: Context) -> Outcome:
         """The block's formula; quantified parts of it are the block on hypersurfaces that the method leaves open.
 
         Raises ``Unable`` where the method's side conditions are not met.
@@ -110,12 +111,12 @@ class ConvexUniversal:
 
     name = "critical"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Universal blocks over quantifier-free bodies, one or two parameters; more, if its pieces look at as few."""
         few = 0 < len(problem.free) <= FEW or (problem.universal and problem.is_flat and pieces_of(problem))
         return "a convex truth set" if problem.universal and problem.is_flat and few else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """None where the set is not seen to be convex. Raises ``Unable`` where side conditions are not met."""
         if len(problem.free) > FEW:
             return self.apart(problem, context)
@@ -132,7 +133,7 @@ class ConvexUniversal:
         known = {"order": order}
         return Outcome(context.log.step(UNIVERSAL_RULE, problem.formula, formula, evidence=known), order=order)
 
-    def apart(self, problem: Problem, context: Context) -> Outcome | None:
+    def apart(self, problem: Block, context: Context) -> Outcome | None:
         """The block by its pieces, each in one or two parameters."""
         steps = list[Step]()
         for piece in pieces_of(problem):
@@ -168,7 +169,7 @@ class ConvexUniversal:
         return _logged(simplify(answer, watch=budget.check), negated, order, [found], context, start)
 
 
-def pieces_of(problem: Problem) -> tuple[Piece, ...]:
+def pieces_of(problem: Block) -> tuple[Piece, ...]:
     """The pieces of a universal block with many parameters, if they look at few."""
     return taken_apart(problem.variables, simplify(problem.positive), FEW)
 

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.elimination.rootsigns.cover import Rows
 from qe.elimination.rootsigns.forms import minors, special
 from qe.elimination.rootsigns.question import Question, read
 from qe.elimination.rootsigns.theory import Name, Place, RootType, Shape, Signs, rows
 from qe.errors import Unable
 from qe.exact.ring import Poly
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.options import Budget, Options
@@ -29,11 +30,11 @@ class RootsBySigns:
 
     name = "roots by signs"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Blocks of one variable over quantifier-free bodies."""
         return "signs of Hermite's forms" if problem.is_flat and len(problem.variables) == 1 else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """The formula; blocks of lower degree for a leading coefficient 0. None for conditions of another kind.
 
         Raises ``Unable`` where minors grow past their limits or signs do not decide, ``BudgetExceeded``.

@@ -17,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.elimination.search.clauses import Clauses
 from qe.elimination.search.guided import UNITS, guided
 from qe.elimination.search.theory import Theory
@@ -25,9 +25,10 @@ from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.extras import lacking
+from qe.formula.block import Block
 from qe.formula.build import conj, convert, exists
-from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, RootAtom
-from qe.formula.traverse import atoms, conjuncts
+from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula
+from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.step import Nested, Step
 
@@ -39,13 +40,13 @@ class BooleanSearch:
 
     name = "search"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Sentences of one block without root atoms."""
-        if not problem.is_flat or problem.free or any(isinstance(a, RootAtom) for a in atoms(problem.body)):
+        if not problem.is_flat or problem.free or problem.has_root_atoms:
             return None
-        return f"{sum(1 for _ in atoms(problem.body))} atoms"
+        return f"{len(problem.atoms)} atoms"
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """The decision. Raises ``Unable`` where python-sat is absent or a conjunction is not decided."""
         if context.decide is None:
             return None

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.elimination.vs.points import Infinity
 from qe.elimination.vs.substitute import Substitution
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
@@ -30,11 +31,11 @@ class InfinityFirst:
 
     name = "infinity first"
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Blocks of one variable over quantifier-free bodies."""
         return self.name if problem.is_flat and len(problem.variables) == 1 else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome | None:
+    def run(self, problem: Block, context: Context) -> Outcome | None:
         """The solutions near infinity, or a block of lower degree; None where the degree does not fall."""
         dual = problem.dual
         found = far_first(dual.variables[0], dual.body, budget=context.budget)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import time
 from functools import partial
 
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.witness import witness
 from qe.exact.number import Values
+from qe.formula.block import Block
 from qe.formula.syntax import TRUE
 from qe.options import Options
 from qe.simplify.simplify import simplify
@@ -20,11 +21,11 @@ class VirtualSubstitution:
     name = "vs"
     highest = 2
 
-    def suits(self, problem: Problem, options: Options) -> str | None:
+    def suits(self, problem: Block, options: Options) -> str | None:
         """Blocks over quantifier-free bodies."""
         return f"degrees up to {self.highest} are eliminated" if problem.is_flat else None
 
-    def run(self, problem: Problem, context: Context) -> Outcome:
+    def run(self, problem: Block, context: Context) -> Outcome:
         """The block as far as substitution goes: what it could not eliminate stays quantified in the formula."""
         start = time.perf_counter()
         matrix = problem.positive

@@ -8,8 +8,9 @@ import pytest
 
 from qe.certify.verify import verify
 from qe.elimination.coverings import Coverings
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome, witness_of
 from qe.errors import BudgetExceeded
+from qe.formula.block import Block
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE
@@ -21,8 +22,8 @@ from qe.proof.run_log import RunLog
 METHOD = Coverings()
 
 
-def problem(text: str) -> Problem:
-    found = Problem.of(read(text))
+def problem(text: str) -> Block:
+    found = Block.of(read(text))
     assert found is not None
     return found
 
@@ -86,7 +87,7 @@ def test_values_of_the_first_block_of_a_sentence() -> None:
 def test_values(text: str, order: tuple[str, ...] | None) -> None:
     found, _ = run(text, Options(order=order))
     assert found.formula == (TRUE if text[0] == "e" else FALSE) and found.witness is not None
-    assert verify(problem(text).witnessed(found.witness)).accepted
+    assert verify(witness_of(problem(text), found.witness)).accepted
 
 
 @pytest.mark.parametrize("text", ["ex x, y. x^2 + y^2 < 1 and x*y > 1", "all x, y. x^2 + y^2 >= 1 or x*y <= 1"])
@@ -100,6 +101,6 @@ def test_a_covering_is_evidence_where_it_is_asked_for(text: str) -> None:
 
 def test_no_condition_and_no_work() -> None:
     context = Context(Options(), Budget(), RunLog())
-    assert [METHOD.run(Problem(("x",), c), context).witness for c in (TRUE, FALSE)] == [{}, None]
+    assert [METHOD.run(Block(("x",), c), context).witness for c in (TRUE, FALSE)] == [{}, None]
     with pytest.raises(BudgetExceeded):
         run("ex x, y. x^2 + y^2 < 1 and x*y > 1", Options(), Budget(0.0))

@@ -10,9 +10,10 @@ import pytest
 
 import qe
 import qe.elimination.named_form as named_form
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.protocol import Context
 from qe.exact.ring import Ring
 from qe.expert.named_form import check_named_form
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, exists
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Exists, Formula, Relation
@@ -38,7 +39,7 @@ def accepted(step: Step) -> bool:
 
 def step_of(asked: Formula) -> Step | None:
     """What the method says about a block."""
-    problem, log = Problem.of(asked), RunLog()
+    problem, log = Block.of(asked), RunLog()
     assert problem is not None
     if named_form.NamedForm().suits(problem, Options()) is None:
         return None

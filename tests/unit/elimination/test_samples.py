@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 import qe
 import qe.elimination.samples as samples
 from qe.api.input import read_formula
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.protocol import Context
+from qe.formula.block import Block
 from qe.formula.evaluate import holds_at
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
@@ -31,19 +32,19 @@ NONE = "ex a, b, c, d. a*b > 1 and a > 0 and b < 0 and c*d > a"
 def test_a_point_of_an_open_set_is_found(text: str) -> None:
     answer = qe.eliminate(text, check=True, process=False)
     assert answer.truth and answer.witness is not None and not answer.unchecked_steps
-    body = Problem.of(read_formula(text)).positive  # type: ignore[union-attr]
+    body = Block.of(read_formula(text)).positive  # type: ignore[union-attr]
     assert holds_at(body, {name: Fraction(str(value)) for name, value in answer.witness.items()})
     assert samples.find(body, Budget(work=2_000)) is not None
 
 
 def test_where_there_is_none_nothing_is_said() -> None:
-    assert samples.find(Problem.of(read_formula(NONE)).positive, Budget()) is None  # type: ignore[union-attr]
+    assert samples.find(Block.of(read_formula(NONE)).positive, Budget()) is None  # type: ignore[union-attr]
     assert qe.decide(NONE, process=False) is False
 
 
 @pytest.mark.parametrize("text", ["ex x. x^2 = 2", "ex x, y. x > 0 and y = x^2", "ex x. x > a"])
 def test_other_problems_do_not_suit(text: str) -> None:
-    problem = Problem.of(read_formula(text))
+    problem = Block.of(read_formula(text))
     assert problem is not None and samples.SampledPoints().suits(problem, Options()) is None
 
 
@@ -51,7 +52,7 @@ def test_other_problems_do_not_suit(text: str) -> None:
 @given(st.lists(st.integers(-6, 6), min_size=4, max_size=4))
 def test_nothing_is_amiss_where_all_holds_by_far(values: list[int]) -> None:
     """Zero says that the formula holds; more than a little beyond the border, that it does not."""
-    body = Problem.of(read_formula(OPEN)).positive  # type: ignore[union-attr]
+    body = Block.of(read_formula(OPEN)).positive  # type: ignore[union-attr]
     measure, ring = samples.violation(body), body.ring
     assert measure is not None and ring is not None
     point = dict(zip("abcd", values, strict=True))
@@ -76,7 +77,7 @@ def test_bounds_follow_from_linear_conditions() -> None:
 def test_a_point_that_does_not_hold_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(samples, "holds_at", lambda body, point: True)
     monkeypatch.setattr(samples, "_descended", lambda *args: 0.0)
-    log, problem = RunLog(), Problem.of(read_formula(NONE))
+    log, problem = RunLog(), Block.of(read_formula(NONE))
     assert problem is not None
     samples.SampledPoints().run(problem, Context(Options(), Budget(), log))
     (step,) = log.steps()

@@ -7,9 +7,10 @@ import random
 import pytest
 
 import qe
-from qe.elimination.protocol import Outcome, Problem
+from qe.elimination.protocol import Outcome
 from qe.engine.local import without_locals
 from qe.engine.run import _Run, solve
+from qe.formula.block import Block
 from qe.formula.build import forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
@@ -34,7 +35,7 @@ def diamonds(count: int, last: str) -> Exists:
 
 def without(sentence: Formula) -> Formula | None:
     run = _Run(Options(), Budget(60))
-    problem = Problem.of(sentence)
+    problem = Block.of(sentence)
     assert problem is not None
     found = without_locals(problem, run.options, run.shortly)
     return None if found is None else found.formula
@@ -111,7 +112,7 @@ def test_answers_are_those_without_it(seed: int) -> None:
 
 def test_no_values_where_the_sentence_has_none() -> None:
     sentence = diamonds(12, "x12 < x0")
-    problem, run = Problem.of(sentence), _Run(Options(), Budget(60))
+    problem, run = Block.of(sentence), _Run(Options(), Budget(60))
     assert problem is not None
     found = without_locals(problem, run.options, run.shortly)
     assert found is not None

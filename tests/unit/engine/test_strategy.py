@@ -9,10 +9,10 @@ import pytest
 
 import qe
 from qe.certify.registry import RULES
-from qe.elimination.protocol import Problem
 from qe.engine.conditions import convex_conditions
 from qe.engine.run import solve
 from qe.engine.strategy import METHODS, STRATEGY, SWITCHED, Attempt, Listed, Scope, attempts
+from qe.formula.block import Block
 from qe.formula.syntax import TRUE, Formula
 from qe.io import formats
 from qe.options import Budget, Method, Options, Stage
@@ -32,8 +32,8 @@ QUESTIONS = {
 }
 
 
-def problem(text: str) -> Problem:
-    found = Problem.of(formats.read(text, "text"))
+def problem(text: str) -> Block:
+    found = Block.of(formats.read(text, "text"))
     assert found is not None
     return found
 

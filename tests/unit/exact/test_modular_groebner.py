@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from qe.errors import Unable
 from qe.exact import modular_groebner
-from qe.exact.block_order import Block, parametric_basis
+from qe.exact.block_order import BlockOrder, parametric_basis
 from qe.exact.groebner import Limits, MonomialOrder, groebner_basis
 from qe.exact.modular_groebner import FIRST_PRIME, Work, _fraction, _is_basis, modular_basis
 from qe.exact.packed import PackedMonomials
@@ -116,7 +116,7 @@ def test_cyclic_six_is_found_where_it_was_out_of_reach() -> None:
 
 def test_lexicographic_bases_by_change_of_order() -> None:
     polys = in_ring(katsura(4))
-    basis = parametric_basis(polys, Block(tuple(range(5)), (), MonomialOrder.LEX))
+    basis = parametric_basis(polys, BlockOrder(tuple(range(5)), (), MonomialOrder.LEX))
     assert sorted(len(p.variables) for p in basis) == [1, 2, 2, 2, 2]
     graded = groebner_basis(polys, limits=LONG)
     assert graded is not None and all(graded.contains(p) for p in basis)

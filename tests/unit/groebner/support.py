@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import lcm
 from random import Random
 
-from qe.exact.block_order import Block, parametric_basis
+from qe.exact.block_order import BlockOrder, parametric_basis
 from qe.exact.field import FieldElement, NumberField
 from qe.exact.groebner import groebner_basis
 from qe.exact.polynomial_system import LIMITS, solve_system
@@ -42,25 +42,25 @@ class Place:
         zero = all(not self.value(p) for p in equal) and all(self.value(p) for p in nonzero)
         return zero and (not some or any(self.value(p) for p in some))
 
-    def ideal(self, polys: Sequence[Poly], block: Block) -> tuple[Poly, ...]:
+    def ideal(self, polys: Sequence[Poly], block: BlockOrder) -> tuple[Poly, ...]:
         """The reduced Groebner basis of the specialised ideal, over Q[t]/(minimal polynomial of the field)."""
         names = polys[0].ring.names
         ring = Ring.of(("t of the field", *(names[i] for i in sorted(block.variables))))
         moved = {i: ring.index[names[i]] for i in block.variables}
-        inside = Block(tuple(moved[i] for i in block.variables), (0,), block.order)
+        inside = BlockOrder(tuple(moved[i] for i in block.variables), (0,), block.order)
         special = [self._moved(p, block, ring, moved) for p in polys]
         return parametric_basis([*special, from_univariate(ring, 0, self.field.theta.poly)], inside)
 
-    def leads(self, polys: Sequence[Poly], block: Block) -> set[tuple[int, ...]]:
+    def leads(self, polys: Sequence[Poly], block: BlockOrder) -> set[tuple[int, ...]]:
         """The leading monomials of the reduced basis."""
         found = self.ideal(polys, block)
         if not found:
             return set()
         ring = found[0].ring
-        inside = Block(tuple(ring.index[polys[0].ring.names[i]] for i in block.variables), (0,), block.order)
+        inside = BlockOrder(tuple(ring.index[polys[0].ring.names[i]] for i in block.variables), (0,), block.order)
         return {inside.lead(p)[0] for p in found if p.is_constant or not inside.is_free(p)}
 
-    def _moved(self, poly: Poly, block: Block, ring: Ring, moved: Mapping[int, int]) -> Poly:
+    def _moved(self, poly: Poly, block: BlockOrder, ring: Ring, moved: Mapping[int, int]) -> Poly:
         terms: dict[tuple[int, ...], Fraction] = {}
         for exponents, coefficient in block.terms(poly).items():
             for power, c in enumerate(self.value(coefficient).coefficients):

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
 from qe.formula.evaluate import holds_at, truth_under
@@ -173,7 +173,7 @@ CONDITIONS = [(Relation.GT, lambda v: v > 0), (Relation.GE, lambda v: v >= 0), (
 def test_solutions_with_a_condition(relation: Relation, holds: Callable[[int], bool], a: int) -> None:
     """x^2 = a^2 with x - 1 compared with 0: -|a| and |a|, one solution for a = 0."""
     ring = Ring.of(("a", "x"))
-    segment = Segment(Block((1,), (0,)), (), (), (), (ring.var("x") ** 2 - ring.var("a") ** 2,))
+    segment = Segment(BlockOrder((1,), (0,)), (), (), (), (ring.var("x") ** 2 - ring.var("a") ** 2,))
     number = SolutionCount(segment, [(ring.var("x") - 1, relation)], Budget(60))
     expected = sum(holds(x - 1) for x in {-a, a})
     assert [k for k in range(number.most + 1) if holds_at(number.is_in({k}), {"a": a, "x": 0})] == [expected]
@@ -183,6 +183,6 @@ def test_solutions_with_a_condition(relation: Relation, holds: Callable[[int], b
 def test_too_many_conditions_are_refused() -> None:
     ring = Ring.of(("a", "x"))
     x, a = ring.var("x"), ring.var("a")
-    segment = Segment(Block((1,), (0,)), (), (), (), (x**3 - a,))
+    segment = Segment(BlockOrder((1,), (0,)), (), (), (), (x**3 - a,))
     with pytest.raises(qe.Unable, match="too many inequalities"):
         SolutionCount(segment, [(x - k, Relation.GT) for k in range(4)], Budget(60))

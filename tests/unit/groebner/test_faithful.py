@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.ring import Poly, Ring
 from qe.groebner.faithful import with_faithful
 from qe.groebner.kapur_sun_wang import segments
@@ -15,7 +15,7 @@ from tests.unit.exact.ideal_membership import in_ideal
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.var(name) for name in RING.names)
-BLOCK = Block((2, 3), (0, 1))
+BLOCK = BlockOrder((2, 3), (0, 1))
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.ring import Poly, Ring
 from qe.groebner.kapur_sun_wang import segments
 from qe.groebner.segment import Segment
@@ -17,7 +17,7 @@ from tests.unit.groebner.support import places
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.var(name) for name in RING.names)
-BLOCK = Block((2, 3), (0, 1))
+BLOCK = BlockOrder((2, 3), (0, 1))
 POINTS = [(Fraction(a), Fraction(b)) for a, b in product((-2, -1, 0, 1, 2), repeat=2)]
 
 

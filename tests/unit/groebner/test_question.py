@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.ring import Ring
 from qe.groebner.question import ParametricSystem
 from qe.options import Budget
@@ -11,7 +11,7 @@ from tests.unit.exact.ideal_membership import in_ideal
 
 RING = Ring.of(("a", "w", "x"))
 A, W, X = (RING.var(name) for name in RING.names)
-BLOCK = Block((2,), (0, 1))
+BLOCK = BlockOrder((2,), (0, 1))
 ROOT_2 = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
@@ -24,7 +24,7 @@ def test_constants_have_their_minimal_polynomials() -> None:
 
 
 def test_side_conditions() -> None:
-    given = ParametricSystem(RING, Block((2,), (0, 1)), (A * X - 1,), {}, (W,), (A,))
+    given = ParametricSystem(RING, BlockOrder((2,), (0, 1)), (A * X - 1,), {}, (W,), (A,))
     (only,) = given.solved(Budget(60))
     assert only.equal == (W,) and only.nonzero == (A,) and only.leads == ((1,),)
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.groebner import MonomialOrder, groebner_basis
 from qe.exact.ring import Poly, Ring
 from qe.groebner.reduction import Divisor, cleared, divides, joined, monomial, reduced_basis, remainder
@@ -15,7 +15,7 @@ from tests.unit.exact.ideal_membership import in_ideal
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.var(name) for name in RING.names)
-BLOCK = Block((2, 3), (0, 1))
+BLOCK = BlockOrder((2, 3), (0, 1))
 
 
 @given(polynomials(RING, max_degree=3))
@@ -87,6 +87,6 @@ def test_a_reduced_basis() -> None:
 
 @given(st.sampled_from(tuple(MonomialOrder)))
 def test_the_lead_follows_the_order(order: MonomialOrder) -> None:
-    block = Block((2, 3), (0, 1), order)
+    block = BlockOrder((2, 3), (0, 1), order)
     expected = (1, 0) if order is MonomialOrder.LEX else (0, 2)
     assert Divisor(A * X + B * Y**2, block).lead[0] == expected

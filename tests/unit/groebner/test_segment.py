@@ -6,13 +6,13 @@ import pickle
 
 import pytest
 
-from qe.exact.block_order import Block
+from qe.exact.block_order import BlockOrder
 from qe.exact.ring import Poly, Ring
 from qe.groebner.segment import Segment, monomial_names
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.var(name) for name in RING.names)
-BLOCK = Block((2, 3), (0, 1))
+BLOCK = BlockOrder((2, 3), (0, 1))
 
 
 def segment(

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.exact.block_order import Block, parametric_basis
+from qe.exact.block_order import BlockOrder, parametric_basis
 from qe.exact.groebner import MonomialOrder
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
@@ -192,7 +192,7 @@ def check(place: Place, system: qe.ComprehensiveGroebnerSystem, segment: object)
 
 def test_the_order_of_the_variables_is_checked_on_each_basis() -> None:
     x, y, a = RING.var("x"), RING.var("y"), RING.var("a")
-    block = Block((RING.index["x"], RING.index["y"]), (RING.index["a"],), MonomialOrder.LEX)
+    block = BlockOrder((RING.index["x"], RING.index["y"]), (RING.index["a"],), MonomialOrder.LEX)
     # y^40 < x in the lexicographic order, whatever weights would say
     basis = parametric_basis([x - a * y**40, y**41 - a], block)
     assert {block.lead(p)[0] for p in basis} == {(1, 0), (0, 41)}

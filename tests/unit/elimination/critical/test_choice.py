@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import qe
-from qe.elimination.protocol import Problem
 from qe.engine.conditions import convex_conditions
+from qe.formula.block import Block
 from qe.io import formats
 from qe.options import Options
 
@@ -28,7 +28,7 @@ BALLS = "(y - a)^2 + (z - b)^2 <= 1 and y^2 + z^2 <= 4"
     ],
 )
 def test_convex_conditions_on_several_variables(variables: tuple[str, ...], body: str, expected: bool) -> None:
-    problem = Problem(variables, formats.read(body, "text"))
+    problem = Block(variables, formats.read(body, "text"))
     assert (convex_conditions(problem, Options()) is not None) is expected
 
 

@@ -13,7 +13,8 @@ from qe.api.input import read_formula
 from qe.elimination.critical.block import ConvexBody
 from qe.elimination.critical.method import ConvexUniversal, procedures
 from qe.elimination.critical.universal import eliminate_universal, necessary_conditions
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.protocol import Context
+from qe.formula.block import Block
 from qe.formula.build import forall, neg
 from qe.formula.evaluate import holds_at, substituted
 from qe.formula.normal import nnf
@@ -38,7 +39,7 @@ def by_critical_values(text: str) -> Formula | None:
 
 def tried(formula: ForAll, seconds: float) -> Formula | None:
     found = ConvexUniversal().run(
-        Problem(formula.variables, formula.body, True), Context(ASKED, Budget(seconds), RunLog())
+        Block(formula.variables, formula.body, True), Context(ASKED, Budget(seconds), RunLog())
     )
     return None if found is None else found.formula
 

@@ -7,12 +7,12 @@ import random
 import pytest
 
 import qe
-from qe.elimination.protocol import Problem
 from qe.elimination.rootsigns import forms, theory
 from qe.elimination.rootsigns.method import answer
 from qe.elimination.rootsigns.question import read
 from qe.elimination.rootsigns.theory import Place, Root, Shape
 from qe.exact.ring import Poly, Ring
+from qe.formula.block import Block
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import Constant, Formula
 from qe.formula.traverse import atoms
@@ -33,7 +33,7 @@ CONDITIONS = ("and x^2 + s*x + t > 0", "and s*x^2 + t >= 0", "and s*x + t /= 0",
 
 
 def by_signs(question: Formula) -> Formula:
-    problem = Problem.of(question)
+    problem = Block.of(question)
     assert problem is not None and problem.body.ring is not None
     x = problem.body.ring.index["x"]
     found = read(problem.dual.body, x)
@@ -154,5 +154,5 @@ def test_huge_numbers_and_powers_end() -> None:
     with pytest.raises(qe.Unable):
         by_signs(formula("ex x. x^4 + a*x^3 + b*x + c = 0 and x > (a + b + c + d)^30"))
     other = formula("ex x. x^10000 + a*x + b = 0 and x > c")
-    problem = Problem.of(other)
+    problem = Block.of(other)
     assert problem is not None and read(problem.body, problem.body.ring.index["x"]) is None

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome
 from qe.elimination.search import method
 from qe.elimination.search.clauses import Clauses
 from qe.elimination.search.guided import guided
@@ -29,6 +29,7 @@ from qe.engine.strategy import Scope, attempts
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
+from qe.formula.block import Block
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
@@ -205,11 +206,11 @@ def test_a_signal_in_any_call_of_the_solver_ends_the_search(call: str, number: s
 
 
 def test_linear_sentences_with_cases_are_for_the_search_alone() -> None:
-    def linear(count: int) -> Problem:
+    def linear(count: int) -> Block:
         names = [f"v{k}" for k in range(count)]
         cases = " and ".join(f"({a} + 1 < {b} or {b} + 1 < {a})" for a, b in zip(names, names[1:] + names[:1]))
-        found = Problem.of(read(f"ex {', '.join(names)}. {cases}"))
-        assert isinstance(found, Problem)
+        found = Block.of(read(f"ex {', '.join(names)}. {cases}"))
+        assert isinstance(found, Block)
         return found
 
     assert hopeless_cases(linear(CASES_FROM), Options()) is not None
@@ -274,8 +275,8 @@ def test_a_universal_sentence_is_searched_for_a_counterexample() -> None:
     sentence = many(14, "x < 1 and y < 1 and z = 1")
     assert isinstance(sentence, Exists)
     dual = ForAll(sentence.variables, nnf(sentence.body, negate=True))
-    assert many_cases(Problem(dual.variables, dual.body, universal=True), Options()) is not None
-    found = BooleanSearch().run(Problem(dual.variables, dual.body, universal=True), context())
+    assert many_cases(Block(dual.variables, dual.body, universal=True), Options()) is not None
+    found = BooleanSearch().run(Block(dual.variables, dual.body, universal=True), context())
     assert found is not None and found.formula == TRUE
 
 
@@ -292,12 +293,12 @@ def test_few_cases_among_many_linear_conditions_are_not_gone_through_one_by_one(
 
 def test_few_cases_are_for_others() -> None:
     sentence = many(14, "x < 1")
-    problem = Problem.of(sentence)
+    problem = Block.of(sentence)
     assert problem is not None
     assert many_cases(problem, Options()) is not None
     assert many_cases(problem, Options(certify=True)) is not None
     assert not any(attempt.method == "search" for attempt, _, _ in attempts(Scope.ASKED, problem, WITHOUT))
-    few = Problem.of(many(CASES_FROM - 1, "x < 1"))
+    few = Block.of(many(CASES_FROM - 1, "x < 1"))
     assert few is not None and many_cases(few, Options()) is None
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from qe.certify.verify import verify
-from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.protocol import Context, Outcome, witness_of
 from qe.elimination.vs.method import VirtualSubstitution
+from qe.formula.block import Block
 from qe.io.text import read
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
@@ -14,8 +15,8 @@ from qe.proof.run_log import RunLog
 METHOD = VirtualSubstitution()
 
 
-def problem(text: str) -> Problem:
-    found = Problem.of(read(text))
+def problem(text: str) -> Block:
+    found = Block.of(read(text))
     assert found is not None
     return found
 
@@ -45,7 +46,7 @@ def test_a_true_sentence_comes_with_values_and_a_false_universal_one_too() -> No
     for text in ("ex x, y. x^2 + y^2 = 4 and y > x", "all x, y. x^2 + y^2 /= 4 or y <= x"):
         found, _ = run(text)
         assert found.witness is not None and str(found.formula) == ("true" if text[0] == "e" else "false")
-        assert verify(problem(text).witnessed(found.witness)).accepted
+        assert verify(witness_of(problem(text), found.witness)).accepted
     assert run("ex x. x^2 < 0")[0].witness is None
 
 
