@@ -17,7 +17,7 @@ from qe.engine.early import early_parts, equations, gathered_block
 from qe.engine.finish import settled, shortened
 from qe.engine.local import WORK, without_locals
 from qe.engine.redundant import without_redundant_parts
-from qe.engine.strategy import SHORTCUT, SPARE, SWITCHED, Attempt, Scope, alone, attempts, chosen_alone, complete
+from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, alone, attempts, chosen_alone, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -35,7 +35,7 @@ from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
 from qe.proving.certificates import certificate_of
 from qe.rules.preparation import Prepared, prepare
-from qe.rules.step import ALL_STEPS, StepKind
+from qe.rules.step import ALL_STEPS, StepKind, steps_without
 from qe.simplify.simplify import simplify
 
 
@@ -229,8 +229,8 @@ class _Run:
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula, kinds: Collection[StepKind] = ALL_STEPS) -> Prepared:
         """Every block brought to its real dimension by the rules of these kinds."""
-        off = frozenset[StepKind]().union(*(SWITCHED.get(stage, ()) for stage in self.options.without))
-        return prepare(formula, budget=self.budget, enabled=frozenset(kinds) - off, log=self.log)
+        enabled = steps_without(self.options.without).intersection(kinds)
+        return prepare(formula, budget=self.budget, enabled=enabled, log=self.log)
 
     # --- sentences, with their witnesses ---------------------------------------------------------
     def decided(self, formula: Formula) -> Outcome:

@@ -18,7 +18,6 @@ from qe.errors import Unable
 from qe.formula.block import Block
 from qe.formula.traverse import atoms
 from qe.options import Method, Options, Stage
-from qe.rules.step import EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,30 +75,6 @@ METHODS = {
     "linear form named": Listed("qe.elimination.named_form", "NamedForm", "naming a linear form", Stage.NAMING),
 }
 """Every method by its name. Attempts of ``STRATEGY`` say when it is tried, with how much work at most."""
-
-SWITCHED = {
-    Stage.EQUATIONS: EQUATION_STEPS,
-    Stage.SYMMETRY: SYMMETRY_STEPS,
-    Stage.GATHERING: {StepKind.GATHERING},
-    Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
-    Stage.VALUES: {StepKind.TAKES_VALUE, StepKind.SQUARE_ALONE},
-    Stage.ZEROS: {StepKind.ZEROS},
-    Stage.RANGES: {StepKind.RANGES},
-    Stage.BALLS: {StepKind.BALLS, StepKind.SPHERE},
-    Stage.STABILITY: {StepKind.HALF_PLANE},
-    Stage.QUADRICS: {StepKind.QUADRICS},
-    Stage.CUBIC: {StepKind.CUBIC_INTERVAL},
-    Stage.FORMS: {StepKind.CLOSED_FORM},
-    Stage.SQUARES: {StepKind.SQUARES},
-    Stage.EXCHANGE: {StepKind.EXCHANGE},
-    Stage.MINISCOPING: {StepKind.MINISCOPE},
-    Stage.SHIFT: {StepKind.DEGREE_SHIFT},
-    Stage.GENERIC: {StepKind.GENERIC, StepKind.BOUNDARY},
-    Stage.CANCELLING: {StepKind.CANCELLING},
-    Stage.SPLITTING: {StepKind.FACTOR_SPLIT},
-}
-"""The steps of preparation that a stage left out switches off."""
-
 
 class Scope(Enum):
     """What a method is shown: the question as it was asked; the prepared question, one block with conditions outside;

@@ -27,8 +27,8 @@ NO_NAMES = frozenset[str]()
 class Formula(Connected, SymPyForm):
     """Base class of all nodes; ``str()`` prints the text syntax.
 
-    ``ring``, ``free``, ``bound``, ``is_quantifier_free``, ``is_normal`` and the hash are worked out when they are first asked for and
-    then kept. They are no part of what a node is equal to, of its ``repr`` or of its pickle.
+    ``ring``, ``free``, ``bound``, ``is_quantifier_free``, ``is_normal`` and the hash are worked out when they are first
+    asked for and then kept. They are no part of what a node is equal to, of its ``repr`` or of its pickle.
     """
 
     __slots__ = ("_bound", "_free", "_hash", "_is_normal", "_is_quantifier_free", "_ring")

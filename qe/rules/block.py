@@ -33,31 +33,32 @@ from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Pending, Perturbe
 from qe.simplify.simplify import simplify_under
 
 RULES: tuple[Rule, ...] = (
-    definitions,
-    excluded_by_ranges,
-    independent_parts,
+    Rule(StepKind.DEFINITION, definitions),
+    Rule(StepKind.RANGES, excluded_by_ranges),
+    Rule(StepKind.MINISCOPE, independent_parts),
     closed_form(StepKind.BALLS),
-    sphere_along_form,
+    Rule(StepKind.SPHERE, sphere_along_form),
     closed_form(StepKind.HALF_PLANE),
     closed_form(StepKind.QUADRICS),
     closed_form(StepKind.CUBIC_INTERVAL),
     closed_form(StepKind.CLOSED_FORM),
-    linear_equation,
-    known_signs,
-    drop_what_can_be_met,
-    square_alone,
-    fix_origin,
-    drop_inequations,
-    cancel_equations,
-    groebner_equations,
-    shift_degree,
-    linear_form,
-    exchange_variables,
-    split_factors,
-    fix_scale,
-    guarded_linear_equation,
-    solvable_disjuncts,
+    Rule(StepKind.LINEAR, linear_equation),
+    Rule(StepKind.SQUARES, known_signs),
+    Rule(StepKind.TAKES_VALUE, drop_what_can_be_met),
+    Rule(StepKind.SQUARE_ALONE, square_alone),
+    Rule(StepKind.TRANSLATION, fix_origin),
+    Rule(StepKind.GENERIC, drop_inequations),
+    Rule(StepKind.CANCELLING, cancel_equations),
+    Rule(StepKind.GROEBNER, groebner_equations),
+    Rule(StepKind.DEGREE_SHIFT, shift_degree),
+    Rule(StepKind.SHEAR, linear_form),
+    Rule(StepKind.EXCHANGE, exchange_variables),
+    Rule(StepKind.FACTOR_SPLIT, split_factors),
+    Rule(StepKind.SCALING, fix_scale),
+    Rule(StepKind.GUARDED_LINEAR, guarded_linear_equation),
+    Rule(StepKind.DISTRIBUTION, solvable_disjuncts),
 )
+"""In the order in which they are tried."""
 
 
 def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext) -> Node:
@@ -78,8 +79,10 @@ def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext)
     if not kept:
         return Leaf((), body)
     for rule in RULES:
+        if rule.kind not in context.enabled:
+            continue
         context.watch()
-        found = rule(kept, body, context)
+        found = rule.apply(kept, body, context)
         if found is not None:
             context.step(found.kind.value, exists(kept, body), found.node.formula, found.detail, found.proof)
             return _reduced(found.node, context)

@@ -75,4 +75,9 @@ class Found:
     proof: Mapping[str, object] | None = None
 
 
-Rule = Callable[[tuple[str, ...], Formula, BlockContext], Found | None]
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """``apply`` is tried where steps of the ``kind`` are enabled: what it makes of ``ex variables. body``, or None."""
+
+    kind: StepKind
+    apply: Callable[[tuple[str, ...], Formula, BlockContext], Found | None]

@@ -77,8 +77,6 @@ def cancel_by(equations: Sequence[Poly], formula: Formula, watch: Callable[[], o
 
 def cancel_equations(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The first equation of the conjunction whose multiples make products of other polynomials is subtracted there."""
-    if StepKind.CANCELLING not in context.enabled:
-        return None
     parts = conjuncts(body)
     for k, part in enumerate(parts):
         if isinstance(part, Atom) and part.relation is Relation.EQ:

@@ -16,7 +16,7 @@ _FACTORS = 6  # a product of more factors than this is not split
 
 def groebner_equations(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """Replace the equations by a better basis of their ideal, and reduce the other atoms by it."""
-    if StepKind.GROEBNER not in context.enabled or context.bases <= 0:
+    if context.bases <= 0:
         return None
     found, others = eq.split_equations(conjuncts(body))
     if not found or (not others and len(found) == 1):

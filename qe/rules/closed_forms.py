@@ -193,9 +193,7 @@ def _read_off(terms: Terms, of: Terms, known: Letters) -> Letters | None:
 def closed_form(kind: StepKind) -> Rule:
     """The rule that takes the answers of the theorems of the family that is called like the step."""
 
-    def rule(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
-        if kind not in context.enabled:
-            return None
+    def apply(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
         with suppress(Unable):  # a determinant is too large
             for match in matches(kind.value, variables, body):
                 if _holds(match.formula("given"), context):
@@ -204,7 +202,7 @@ def closed_form(kind: StepKind) -> Rule:
                         return Found(kind, match.theorem.name, Leaf((), answer), match.evidence)
         return None
 
-    return rule
+    return Rule(kind, apply)
 
 
 def _holds(given: Formula, context: BlockContext) -> bool:

@@ -23,8 +23,6 @@ from qe.rules.tree import Lifted, Pending
 
 def shift_degree(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first variable of the block that it applies to."""
-    if StepKind.DEGREE_SHIFT not in context.enabled:
-        return None
     inner = bound_variables(body)
     ring = next(atoms(body)).poly.ring
     known = context.facts.extended(conjuncts(body))

@@ -28,7 +28,7 @@ _TERMS, _DEGREE = 600, 12
 
 def exchange_variables(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first two variables of the block that it makes simpler."""
-    if StepKind.EXCHANGE not in context.enabled or len(variables) < 2:
+    if len(variables) < 2:
         return None
     found = list(atoms(body))
     if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:

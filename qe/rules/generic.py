@@ -17,8 +17,6 @@ def drop_inequations(variables: tuple[str, ...], body: Formula, context: BlockCo
 
     Lift: a solution of f, moved a little where p happens to vanish on it.
     """
-    if StepKind.GENERIC not in context.enabled:
-        return None
     block = _indices(variables, body)
     removed: list[Atom] = []
     others: list[Formula] = []

@@ -37,8 +37,6 @@ _DOWN = {Relation.GE, Relation.GT, Relation.EQ}
 
 def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the comparisons of the conjunction."""
-    if StepKind.RANGES not in context.enabled:
-        return None
     parts = conjuncts(body)
     found = [(k, a) for k, a in enumerate(parts) if isinstance(a, Atom) and a.relation is not Relation.NE]
     if len(found) < 2 or sum(a.poly.term_count() for _, a in found) > MOST_TERMS:

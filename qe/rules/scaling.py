@@ -27,7 +27,7 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
 
     Lift: x is the number that was put in for it.
     """
-    if StepKind.SCALING not in context.enabled or not _worthwhile(body):
+    if not _worthwhile(body):
         return None
     inner = frozenset(bound_variables(body))
     if inner & set(body.free):

@@ -40,8 +40,6 @@ _FORM_TERMS = 12
 
 def linear_form(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem for the first form that makes the atoms much shorter."""
-    if StepKind.SHEAR not in context.enabled:
-        return None
     polys = list(dict.fromkeys(a.poly for a in atoms(body)))
     size, ring = _size(body), polys[0].ring
     if not _LEAST <= size <= _MOST or any(isinstance(a, RootAtom) for a in atoms(body)):

@@ -68,7 +68,7 @@ class Ball:
 
 def sphere_along_form(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first sphere or ball in two variables of the block or more, where there are parameters."""
-    if StepKind.SPHERE not in context.enabled or len(variables) < 2 or set(body.free) <= set(variables):
+    if len(variables) < 2 or set(body.free) <= set(variables):
         return None
     parts = conjuncts(body)
     if len(parts) > _PARTS or not body.is_quantifier_free or has_root_atoms(body):

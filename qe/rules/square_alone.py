@@ -26,7 +26,7 @@ from qe.rules.tree import Lifted, Pending
 
 def square_alone(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first variable of a block of several that it applies to."""
-    if StepKind.SQUARE_ALONE not in context.enabled or len(variables) < 2 or body.ring is None:
+    if len(variables) < 2 or body.ring is None:
         return None
     parts, inner = conjuncts(body), bound_variables(body)
     for name in variables:

@@ -25,7 +25,7 @@ MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
 
 def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """Every comparison with a polynomial of a known sign replaced by what is left of it."""
-    if StepKind.SQUARES not in context.enabled or not is_quantifier_free(body):
+    if not is_quantifier_free(body):
         return None
     polys = [p for p in polynomials(body) if len(p.variables) >= FEWEST_VARIABLES and p.total_degree > 1]
     if not polys or len(polys) > MOST_POLYNOMIALS:

@@ -25,8 +25,6 @@ def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockC
 
     Lift: the values of the parts together, or those of a branch that is satisfied.
     """
-    if StepKind.MINISCOPE not in context.enabled:
-        return None
     block = frozenset(variables)
     if isinstance(body, Or):
         plain = tuple(part for part in body.args if block.isdisjoint(part.free))
@@ -45,8 +43,6 @@ def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockC
 
 def linear_equation(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem of ``qe.rules.linear`` on the cheapest pivots that need no guard, all in a row."""
-    if StepKind.LINEAR not in context.enabled:
-        return None
     rules: list[Solve] = []
     solved_by: list[tuple[str, Poly, int | None]] = []
     details: list[str] = []
@@ -70,8 +66,6 @@ def linear_equation(variables: tuple[str, ...], body: Formula, context: BlockCon
 
 def definitions(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The same for equations that do nothing but define a variable, all in a row (``qe.rules.linear.definitions``)."""
-    if StepKind.DEFINITION not in context.enabled:
-        return None
     rules: list[Solve] = []
     details: list[str] = []
     solved_by: list[tuple[str, Poly, int | None]] = []
@@ -106,8 +100,6 @@ def _solved(parts: Sequence[Formula], pivot: Pivot) -> Formula | None:
 
 def guarded_linear_equation(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """As ``linear_equation``, with the case distinction lead /= 0 or lead = rest = 0."""
-    if StepKind.GUARDED_LINEAR not in context.enabled:
-        return None
     parts = conjuncts(body)
     pivot = _pivot(parts, variables, context)
     if pivot is None or not pivot.guarded:
@@ -128,8 +120,6 @@ def solvable_disjuncts(variables: tuple[str, ...], body: Formula, context: Block
     """ex x (f and (g or h)) iff (ex x (f and g)) or (ex x (f and h)), where every disjunct has an equation linear in a
     variable of the block: each part then loses one. Lift: a branch that is satisfied.
     """
-    if StepKind.DISTRIBUTION not in context.enabled:
-        return None
     parts = conjuncts(body)
     block = frozenset(variables)
     for position, part in enumerate(parts):

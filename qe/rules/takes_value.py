@@ -59,8 +59,6 @@ def _mentions(part: Formula, name: str) -> bool:
 
 def drop_what_can_be_met(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first variable of the block that it applies to."""
-    if StepKind.TAKES_VALUE not in context.enabled:
-        return None
     parts, inner = conjuncts(body), set(bound_variables(body))
     for name in variables:
         where = [k for k, part in enumerate(parts) if _mentions(part, name)]

@@ -22,8 +22,6 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
 
     Lift: x = 0.
     """
-    if StepKind.TRANSLATION not in context.enabled:
-        return None
     found = list(atoms(body))
     inner = frozenset(bound_variables(body))
     if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
