@@ -176,8 +176,11 @@ def _assigned(
 
 
 def _read_off(terms: Terms, of: Terms, known: Letters) -> Letters | None:
-    """The letters with which the polynomial ``of`` may have these terms, as far as single letters tell."""
-    if not of.keys() <= terms.keys():
+    """The letters with which the polynomial ``of`` may have these terms, as far as single letters tell.
+
+    None also where its degree is lower: where leading terms vanish, other methods have shorter answers.
+    """
+    if not of.keys() <= terms.keys() or max(map(sum, of)) < max(map(sum, terms)):
         return None
     zero = next(iter(of.values())) * 0
     letters = dict(known)
