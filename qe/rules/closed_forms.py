@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import permutations, product
 from math import isqrt, prod
 
@@ -19,7 +19,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
-from qe.kernel.statements import Row, Theorem, rows, theorem
+from qe.kernel.statements import Row, Theorem, rows, theorem, undirected
 from qe.proof.entry import Json, poly_to_text
 from qe.rules.block_context import BlockContext, Found, Rule
 from qe.rules.step import StepKind
@@ -56,16 +56,20 @@ class Pattern:
     roots: Mapping[str, ast.expr]
 
 
-def patterns(family: str, body: Formula, variables: Sequence[str], conditions: int) -> Iterator[Pattern]:
-    """Those of a family that the block may be an instance of, by its size and the number of its parameters."""
-    parameters = len(set(body.free) - set(variables))
-    degrees = (p.degree(p.ring.index[v]) for p in polynomials(body) for v in variables)
-    size = frozenset((len(variables), max(degrees, default=0)))
-    for row in rows().values():
-        if row.family == family and row.data.get("parameters", 0) <= parameters:
-            for found in (pattern(row.name, words) for words in row.choices(size)):
-                if len(found.variables) == len(variables) and len(found.conditions) == conditions:
-                    yield found
+@lru_cache(maxsize=1_000)
+def patterns(
+    family: str, parameters: int, variables: int, degree: int, relations: tuple[str, ...]
+) -> tuple[Pattern, ...]:
+    """Those of a family that a block may be an instance of, by the numbers of its parameters and variables, the highest
+    degree in one of these, and its relations, sorted, up to their direction."""
+    sizes = frozenset((variables, degree))
+    return tuple(
+        pattern(row.name, words)
+        for row in rows().values()
+        if row.family == family and row.data.get("parameters", 0) <= parameters
+        for words in row.choices(sizes)
+        if row.relations(words) == relations and row.variables(words) == variables
+    )
 
 
 @cache
@@ -119,13 +123,23 @@ def matches(family: str, variables: Sequence[str], body: Formula) -> Iterator[Ma
     parts = [part for part in conjuncts(body) if isinstance(part, Atom)]
     if body.ring is None or len(parts) < len(conjuncts(body)) or len(parts) > MOST_CONDITIONS:
         return
-    for found in patterns(family, body, variables, len(parts)):
-        if found.row.data.get("dense") and not all(set(variables) <= set(part.free) for part in parts):
-            continue
-        for names in permutations(variables) if len(variables) < 3 else [tuple(variables)]:
-            indices = [body.ring.index[name] for name in names]
-            for letters in _assigned(found.conditions, parts, indices, {}):
-                yield from _completed(found, letters, names, variables, body)
+    index, parameters = body.ring.index, len(set(body.free) - set(variables))
+    degree = max(part.poly.degree(index[v]) for part in parts for v in variables)
+    relations = tuple(sorted(undirected(part.relation.value) for part in parts))
+    candidates = patterns(family, parameters, len(variables), degree, relations)
+    orders = (permutations(variables) if len(variables) < 3 else [tuple(variables)]) if candidates else ()
+    ways = [(names, [_both_sides(part, [index[v] for v in names]) for part in parts]) for names in orders]
+    for found in candidates:
+        if not found.row.data.get("dense") or all(set(variables) <= set(part.free) for part in parts):
+            for names, sides in ways:
+                for letters in _assigned(found.conditions, sides, {}):
+                    yield from _completed(found, letters, names, variables, body)
+
+
+def _both_sides(part: Atom, indices: Sequence[int]) -> tuple[Condition, Condition]:
+    """An atom about its polynomial, and about minus that."""
+    terms, relation = part.poly.collected(indices), part.relation
+    return Condition(relation, terms), Condition(relation.flipped, {powers: -t for powers, t in terms.items()})
 
 
 def _completed(
@@ -160,19 +174,19 @@ def square_root(poly: Poly) -> Poly | None:
 
 
 def _assigned(
-    conditions: Sequence[Condition], parts: Sequence[Atom], indices: Sequence[int], known: Letters
+    conditions: Sequence[Condition], parts: Sequence[tuple[Condition, Condition]], known: Letters
 ) -> Iterator[Letters]:
     """The letters, so that each condition of the theorem is one of the parts."""
     if not conditions:
         yield known
         return
     first, *rest = conditions
-    for k, part in enumerate(parts):
-        for sign, relation in ((1, part.relation), (-1, part.relation.flipped)):
-            if relation is first.relation:
-                letters = _read_off(first.terms, (part.poly * sign).collected(indices), known)
+    for k, sides in enumerate(parts):
+        for side in sides:
+            if side.relation is first.relation:
+                letters = _read_off(first.terms, side.terms, known)
                 if letters is not None:
-                    yield from _assigned(rest, [*parts[:k], *parts[k + 1 :]], indices, letters)
+                    yield from _assigned(rest, [*parts[:k], *parts[k + 1 :]], letters)
 
 
 def _read_off(terms: Terms, of: Terms, known: Letters) -> Letters | None:
@@ -189,7 +203,9 @@ def _read_off(terms: Terms, of: Terms, known: Letters) -> Letters | None:
             ((exponents, coefficient),) = term.terms()
             name = term.ring.names[exponents.index(1)]
             if abs(coefficient) == 1:
-                letters.setdefault(name, of.get(powers, zero) * coefficient)
+                value = of.get(powers, zero) * coefficient
+                if letters.setdefault(name, value) != value:
+                    return None
     return letters
 
 

@@ -62,9 +62,10 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
     """
     best: Pivot | None = None
     best_cost: tuple[int, int, int] | None = None
-    occurrences = _occurrences(parts)
     # those with a constant coefficient first: where there is one, the signs of the others need not be known
-    for position, i, rest, lead in sorted(_linear_in(parts, variables), key=lambda found: not found[3].is_constant):
+    linear = sorted(_linear_in(parts, variables), key=lambda found: not found[3].is_constant)
+    occurrences = _occurrences(parts if linear else ())
+    for position, i, rest, lead in linear:
         if best_cost is not None and best_cost[0] == 0 and not lead.is_constant:
             break
         alone = occurrences[i] == 1
@@ -83,13 +84,12 @@ def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
     All those with a v that occurs nowhere else; if there is none, the one of least cost whose t is not linear, or whose
     v stands in one other atom only: so no form is written out twice. In very many variables linear forms stay named.
     """
-    occurrences = _occurrences(parts)
     alone: dict[int, Pivot] = {}
     best: tuple[int, Pivot] | None = None
+    linear = [found for found in _linear_in(parts, variables) if found[3].is_constant]
+    occurrences = _occurrences(parts if linear else ())
     few = len(occurrences) <= MOST_VARIABLES
-    for position, i, rest, lead in _linear_in(parts, variables):
-        if not lead.is_constant:
-            continue
+    for position, i, rest, lead in linear:
         sign = 1 if lead.constant_value() > 0 else -1
         pivot = Pivot(position, i, lead, rest, sign, occurrences[i] == 1)
         if pivot.alone:
