@@ -33,6 +33,7 @@ from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
 from qe.proving.certificates import certificate_of
+from qe.rules.linear import may_define
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, StepKind
 from qe.simplify.simplify import simplify
@@ -95,6 +96,8 @@ class _Run:
 
         What is there only to name a term is put in first: no choice below depends on it.
         """
+        if not may_define(formula):
+            return self.unnamed(formula)
         mark = self.log.mark()
         ready = self.prepared(formula, {StepKind.DEFINITION})
         if not any(step.rule == StepKind.LINEAR.value for step in self.log.steps(mark)):

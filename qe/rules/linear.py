@@ -12,7 +12,7 @@ sign of a is not known, so the factor is positive.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass
 
 from qe.errors import BudgetExceeded
@@ -78,6 +78,17 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
     return best
 
 
+def may_define(formula: Formula) -> bool:
+    """Whether an equation, perhaps below a negation, is linear in a bound variable with a number before it: where there
+    is none, nothing is ``defining`` in any block."""
+    return any(
+        isinstance(a, Atom)
+        and a.relation in (Relation.EQ, Relation.NE)
+        and any(a.poly.coefficients(i)[1].is_constant for i in _linear_variables(a.poly, formula.bound))
+        for a in atoms(formula)
+    )
+
+
 def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
     """Equations v = t among the conjuncts that are there to give t a name.
 
@@ -115,10 +126,14 @@ def _linear_in(parts: Sequence[Formula], variables: Sequence[str]) -> Iterator[t
     """Position, variable, rest and coefficient of every variable in which an equation among the conjuncts is linear."""
     for position, part in enumerate(parts):
         if isinstance(part, Atom) and part.relation is Relation.EQ:
-            for i in part.poly.variables:
-                if part.poly.degree(i) == 1 and part.poly.ring.names[i] in variables:
-                    rest, lead = part.poly.coefficients(i)
-                    yield position, i, rest, lead
+            for i in _linear_variables(part.poly, variables):
+                rest, lead = part.poly.coefficients(i)
+                yield position, i, rest, lead
+
+
+def _linear_variables(poly: Poly, names: Container[str]) -> Iterator[int]:
+    """Those of these names in which a polynomial has degree 1."""
+    return (i for i in poly.variables if poly.ring.names[i] in names and poly.degree(i) == 1)
 
 
 def _sign(lead: Poly, position: int, facts: Callable[[int], Facts]) -> int | None:
