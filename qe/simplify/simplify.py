@@ -92,7 +92,7 @@ def _level(args: Iterable[Formula], facts: Facts, conjunctive: bool) -> Formula:
     join = conj if conjunctive else disj
     absorbing: Formula = FALSE if conjunctive else TRUE
     atoms, literals, others = _sort(args, conjunctive)
-    nothing = replace(NOTHING, watch=facts.watch)
+    nothing = Facts(watch=facts.watch)
     for _ in range(_ROUNDS):
         tidied = _tidy(atoms, facts, conjunctive)
         if tidied is None:
@@ -160,7 +160,7 @@ def _extended(facts: Facts, atoms: Iterable[Atom], literals: Iterable[Formula], 
             values[literal.arg] = not conjunctive
         else:
             values[literal] = conjunctive
-    return replace(known, literals=values)
+    return Facts(known.ranges, values, facts.watch)
 
 
 class _Board:
@@ -171,7 +171,7 @@ class _Board:
         self.groups: dict[Poly, list[Atom]] = {}
         self.own: dict[Poly, Range] = {}
         self.ranges: dict[Poly, Range] = dict(facts.ranges)
-        self.view = replace(facts, ranges=self.ranges)
+        self.view = Facts(self.ranges, facts.literals, facts.watch)
         for given in atoms:
             self.insert(given)
 
