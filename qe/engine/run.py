@@ -89,6 +89,7 @@ class _Run:
     options: Options
     budget: Budget
     log: RunLog = field(default_factory=RunLog)
+    tried: set[Formula] = field(default_factory=set)
 
     # --- the question as a whole ---------------------------------------------------------------
     def question(self, formula: Formula) -> Outcome:
@@ -119,7 +120,7 @@ class _Run:
         problem, mark = Problem.of(formula), self.log.mark()
         found = None
         if problem is not None:
-            found = self.by_local_variables(problem) or self.first_of(Scope.ASKED, problem)
+            found = self.by_local_variables(problem) or self.whole(problem)
         if found is None and problem is not None and not problem.free:
             found = self.sentence(problem)
             if found.witness is not None:
@@ -199,7 +200,7 @@ class _Run:
             self.log.forget_steps(mark)
         problem = Problem.of(ready)
         if found is None and problem is not None:
-            found = self.first_of(Scope.ASKED, problem) or self.eliminated(problem)
+            found = self.whole(problem) or self.eliminated(problem)
         return found if found is not None else Outcome(self.without_quantifiers(ready))
 
     def finished(self, formula: Formula, question: Formula, mark: int) -> Formula:
@@ -246,7 +247,7 @@ class _Run:
                 return next((found for found in map(self.decided, args) if found.formula == TRUE), Outcome(FALSE))
             case Exists(variables, body) | ForAll(variables, body):
                 problem = Problem(variables, body, isinstance(formula, ForAll))
-                return self.first_of(Scope.ASKED, problem) or self.eliminated(problem)
+                return self.whole(problem) or self.eliminated(problem)
         return Outcome(self.without_quantifiers(formula))
 
     def conjunction(self, args: Iterable[Formula]) -> Outcome:
@@ -335,6 +336,14 @@ class _Run:
             return reduced
         found = self.first_of(Scope.INNER, reduced) if reduced.is_flat else None
         return reduced.formula if found is None else found.formula
+
+    def whole(self, problem: Problem) -> Outcome | None:
+        """What an attempt for whole questions gives; None where all were made before: nothing was there to prepare."""
+        question = problem.dual.formula
+        if question in self.tried:
+            return None
+        self.tried.add(question)
+        return self.first_of(Scope.ASKED, problem)
 
     # --- the loop -------------------------------------------------------------------------------------
     def first_of(self, scope: Scope, problem: Problem) -> Outcome | None:

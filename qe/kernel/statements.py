@@ -63,7 +63,8 @@ class Row:
     def variables(self, words: Sequence[str]) -> int:
         """How many the block binds."""
         vectors, marks = self.table("vectors"), self.marks(words)
-        binders = re.findall(r"(\w+), ", re.match(r"exists\((\w+, )+", self.data["block"])[0])
+        before = re.match(r"exists\(((\w+, )+)", self.data["block"])
+        binders = before[1].removesuffix(", ").split(", ") if before else []
         return sum(_number(vectors[name], marks) if name in vectors else 1 for name in binders)
 
 

@@ -35,7 +35,7 @@ class BlockContext:
     log: RunLog = field(default_factory=RunLog)
 
     def __post_init__(self) -> None:
-        self.facts = replace(self.facts, watch=self.watch)
+        self.facts = self.facts.watched(self.watch)
 
     def watch(self) -> None:
         """Raises ``BudgetExceeded`` at a limit."""

@@ -38,10 +38,19 @@ Terms = Mapping[tuple[int, ...], Poly]
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """A comparison of a theorem's block: its relation, and terms in the letters by the powers of its variables."""
+    """A comparison of a block: its relation, and terms in letters or parameters by the powers of its variables.
+
+    ``letters``: those that are such a term up to a sign, with its powers.
+    """
 
     relation: Relation
     terms: Terms
+    letters: tuple[tuple[str, int, tuple[int, ...]], ...] = ()
+
+    @property
+    def degree(self) -> int:
+        """The degree in the variables of the block."""
+        return max(map(sum, self.terms))
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,15 +67,15 @@ class Pattern:
 
 @lru_cache(maxsize=1_000)
 def patterns(
-    family: str, parameters: int, variables: int, degree: int, relations: tuple[str, ...]
+    families: tuple[str, ...], parameters: int, variables: int, degree: int, relations: tuple[str, ...]
 ) -> tuple[Pattern, ...]:
-    """Those of a family that a block may be an instance of, by the numbers of its parameters and variables, the highest
-    degree in one of these, and its relations, sorted, up to their direction."""
+    """Those of these families that a block may be an instance of, by the numbers of its parameters and variables, the
+    highest degree in one of these, and its relations, sorted, up to their direction."""
     sizes = frozenset((variables, degree))
     return tuple(
         pattern(row.name, words)
         for row in rows().values()
-        if row.family == family and row.data.get("parameters", 0) <= parameters
+        if row.family in families and row.data.get("parameters", 0) <= parameters
         for words in row.choices(sizes)
         if row.relations(words) == relations and row.variables(words) == variables
     )
@@ -81,8 +90,20 @@ def pattern(name: str, words: tuple[str, ...]) -> Pattern:
     assert isinstance(block, Exists) and block.ring is not None
     indices = [block.ring.index[v] for v in block.variables]
     parts = [part for part in conjuncts(block.body) if isinstance(part, Atom)]
-    conditions = tuple(Condition(p.relation, p.poly.collected(indices)) for p in parts)
+    collected = [p.poly.collected(indices) for p in parts]
+    conditions = tuple(
+        Condition(part.relation, terms, tuple(_single(terms))) for part, terms in zip(parts, collected, strict=True)
+    )
     return Pattern(used, rows()[name], block.variables, conditions, dict(_roots(used, block)))
+
+
+def _single(terms: Terms) -> Iterator[tuple[str, int, tuple[int, ...]]]:
+    """The letters that are a term up to a sign, that sign, and the powers before which they stand."""
+    for powers, term in terms.items():
+        if term.term_count() == 1 and term.total_degree == 1:
+            ((exponents, coefficient),) = term.terms()
+            if abs(coefficient) == 1:
+                yield term.ring.names[exponents.index(1)], coefficient, powers
 
 
 def _roots(used: Theorem, block: Formula) -> Iterator[tuple[str, ast.expr]]:
@@ -118,15 +139,15 @@ class Match:
         }
 
 
-def matches(family: str, variables: Sequence[str], body: Formula) -> Iterator[Match]:
-    """The theorems of a family of which ``exists variables. body`` is an instance, but for what is given."""
+def matches(families: tuple[str, ...], variables: Sequence[str], body: Formula) -> Iterator[Match]:
+    """The theorems of these families of which ``exists variables. body`` is an instance, but for what is given."""
     parts = [part for part in conjuncts(body) if isinstance(part, Atom)]
     if body.ring is None or len(parts) < len(conjuncts(body)) or len(parts) > MOST_CONDITIONS:
         return
     index, parameters = body.ring.index, len(set(body.free) - set(variables))
     degree = max(part.poly.degree(index[v]) for part in parts for v in variables)
     relations = tuple(sorted(undirected(part.relation.value) for part in parts))
-    candidates = patterns(family, parameters, len(variables), degree, relations)
+    candidates = patterns(families, parameters, len(variables), degree, relations)
     orders = (permutations(variables) if len(variables) < 3 else [tuple(variables)]) if candidates else ()
     ways = [(names, [_both_sides(part, [index[v] for v in names]) for part in parts]) for names in orders]
     for found in candidates:
@@ -184,43 +205,39 @@ def _assigned(
     for k, sides in enumerate(parts):
         for side in sides:
             if side.relation is first.relation:
-                letters = _read_off(first.terms, side.terms, known)
+                letters = _read_off(first, side, known)
                 if letters is not None:
                     yield from _assigned(rest, [*parts[:k], *parts[k + 1 :]], letters)
 
 
-def _read_off(terms: Terms, of: Terms, known: Letters) -> Letters | None:
-    """The letters with which the polynomial ``of`` may have these terms, as far as single letters tell.
+def _read_off(condition: Condition, side: Condition, known: Letters) -> Letters | None:
+    """The letters with which the condition of a theorem may be this side of a part, as far as single letters tell.
 
-    None also where its degree is lower: where leading terms vanish, other methods have shorter answers.
+    None also where the degree is lower: where leading terms vanish, other methods have shorter answers.
     """
-    if not of.keys() <= terms.keys() or max(map(sum, of)) < max(map(sum, terms)):
+    if not side.terms.keys() <= condition.terms.keys() or side.degree < condition.degree:
         return None
-    zero = next(iter(of.values())) * 0
+    zero = next(iter(side.terms.values())) * 0
     letters = dict(known)
-    for powers, term in terms.items():
-        if term.term_count() == 1 and term.total_degree == 1:
-            ((exponents, coefficient),) = term.terms()
-            name = term.ring.names[exponents.index(1)]
-            if abs(coefficient) == 1:
-                value = of.get(powers, zero) * coefficient
-                if letters.setdefault(name, value) != value:
-                    return None
+    for name, sign, powers in condition.letters:
+        value = side.terms.get(powers, zero) * sign
+        if letters.setdefault(name, value) != value:
+            return None
     return letters
 
 
-def closed_form(kind: StepKind) -> Rule:
-    """The rule that takes the answers of the theorems of the family that is called like the step."""
+def closed_form(*kinds: StepKind) -> Rule:
+    """The rule that takes the answers of the theorems of the families that are called like the steps."""
 
     def rule(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
-        if kind not in context.enabled:
-            return None
+        families = tuple(kind.value for kind in kinds if kind in context.enabled)
         with suppress(Unable):  # a determinant is too large
-            for match in matches(kind.value, variables, body):
+            for match in matches(families, variables, body):
                 if _holds(match.formula("given"), context):
                     answer = nnf(match.formula("answer"))
                     if all(p.term_count() <= MOST_TERMS for p in polynomials(answer)):
-                        return Found(kind, match.theorem.name, Leaf((), answer), match.evidence)
+                        kind, name = StepKind(match.theorem.family), match.theorem.name
+                        return Found(kind, name, Leaf((), answer), match.evidence)
         return None
 
     return rule

@@ -105,6 +105,10 @@ class Facts:
         """Whether nothing is known."""
         return not self.ranges and not self.literals
 
+    def watched(self, watch: Callable[[], object]) -> Facts:
+        """The same, with this one to be asked."""
+        return Facts(self.ranges, self.literals, watch)
+
     def known(self, key: Poly) -> Range:
         """The best range of a key: stored, inherent and enclosed from the ranges of its variables."""
         found = meet(self.ranges.get(key, EVERYTHING), inherent(key))

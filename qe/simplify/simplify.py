@@ -10,7 +10,6 @@ variables does not grow, and the result is a fixed point.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 
 from qe.exact.ring import Poly
 from qe.exact.watch import IDLE
@@ -40,7 +39,7 @@ def simplify(formula: Formula, assumptions: Formula = TRUE, *, watch: Callable[[
         if known == FALSE:
             return TRUE
         facts = facts_of(known, formula)
-    return simplify_under(formula, facts if watch is IDLE else replace(facts, watch=watch))
+    return simplify_under(formula, facts if watch is IDLE else facts.watched(watch))
 
 
 def simplify_under(formula: Formula, facts: Facts) -> Formula:
