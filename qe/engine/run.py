@@ -17,7 +17,7 @@ from qe.engine.early import early_parts, equations, gathered_block
 from qe.engine.finish import settled, shortened
 from qe.engine.local import WORK, without_locals
 from qe.engine.redundant import without_redundant_parts
-from qe.engine.strategy import SHORTCUT, SPARE, SWITCHED, Attempt, Scope, alone, attempts, chosen_alone, complete
+from qe.engine.strategy import SHORTCUT, SPARE, SWITCHED, Attempt, Scope, Spare, alone, attempts, chosen_alone, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -31,7 +31,7 @@ from qe.options import Budget, Method, Options, Stage
 from qe.proof.answer import Answer, Status
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
-from qe.proof.step import Nested, Step
+from qe.proof.step import Nested
 from qe.proving.certificates import certificate_of
 from qe.rules.linear import may_define
 from qe.rules.preparation import Prepared, prepare
@@ -72,16 +72,6 @@ def proved(formula: Formula, found: Outcome, options: Options, budget: Budget) -
 def _counted(formula: Formula, options: Options) -> Formula:
     """The formula without root atoms, unless it may keep them."""
     return formula if options.root_atoms and formula.is_quantifier_free else without_root_atoms(formula)
-
-
-@dataclass(frozen=True, slots=True)
-class _Spare:
-    """A complete outcome that was too long to be taken at once, with its steps."""
-
-    outcome: Outcome
-    attempt: Attempt
-    name: str
-    steps: tuple[Step, ...]
 
 
 @dataclass(slots=True)
@@ -349,7 +339,7 @@ class _Run:
     def first_of(self, scope: Scope, problem: Problem) -> Outcome | None:
         """What the first attempt gives that comes to an end; None if there is none."""
         last: Unable | None = None
-        spare: _Spare | None = None
+        spare: Spare | None = None
         for attempt, method, reason in attempts(scope, problem, self.options):
             mark, found = self.log.mark(), None
             try:
@@ -367,14 +357,14 @@ class _Run:
             if spare is not None:
                 return self.spared(spare, problem)
             if found is not None and attempt.spare and complete(found, problem):
-                spare = _Spare(found, attempt, method.name, steps)
+                spare = Spare(found, attempt, method.name, steps)
         if spare is not None:
             return self.spared(spare, problem)
         if last is not None and scope in (Scope.BLOCK, Scope.NESTED):
             raise last
         return None
 
-    def spared(self, spare: _Spare, problem: Problem) -> Outcome:
+    def spared(self, spare: Spare, problem: Problem) -> Outcome:
         """The outcome that was put aside."""
         self.log.choice(spare.name, problem.variables, "its answer is long, but known")
         self.log.take_up(spare.steps)

@@ -17,6 +17,7 @@ from qe.engine import conditions as on
 from qe.errors import Unable
 from qe.formula.traverse import atoms
 from qe.options import Method, Options, Stage
+from qe.proof.step import Step
 from qe.rules.step import EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 
 
@@ -170,6 +171,16 @@ class Attempt:
         """The method itself."""
         method: EliminationMethod = getattr(import_module(self.listed.module), self.listed.kind)()
         return method
+
+
+@dataclass(frozen=True, slots=True)
+class Spare:
+    """A complete outcome that was too long to be taken at once, with its steps."""
+
+    outcome: Outcome
+    attempt: Attempt
+    name: str
+    steps: tuple[Step, ...]
 
 
 SHORTCUT, FIRST, PROBE, SPARE = 20_000, 60_000, 1_500, 20_000
