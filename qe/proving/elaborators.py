@@ -56,7 +56,7 @@ def by_theorems(
     block: Exists, context: Context, claim: Claim, limits: Limits, place: tuple[int, ...] = ()
 ) -> Iterator[tuple[Json, Formula]]:
     """Steps from a block to its answer by theorems of the family that is called like the rule, and the answers."""
-    for match in matches(claim.rule, block.variables, block.body):
+    for match in matches((claim.rule,), block.variables, block.body):
         answer = nnf(match.formula("answer"))
         evidence = {**match.evidence, "theory": EMPTY}
         step = replace(claim, rule="theorem", before=block, after=answer, evidence=Entry(evidence, claim.path))
