@@ -108,7 +108,8 @@ def follow(
     ``before``: a piece and a parameter at which its solution is that at ``at`` (of this curve, or of one that this one
     goes on from): the first piece is linked to it. ``stops``: about where solutions meet, where steps get small.
     """
-    chain, coefficients = chain_of(arm), curve_powers(curve)
+    chain = chain_of(arm)
+    track = chain.track(curve_powers(curve))
     forwards = end > at
     pieces: list[Piece] = []
     here, near, step = at, list(start), FIRST
@@ -118,7 +119,7 @@ def follow(
         low, high = (here, far) if forwards else (far, here)
         if step < NEAR and any(abs(here - stop) < 2 * NEAR for stop in stops):
             break
-        piece = chain.piece(coefficients, low, high, near)
+        piece = chain.piece(track, low, high, near)
         last = (pieces[-1], here) if pieces else before
         if piece is None or (last is not None and not _same(*last, piece, here)):
             step /= 2

@@ -243,7 +243,7 @@ def test_the_producer_refuses_wide_steps(straight: JointPath) -> None:
 
     branch = straight.branches[0][0]
     chain = chain_of(ARM)
-    assert chain.piece(curve_powers(STRAIGHT), ZERO, ONE, branch.at(Fraction(1, 2))) is None
+    assert chain.piece(chain.track(curve_powers(STRAIGHT)), ZERO, ONE, branch.at(Fraction(1, 2))) is None
 
 
 def test_the_command() -> None:
