@@ -29,6 +29,9 @@ FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
 NEAR = Fraction(1, 1 << 12)
 """How near to a place where solutions meet branches are followed."""
 
+EASY = 0.65
+"""Steps get longer where images are smaller than this against their boxes: it is 1/2 and grows with the length."""
+
 ZERO, ONE = Fraction(0), Fraction(1)
 SPARE = Fraction(5, 4)
 """What links leave to a checker that computes with other roundings."""
@@ -125,7 +128,9 @@ def follow(
             step /= 2
             continue
         pieces.append(piece)
-        here, near, step = far, [float(v) for v in piece.at(far)], min(2 * step, FIRST)
+        here, near = far, [float(v) for v in piece.at(far)]
+        if all(r < EASY * size for r, size in zip(piece.inner, piece.radius, strict=True)):
+            step = min(2 * step, FIRST)
     return tuple(pieces if forwards else reversed(pieces))
 
 

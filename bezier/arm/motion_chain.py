@@ -31,6 +31,7 @@ from qe.exact.field import FieldElement
 
 BITS = 80
 NEWTON_STEPS, CLOSE = 30, 1e-13  # at most, and the last one that floats can tell from none
+BOXES = 2  # that are tried: where joints differ in scale, the image of one is a better guess
 SPARE = 1.25
 """How much smaller than the box its image has to be: more than the rounding of ``radius`` and ``inner`` to floats."""
 
@@ -190,14 +191,17 @@ class MotionChain:
         _, forwards, bend = track.behind(turns, first + rate * sigma, rate, middle + sigma)
         drift = [a - b for a, b in zip(_times(self._jacobian(along)[0], v), forwards, strict=True)]
         newton = _times(inverse, [a + sigma * b for a, b in zip(error, drift, strict=True)])
-        size = [2 * x.abs_upper() + arb(2) ** -36 for x in newton]
-        box = [arb(0, 1) * x for x in size]
-        whole = [a + b for a, b in zip(along, box, strict=True)]
-        jacobian, _, axes, columns = self._jacobian(whole)
-        near = inverse * jacobian
-        rest = [sum((((1 if i == j else 0) - near[i, j]) * box[j] for j in range(3)), arb(0)) for i in range(3)]
-        image = [b - a for a, b in zip(newton, rest, strict=True)]
-        if not all(SPARE * x.abs_upper() < r for x, r in zip(image, size, strict=True)):
+        image = newton
+        for _ in range(BOXES):
+            size = [2 * x.abs_upper() + arb(2) ** -36 for x in image]
+            box = [arb(0, 1) * x for x in size]
+            jacobian, _, axes, columns = self._jacobian([a + b for a, b in zip(along, box, strict=True)])
+            near = inverse * jacobian
+            rest = [sum((((1 if i == j else 0) - near[i, j]) * box[j] for j in range(3)), arb(0)) for i in range(3)]
+            image = [b - a for a, b in zip(newton, rest, strict=True)]
+            if all(SPARE * x.abs_upper() < r for x, r in zip(image, size, strict=True)):
+                break
+        else:
             return None
         velocity = _solved(near, _times(inverse, forwards))
         if velocity is None:

@@ -97,8 +97,14 @@ def moved(turns: bool, value: Dual, p: Vector) -> Vector:
     x, y, z = p
     if not turns:
         return [x, y, z + value]
-    s, c = value.sine_cosine()
-    return [c * x - s * y, s * x + c * y, z]
+    s, c = value.value.sin(), value.value.cos()
+
+    def turned(a: arb, b: arb) -> tuple[arb, arb]:
+        return c * a - s * b, s * a + c * b
+
+    rates = zip(x.slope, y.slope, value.slope, strict=True)
+    slopes = [turned(dx - rate * y.value, dy + rate * x.value) for dx, dy, rate in rates]
+    return [*map(Dual, turned(x.value, y.value), zip(*slopes, strict=True)), z]
 
 
 def krawczyk(
