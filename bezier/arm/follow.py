@@ -29,7 +29,7 @@ FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
 NEAR = Fraction(1, 1 << 12)
 """How near to a place where solutions meet branches are followed."""
 
-EASY = 0.65
+EASY = 0.58
 """Steps get longer where images are smaller than this against their boxes: it is 1/2 and grows with the length."""
 
 ZERO, ONE = Fraction(0), Fraction(1)
@@ -115,20 +115,20 @@ def follow(
     track = chain.track(curve_powers(curve))
     forwards = end > at
     pieces: list[Piece] = []
-    here, near, step = at, list(start), FIRST
+    here, step = at, FIRST
     while here != end and step >= LEAST:
         note()
         far = min(here + step, end) if forwards else max(here - step, end)
         low, high = (here, far) if forwards else (far, here)
         if step < NEAR and any(abs(here - stop) < 2 * NEAR for stop in stops):
             break
-        piece = chain.piece(track, low, high, near)
+        piece = chain.piece(track, low, high, pieces[-1].near((low + high) / 2) if pieces else start)
         last = (pieces[-1], here) if pieces else before
         if piece is None or (last is not None and not _same(*last, piece, here)):
             step /= 2
             continue
         pieces.append(piece)
-        here, near = far, [float(v) for v in piece.at(far)]
+        here = far
         if all(r < EASY * size for r, size in zip(piece.inner, piece.radius, strict=True)):
             step = min(2 * step, FIRST)
     return tuple(pieces if forwards else reversed(pieces))

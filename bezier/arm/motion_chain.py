@@ -32,7 +32,7 @@ from qe.exact.field import FieldElement
 BITS = 80
 NEWTON_STEPS, CLOSE = 30, 1e-13  # at most, and the last one that floats can tell from none
 BOXES = 2  # that are tried: where joints differ in scale, the image of one is a better guess
-SPARE = 1.25
+SPARE = 1.5
 """How much smaller than the box its image has to be: more than the rounding of ``radius`` and ``inner`` to floats."""
 
 Range = tuple[float, float]
