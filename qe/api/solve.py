@@ -50,7 +50,8 @@ def solve(
     start = time.monotonic()
     whole = limits_of(timeout, memory, progress, process)
     limits = whole.begun(start)
-    given, wanted = reading(formula, format, limits, total_division), arguments.names(variables, "variables")
+    wanted = arguments.names(variables, "variables")
+    given = reading(formula, format, limits, total_division, solved=wanted or ())
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
 
     def work(budgets: Budgets) -> Solutions:

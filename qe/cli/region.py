@@ -45,7 +45,7 @@ def solve(channel: Channel, request: Request) -> Reply:
     import qe.api.solve as api_solve
 
     start = time.perf_counter()
-    formula = read_formula(channel, request.source)
+    formula = read_formula(channel, request.source, solved=request.order or ())
     found = api_solve.solve(formula, request.order, timeout=request.timeout, progress=channel.event)
     files = {"certificate": certificate_text(found.region)} if request.certificate else {}
     if not request.json:
