@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from typing import TypeVar
 
@@ -41,13 +41,22 @@ def limits_of(settings: Limited) -> Limits:
 
 
 def reading(
-    formula: AnyFormula, format: str, limits: Limits, total_division: bool = False, *, reader: Reader = read_formula
+    formula: AnyFormula,
+    format: str,
+    limits: Limits,
+    total_division: bool = False,
+    *,
+    reader: Reader = read_formula,
+    solved: Sequence[str] = (),
 ) -> Formula:
-    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one, ``Unable`` for
-    a formula whose parts are shared so much that no method, all of which write it out, comes to an end."""
+    """The formula, to be ``solved`` for these, read under the limits where reading may take long.
+
+    Raises ``BudgetExceeded`` at one, ``Unable`` for a formula whose parts are shared so much that no method, all of
+    which write it out, comes to an end.
+    """
     found = read_under(limits, lambda: reader(formula, format, total_division), formula)
     refuse_shared(found)
-    note_doubts(formula, found, format)
+    note_doubts(formula, found, format, solved)
     return found
 
 

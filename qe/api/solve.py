@@ -40,7 +40,7 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[Questio
     """
     limits, wanted = limits_of(settings), arguments.names(variables, "variables")
     whole = replace(limits, start=None)
-    given = reading(formula, settings["format"], limits, settings["total_division"])
+    given = reading(formula, settings["format"], limits, settings["total_division"], solved=wanted or ())
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
 
     def work(budgets: Budgets) -> Solutions:

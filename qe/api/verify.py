@@ -109,7 +109,8 @@ def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
     """The answer with its own derivation as its certificate, evidence for each step found now and verified.
 
     Nothing is eliminated again: the steps are those that led to the answer, whether or not a check was asked for then.
-    Where a step has no accepted evidence, or ``timeout`` (seconds) is over, the answer has no certificate and the
+    Where a step has no accepted evidence, a decomposition of the question takes their place, as with ``check=True``.
+    Where that does not end, or ``timeout`` (seconds) is over, the answer has no certificate and the
     guarantee ``DERIVED``; ``unchecked_steps`` and ``reason`` say why. Raises ``Unable`` for what is no answer.
     """
     if answer.formula is None or answer.question is None:
@@ -123,10 +124,14 @@ def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
 
 
 def _proved(answer: Answer, budget: Budget) -> Answer:
-    from qe.proving.certificates import derived
+    from qe.formula.counting import without_root_atoms
+    from qe.formula.normal import rename_apart, without_clashes
+    from qe.proving.certificates import derived_or_decomposed
 
     assert answer.formula is not None and answer.question is not None
-    found = derived(answer.question, answer.log, answer.formula, Options(certify=True), budget)
+    question = rename_apart(without_root_atoms(without_clashes(answer.question)))
+    options = Options(certify=True)
+    found = derived_or_decomposed(answer.question, question, answer.log, answer.formula, options, budget)
     proof = replace(answer, certificate=found.certificate, unchecked_steps=found.unchecked)
     if found.certificate is None:
         return replace(proof, guarantee=Guarantee.DERIVED, reason=found.reason)

@@ -55,8 +55,10 @@ class Request:
         return {**self.settings, **order, "progress": channel.event, "check": self.certificate}
 
 
-def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False) -> Formula:
-    """The formula of a source; its size is the first thing to be known about the run.
+def read_formula(
+    channel: Channel, source: Source, *, is_sentence: bool = False, solved: Sequence[str] = ()
+) -> Formula:
+    """The formula of a source, to be ``solved`` for these; its size is the first thing to be known about the run.
 
     Raises ``InputError`` for free variables where a sentence is expected.
     """
@@ -68,7 +70,7 @@ def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False)
     if is_sentence and (free := formula.free):
         names = ", ".join(free) + glued(free, bound_variables(formula))
         raise InputError(f"{source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
-    note_doubts(source.text, formula, source.format.value)
+    note_doubts(source.text, formula, source.format.value, solved)
     size = features(formula)
     channel.fact(
         "formula",
