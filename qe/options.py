@@ -16,7 +16,7 @@ VERIFY_SECONDS = 60.0
 """The limit of a verification for which the caller gives none."""
 
 NOTE_SECONDS = 0.1
-"""Progress is told at most once in so many seconds."""
+"""Progress is reported at most once in so many seconds."""
 
 
 class Method(Enum):

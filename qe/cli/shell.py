@@ -63,7 +63,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     take_leading_minus(command)
     words = sys.argv[1:] if argv is None else argv
 
-    def told(status: str, message: str, code: int) -> int:
+    def reported(status: str, message: str, code: int) -> int:
         data = {"status": status, "message": " ".join(message.split()), "exit": code}
         lost = _put(data) if "--json" in words else None
         if lost is not None:
@@ -71,7 +71,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return fail(name, _PREFIX.get(status, "") + message, code)
 
     if misspelt := _misspelt(command, words):
-        return told("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
+        return reported("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
     before = _raising_at_termination()
     try:
         with _doubts_noted(name, wanted="--plain" not in words):
@@ -82,18 +82,18 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return int(code or OK)
     except typer.TyperException as error:
         message = error.format_message().replace("Value error, ", "").rstrip(".")
-        return told("input_error", f"{message} (see {name} --help)", BAD_INPUT)
+        return reported("input_error", f"{message} (see {name} --help)", BAD_INPUT)
     except QEError as error:
-        return told(*_failure(error))
+        return reported(*_failure(error))
     except (KeyboardInterrupt, typer.Abort):
-        return told("interrupted", "interrupted", INTERRUPTED)
+        return reported("interrupted", "interrupted", INTERRUPTED)
     except _Terminated:
-        return told("interrupted", "ended by a signal", TERMINATED)
+        return reported("interrupted", "ended by a signal", TERMINATED)
     except ImportError as error:
         absent = lacking(error)
         if absent is None:
             raise
-        return told("unable", str(absent), UNABLE)
+        return reported("unable", str(absent), UNABLE)
     except OSError as error:
         if error.filename is not None:
             raise

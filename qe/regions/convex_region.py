@@ -147,7 +147,7 @@ class ConvexRegion(Region):
         return super()._holds(values)
 
     def _under(self, given: Mapping[str, Number]) -> Formula:
-        """The conditions with rational values put in."""
+        """The conditions with rational values substituted."""
         return substituted(self._shadow.conditions, {n: q for n, v in given.items() if (q := _rational(v)) is not None})
 
     def _somewhere(self, conditions: Formula) -> dict[str, Number] | None:
