@@ -20,8 +20,8 @@ from qe.proof.entry import Entry, Json
 from qe.proof.step import Place
 from qe.simplify.simplify import simplify
 
-Evidence = Callable[[Formula, Formula, Context], Json | None]
-"""Evidence that two formulas have the same truth under a context, as the checker of "simplification" accepts it."""
+Evidence = Callable[[Formula, Formula, Context], tuple[str, Json] | None]
+"""A rule by whose checker two formulas have the same truth under a context, and the evidence that it accepts."""
 
 MOST_TRIED = 60
 """Steps that are tried for one simplification, at most."""
@@ -79,7 +79,7 @@ class Simplified:
             self.tried += 1
             found = self.evidence(before, after, used) if self.tried <= MOST_TRIED else None
             if found is not None:
-                self.steps.append(written("simplification", place, before, after, used, found))
+                self.steps.append(written(found[0], place, before, after, used, found[1]))
                 return changed
         return None
 
