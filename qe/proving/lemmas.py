@@ -10,6 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import lcm, prod
+from operator import ge
 
 from qe.certify.boolean import Theory
 from qe.certify.negation import negation, normal
@@ -22,7 +23,7 @@ from qe.exact.groebner import Basis, groebner_basis
 from qe.exact.groebner import Limits as BasisLimits
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import children, conjuncts, disjuncts
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
@@ -74,6 +75,7 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         lambda: _combinations(found, goals, limits.budget),
         lambda: _modulo(found, goals, limits.budget),
     ]
+    pending, used = [case for goal in goals for case in _alternatives(goal)], set[int]()
     for stage, search in enumerate(stages):
         count = len(found.lemmas)
         limits.budget.check("prove")
@@ -81,11 +83,17 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         if stage and count == len(found.lemmas):
             continue
         theory = replace(found.theory(limits), cases=FEW_CASES)
-        used = _used(theory, goals)
-        if used is not None:
+        pending = [case for case in pending if (lemmas := _used(theory, [case])) is None or used.update(lemmas)]
+        if not pending:
             return found.only(_needed(theory, goals, used))
-    used = _used(found.theory(limits), goals)
-    return None if used is None else found.only(used)
+    rest = _used(found.theory(limits), pending)
+    return None if rest is None else found.only(used | rest)
+
+
+def _alternatives(goal: Sequence[Formula]) -> list[Sequence[Formula]]:
+    """The goal with what may be wrong one alternative at a time: one that is refuted need not be so again."""
+    *known, last = [normal(f) for f in goal] or [TRUE]
+    return [(*known, case) for case in disjuncts(last)] if isinstance(last, Or) else [goal]
 
 
 def _is_hopeless(goal: Sequence[Formula]) -> bool:
@@ -312,10 +320,12 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
     for equation in [p for p, is_equation in polys.items() if is_equation]:
         basis = groebner_basis((equation,), variables=range(found.ring.size))
         alike: dict[Poly, list[tuple[Fraction, Poly]]] = {}
+        lead = basis.leads[0] if basis is not None else ()
         for p in polys:
             if basis is None or p == equation:
                 continue
-            scale, rest = basis.reduce(p)
+            reducible = any(all(map(ge, e, lead)) for e, _ in p.terms())
+            scale, rest = basis.reduce(p) if reducible else (1, p)
             unit, key = content_of(rest) if rest else (scale, rest)
             alike.setdefault(key, []).append((Fraction(unit, scale), p))
         for key, members in alike.items():

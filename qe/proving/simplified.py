@@ -53,9 +53,12 @@ class Simplified:
     def _inside(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
         if before == after:
             return current
-        found = self._at_once(place, before, after, current)
-        if found is not None:
-            return found
+        return self._at_once(place, before, after, current) or self._parted(place, before, after, current)
+
+    def _parted(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
+        """As ``_inside``, where all of it in one step has been tried: for a block that is as much as for its body."""
+        if before == after:
+            return current
         if isinstance(before, Exists | ForAll):
             return self._under(place, before, after, current)
         if isinstance(before, And | Or):
@@ -74,7 +77,10 @@ class Simplified:
     def _at_once(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
         """By one step, with as little as possible of what is known at its place."""
         facts, changed = replaced(current, place, before, after, self.known, Entry(None, "place"))
+        names = {*before.free, *after.free}
         context = tuple(f for f in facts if f.is_quantifier_free)
+        if not any(names & set(f.free) for f in context):
+            context = ()
         for used in ((), context) if context else ((),):
             self.tried += 1
             found = self.evidence(before, after, used) if self.tried <= MOST_TRIED else None
@@ -92,7 +98,9 @@ class Simplified:
             return None
         else:
             body = after
-        inner = self._inside((*place, 0), before.body, body, current)
+        inner = self._parted((*place, 0), before.body, body, current)
+        if inner is None and before.body != body and body is after:
+            inner = self._at_once((*place, 0), before.body, body, current)
         if inner is None:
             return None
         kept = type(before)(before.variables, body)
@@ -108,8 +116,8 @@ class Simplified:
         for k, part in enumerate(before.args):
             if part.is_quantifier_free or part in targets:
                 continue
-            alike = sorted(targets, key=lambda target, part=part: type(target) is not type(part))  # type: ignore[misc]
-            for target in (*alike, TRUE, FALSE):
+            alike = [f for f in targets if type(f) is type(part) and set(f.bound) & set(part.bound)]
+            for target in alike or (*targets, TRUE, FALSE):
                 mark = len(self.steps)
                 found = self._inside((*place, k), part, target, current)
                 if found is not None:
