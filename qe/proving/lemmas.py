@@ -83,7 +83,9 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         if stage and count == len(found.lemmas):
             continue
         theory = replace(found.theory(limits), cases=FEW_CASES)
-        pending = [case for case in pending if (lemmas := _used(theory, [case])) is None or used.update(lemmas)]
+        lemmas = [_used(theory, [case]) for case in pending]
+        used = used.union(*(some for some in lemmas if some is not None))
+        pending = [case for case, some in zip(pending, lemmas, strict=True) if some is None]
         if not pending:
             return found.only(_needed(theory, goals, used))
     rest = _used(found.theory(limits), pending)

@@ -15,6 +15,7 @@ from qe.certify.step import Context
 from qe.errors import CertificateRejected
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or
+from qe.formula.traverse import polynomials
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json
 from qe.proof.step import Place
@@ -23,8 +24,8 @@ from qe.simplify.simplify import simplify
 Evidence = Callable[[Formula, Formula, Context], tuple[str, Json] | None]
 """A rule by whose checker two formulas have the same truth under a context, and the evidence that it accepts."""
 
-MOST_TRIED = 60
-"""Steps that are tried for one simplification, at most."""
+MOST_TRIED, MOST_ALIKE = 60, 2
+"""Steps that are tried for one simplification, and quantified parts that one of them may have become, at most."""
 
 
 @dataclass(slots=True)
@@ -116,7 +117,10 @@ class Simplified:
         for k, part in enumerate(before.args):
             if part.is_quantifier_free or part in targets:
                 continue
+            about = set(polynomials(part))
+            near = {f: len(about.intersection(polynomials(f))) for f in targets}
             alike = [f for f in targets if type(f) is type(part) and set(f.bound) & set(part.bound)]
+            alike = sorted(alike, key=lambda f, near=near: -near[f])[:MOST_ALIKE]  # type: ignore[misc]
             for target in alike or (*targets, TRUE, FALSE):
                 mark = len(self.steps)
                 found = self._inside((*place, k), part, target, current)
