@@ -13,8 +13,7 @@ from math import lcm, prod
 from operator import ge
 
 from qe.certify.boolean import Theory
-from qe.certify.negation import negation, normal
-from qe.certify.renaming import shape
+from qe.certify.negation import normal
 from qe.certify.step import Limits
 from qe.elimination.search.linear_forms import is_square
 from qe.elimination.search.monomial_bounds import MonomialBounds
@@ -23,12 +22,13 @@ from qe.exact.groebner import Basis, groebner_basis
 from qe.exact.groebner import Limits as BasisLimits
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import children, conjuncts, disjuncts
+from qe.formula.syntax import FALSE, Atom, Formula, Or, Relation
+from qe.formula.traverse import conjuncts
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors
 from qe.proving.expansions import as_squares, ranges, shifted
+from qe.proving.goals import alternatives, is_hopeless, polynomials_outside
 from qe.proving.lemma_list import Lemmas, Term, content_of
 from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
@@ -40,26 +40,13 @@ FEW_CASES = 300
 """A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this."""
 
 
-def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
-    """The polynomials of comparisons that stand under no quantifier; whether one of them is an equation or not =."""
-    found: dict[Poly, bool] = {}
-    pending = list(formulas)
-    while pending:
-        formula = pending.pop()
-        if isinstance(formula, Atom):
-            found[formula.poly] = found.get(formula.poly, False) or formula.relation in (Relation.EQ, Relation.NE)
-        elif not isinstance(formula, Exists | ForAll):
-            pending += children(formula)
-    return dict(sorted(found.items(), key=lambda entry: poly_to_text(entry[0])))
-
-
 def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> Json | None:
     """Evidence with which each of the lists of formulas is refuted, or None where none is found.
 
     Raises ``BudgetExceeded``.
     """
     polys = polynomials_outside(f for goal in goals for f in goal)
-    if len(polys) > MOST_POLYNOMIALS or any(map(_is_hopeless, goals)):
+    if len(polys) > MOST_POLYNOMIALS or any(map(is_hopeless, goals)):
         return None
     found = Lemmas(ring)
     stages: list[Callable[[], None]] = [
@@ -75,7 +62,7 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         lambda: _combinations(found, goals, limits.budget),
         lambda: _modulo(found, goals, limits.budget),
     ]
-    pending, used = [case for goal in goals for case in _alternatives(goal)], set[int]()
+    pending, used = [case for goal in goals for case in alternatives(goal)], set[int]()
     for stage, search in enumerate(stages):
         count = len(found.lemmas)
         limits.budget.check("prove")
@@ -90,34 +77,6 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
             return found.only(_needed(theory, goals, used))
     rest = _used(found.theory(limits), pending)
     return None if rest is None else found.only(used | rest)
-
-
-def _alternatives(goal: Sequence[Formula]) -> list[Sequence[Formula]]:
-    """The goal with what may be wrong one alternative at a time: one that is refuted need not be so again."""
-    *known, last = [normal(f) for f in goal] or [TRUE]
-    return [(*known, case) for case in disjuncts(last)] if isinstance(last, Or) else [goal]
-
-
-def _is_hopeless(goal: Sequence[Formula]) -> bool:
-    """Whether an alternative of what may be wrong is a quantified part of which nothing else in the goal speaks."""
-    *known, last = [normal(f) for f in goal] or [FALSE]
-    cases = disjuncts(last)
-    alone = [_name(f) for f in cases if isinstance(f, Exists | ForAll)]
-    if not alone:
-        return False
-    pending, seen = [*known, *(f for f in cases if not isinstance(f, Exists | ForAll))], set[object]()
-    while pending:
-        part = pending.pop()
-        if isinstance(part, Exists | ForAll):
-            seen.add(_name(part))
-        elif not part.is_quantifier_free:
-            pending += children(part)
-    return any(name not in seen and alone.count(name) == 1 for name in alone)
-
-
-def _name(formula: Exists | ForAll) -> object:
-    """What a quantified part has in common with its negation, as a search sees it."""
-    return shape(negation(formula) if isinstance(formula, ForAll) else formula)
 
 
 def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) -> list[int]:
