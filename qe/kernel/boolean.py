@@ -17,6 +17,7 @@ from qe.errors import Unable
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
+from qe.formula.traverse import conjuncts
 from qe.kernel.negation import negation, normal
 from qe.kernel.renaming import shape
 from qe.kernel.signs import ANY, NEGATIVE, POSITIVE, ZERO, Domains, Lemma, read_lemma, read_polynomials
@@ -65,8 +66,11 @@ def equivalence(left: Formula, right: Formula, context: Iterable[Formula]) -> li
 def _without(left: Formula, right: Formula) -> Goal:
     """``left`` and not ``right``. A common conjunct need not be refuted, of common disjuncts no case need be looked at.
 
-    C and A and not (C and B) iff C and A and not B; (C or A) and not (C or B) iff A and not C and not B.
+    C and A and not (C and B) iff C and A and not B; (C or A) and not (C or B) iff A and not C and not B;
+    C and A and not ((C and B) or D) iff C and A and not (B or D).
     """
+    if isinstance(left, And) and isinstance(right, Or):
+        return left, negation(disj(conj(f for f in conjuncts(case) if f not in left.args) for case in right.args))
     if isinstance(left, And) and isinstance(right, And):
         return left, negation(conj(f for f in right.args if f not in left.args))
     if isinstance(left, Or) and isinstance(right, Or):

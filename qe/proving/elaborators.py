@@ -238,9 +238,9 @@ def _simplified_inside(
 ) -> Formula:
     """The formula ``current`` with one part made simpler, also under quantifiers."""
 
-    def evidence(one: Formula, other: Formula, used: Context) -> Json | None:
+    def evidence(one: Formula, other: Formula, used: Context) -> tuple[str, Json] | None:
         try:
-            return {"theory": _theory(equivalence(one, other, used), claim, limits)}
+            return "simplification", {"theory": _theory(equivalence(one, other, used), claim, limits)}
         except CertificateRejected:
             return None
 

@@ -50,7 +50,7 @@ SIMPLIFYING = (
 
 CRITICAL = ("critical values", "critical values of a universal block")
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
-THEOREM, REDUNDANT = "theorem", "redundant part"
+THEOREM, REDUNDANT, QUANTIFIERS = "theorem", "redundant part", "quantifiers"
 STEPS = "steps"
 ELABORATED = (
     "disjuncts with equations apart",
@@ -188,8 +188,8 @@ class Prover:
     def _simplified_inside(self, place: Place, step: Step, current: Formula) -> Formula | None:
         """The formula after a simplification, as a step for each place inside; None where no evidence is found."""
 
-        def evidence(before: Formula, after: Formula, used: Context) -> Json | None:
-            return self._tried("simplification", Step("simplification", before, after), used, {})
+        def evidence(before: Formula, after: Formula, used: Context) -> tuple[str, Json] | None:
+            return self.own(Step("simplification", before, after), used)
 
         return Simplified(evidence, self.known, self.steps).inside(place, step.before, step.after, current)
 
@@ -234,6 +234,10 @@ class Prover:
             elaborated = self._elaborated(step, context, evidence)
             if elaborated is not None or step.rule not in RULES:
                 return elaborated
+        if step.rule in SIMPLIFYING and not step.before.is_quantifier_free:
+            moved_only = self._tried(QUANTIFIERS, step, (), {})
+            if moved_only is not None:
+                return QUANTIFIERS, moved_only
         rule = _PRIMITIVES.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
         own = self._tried(rule, step, context, evidence)
         return None if own is None else (rule, own)
