@@ -10,15 +10,16 @@ from qe.exact.algebraic import real_roots
 from qe.exact.digits import digits
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
-from qe.kernel.boolean import Theory
-from qe.kernel.signs import Identity, Lemma, read_lemma, sign_bit
+from qe.kernel.boolean import Goal, Theory
+from qe.kernel.signs import Identity, Lemma, read_lemma, read_polynomials, sign_bit
 from qe.kernel.step import Limits
 from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proving.refutation import cases
 
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
 
-EMPTY: Json = {"polynomials": [], "lemmas": []}
+EMPTY: Json = {"polynomials": [], "lemmas": [], "cases": []}
 
 
 @dataclass(slots=True)
@@ -73,7 +74,16 @@ class Lemmas:
         listed: list[Json] = [poly_to_text(polys[i]) for i in numbers]
         for lemma in chosen:
             read_lemma(Entry(lemma, "lemma"), polys, self.ring)
-        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen]}
+        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen], "cases": []}
+
+
+def with_cases(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
+    """The lemmas with the cases by which they refute the goals; None where they do not."""
+    assert isinstance(evidence, dict)
+    names, lemmas = Entry(evidence, "theory").fields("polynomials", "lemmas", optional=("cases",))[:2]
+    polys = read_polynomials(names, ring)
+    found = cases(Theory(polys, tuple(read_lemma(e, polys, ring) for e in lemmas.items()), limits), goals)
+    return None if found is None else {**evidence, "cases": found}
 
 
 def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:

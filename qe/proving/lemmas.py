@@ -19,9 +19,9 @@ from qe.exact.groebner import Basis, groebner_basis
 from qe.exact.groebner import Limits as BasisLimits
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import FALSE, Atom, Formula, Or, Relation
+from qe.formula.syntax import FALSE, Atom, Or, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.boolean import Theory
+from qe.kernel.boolean import Goal, Theory
 from qe.kernel.negation import normal
 from qe.kernel.step import Limits
 from qe.options import Budget
@@ -29,7 +29,8 @@ from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors
 from qe.proving.expansions import as_squares, ranges, shifted
 from qe.proving.goals import alternatives, is_hopeless, polynomials_outside
-from qe.proving.lemma_list import Lemmas, Term, content_of
+from qe.proving.lemma_list import Lemmas, Term, content_of, with_cases
+from qe.proving.refutation import NODES, refutation
 from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
 
@@ -40,7 +41,7 @@ FEW_CASES = 300
 """A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this."""
 
 
-def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> Json | None:
+def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
     """Evidence with which each of the lists of formulas is refuted, or None where none is found.
 
     Raises ``BudgetExceeded``.
@@ -69,43 +70,43 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         search()
         if stage and count == len(found.lemmas):
             continue
-        theory = replace(found.theory(limits), cases=FEW_CASES)
-        lemmas = [_used(theory, [case]) for case in pending]
+        theory = found.theory(limits)
+        lemmas = [_used(theory, [case], FEW_CASES) for case in pending]
         used = used.union(*(some for some in lemmas if some is not None))
         pending = [case for case, some in zip(pending, lemmas, strict=True) if some is None]
         if not pending:
-            return found.only(_needed(theory, goals, used))
-    rest = _used(found.theory(limits), pending)
-    return None if rest is None else found.only(used | rest)
+            return with_cases(found.only(_needed(theory, goals, used)), goals, ring, limits)
+    rest = _used(found.theory(limits), pending, NODES)
+    return None if rest is None else with_cases(found.only(used | rest), goals, ring, limits)
 
 
-def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) -> list[int]:
+def _needed(theory: Theory, goals: Sequence[Goal], used: set[int]) -> list[int]:
     """Those of the lemmas without which the refutation fails, as far as it is cheap to find out."""
     kept = sorted(used)
     for k in kept if len(kept) <= MOST_TRIED else ():
         left = [i for i in kept if i != k]
-        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals) is not None:
+        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals, FEW_CASES) is not None:
             kept = left
     return kept
 
 
-def _used(theory: Theory, goals: Sequence[Sequence[Formula]]) -> set[int] | None:
-    """The lemmas by which all goals are refuted; None where they are not, or not in the theory's number of cases."""
+def _used(theory: Theory, goals: Sequence[Goal], most: int) -> set[int] | None:
+    """The lemmas by which all goals are refuted; None where they are not, or not in so many cases."""
     used: set[int] = set()
     for goal in goals:
         try:
-            refutation = theory.used(goal)
+            found = refutation(theory, goal, most)
         except BudgetExceeded:
             raise
         except Unable:  # too many cases; further lemmas may settle most of them at once
             return None
-        if refutation is None:
+        if found is None:
             return None
-        used |= refutation
+        used |= found.used
     return used
 
 
-def _bounds(found: Lemmas, goals: Sequence[Sequence[Formula]], limits: Limits) -> None:
+def _bounds(found: Lemmas, goals: Sequence[Goal], limits: Limits) -> None:
     """Linear combinations of comparisons, and of squares, by which the goals fail, one of a disjunction at a time."""
     bounds = MonomialBounds(found.ring)
     for goal in goals:
@@ -160,7 +161,7 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
         as_squares(found, poly)
 
 
-def _values(found: Lemmas, goals: Sequence[Sequence[Formula]], polys: dict[Poly, bool]) -> None:
+def _values(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
     """Values of variables, which equations beside all else give, put into the others, all at once."""
     parts = [part for goal in goals for f in goal for part in conjuncts(normal(f))]
     lines: dict[int, Poly] = {}
@@ -299,7 +300,7 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
                 found.identity([*terms, (-1, ((quotient, 1), (equation, 1)))])
 
 
-def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -> None:
+def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     """What stands on one side of an equivalence as a combination of the equations on the other, up to a multiple of an
     inequality there. Where these have a Gröbner basis, it says at once what is none."""
     if len(goals) != 2 or min(map(len, goals)) < 2:
@@ -335,7 +336,7 @@ def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
     return content_of(rest)[1] if rest else rest
 
 
-def _modulo(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -> None:
+def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     """Polynomials of disjunctions that are the same, up to a factor, where all equations beside them hold, and those
     that vanish there."""
     sides = [conjuncts(normal(goal[-2])) for goal in goals if len(goal) > 1]
