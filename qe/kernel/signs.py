@@ -58,16 +58,17 @@ class Identity:
     def cut(self, domains: Domains) -> list[int]:
         """The polynomials from which impossible signs were taken away; one without signs is a contradiction.
 
-        A term may be positive where another may be negative, and conversely; it may be 0 where the others may cancel
-        each other, or all vanish.
+        A term may be positive where another may be negative, and conversely; it may be 0 where two others may cancel
+        each other, or all others vanish.
         """
         values = [_product(*term, domains) for term in self.terms]
         positive, negative = (sum(bool(v & sign) for v in values) for sign in (POSITIVE, NEGATIVE))
-        strict = sum(not v & ZERO for v in values)
+        active, strict = sum(v != ZERO for v in values), sum(not v & ZERO for v in values)
         changed = []
         for (unit, powers), value in zip(self.terms, values, strict=True):
             up, down = positive > bool(value & POSITIVE), negative > bool(value & NEGATIVE)
-            allowed = POSITIVE * down | NEGATIVE * up | ZERO * ((up and down) or strict <= (not value & ZERO))
+            cancelling = up and down and active - (value != ZERO) > 1
+            allowed = POSITIVE * down | NEGATIVE * up | ZERO * (cancelling or strict <= (not value & ZERO))
             if not value & ~allowed:
                 continue
             for k, (i, odd) in enumerate(powers):
@@ -78,8 +79,8 @@ class Identity:
                     domains[i] = kept
                     changed.append(i)
             if not powers:  # a number, of a sign that the others exclude
-                domains[self.polynomials[0]] = 0
-                return [self.polynomials[0]]
+                domains[0] = 0
+                return [*changed, 0]
         return changed
 
 

@@ -40,6 +40,8 @@ def recent(certificate: Certificate, budget: Budget) -> Certificate:
         return certificate
     found = _Conversion(budget).data(payload, "payload")
     assert isinstance(found, dict)
+    for theory in _without_cases(found):  # by propagation alone, if at all
+        theory["cases"] = []
     return replace(certificate, payload=found)
 
 
@@ -62,10 +64,13 @@ def _mentions(data: Json, rules: Container[str]) -> bool:
 
 def _is_former(data: Json) -> bool:
     """Whether a step is of a former rule, or its lemmas are without cases."""
-    if _mentions(data, {*ELABORATORS, *BY_SIGNS}):
-        return True
-    theories = (node["theory"] for node in _objects(data) if "theory" in node)
-    return any(isinstance(theory, dict) and "cases" not in theory for theory in theories)
+    return _mentions(data, {*ELABORATORS, *BY_SIGNS}) or any(_without_cases(data))
+
+
+def _without_cases(data: Json) -> Iterator[dict[str, Json]]:
+    """Lemmas of a former release."""
+    theories = (node.get("theory") for node in _objects(data))
+    yield from (theory for theory in theories if isinstance(theory, dict) and "cases" not in theory)
 
 
 class _Conversion:
@@ -116,7 +121,7 @@ class _Conversion:
         if not isinstance(theory, dict) or "cases" in theory:
             return found
         cased = with_cases(theory, check.obligations(claim, context), self.ring, self.limits)
-        return {**found, "evidence": {**evidence, "theory": {**theory, "cases": []} if cased is None else cased}}
+        return found if cased is None else {**found, "evidence": {**evidence, "theory": cased}}
 
     def step(self, entry: Entry, elaborator: Elaborator) -> dict[str, Json]:
         """A step of a former rule, made of steps of today."""

@@ -8,11 +8,11 @@ from qe.certify.registry import RULES
 from qe.certify.verify import check_certificate
 from qe.exact.ring import Ring
 from qe.formula.build import convert
-from qe.formula.syntax import Formula
+from qe.formula.syntax import TRUE, Formula
 from qe.io.text import read
-from qe.kernel.boolean import Theory, equivalence
+from qe.kernel.boolean import ByLemmas, equivalence
 from qe.kernel.derivation import limits_of
-from qe.kernel.signs import read_lemma, read_polynomials
+from qe.kernel.step import Claim
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 from qe.proving.goals import is_hopeless, polynomials_outside
@@ -30,10 +30,9 @@ def lemmas(*goals: list[Formula]) -> list[dict[str, Json]] | None:
     evidence = refuting(goals, RING, LIMITS)
     if evidence is None:
         return None
-    names, listed = Entry(evidence, "evidence").fields("polynomials", "lemmas")
-    polys = read_polynomials(names, RING)
-    theory = Theory(polys, tuple(read_lemma(item, polys, RING) for item in listed.items()), LIMITS)
-    assert all(theory.used(g) is not None for g in goals)
+    ByLemmas(lambda claim, context: list(map(tuple, goals)))(
+        Claim("signs", TRUE, TRUE, RING, Entry({"theory": evidence}, "evidence"), "step"), (), LIMITS
+    )
     assert isinstance(evidence, dict)
     return evidence["lemmas"]  # type: ignore[return-value]
 
