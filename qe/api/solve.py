@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[Question]) -> Solutions:
     """All real solutions, case by case, as Mathematica's ``Reduce`` writes them (cylindrical decomposition).
 
-    ``variables``: those to solve for, in their order; they come after all others, so that each is expressed in terms of the
-    parameters and of the variables before it. Without them all free variables are meant, in the order of the formula.
+    ``variables``: those to solve for, in their order; they come after all others, so that each is expressed in terms of
+    the parameters and of the variables before it. Without them all free variables are meant, in the formula's order.
     Quantifiers are eliminated first.
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """

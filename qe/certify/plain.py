@@ -1192,7 +1192,7 @@ class Theory:
     """Lemmas about the signs of polynomials, each proved, and a search for signs that respect them."""
 
     def __init__(self, value: Any, names: Sequence[str], where: str) -> None:
-        texts, lemmas = fields(value, where, "polynomials lemmas")
+        texts, lemmas = fields(value, where, f"polynomials lemmas{' cases' * ('cases' in value)}")[:2]
         self.polys = [primitive(t, names, where) for t in _members(texts, where)]
         normal: list[Any] = [comparison(p, ">") for p in self.polys]
         self.keys = [("p", f[1]) for f in normal]
@@ -1346,9 +1346,9 @@ def _impossible(f: Formula, signs: dict[Any, Signs]) -> bool:
     return not signs.get(_condition(f)[0], ALL) & _condition(f)[1]
 
 
-_BLOCK = {"simplification", "standard simplification", "boundary apart", "Groebner basis of the equations"}
-_BLOCK |= {"case split on factors", "vanishing sum of squares split", "signs by sums of squares"}
-_BLOCK |= {"multiple of an equation subtracted"}
+_BLOCK = {"signs", "simplification", "standard simplification", "boundary apart", "Groebner basis of the equations"}
+_BLOCK |= {"case split on factors", "vanishing sum of squares split", "multiple of an equation subtracted"}
+_BLOCK |= {"signs by sums of squares"}
 
 
 def _check_derivation(payload: Any) -> None:

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 
 from qe.kernel.alternatives import check_alternatives
 from qe.kernel.block import check_block
-from qe.kernel.boolean_search import check_boolean_search
 from qe.kernel.covering import check_covering
 from qe.kernel.degree_shift import check_degree_shift
 from qe.kernel.elimination_set import check_elimination_set
@@ -34,14 +33,7 @@ PRIMITIVES: Mapping[str, Check] = {
     "convex": check_sentence,
     "point or multipliers": check_sentence,
     # signs
-    "simplification": check_block,
-    "standard simplification": check_block,
-    "case split on factors": check_block,
-    "boundary apart": check_block,
-    "signs by sums of squares": check_block,
-    "Groebner basis of the equations": check_block,
-    "multiple of an equation subtracted": check_block,
-    "Boolean search": check_boolean_search,
+    "signs": check_block,
     # quantifiers
     "quantifiers": check_quantifiers,
     "renaming": check_quantifiers,
@@ -68,7 +60,6 @@ PRIMITIVES: Mapping[str, Check] = {
     "open block": check_open_block,
     # theorems
     "theorem": check_theorem,
-    # nothing makes these any more; older certificates have them
+    # nothing makes this any more; older certificates have it
     "only asked to be no root": check_only_nonzero,
-    "vanishing sum of squares split": check_block,
 }

@@ -238,9 +238,9 @@ def _simplified_inside(
 ) -> Formula:
     """The formula ``current`` with one part made simpler, also under quantifiers."""
 
-    def evidence(one: Formula, other: Formula, used: Context) -> Json | None:
+    def evidence(one: Formula, other: Formula, used: Context) -> tuple[str, Json] | None:
         try:
-            return {"theory": _theory(equivalence(one, other, used), claim, limits)}
+            return "signs", {"theory": _theory(equivalence(one, other, used), claim, limits)}
         except CertificateRejected:
             return None
 
@@ -289,9 +289,9 @@ def _solved(equation: Atom, name: str) -> Json:
 def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
     """A step that signs of polynomials prove."""
     empty = Entry({"theory": EMPTY}, claim.path)
-    step = replace(claim, rule="simplification", before=before, after=after, evidence=empty)
+    step = replace(claim, rule="signs", before=before, after=after, evidence=empty)
     theory = _theory(block_goals(step, context), claim, limits)
-    return written("simplification", (), before, after, context, {"theory": theory})
+    return written("signs", (), before, after, context, {"theory": theory})
 
 
 def terms(

@@ -310,6 +310,10 @@ FORMER = {
 """Before and after a step of a rule that nothing makes any more, filled alike; older certificates have them."""
 
 PRIMITIVES: dict[str, tuple[str, ...]] = {
+    "signs": (
+        *("simplification", "standard simplification", "case split on factors", "boundary apart"),
+        *("signs by sums of squares", "Groebner basis of the equations", "multiple of an equation subtracted"),
+    ),
     "quantifiers": ("square of a variable alone", "two variables exchanged", "value that is taken"),
     "steps": ("homogeneous scaling", "linear form as a variable", "witness in the parameters"),
     "converse": ("two variables exchanged",),

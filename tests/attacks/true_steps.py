@@ -6,6 +6,7 @@ import random
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 from unittest.mock import patch
 
 from qe.engine.run import answered
@@ -50,28 +51,26 @@ class TrueStep:
 
 @dataclass(frozen=True, slots=True)
 class Answered:
-    """A question, its answer, the steps between them, the rules of ``unchecked`` ones (which need no evidence where a
-    witness proves the answer), and the methods."""
+    """A question, its answer, the steps between them, the ``rules`` that fired and those of ``unchecked`` steps (which
+    need no evidence where a witness proves the answer), and the methods."""
 
     question: Formula
     answer: Formula
     steps: tuple[TrueStep, ...]
+    rules: frozenset[str]
     unchecked: tuple[str, ...]
     methods: tuple[str, ...]
     is_witnessed: bool
-
-    @property
-    def rules(self) -> set[str]:
-        """What fired."""
-        return {step.rule for step in self.steps} | set(self.unchecked)
 
 
 def answered_with_steps(question: Formula, options: Options) -> Answered:
     """The engine's answer. Raises ``Unable`` where it has none within ``SECONDS``."""
     found = answered(question, options, Budget(SECONDS))
-    taken, unchecked = proved(question, found.log, found.formula, options)
+    with producing() as produced:
+        taken, unchecked = proved(question, found.log, found.formula, options)
     methods = tuple(entry.method for entry in found.log.entries if isinstance(entry, Choice))
-    return Answered(question, found.formula, taken, unchecked, methods, found.witness is not None)
+    rules = frozenset(produced) | {step.rule for step in taken}
+    return Answered(question, found.formula, taken, rules, unchecked, methods, found.witness is not None)
 
 
 def taken_alone(question: Formula, rule: str) -> tuple[TrueStep, ...]:
@@ -118,6 +117,24 @@ def elaborated() -> Iterator[list[TrueStep]]:
         yield taken
 
 
+@contextmanager
+def producing() -> Iterator[set[str]]:
+    """The rules of the steps for which provers look for evidence meanwhile."""
+    rules: set[str] = set()
+    own, tried = Prover.own, Prover._tried
+
+    def noted(prover: Prover, step: Step, context: tuple[Formula, ...]) -> tuple[str, Json] | None:
+        rules.add(step.rule)
+        return own(prover, step, context)
+
+    def noted_inside(prover: Prover, rule: str, step: Step, *rest: Any) -> Json | None:
+        rules.add(step.rule)
+        return tried(prover, rule, step, *rest)
+
+    with patch.object(Prover, "own", noted), patch.object(Prover, "_tried", noted_inside):
+        yield rules
+
+
 def former_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
     """The evidence that a step had as one of its own rule, seen from what was made of it; None where it was made
     otherwise."""
@@ -144,7 +161,7 @@ def former_step(rng: random.Random, rule: str) -> TrueStep:
     step = Step(rule, moved(before, ring), moved(after, ring))
     found = Prover(ring, Options(), Budget(TO_PROVE)).evidence(step, ())
     assert found is not None, step
-    return TrueStep(rule, ring, step.before, step.after, (), found[1])
+    return TrueStep(found[0], ring, step.before, step.after, (), found[1])
 
 
 def _read(listed: list[Json], ring: Ring) -> Iterator[TrueStep]:

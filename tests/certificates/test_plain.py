@@ -168,9 +168,9 @@ def test_texts_nested_without_end_are_no_certificates(tmp_path: Path) -> None:
 def _derivation(after: Any, lemmas: list[Any]) -> str:
     order = ["a", "x"]
     start = ["exists", ["x"], ["and", ["atom", "x", ">"], ["atom", "a*x", ">"]]]
-    theory = {"polynomials": ["x", "a", "a*x"], "lemmas": lemmas}
+    theory = {"polynomials": ["x", "a", "a*x"], "lemmas": lemmas, "cases": []}
     step = {
-        "rule": "simplification",
+        "rule": "signs",
         "at": [],
         "before": start,
         "after": after,

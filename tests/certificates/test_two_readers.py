@@ -81,13 +81,13 @@ def test_what_both_refuse() -> None:
 @pytest.mark.parametrize("listed", [["x"], ["x", "x"], ["2*x"], ["-x"], ["1"]])
 def test_polynomials_of_lemmas_have_one_spelling_and_are_listed_once(listed: list[str]) -> None:
     step = {
-        "rule": "simplification",
+        "rule": "signs",
         "at": [],
         "context": [],
         "before": ["atom", "x", ">"],
         "after": ["atom", "x", ">"],
     }
-    evidence = {"theory": {"polynomials": listed, "lemmas": []}}
+    evidence = {"theory": {"polynomials": listed, "lemmas": [], "cases": []}}
     payload = {"order": ["x"], "start": step["before"], "steps": [{**step, "evidence": evidence}]}
     whole = {"format": "bezier-qe certificate", "version": 2, "kind": "derivation"}
     text = text_of({**whole, "payload": {**payload, "answer": step["after"]}})

@@ -16,7 +16,7 @@ def by(values: list[str], parts: list[Any], equation: Any = None, variable: str 
 
 
 def contradiction(before: str) -> list[Any]:
-    return [step("simplification", before, "false", {"theory": NO_LEMMAS})]
+    return [step("signs", before, "false", {"theory": NO_LEMMAS})]
 
 
 SIGNS = [contradiction(f"ex a. a >= 0 and a <= 0 and a {sign} 0") for sign in "<>"]

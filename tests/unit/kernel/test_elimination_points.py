@@ -129,7 +129,7 @@ LOW = "x < root(1, x^2 - 100)"
 def test_a_variable_left_in_a_root_atom_is_not_taken_for_one_outside() -> None:
     """x < -10 and ex x (x < -10 and x = 5) is false; the x left in the root atom is not the one outside."""
     inner = f"ex x. {LOW} and x = 5"
-    nested = step("simplification", LOW, "true", {"theory": NO_LEMMAS}, given=LOW)
+    nested = step("signs", LOW, "true", {"theory": NO_LEMMAS}, given=LOW)
     wrong = step(RULE, inner, "true", by(point(["-5", "1"]), parts=[[nested]]), given=LOW)
     evidence = by(point(["-5", "1"]), parts=[[nested]])
     assert "root atoms" in objection(RULE, inner, "true", evidence, given=LOW)

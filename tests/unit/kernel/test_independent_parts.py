@@ -67,7 +67,7 @@ def test_other_parts(before: str, after: str, pieces: Any, reason: str) -> None:
 
 
 def test_one_part_that_is_false_is_enough() -> None:
-    never = step("simplification", "ex x. x > a and x < a", "false", {"theory": NO_LEMMAS})
+    never = step("signs", "ex x. x > a and x < a", "false", {"theory": NO_LEMMAS})
     before = "ex x, y. x > a and x < a and y > b and c > 0"
     assert objection(RULE, before, "false", {"pieces": [piece("x > a and x < a", never)]}) == ""
     assert objection(RULE, before, "c > 0", {"pieces": [piece("x > a and x < a", never)]})
@@ -76,7 +76,7 @@ def test_one_part_that_is_false_is_enough() -> None:
 def test_only_what_was_known_is_taken_away_again() -> None:
     """What is not known stays in the answer of a part, also inside a disjunction."""
     before = "ex x. c > 0 and (x > a or c > 0)"
-    one = step("simplification", "ex x. c > 0 and (x > a or c > 0)", "c > 0", {"theory": NO_LEMMAS})
+    one = step("signs", "ex x. c > 0 and (x > a or c > 0)", "c > 0", {"theory": NO_LEMMAS})
     assert objection(RULE, before, "c > 0", {"pieces": [piece("x > a or c > 0", one, together=True)]}) == ""
 
 

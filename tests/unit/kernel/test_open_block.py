@@ -36,7 +36,7 @@ def by(pieces: list[str], parts: list[Any], steps: list[Any], variable: str = "x
 
 
 def cases(before: str, after: str) -> dict[str, Any]:
-    return step("simplification", before, after, {"theory": NO_LEMMAS})
+    return step("signs", before, after, {"theory": NO_LEMMAS})
 
 
 @pytest.mark.parametrize(

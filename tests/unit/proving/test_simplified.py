@@ -11,7 +11,6 @@ from qe.certify.verify import check_certificate
 from qe.exact.ring import Ring
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.io.text import read
-from qe.kernel.boolean import equivalence
 from qe.kernel.derivation import check_derivation
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
@@ -82,16 +81,6 @@ def test_what_is_proved_of_a_simplification_is_accepted_from_scratch(first, seco
 def test_what_both_sides_share_hides_no_difference(before, after):
     for left, right in ((before, after), (after, before)):
         assert certificate(over(left), over(right)) is None
-
-
-def test_common_parts_are_left_out_of_what_is_refuted():
-    shared, p, q = over("x > 0"), over("y > 0"), over("z > 0")
-    assert equivalence(shared & p, shared & p, ()) == []
-    first, second = equivalence(shared & p, shared & q, ())
-    assert first == (shared & p, over("z <= 0")) and second == (shared & q, over("y <= 0"))
-    first, second = equivalence(shared | p, shared | q, ())
-    assert first == (p, over("x <= 0 and z <= 0")) and second == (q, over("x <= 0 and y <= 0"))
-    assert equivalence(shared & p, shared, ()) == [(shared & p, over("x <= 0")), (shared, over("x <= 0 or y <= 0"))]
 
 
 def test_a_step_that_was_accepted_is_known_by_all_that_it_depends_on():

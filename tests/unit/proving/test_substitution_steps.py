@@ -30,7 +30,7 @@ def simplification(before: Formula, after: Formula) -> Json:
     evidence = refuting(([before, neg(after)], [after, neg(before)]), ring, LIMITS)
     if evidence is None:
         raise CertificateRejected("simplification", "none found")
-    return written("simplification", (), before, after, (), evidence)
+    return written("signs", (), before, after, (), evidence)
 
 
 def eliminated(text: str) -> tuple[Exists, Formula, list[Json], Ring]:
@@ -56,7 +56,7 @@ def eliminated(text: str) -> tuple[Exists, Formula, list[Json], Ring]:
 )
 def test_steps_lead_from_the_block_to_the_answer(text: str, rules: list[str]) -> None:
     block, answer, made, ring = eliminated(text)
-    assert [step["rule"] for step in made if step["rule"] != "simplification"] == rules  # type: ignore[index,call-overload]
+    assert [step["rule"] for step in made if step["rule"] != "signs"] == rules  # type: ignore[index,call-overload]
     assert LIMITS.replay(Entry(made, "steps"), block, (), ring) == answer
     for left_out in range(len(made)):
         try:

@@ -7,7 +7,7 @@ from itertools import product
 from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.kernel.unit_propagation import Clauses
+from qe.proving.unit_propagation import Clauses
 
 SIZE = 5
 LITERALS = st.integers(1, SIZE).flatmap(lambda v: st.sampled_from((v, -v)))
