@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import qe.api.decide as api_decide
@@ -176,7 +177,7 @@ class _Question:
     @staticmethod
     def of(given: Condition, timeout: float | None = None) -> _Question:
         """The conditions together, read within the time."""
-        return read_under(Limits(arguments.seconds(timeout)), lambda: _Question._of(given), *_conditions(given))
+        return read_under(Limits(arguments.seconds(timeout)), partial(_Question._of, given), *_conditions(given))
 
     @staticmethod
     def _of(given: Condition) -> _Question:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from importlib import import_module
+from functools import partial
 from typing import TypeVar
 
 from qe.api.input import AnyFormula, note_doubts, read_formula
@@ -12,7 +12,8 @@ from qe.api.settings import Limited
 from qe.formula.syntax import Formula
 from qe.formula.weight import may_block, text_may_block
 from qe.io.sharing import refuse_shared
-from qe.processes.execution import Budgets, Limits, perform
+from qe.options import Budget
+from qe.processes.execution import Limits, Work, perform
 
 Result = TypeVar("Result")
 Reader = Callable[[AnyFormula, str, bool], Formula]
@@ -20,17 +21,10 @@ Reader = Callable[[AnyFormula, str, bool], Formula]
 LIMITED_POWER = 12
 """The greatest exponent in what is read here although a limit is to hold: higher powers of sums are long."""
 
-MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
-"""The parts of the engine that nearly every problem with a quantifier needs."""
 
-
-def performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits, *, at_once: bool = False) -> Result:
-    """The work on a formula, in a process of its own from the start (``at_once``) also where a limit must hold."""
-    at_once = at_once or limits.timeout is not None or may_block(formula)
-    if at_once:
-        for part in MOSTLY_NEEDED:  # loaded here once, and not again and again in every worker
-            import_module(part)
-    return perform(work, limits, at_once=at_once)
+def performed(work: Work[Result], formula: Formula, limits: Limits, *, at_once: bool = False) -> Result:
+    """The work on a formula, in another process from the start (``at_once``) also where a limit must hold."""
+    return perform(work, limits, at_once=at_once or limits.timeout is not None or may_block(formula))
 
 
 def limits_of(settings: Limited) -> Limits:
@@ -45,17 +39,21 @@ def reading(
 ) -> Formula:
     """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one, ``Unable`` for
     a formula whose parts are shared so much that no method, all of which write it out, comes to an end."""
-    found = read_under(limits, lambda: reader(formula, format, total_division), formula)
+    found = read_under(limits, partial(reader, formula, format, total_division), formula)
     refuse_shared(found)
     note_doubts(formula, found, format)
     return found
 
 
 def read_under(limits: Limits, read: Callable[[], Result], *given: object) -> Result:
-    """What ``read`` makes of what was given, under the limits where that may take long."""
+    """What ``read``, which can be pickled, makes of what was given, under the limits where that may take long."""
     limited = limits.timeout is not None or limits.memory is not None
     if any(_may_take_long(part, limited) for part in given):
-        return perform(lambda budgets: read(), limits, at_once=True)
+        return perform(partial(_unbudgeted, read), limits, at_once=True)
+    return read()
+
+
+def _unbudgeted(read: Callable[[], Result], budget: Budget) -> Result:
     return read()
 
 

@@ -28,7 +28,9 @@ from typer.main import get_command
 from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
 from qe.extras import lacking
-from qe.processes.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
+from qe.processes.channel import Channel, Known, WorkerDied, WorkerStopped
+from qe.processes.execution import GRACE, Limits, run
+from qe.processes.portable import portable, rebuilt
 from qe.progress import Event
 
 T = TypeVar("T")
@@ -295,15 +297,23 @@ def limited(
     memory: int | None,
     plain: bool,
     lines: bool = False,
+    at_once: bool = True,
 ) -> T:
-    """Do the work in a worker under hard limits, with a progress display; ``lines``: also where there is no terminal.
+    """Do the work under hard limits, with a progress display; ``lines``: also where there is no terminal. Without
+    limits, and unless a single operation may take long from the start (``at_once``), it begins in this process.
 
     The time limit is the user's, for the whole command: what start-up has taken of it is gone.
     """
     grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE, Known()
+    at_once = at_once or timeout is not None
     with Display(wanted=not plain, lines=lines) as display:
-        work = partial(_with_doubts, work)
-        done = run(work, timeout=timeout, memory=memory, progress=display, known=known, grace=grace)
+        limits = Limits(timeout, memory, display)
+        try:
+            done = run(partial(_with_doubts, work), limits, at_once=at_once, grace=grace, known=known)
+        except (QEError, OSError):
+            raise
+        except Exception as error:
+            raise rebuilt(portable(error)) from error
     if NOTE in known.facts:
         warnings.warn(str(known.facts[NOTE]), DoubtfulInput, stacklevel=2)
     return done

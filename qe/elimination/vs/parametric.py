@@ -66,7 +66,7 @@ class ParametricWitness:
         if missing:
             raise InputError(f"parameters: a value for {missing[0]} expected")
         limits = Limits(seconds(timeout), process=flag(process, "process"))
-        return perform(lambda budgets: self._at(given, budgets()), limits, at_once=timeout is not None)
+        return perform(partial(self._at, given), limits, at_once=timeout is not None)
 
     def _at(self, given: dict[str, Number], budget: Budget) -> dict[str, Number]:
         budget.check("guard")
