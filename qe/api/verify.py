@@ -45,8 +45,8 @@ def verify(
     certificate that needs rules of the expert ring (``Certificate.trusts`` names them) is rejected at ``core``.
 
     Large certificates, and all that were read from text, are checked in a process of their own, which is killed at the
-    limit. Past it, and where the certificate asks for numbers out of reach, the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no
-    certificate and for a limit that is not positive.
+    limit. Past it, and where the certificate asks for numbers out of reach, the verdict is neither accepted nor
+    ``decided``. Raises ``InputError`` for what is no certificate and for a limit that is not positive.
     """
     if not isinstance(certificate, Certificate):
         return checked(certificate)  # which says what was expected

@@ -1,7 +1,7 @@
 """The command ``qe``: eliminate, decide, region, solve, minimize, check, export-proof, convert, smt, prompt.
 
-Every command that takes long or has limits works in a process that can be killed. Answers go to stdout and nothing else does;
-an error is one line on stderr. Exit status as in ``qe.cli.shell``.
+Every command that takes long or has limits works in a process that can be killed. Answers go to stdout and nothing
+else does; an error is one line on stderr. Exit status as in ``qe.cli.shell``.
 """
 
 from __future__ import annotations
