@@ -25,7 +25,7 @@ from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_to_sympy, to_sympy
 from qe.io.sympy_numbers import number_to_sympy
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 
 if TYPE_CHECKING:
     import sympy

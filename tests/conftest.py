@@ -13,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from qe.processes import execution
+from qe.processes.limits import Limits
 from tests.waiting import limit
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -55,7 +56,7 @@ def work_stays_here(request: pytest.FixtureRequest) -> Iterator[None]:
     """
     may_move = execution._may_move
 
-    def near(limits: execution.Limits, deadline: float, outer: Any) -> bool:
+    def near(limits: Limits, deadline: float, outer: Any) -> bool:
         is_near = limits.memory is not None or (limits.timeout is not None and limits.timeout < FAR)
         return is_near and may_move(limits, deadline, outer)
 

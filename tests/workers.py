@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
-import pkgutil
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
+from importlib import import_module
 
 from qe.processes.channel import Channel
-from qe.processes.execution import IDLE, Limits, run
+from qe.processes.execution import run
+from qe.processes.limits import Limits
+from qe.processes.worker import IDLE
 
 
 def replace_in_worker(place: str, value: object) -> None:
@@ -19,10 +21,10 @@ def replace_in_worker(place: str, value: object) -> None:
 
 
 def _replaced(place: str, value: object, channel: Channel) -> None:
-    holder, _, name = place.rpartition(".")
-    resolved = pkgutil.resolve_name(holder)
-    getattr(resolved, name)  # it is there
-    setattr(resolved, name, value)
+    module, _, name = place.rpartition(".")
+    holder = import_module(module)
+    getattr(holder, name)  # it is there
+    setattr(holder, name, value)
 
 
 def children(pid: int | None = None) -> set[int]:

@@ -29,7 +29,8 @@ from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.formula.syntax import Formula
 from qe.processes.channel import Channel, Known
-from qe.processes.execution import Limits, run
+from qe.processes.execution import run
+from qe.processes.limits import Limits
 from qe.proof.certificate import Certificate
 
 Found = TypeVar("Found")

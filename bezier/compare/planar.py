@@ -23,7 +23,8 @@ from bezier.problem import Problem
 from qe.errors import InternalError
 from qe.formula.syntax import Formula
 from qe.processes.channel import Channel
-from qe.processes.execution import Limits, run
+from qe.processes.execution import run
+from qe.processes.limits import Limits
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,8 @@ from bezier.plans import Begun, Clock, Plan
 from bezier.problem import Problem
 from qe.errors import BudgetExceeded
 from qe.options import Budget
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 
 T = TypeVar("T")
 

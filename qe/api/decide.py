@@ -20,7 +20,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.syntax import Formula
 from qe.formula.traverse import bound_variables, ring_of
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.answer import Answer
 from qe.spelling import glued
 

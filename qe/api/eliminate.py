@@ -16,7 +16,7 @@ from qe.api.settings import Elimination, Order, ProvedQuestion, Search, with_set
 from qe.errors import InputError, Unable
 from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.partial import Partial

@@ -13,7 +13,8 @@ from qe.formula.syntax import Formula
 from qe.formula.weight import may_block, text_may_block
 from qe.io.sharing import refuse_shared
 from qe.options import Budget
-from qe.processes.execution import Limits, Work, perform
+from qe.processes.execution import Work, perform
+from qe.processes.limits import Limits
 
 Result = TypeVar("Result")
 Reader = Callable[[AnyFormula, str, bool], Formula]

@@ -7,7 +7,7 @@ from functools import partial
 
 from qe.options import Budget, Method
 from qe.processes.channel import Channel
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.processes.racing import first
 from qe.proof.answer import Answer, Status
 

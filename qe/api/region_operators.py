@@ -27,7 +27,8 @@ from qe.formula.syntax import Constant, Formula, Relation
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.options import Budget, Options
-from qe.processes.execution import Limits, Work
+from qe.processes.execution import Work
+from qe.processes.limits import Limits
 from qe.proof.multipliers import OptimumStatus
 from qe.regions import planar, spatial, topology
 from qe.regions.build import described

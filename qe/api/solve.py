@@ -17,7 +17,7 @@ from qe.formula.normal import without_clashes
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
 from qe.proving import certificates

@@ -11,7 +11,8 @@ from qe.certify.verify import verify as kernel_verdict
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.formula.syntax import Formula
 from qe.options import VERIFY_SECONDS, Budget, Options
-from qe.processes.execution import Limits, perform, run
+from qe.processes.execution import perform, run
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Labelled

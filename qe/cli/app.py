@@ -22,7 +22,6 @@ from qe.cli.options import REPORT, Json, checked, command
 from qe.cli.shell import check_writable, enter, examples, limited, remaining, write_file
 from qe.cli.source import ProofFormat, no_file, read_source
 from qe.cli.work import Reply, Request
-from qe.formula.weight import text_may_block
 from qe.io.formats import READABLE, Format
 from qe.options import VERIFY_SECONDS
 
@@ -194,7 +193,7 @@ def convert(formula: Formula, format: InputFormat = None, output: Output = Forma
     limits = checked(settings)
     source = read_source(formula, format)
     converted = partial(work.convert, source=source, output=output)
-    return deliver(limited(converted, plain=True, at_once=text_may_block(source.text), **limits), {})
+    return deliver(limited(converted, plain=True, text=source.text, **limits), {})
 
 
 @command(app, Limited, "Run an SMT-LIB script as a solver.", "qe smt problem.smt2 --timeout 60")
@@ -249,10 +248,8 @@ def answered(
     if timeout is not None:  # the checks inside the engine can end the work in order
         settings["timeout"] = remaining(timeout)
     request = Request(source=text, settings=settings, certificate=certificate is not None, json=given["json"])
-    long = text_may_block(text.text)
-    reply = limited(
-        partial(work, request=request), timeout=timeout, memory=memory, plain=given["plain"], at_once=long
-    )
+    worked = partial(work, request=request)
+    reply = limited(worked, timeout=timeout, memory=memory, plain=given["plain"], text=text.text)
     return deliver(reply, files, explain=explain)
 
 

@@ -17,7 +17,8 @@ from qe.io.smtlib_parser import Expression
 from qe.io.smtlib_script import Script
 from qe.io.total import Fill, Total
 from qe.options import Budget
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 
 MOST_PARTS = 300
 """Parts of a script up to which it is read in this process where no limit must hold."""

@@ -29,7 +29,8 @@ from qe.formula.normal import nnf, prenex, rename_apart, without_clashes
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.io.names import names_in
 from qe.options import Budget, Options
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import moved

@@ -26,7 +26,8 @@ from qe.groebner.evidence import solutions_certificate
 from qe.groebner.segment import Segment
 from qe.groebner.writing import system_to_html, system_to_latex
 from qe.processes.channel import Channel
-from qe.processes.execution import Limits, run
+from qe.processes.execution import run
+from qe.processes.limits import Limits
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Json
 

@@ -26,7 +26,8 @@ from qe.optimization.global_optimum import GlobalOptimum, level_set, number_cond
 from qe.optimization.minimisers import minimisers, points
 from qe.optimization.values import Goal
 from qe.options import Budget, Options
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate

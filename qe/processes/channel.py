@@ -10,7 +10,7 @@ from typing import Any
 
 from qe.errors import BudgetExceeded, Unable
 from qe.options import Budget, Handover
-from qe.progress import Event
+from qe.progress import Event, Listener
 
 KEPT = "result so far"
 """The fact under which a question tells what is its result should a limit end it."""
@@ -26,10 +26,18 @@ class Known:
     phases: dict[str, Event] = field(default_factory=dict)
     facts: dict[str, object] = field(default_factory=dict)
 
-    def add(self, event: Event) -> None:
-        """Note an event; phases keep the order in which they were last active."""
-        self.phases.pop(event.phase, None)
-        self.phases[event.phase] = event
+    def take(self, message: Message, progress: Listener) -> bool:
+        """Note a message of the work; whether it was news on the way, not the outcome."""
+        match message:
+            case "event", Event() as event:
+                self.phases.pop(event.phase, None)  # they keep the order in which they were last active
+                self.phases[event.phase] = event
+                progress(event)
+            case "fact", (str(name), value):
+                self.facts[name] = value
+            case _:
+                return False
+        return True
 
     def kept(self) -> list[Any]:
         """The result so far, if there is one."""

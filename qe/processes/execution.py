@@ -19,17 +19,14 @@ import sys
 import time
 from collections.abc import Callable
 from contextvars import ContextVar
-from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from qe.errors import BudgetExceeded, Unable
 from qe.options import Budget, Handover
 from qe.processes.channel import Channel, Known, Message, WorkerStopped
-from qe.progress import Event, Listener, silent
-
-if TYPE_CHECKING:  # loaded when the first one is needed
-    from qe.processes.worker import Worker
+from qe.processes.limits import Limits
+from qe.progress import Listener
 
 T = TypeVar("T")
 Work = Callable[[Budget], T]
@@ -47,37 +44,6 @@ SWITCH = "QE_PROCESS"
 OUTER: ContextVar[Handover | float | None] = ContextVar("OUTER", default=None)
 """Of the question that is being worked on: how it moves while it is here; when its limit ends it in a worker (of
 ``time.monotonic``; infinity: none does). None outside of all questions."""
-
-
-IDLE: list[Worker] = []
-"""The workers of this process that wait for a question: they are kept, since it takes long to start one."""
-
-
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """``timeout``: seconds for one call; ``memory``: MiB; ``progress``: is told every event, in the caller's process.
-
-    ``process``: whether other processes may be used; without them ``timeout`` is only checked between steps, and
-    ``memory`` not at all. ``start``: when the time began to run (None: it begins with the work).
-    """
-
-    timeout: float | None = None
-    memory: int | None = None
-    progress: Listener = silent
-    process: bool = True
-    start: float | None = None
-
-    def begun(self, start: float) -> Limits:
-        """The same limits for a call that began at ``start`` (of ``time.monotonic``)."""
-        return replace(self, start=start)
-
-    def shared(self, share: float) -> Limits:
-        """The same limits with a part of the time."""
-        return self if self.timeout is None else replace(self, timeout=self.timeout * share)
-
-    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        """A listener stays behind: it belongs to this process."""
-        return Limits, (self.timeout, self.memory, silent, self.process)
 
 
 class _Moves(BaseException):
@@ -164,7 +130,7 @@ def _done_here(
     """The work in this process, from which it may move."""
 
     def take(message: Message) -> None:
-        note(known, message, progress)
+        known.take(message, progress)
 
     token = None if handover is None else OUTER.set(handover)
     try:
@@ -178,30 +144,22 @@ def _done_here(
             OUTER.reset(token)
 
 
-def note(known: Known, message: Message, progress: Listener) -> bool:
-    """Note a message of the work; whether it was news on the way, not the outcome."""
-    match message:
-        case "event", Event() as event:
-            known.add(event)
-            progress(event)
-        case "fact", (str(name), value):
-            known.facts[name] = value
-        case _:
-            return False
-    return True
-
-
 def _handover() -> Handover:
     """What gives work up that begins now, once it has taken long in a process whose modules are loaded."""
-    patience, loaded = HERE if IDLE else COLD, len(sys.modules)
+    begin, loaded = time.monotonic(), len(sys.modules)
 
     def move() -> None:
-        nonlocal loaded
-        if len(sys.modules) == loaded:
-            raise _Moves(handover)
-        loaded, handover.due = len(sys.modules), time.monotonic() + patience
+        nonlocal begin, loaded
+        from qe.processes.worker import IDLE
 
-    handover = Handover(time.monotonic() + patience, move)
+        now = time.monotonic()
+        if len(sys.modules) > loaded:
+            begin, loaded = now, len(sys.modules)
+        handover.due = begin + (HERE if IDLE else COLD)
+        if now >= handover.due:
+            raise _Moves(handover)
+
+    handover = Handover(begin + HERE, move)
     return handover
 
 

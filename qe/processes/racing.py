@@ -12,8 +12,8 @@ from typing import TypeVar
 from qe.errors import QEError, Unable
 from qe.options import lost
 from qe.processes.channel import Channel, Known, Message
-from qe.processes.execution import GRACE, Limits, leave, note
-from qe.processes.portable import portable
+from qe.processes.execution import GRACE, leave
+from qe.processes.limits import Limits
 
 T = TypeVar("T")
 Name = TypeVar("Name")
@@ -47,11 +47,11 @@ def first(
                 news.put((name, message))
             return is_news
 
+        outcome = None
         try:
             outcome = worker.outcome(take, deadline + GRACE)
-        except Exception as error:  # noqa: BLE001  # it cannot be read: raised where the outcome is waited for
-            outcome = "error", portable(error)
-        news.put((name, outcome))
+        finally:
+            news.put((name, outcome))
 
     try:
         for name, work in works.items():
@@ -63,7 +63,7 @@ def first(
         while running:
             name, message = news.get()
             known = Known()
-            if message is not None and note(known, message, limits.progress):
+            if message is not None and known.take(message, limits.progress):
                 for value in known.kept():
                     kept(value)
                 continue

@@ -62,9 +62,7 @@ def _answer(work: bytes, channel: Channel, memory: int | None, questions: Binary
     except BaseException as error:  # noqa: BLE001  # whatever it is, it is sent
         data = pickle.dumps(("error", portable(error)))
         is_fit = isinstance(error, QEError)  # after any other, modules may be half loaded
-    if not is_fit:
-        _send(home, ("unfit", None))
-    _write(home, data)
+    _write(home, data + pickle.dumps(is_fit))
 
 
 @contextlib.contextmanager

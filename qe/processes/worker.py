@@ -22,12 +22,15 @@ from collections.abc import Callable
 
 from qe.errors import BudgetExceeded, Unable
 from qe.processes.channel import Known, Message, WorkerDied, WorkerStopped
-from qe.processes.execution import IDLE, Limits, note
+from qe.processes.limits import Limits
 from qe.processes.portable import portable, rebuilt
 
 START = "import sys; sys.path[:] = sys.argv[1:]; from qe.processes.service import serve; serve()"
 MOST_IDLE = 4
 """Workers that are kept; more of them run only while as many threads ask at once."""
+
+IDLE: list[Worker] = []
+"""The workers of this process that wait for a question: they are kept, since it takes long to start one."""
 
 
 class Worker:
@@ -52,34 +55,36 @@ class Worker:
         self.process.stdin.flush()
 
     def outcome(self, take: Callable[[Message], bool], until: float) -> Message | None:
-        """The first message that ``take`` does not take; None where the process ended before, by ``until`` at last."""
-        timer = None
-        if until < math.inf:
-            seconds = min(max(0.0, until - time.monotonic()), threading.TIMEOUT_MAX)
-            timer = threading.Timer(seconds, self._kill_late)
-            timer.daemon = True
-            timer.start()
+        """The first message that ``take`` does not take; None where the process ended before, by ``until`` at last.
+
+        The worker is free afterwards; it is gone where ``take`` raises, or what was sent cannot be read.
+        """
         assert self.process.stdout is not None
+        timer = threading.Timer(min(max(0.0, until - time.monotonic()), threading.TIMEOUT_MAX), self._kill_late)
+        timer.daemon = True
+        self.is_fit = False
         try:
-            while True:
-                message: Message = pickle.load(self.process.stdout)
-                if message[0] == "unfit":
-                    self.is_fit = False
-                elif not take(message):
-                    return message
+            if until < math.inf:
+                timer.start()
+            message: Message = pickle.load(self.process.stdout)
+            while take(message):
+                message = pickle.load(self.process.stdout)
+            self.is_fit = pickle.load(self.process.stdout)
+            return message
         except (EOFError, pickle.UnpicklingError):
             self.process.wait()
             return None
         finally:
-            if timer is not None:
+            if until < math.inf:
                 timer.cancel()
                 timer.join()
+            self._release()
 
     def _kill_late(self) -> None:
         self.is_late = True
         self.process.kill()
 
-    def release(self) -> None:
+    def _release(self) -> None:
         """It waits for the next question, or ends where it cannot or need not."""
         if self.is_usable and len(IDLE) < MOST_IDLE:
             IDLE.append(self)
@@ -123,33 +128,29 @@ def begun(work: bytes, limits: Limits, deadline: float) -> Worker:
             worker, is_new = IDLE.pop(), False
         except IndexError:
             worker, is_new = Worker(), True
+        is_sent = False
         try:
             if is_new or worker.is_usable:
                 worker.send(question)
+                is_sent = True
                 return worker
         except OSError:  # it was killed while it waited
             if is_new:
                 raise
-        except BaseException:
-            worker.end()
-            raise
-        worker.end()
+        finally:
+            if not is_sent:
+                worker.end()
 
 
 def asked(work: bytes, limits: Limits, deadline: float, grace: float, known: Known) -> object:
     """What a worker makes of the work; see ``qe.processes.execution.run``."""
     worker = begun(work, limits, deadline)
-    try:
-        message = worker.outcome(lambda message: note(known, message, limits.progress), deadline + grace)
-    except BaseException:
-        worker.end()
-        raise
+    message = worker.outcome(lambda message: known.take(message, limits.progress), deadline + grace)
     return settled(worker, message, limits, known)
 
 
 def settled(worker: Worker, message: Message | None, limits: Limits, known: Known) -> object:
-    """The result in the outcome of a question; the worker is free again. Raises its error, or what ended the worker."""
-    worker.release()
+    """The result in the outcome of a question. Raises its error, or what ended the worker."""
     if message is None:
         raise _ended(worker, limits, known)
     kind, value = message
@@ -166,9 +167,14 @@ def _ended(worker: Worker, limits: Limits, known: Known) -> Unable:
     if worker.is_late:
         return WorkerStopped(f"time limit of {limits.timeout:.4g} s reached", limit="time", known=known)
     status = worker.process.returncode
-    name = signal.Signals(-status).name if status < 0 else ""
-    if limits.memory is not None and name in ("SIGABRT", "SIGSEGV", "SIGBUS", "SIGKILL"):
+    number = max(-status, 0)
+    if limits.memory is not None and number in _numbers("SIGABRT", "SIGSEGV", "SIGBUS", "SIGKILL"):
         return WorkerStopped(f"memory limit of {limits.memory} MiB reached", limit="memory", known=known)
-    how = f"signal {-status} ({signal.strsignal(-status)})" if name else f"status {status}"
-    hint = "; out of memory is the likely cause" if name in ("SIGABRT", "SIGKILL") else ""
-    return WorkerDied(f"the worker process ended by {how}{hint}", signal_number=max(-status, 0), known=known)
+    how = f"signal {number} ({signal.strsignal(number)})" if number else f"status {status}"
+    hint = "; out of memory is the likely cause" if number in _numbers("SIGABRT", "SIGKILL") else ""
+    return WorkerDied(f"the worker process ended by {how}{hint}", signal_number=number, known=known)
+
+
+def _numbers(*names: str) -> set[int]:
+    """The numbers of those signals that this system has."""
+    return {getattr(signal, name) for name in names if hasattr(signal, name)}

@@ -29,7 +29,8 @@ from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import Formula
 from qe.options import Budget
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.cells_json import CellEvidence

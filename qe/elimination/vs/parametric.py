@@ -26,7 +26,8 @@ from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
 from qe.options import Budget
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.proof import answer as solution
 from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify

@@ -19,8 +19,9 @@ import qe
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.formula.weight import may_block, text_may_block
 from qe.options import Budget
-from qe.processes.execution import COLD, HERE, IDLE, SWITCH, Limits, perform
-from qe.processes.worker import end_idle
+from qe.processes.execution import COLD, HERE, SWITCH, perform
+from qe.processes.limits import Limits
+from qe.processes.worker import IDLE, end_idle
 from qe.progress import Event
 from tests.conftest import ROOT
 from tests.waiting import ending
@@ -231,7 +232,8 @@ import os, qe, signal, sys
 from functools import partial
 sys.path.insert(0, os.getcwd())
 from tests.unit.processes import test_execution as t
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 signal.pthread_sigmask(signal.SIG_UNBLOCK, {{signal.SIGINT}})  # whoever started this, and
 signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever was ignored there (nohup make test &)
 print("go", flush=True)

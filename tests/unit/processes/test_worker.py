@@ -20,8 +20,9 @@ from qe.formula.build import atom, exists
 from qe.formula.syntax import Relation
 from qe.processes import worker
 from qe.processes.channel import Channel, Known, WorkerDied, WorkerStopped
-from qe.processes.execution import IDLE, Limits, run
-from qe.processes.worker import MOST_IDLE, end_idle
+from qe.processes.execution import run
+from qe.processes.limits import Limits
+from qe.processes.worker import IDLE, MOST_IDLE, end_idle
 from qe.progress import Event
 from tests.conftest import ROOT
 from tests.waiting import ending
@@ -138,6 +139,28 @@ def unpicklable(channel: Channel) -> object:
 def test_an_unpicklable_result_is_an_internal_error() -> None:
     with pytest.raises(InternalError):
         run(unpicklable, Limits())
+
+
+def unreadable(channel: Channel) -> Unreadable:
+    return Unreadable()
+
+
+class Unreadable:
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        return only_in_a_worker, (os.getpid(),)
+
+
+def only_in_a_worker(pid: int) -> str:
+    assert pid == os.getpid()
+    return "early"
+
+
+def test_a_result_that_cannot_be_read_here_ends_its_worker() -> None:
+    """The rest of it was still in the pipe, and the next question got that for its answer."""
+    before = run(process, Limits())
+    with pytest.raises(AssertionError):
+        run(unreadable, Limits())
+    assert run(process, Limits()) != before
 
 
 def test_work_that_cannot_be_sent_stays_here() -> None:
@@ -353,8 +376,7 @@ def test_it_is_not_the_main_module_of_the_caller_that_is_run_again(tmp_path) -> 
 
 
 def in_another(code: str) -> subprocess.Popen[str]:
-    names = "from qe.processes.execution import Limits, run\nfrom tests.unit.processes import test_worker as t"
-    text = f"import os, sys\nsys.path.insert(0, os.getcwd())\n{names}\n{code}"
+    text = f"import os, sys\nsys.path.insert(0, os.getcwd())\nfrom tests.unit.processes import test_worker as t\n{code}"
     return subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, cwd=ROOT)
 
 
@@ -363,7 +385,7 @@ SAYS = "say = lambda event: print(event.done, flush=True)\n"
 
 @pytest.mark.parametrize("work", ["says_its_name", "says_its_name_and_is_stuck", "asks_another"])
 def test_workers_end_with_the_process_that_asks_however_it_ends(work: str) -> None:
-    with ending(in_another(f"{SAYS}run(t.{work}, Limits(progress=say))")) as parent:
+    with ending(in_another(f"{SAYS}t.run(t.{work}, t.Limits(progress=say))")) as parent:
         assert parent.stdout is not None
         pid = int(parent.stdout.readline())
         time.sleep(0.1)
@@ -382,7 +404,7 @@ def asks_another(channel: Channel) -> None:
 
 
 def test_workers_that_wait_end_with_the_process() -> None:
-    with ending(in_another("print(run(t.process, Limits()), flush=True)")) as parent:
+    with ending(in_another("print(t.run(t.process, t.Limits()), flush=True)")) as parent:
         assert parent.stdout is not None
         pid = int(parent.stdout.readline())
         assert parent.wait(60) == 0 and is_gone(pid, 1)
@@ -390,11 +412,11 @@ def test_workers_that_wait_end_with_the_process() -> None:
 
 def test_a_forked_process_has_workers_of_its_own() -> None:
     code = """
-mine = run(t.process, Limits())
+mine = t.run(t.process, t.Limits())
 child = os.fork()
 if not child:
-    os._exit(int(run(t.process, Limits()) == mine))
-print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), run(t.process, Limits()) == mine, flush=True)
+    os._exit(int(t.run(t.process, t.Limits()) == mine))
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), t.run(t.process, t.Limits()) == mine, flush=True)
 """
     with ending(in_another(code)) as parent:
         assert parent.communicate(timeout=60)[0] == "0 True\n"

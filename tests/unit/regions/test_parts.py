@@ -16,7 +16,7 @@ from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.io.text import read
 from qe.options import Budget
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.regions import build, operators, picture, planar, sketch, slices, solutions, turnable, volume, walk
 from qe.regions.region import Region
 from qe.regions.upright import isolated, uprights
