@@ -17,7 +17,7 @@ from qe.processes.worker import IDLE
 
 def replace_in_worker(place: str, value: object) -> None:
     """In the worker that gets the next question, this name stands for ``value``, which can be pickled."""
-    run(partial(_replaced, place, value), Limits())
+    run(partial(_replaced, place, value), Limits(memory=1 << 20))  # limited: it moves in all tests
 
 
 def _replaced(place: str, value: object, channel: Channel) -> None:

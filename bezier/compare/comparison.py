@@ -31,6 +31,7 @@ from qe.formula.syntax import Formula
 from qe.processes.channel import Channel, Known
 from qe.processes.execution import run
 from qe.processes.limits import Limits
+from qe.processes.worker import end_idle
 from qe.proof.certificate import Certificate
 
 Found = TypeVar("Found")
@@ -289,6 +290,8 @@ def _region(asked: Statement, plane: Plane, clock: Clock, seconds: float) -> Pla
             raise
         answer = cast("qe.Answer | None", known.facts.get("answer"))
         return PlanarRegion(str(asked), cast("qe.Region", found), None, f"area not found: {error}", answer)
+    finally:
+        end_idle()  # the processor time of a worker is known when it has ended
     unit = plane.unit_area
     assert area.high is not None and unit.high is not None
     answer = cast("qe.Answer | None", known.facts.get("answer"))

@@ -83,7 +83,7 @@ def run(
 
     ``at_once``: a single operation may take long from the start. The worker is killed ``grace`` seconds after the time
     limit. Its memory is its address space, the interpreter included. Progress is heard here. No process is left behind
-    at work, whatever happens. Work and result are pickled; work that cannot be stays here, as if ``process`` was off.
+    at work, whatever happens. Work and result are pickled; work that cannot be stays here where nothing is limited.
 
     Raises ``WorkerStopped`` at a limit, and every ``QEError`` that the work itself raised; from a worker any other
     exception arrives as ``InternalError``, and ``WorkerDied`` says that a signal ended it.
@@ -110,6 +110,8 @@ def run(
 
         sent = packed(work)
         if sent is None:
+            if limits.timeout is not None or limits.memory is not None:
+                raise Unable("the question cannot be sent to another process, where limits hold (process=False: here)")
             return here(None)
         found: T = asked(sent, limits, deadline, grace, known)  # type: ignore[assignment]
         return found

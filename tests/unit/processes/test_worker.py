@@ -163,8 +163,11 @@ def test_a_result_that_cannot_be_read_here_ends_its_worker() -> None:
     assert run(process, Limits()) != before
 
 
-def test_work_that_cannot_be_sent_stays_here() -> None:
-    assert run(lambda channel: os.getpid(), Limits(timeout=60)) == os.getpid()
+def test_work_that_cannot_be_sent_stays_here_where_nothing_is_limited() -> None:
+    assert run(lambda channel: os.getpid(), Limits()) == os.getpid()
+    for limits in (Limits(timeout=60), Limits(memory=4000)):
+        with pytest.raises(Unable, match="cannot be sent"):
+            run(lambda channel: os.getpid(), limits)
 
 
 def stuck(channel: Channel) -> None:
