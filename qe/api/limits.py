@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from functools import partial
+from importlib import import_module
 from typing import TypeVar
 
 from qe.api.input import AnyFormula, note_doubts, read_formula
@@ -22,10 +23,17 @@ Reader = Callable[[AnyFormula, str, bool], Formula]
 LIMITED_POWER = 12
 """The greatest exponent in what is read here although a limit is to hold: higher powers of sums are long."""
 
+MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
+"""The parts of the engine that nearly every problem with a quantifier needs."""
+
 
 def performed(work: Work[Result], formula: Formula, limits: Limits, *, at_once: bool = False) -> Result:
     """The work on a formula, in another process from the start (``at_once``) also where a limit must hold."""
-    return perform(work, limits, at_once=at_once or limits.timeout is not None or may_block(formula))
+    at_once = at_once or limits.timeout is not None or may_block(formula)
+    if at_once:
+        for part in MOSTLY_NEEDED:  # what is loaded here is loaded by workers before their time begins to run
+            import_module(part)
+    return perform(work, limits, at_once=at_once)
 
 
 def limits_of(settings: Limited) -> Limits:

@@ -40,7 +40,7 @@ def first(
     running: dict[Name, Worker] = {}
     found: dict[Name, T | QEError] = {}
 
-    def follow(name: Name, worker: Worker) -> None:
+    def follow(name: Name, worker: Worker, until: float) -> None:
         def take(message: Message) -> bool:
             is_news = message[0] in ("event", "fact")
             if is_news:
@@ -49,7 +49,7 @@ def first(
 
         outcome = None
         try:
-            outcome = worker.outcome(take, deadline + GRACE)
+            outcome = worker.outcome(take, until)
         finally:
             news.put((name, outcome))
 
@@ -58,8 +58,8 @@ def first(
             sent = packed(work)
             if sent is None:
                 raise Unable(f"{name}: it cannot be sent to another process")
-            running[name] = worker = begun(sent, limits, deadline)
-            Thread(target=follow, args=(name, worker), daemon=True).start()
+            running[name], until = begun(sent, limits, deadline)
+            Thread(target=follow, args=(name, running[name], until + GRACE), daemon=True).start()
         while running:
             name, message = news.get()
             known = Known()

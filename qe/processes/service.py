@@ -10,6 +10,7 @@ import signal
 import sys
 from collections.abc import Iterator
 from functools import partial
+from importlib import import_module
 from typing import BinaryIO
 
 from qe.errors import QEError
@@ -33,6 +34,10 @@ def serve() -> None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for who asks, and that kills
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with contextlib.suppress(EOFError):
+        for name in pickle.load(questions):
+            with contextlib.suppress(ImportError):
+                import_module(name)
+        _send(home, ("ready", None))
         while True:
             work, deadline, memory, general = pickle.load(questions)
             sys.path[:], recursion, digits = general

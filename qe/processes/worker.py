@@ -26,6 +26,8 @@ from qe.processes.limits import Limits
 from qe.processes.portable import portable, rebuilt
 
 START = "import sys; sys.path[:] = sys.argv[1:]; from qe.processes.service import serve; serve()"
+PACKAGES = ("qe.", "bezier.")
+"""What is loaded of these in the process that asks is loaded before the first question, whose time it is not."""
 MOST_IDLE = 4
 """Workers that are kept; more of them run only while as many threads ask at once."""
 
@@ -42,6 +44,13 @@ class Worker:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
         )
         self.owner, self.is_late, self.is_fit = os.getpid(), False, True
+
+    def load(self) -> None:
+        """It loads what is loaded here."""
+        assert self.process.stdout is not None
+        with contextlib.suppress(OSError, EOFError):  # where it has ended already, that is the outcome of its question
+            self.send(pickle.dumps([name for name in sys.modules if name.startswith(PACKAGES)]))
+            pickle.load(self.process.stdout)
 
     @property
     def is_usable(self) -> bool:
@@ -119,10 +128,13 @@ def packed(work: Callable[..., object]) -> bytes | None:
         return None
 
 
-def begun(work: bytes, limits: Limits, deadline: float) -> Worker:
-    """A worker that has this question; what holds for the whole of this interpreter goes with it."""
+def begun(work: bytes, limits: Limits, deadline: float) -> tuple[Worker, float]:
+    """A worker that has this question, and its deadline: the start of a worker is not in the time for the question.
+
+    What holds for the whole of this interpreter goes with it.
+    """
     general = list(sys.path), sys.getrecursionlimit(), sys.get_int_max_str_digits()
-    question = pickle.dumps((work, deadline, limits.memory, general))
+    start = time.monotonic()
     while True:
         try:
             worker, is_new = IDLE.pop(), False
@@ -130,10 +142,14 @@ def begun(work: bytes, limits: Limits, deadline: float) -> Worker:
             worker, is_new = Worker(), True
         is_sent = False
         try:
+            if is_new:
+                worker.load()
+                deadline += time.monotonic() - start
+            question = pickle.dumps((work, deadline, limits.memory, general))
             if is_new or worker.is_usable:
                 worker.send(question)
                 is_sent = True
-                return worker
+                return worker, deadline
         except OSError:  # it was killed while it waited
             if is_new:
                 raise
@@ -144,7 +160,7 @@ def begun(work: bytes, limits: Limits, deadline: float) -> Worker:
 
 def asked(work: bytes, limits: Limits, deadline: float, grace: float, known: Known) -> object:
     """What a worker makes of the work; see ``qe.processes.execution.run``."""
-    worker = begun(work, limits, deadline)
+    worker, deadline = begun(work, limits, deadline)
     message = worker.outcome(lambda message: known.take(message, limits.progress), deadline + grace)
     return settled(worker, message, limits, known)
 
