@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Protocol, TypeVar
 
@@ -283,7 +283,6 @@ class Options:
     root_atoms: bool = False
     without: frozenset[Stage] = frozenset()
     certify: bool = False
-    progress: Listener = field(default=silent)
 
     def with_(self, **changes: object) -> Options:
         """A copy with some fields replaced."""

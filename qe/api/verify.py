@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from qe.certify.verify import verify as kernel_verdict
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.formula.syntax import Formula
 from qe.options import VERIFY_SECONDS, Budget, Options
+from qe.processes.execution import perform, run
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Labelled
@@ -18,6 +20,7 @@ from qe.proving.certificates import without_loss
 
 if TYPE_CHECKING:
     from qe.kernel.verdict import Verdict
+    from qe.processes.channel import Channel
     from qe.proof.entry import Json
     from qe.regions.region import Region
 
@@ -43,9 +46,8 @@ def verify(
     certificate that needs rules of the expert ring (``Certificate.trusts`` names them) is rejected at ``core``.
 
     Large certificates, and all that were read from text, are checked in a process of their own, which is killed at the
-    limit (where processes cannot fork, the limit is only looked at between steps). Past it, and where the certificate
-    asks for numbers out of reach, the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no
-    certificate and for a limit that is not positive.
+    limit. Past it, and where the certificate asks for numbers out of reach, the verdict is neither accepted nor
+    ``decided``. Raises ``InputError`` for what is no certificate and for a limit that is not positive.
     """
     if not isinstance(certificate, Certificate):
         return checked(certificate)  # which says what was expected
@@ -115,10 +117,8 @@ def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
     """
     if answer.formula is None or answer.question is None:
         raise Unable(f"there is no derivation: {answer.reason or 'nothing was asked'}")
-    from qe.processes.execution import Limits, perform
-
     try:
-        return perform(lambda budgets: _proved(answer, budgets()), Limits(timeout), at_once=timeout is not None)
+        return perform(partial(_proved, answer), Limits(timeout), at_once=timeout is not None)
     except Unable as error:
         return replace(answer, certificate=None, guarantee=Guarantee.DERIVED, reason=f"{UNPROVED} ({error})")
 
@@ -170,15 +170,18 @@ def with_guarantee(region: Region, budget: Budget) -> Region:
 
 
 def _limited(certificate: Certificate, timeout: float | None, *, core: bool = False) -> Verdict:
-    if timeout is None or not hasattr(os, "fork") or (certificate.digests is None and _is_small(certificate)):
+    if timeout is None or (certificate.digests is None and _is_small(certificate)):
         return checked(certificate, Budget(timeout), core=core)
     from qe.kernel.verdict import Verdict
-    from qe.processes.worker import run
 
     try:
-        return run(lambda channel: checked(certificate, Budget(timeout), core=core), timeout=timeout, grace=GRACE)
+        return run(partial(_checked, certificate, core), Limits(timeout), grace=GRACE)
     except Unable as error:
         return Verdict(False, "", str(error), decided=False)
+
+
+def _checked(certificate: Certificate, core: bool, channel: Channel) -> Verdict:
+    return checked(certificate, channel.budget(), core=core)
 
 
 def _is_small(certificate: Certificate) -> bool:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from qe.cli.numbers import shown
 from qe.cli.work import Reply, Request, certificate_text, read_formula
 from qe.errors import InputError
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.spelling import quoted
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from qe.errors import CertificateRejected, InputError, Unable
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.spelling import glued, quoted
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.options import Budget
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.cells import CellTable
 from qe.regions.region import NONE, Region, checked_order, is_true
 

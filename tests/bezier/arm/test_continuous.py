@@ -32,7 +32,7 @@ from bezier.certify.square_roots import Surd, times
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.errors import Unable
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.proof.certificate import Kind
 
 F = Fraction

@@ -25,7 +25,7 @@ from bezier.arm.reader import load_arm
 from bezier.arm.vertical import Label, vertical_arm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 
 F = Fraction
 E, S, C = "ev3-120", "shoulder-3r", "cylindrical"
