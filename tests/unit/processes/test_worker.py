@@ -356,7 +356,7 @@ def resting(k: int, channel: Channel) -> tuple[int, int]:
 
 
 def test_two_hundred_calls_leave_no_process_behind_and_are_quick() -> None:
-    """At most 10 ms more than in this process. The lower quartile of many, as the machine may be busy with other tests."""
+    """At most 10 ms more than in this process: by the lower quartile of many, as other tests run beside it."""
     end_idle()
     question, here, there = "ex x. x^2 + b*x + c = 0", [], []
     qe.eliminate(question, timeout=60)
