@@ -58,15 +58,11 @@ def checked(certificate: Certificate, budget: Budget | None = None, *, core: boo
 
     With ``core``, one that needs the expert ring (``qe.certify.trusts``) is rejected.
     """
-    from qe.certify.trusts import expert_parts
     from qe.kernel.verdict import Verdict
 
     budget = budget or Budget()
     try:
-        certificate = recent(certificate, budget)
-        if core and (names := expert_parts(certificate)):
-            return Verdict(False, "core", f"it needs the expert ring: {', '.join(names)}")
-        return kernel_verdict(certificate, budget)
+        return kernel_verdict(recent(certificate, budget), budget, core=core)
     except CertificateRejected as error:
         return Verdict(False, error.step, error.reason)
     except Unable as error:
