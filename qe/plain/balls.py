@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from itertools import zip_longest
 from typing import Any
 
 from qe.plain.numbers import fmpq
@@ -48,15 +47,15 @@ class arb:
         elif isinstance(value, arb):
             self.m, self.r, self.e = value.m, value.r, value.e
         else:
-            ball = _rounded(value.p, 0, 0) if value.q == 1 else _quotient(value.p, value.q, 0)
-            self.m, self.r, self.e = ball.m, ball.r, ball.e
+            near = _rounded(value.p, 0, 0) if value.q == 1 else _quotient(value.p, value.q, 0)
+            self.m, self.r, self.e = near.m, near.r, near.e
 
     def __repr__(self) -> str:
         return f"arb({self.m} +/- {self.r}, * 2^{self.e})"
 
     # --- arithmetic ------------------------------------------------------------------------
     def __neg__(self) -> arb:
-        return _ball(-self.m, self.r, self.e)
+        return ball(-self.m, self.r, self.e)
 
     def __add__(self, other: arb | int) -> arb:
         (m, r), (n, s), e = _common(self, _arb(other))
@@ -89,7 +88,7 @@ class arb:
             return middle
         # |x/y - m/n| <= (|m|*s + |n|*r)/(|n|*(|n| - s))
         error = _quotient(abs(self.m) * b.r + abs(b.m) * self.r, abs(b.m) * least, self.e - b.e)
-        return middle + _ball(0, abs(error.m) + error.r, error.e)
+        return middle + ball(0, abs(error.m) + error.r, error.e)
 
     def __rtruediv__(self, other: int) -> arb:
         return arb(other) / self
@@ -127,11 +126,11 @@ class arb:
     # --- ends ------------------------------------------------------------------------------
     def mid(self) -> arb:
         """The midpoint."""
-        return _ball(self.m, 0, self.e)
+        return ball(self.m, 0, self.e)
 
     def rad(self) -> arb:
         """The radius."""
-        return _ball(self.r, 0, self.e)
+        return ball(self.r, 0, self.e)
 
     def fmpq(self) -> fmpq:
         """The value of an exact ball."""
@@ -156,22 +155,16 @@ class arb:
             return EXACT
         return self.m.bit_length() - self.r.bit_length() - 1 if self.m else -EXACT
 
-    def value_of(self, coefficients: Sequence[int | arb]) -> arb:
-        """The value of a polynomial, coefficients from degree 0 up."""
-        value = arb(0)
-        for c in reversed(coefficients):
-            value = value * self + c
-        return value
-
 
 def _arb(value: arb | int) -> arb:
     return value if isinstance(value, arb) else arb(value)
 
 
-def _ball(m: int, r: int, e: int) -> arb:
-    ball = arb.__new__(arb)
-    ball.m, ball.r, ball.e = m, r, e
-    return ball
+def ball(m: int, r: int, e: int) -> arb:
+    """All numbers between (m - r)*2^e and (m + r)*2^e."""
+    made = object.__new__(arb)
+    made.m, made.r, made.e = m, r, e
+    return made
 
 
 def _rounded(m: int, r: int, e: int) -> arb:
@@ -181,9 +174,7 @@ def _rounded(m: int, r: int, e: int) -> arb:
         exact = not m & ((1 << cut) - 1)
         m, e = m >> cut, e + cut
         r = (r >> cut) + (1 if r else 0) + (not exact) if r or not exact else 0
-    ball = arb.__new__(arb)
-    ball.m, ball.r, ball.e = m, r, e
-    return ball
+    return ball(m, r, e)
 
 
 def _quotient(p: int, q: int, e: int) -> arb:
@@ -221,15 +212,15 @@ class arb_poly:
     def __getitem__(self, k: int) -> arb:
         return self.c[k] if 0 <= k < len(self.c) else arb(0)
 
-    def degree(self) -> int:
-        """The degree, -1 for zero."""
-        return len(self.c) - 1
+    def coeffs(self) -> list[arb]:
+        """The coefficients from degree 0 up."""
+        return self.c
 
     def __call__(self, x: arb) -> arb:
-        return x.value_of(self.c)
-
-    def __add__(self, other: arb_poly) -> arb_poly:
-        return arb_poly([a + b for a, b in zip_longest(self.c, other.c, fillvalue=arb(0))])
+        value = arb(0)
+        for c in reversed(self.c):
+            value = value * x + c
+        return value
 
     def derivative(self) -> arb_poly:
         """The derivative."""
@@ -237,7 +228,7 @@ class arb_poly:
 
     def __floordiv__(self, other: arb_poly) -> arb_poly:
         """The quotient without remainder; the leading coefficient of the divisor is not 0."""
-        rest, n, lead = list(self.c), other.degree(), other.c[-1]
+        rest, n, lead = list(self.c), len(other.c) - 1, other.c[-1]
         quotient: list[Any] = [arb(0)] * max(len(rest) - n, 0)
         for k in reversed(range(len(quotient))):
             quotient[k] = rest[k + n] / lead

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, count
+from itertools import combinations
+from itertools import count as naturals
 from math import comb
 from random import Random
 
 from qe.plain.irreducible import irreducible_factors
-from qe.plain.modular import convolved, inverse_modulo, remainder, symmetric
+from qe.plain.modular import convolved, inverse_modulo, reduced, remainder, symmetric
 from qe.plain.resultants import coefficients_in
-from qe.plain.terms import MASK, WIDTH, Terms, at_integer, common_divisor, content, divided, division, guard, times
+from qe.plain.terms import MASK, WIDTH, Terms, at_fraction, common_divisor, content, divided, division, times
 
 Parts = list[tuple[Terms, int]]
 IMAGES = 5
@@ -18,7 +19,7 @@ IMAGES = 5
 
 
 def of_terms(a: Terms, places: Sequence[int]) -> tuple[int, Parts]:
-    """(u, ((f, e), ...)) with a = u times the product of f^e, each f irreducible with a positive leading coefficient."""
+    """(u, ((f, e), ...)) with a = u times the product of f^e, the f irreducible with positive leading coefficients."""
     if not a:
         return 0, []
     unit = content(a) if a[max(a)] > 0 else -content(a)
@@ -30,23 +31,23 @@ def _factors(a: Terms, places: Sequence[int]) -> Iterator[tuple[Terms, int]]:
     places = [p for p in places if any(k >> p & MASK for k in a)]
     if not places:
         return
-    bits = guard(max(places) // WIDTH + 1)
+    count = max(places) // WIDTH + 1
     main = min(places, key=lambda p: max(k >> p & MASK for k in a))
     inner = _content_in(a, main, places)
     yield from _factors(inner, places)
-    a = division(a, inner, bits)[0]
+    a = division(a, inner, count)[0]
     if max(k >> main & MASK for k in a) == 1:
         yield a, 1
         return
     rest = common_divisor(a, _slope(a, main), places)  # every factor with one power less
-    several = division(a, rest, bits)[0]
-    for exponent in count(1):
+    several = division(a, rest, count)[0]
+    for exponent in naturals(1):
         if len(several) == 1 and 0 in several:
             return
         more = common_divisor(several, rest, places)
-        once = division(several, more, bits)[0]
+        once = division(several, more, count)[0]
         yield from ((f, exponent) for f in _irreducible(once, main, places) if len(f) > 1 or 0 not in f)
-        several, rest = more, division(rest, more, bits)[0]
+        several, rest = more, division(rest, more, count)[0]
 
 
 def _slope(a: Terms, main: int) -> Terms:
@@ -82,7 +83,7 @@ def _irreducible(a: Terms, main: int, places: Sequence[int]) -> Iterator[Terms]:
             f = _lifted(a, main, others, point, chosen, outside)
             if f is not None:
                 yield f
-                a, images = division(a, f, guard(max(places) // WIDTH + 1))[0], outside
+                a, images = division(a, f, max(places) // WIDTH + 1)[0], outside
                 break
         else:
             size += 1
@@ -90,14 +91,14 @@ def _irreducible(a: Terms, main: int, places: Sequence[int]) -> Iterator[Terms]:
 
 
 def _image(a: Terms, main: int, others: Sequence[int]) -> tuple[dict[int, int], list[list[int]]]:
-    """Integers for the other variables at which the polynomial keeps its degree and has simple roots; its factors there."""
+    """Integers for the other variables where the polynomial keeps its degree and has simple roots; its factors there."""
     rng, found = Random(len(a)), list[tuple[int, dict[int, int], list[list[int]]]]()
     degree = max(k >> main & MASK for k in a)
-    for attempt in count():
+    for attempt in naturals():
         point = {p: rng.randint(-attempt, attempt) for p in others}
         image = a
         for place, value in point.items():
-            image = at_integer(image, place, value)
+            image = at_fraction(image, place, value)
         c = _list(image, main)
         if len(c) == degree + 1 and max(common_divisor(image, _slope(image, main), (main,))) == 0:
             parts = irreducible_factors(_list(divided(image, content(image)), main))
@@ -118,62 +119,43 @@ def _lifted(
     """The factor of the polynomial whose image at the point is the product of the chosen ones; None if there is none.
 
     Hensel's lemma by degrees in the other variables around the point, modulo a prime above what the coefficients can
-    be: with l the leading coefficient, l*a = f*g is looked for with f and g of leading coefficient l. The trial division
-    at the end shows that f is a factor.
+    be: with l the leading coefficient, l*a = f*g is looked for with f and g of leading coefficient l. The trial
+    division at the end shows that f is a factor.
     """
     lead = coefficients_in(a, main)[-1]
-    whole = times(a, lead)
+    count = max((main, *others)) // WIDTH + 1
+    whole = times(a, lead, count)
     for place, value in point.items():
         lead, whole = _moved(lead, place, value), _moved(whole, place, value)
-    prime = _prime(2 * max(c.bit_length() for c in whole.values()) + 2 * sum(map(max, _exponents(whole, others))) + 60)
+    degrees = (max(k >> p & MASK for k in whole) for p in others)
+    prime = _prime(2 * max(c.bit_length() for c in whole.values()) + 2 * sum(degrees) + 60)
     first, second = (_product(parts, lead[0], prime) for parts in (chosen, outside))
     m, n = len(first) - 1, len(second) - 1
     to_first, to_second = inverse_modulo(second, first, prime), inverse_modulo(first, second, prime)
     pieces, leads = _by_degree(whole, main, others), _by_degree(lead, main, others)
-    f: list[dict[int, list[int]]] = [{0: first}]
-    g: list[dict[int, list[int]]] = [{0: second}]
+    sides = [[{0: first}], [{0: second}]]
     for degree in range(1, len(pieces)):
         error = {y: c + [0] * (m + n + 1 - len(c)) for y, c in pieces[degree].items()}
-        for k in range(1, degree):
-            for y, b in f[k].items():
-                for z, c in g[degree - k].items():
-                    _subtract(error, y + z, convolved(b, c), m + n + 1)
-        f.append({})
-        g.append({})
-        for y, (c,) in leads[degree].items() if degree < len(leads) else ():
-            f[-1][y], g[-1][y] = [0] * m + [c], [0] * n + [c]
-            _subtract(error, y, [0] * m + [c * b for b in second], m + n + 1)
-            _subtract(error, y, [0] * n + [c * b for b in first], m + n + 1)
+        fresh: list[dict[int, list[int]]] = [{}, {}]
+        for y, (top,) in leads[degree].items() if degree < len(leads) else ():
+            fresh = [{**fresh[0], y: [0] * m + [top]}, {**fresh[1], y: [0] * n + [top]}]
+        for f, g in zip([*sides[0], fresh[0]], [*sides[1], fresh[1]][::-1], strict=True):
+            for y, b in f.items():
+                for z, c in g.items():
+                    row = error.setdefault(y + z, [0] * (m + n + 1))
+                    for k, d in enumerate(convolved(b, c)):
+                        row[k] -= d
         for y, e in error.items():
-            e = [c % prime for c in e]
-            if any(e):
-                for side, base, inverse in ((f, first, to_first), (g, second, to_second)):
-                    part = remainder(convolved(e, inverse), base, prime)
-                    old = side[-1].setdefault(y, [])
-                    side[-1][y] = [
-                        (b + c) % prime
-                        for b, c in zip(
-                            old + [0] * (len(base) - len(old)), part + [0] * (len(base) - len(part)), strict=True
-                        )
-                    ]
-    found = {
-        y + (k << main): d for side in f for y, c in side.items() for k, b in enumerate(c) if (d := symmetric(b, prime))
-    }
+            for made, base, inverse in ((fresh[0], first, to_first), (fresh[1], second, to_second)):
+                if part := remainder(convolved(reduced(e, prime), inverse), base, prime):
+                    made[y] = part + made.get(y, [0] * len(base))[len(part) :]
+        sides = [[*sides[0], fresh[0]], [*sides[1], fresh[1]]]
+    terms = ((y + (k << main), b) for side in sides[0] for y, c in side.items() for k, b in enumerate(c))
+    found = {k: d for k, b in terms if (d := symmetric(b, prime))}
     for place, value in point.items():
         found = _moved(found, place, -value)
-    bits = guard(max((main, *others)) // WIDTH + 1)
-    found = _positive(division(found, _content_in(found, main, (main, *others)), bits)[0])
-    return None if division(a, found, bits)[1] else found
-
-
-def _subtract(error: dict[int, list[int]], y: int, c: list[int], length: int) -> None:
-    row = error.setdefault(y, [0] * length)
-    for k, b in enumerate(c):
-        row[k] -= b
-
-
-def _exponents(a: Terms, places: Sequence[int]) -> list[list[int]]:
-    return [[k >> p & MASK for k in a] for p in places]
+    found = _positive(division(found, _content_in(found, main, (main, *others)), count)[0])
+    return None if division(a, found, count)[1] else found
 
 
 def _by_degree(a: Terms, main: int, others: Sequence[int]) -> list[dict[int, list[int]]]:
@@ -214,7 +196,9 @@ def _product(parts: Sequence[list[int]], lead: int, prime: int) -> list[int]:
 
 def _prime(bits: int) -> int:
     """A prime above 2^bits, one of Mersenne's."""
-    listed = (127, 521, 1279, 2203, 4423, 9941, 21701, 44497)
+    listed = (127, 521, 1279, 2203, 4423, 9941, 21701, 44497, 86243, 216091)
+    if bits >= listed[-1]:
+        raise MemoryError("a polynomial is too large to be factored")
     return (1 << next(e for e in listed if e > bits)) - 1
 
 

@@ -1,4 +1,4 @@
-"""Irreducible factors of squarefree polynomials in one variable over the integers (Zassenhaus, J. Number Theory 1, 1969)."""
+"""Irreducible factors of squarefree polynomials in one variable (Zassenhaus, J. Number Theory 1, 1969)."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from itertools import combinations, count
 from math import gcd, isqrt
 from random import Random
 
-from qe.plain.modular import common, convolved, inverse_modulo, power, quotient_and_remainder, reduced, remainder
-from qe.plain.modular import symmetric
+from qe.plain.modular import common, convolved, inverse_modulo, power, quotient, reduced, remainder, symmetric
 
 PRIMES = 5
 """So many primes are looked at for one with few factors."""
@@ -60,7 +59,7 @@ def _by_degree(f: list[int], p: int) -> Iterator[tuple[int, list[int]]]:
         shared = common(f, padded, p) if reduced(padded, p) else f
         if len(shared) > 1:
             yield degree, shared
-            f = quotient_and_remainder(f, shared, p)[0]
+            f = quotient(f, shared, p)
             frobenius = remainder(frobenius, f, p)
     if len(f) > 1:
         yield len(f) - 1, f
@@ -83,7 +82,7 @@ def _of_degree(f: list[int], degree: int, p: int) -> Iterator[list[int]]:
                 continue
             shared = common(f, image, p)
             if 1 < len(shared) < len(f):
-                pending += [shared, quotient_and_remainder(f, shared, p)[0]]
+                pending += [shared, quotient(f, shared, p)]
                 break
 
 

@@ -41,6 +41,11 @@ def quotient_and_remainder(a: Sequence[int], b: Sequence[int], p: int) -> tuple[
     return quotient, reduced(rest[:n], p)
 
 
+def quotient(a: Sequence[int], b: Sequence[int], p: int) -> list[int]:
+    """a / b modulo p, without the remainder."""
+    return quotient_and_remainder(a, b, p)[0]
+
+
 def remainder(a: Sequence[int], b: Sequence[int], p: int) -> list[int]:
     """a modulo b and p."""
     return quotient_and_remainder(a, b, p)[1]

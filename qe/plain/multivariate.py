@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache, reduce
-from operator import or_
+from functools import cache
 from typing import Any
 
-from qe.plain import factors
-from qe.plain.numbers import DomainError, fmpq
+from qe.plain.numbers import fmpq
+from qe.plain.polynomial import Polynomial
 from qe.plain.resultants import resultant
-from qe.plain.terms import MASK, WIDTH, Terms, added, at_integer, common_divisor, content, divided, division, guard
-from qe.plain.terms import times
+from qe.plain.terms import MASK, WIDTH, Terms, at_fraction, content, divided, division
 
 MOST_KNOWN = 100_000
 """Values of monomials that are remembered."""
@@ -22,8 +20,7 @@ class fmpz_mpoly_ctx:
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self.variables = names
-        self.places = [WIDTH * k for k in reversed(range(len(names)))]
-        self.guard = guard(len(names))
+        self.places = tuple(WIDTH * k for k in reversed(range(len(names))))
         self.known: dict[Sequence[int], Terms] = {}
 
     @staticmethod
@@ -59,86 +56,34 @@ class fmpz_mpoly_ctx:
         return tuple([monomial >> place & MASK for place in self.places])
 
 
-class fmpz_mpoly:
+class fmpz_mpoly(Polynomial):
     """A polynomial with integer coefficients; immutable."""
 
-    __slots__ = ("ctx", "t")
+    __slots__ = ("ctx",)
+    ctx: fmpz_mpoly_ctx
 
     def __init__(self, ctx: fmpz_mpoly_ctx, terms: Terms) -> None:
-        self.ctx, self.t = ctx, terms
+        self.ctx, self.places, self.t = ctx, ctx.places, terms
 
-    def _new(self, terms: Terms) -> fmpz_mpoly:
+    def like(self, terms: Terms) -> fmpz_mpoly:
+        """The polynomial with these terms in the same variables."""
         return fmpz_mpoly(self.ctx, terms)
-
-    def _terms(self, other: fmpz_mpoly | int) -> Terms:
-        return other.t if isinstance(other, fmpz_mpoly) else {0: int(other)} if other else {}
-
-    # --- arithmetic ------------------------------------------------------------------------
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, fmpz_mpoly | int) and self.t == self._terms(other)
-
-    def __bool__(self) -> bool:
-        return bool(self.t)
 
     def __len__(self) -> int:
         return len(self.t)
 
-    def __repr__(self) -> str:
-        return f"fmpz_mpoly({dict(self.terms())})"
-
-    def __neg__(self) -> fmpz_mpoly:
-        return self._new({k: -c for k, c in self.t.items()})
-
-    def __add__(self, other: fmpz_mpoly | int) -> fmpz_mpoly:
-        return self._new(added(self.t, self._terms(other)))
-
-    __radd__ = __add__
-
-    def __sub__(self, other: fmpz_mpoly | int) -> fmpz_mpoly:
-        return self._new(added(self.t, self._terms(other), -1))
-
-    def __rsub__(self, other: int) -> fmpz_mpoly:
-        return -self + other
-
-    def __mul__(self, other: fmpz_mpoly | int) -> fmpz_mpoly:
-        if isinstance(other, int):
-            return self._new({k: c * other for k, c in self.t.items()} if other else {})
-        product = times(self.t, other.t)
-        if reduce(or_, product, 0) & self.ctx.guard:
-            raise OverflowError("an exponent is too large")
-        return self._new(product)
-
-    __rmul__ = __mul__
-
     def __pow__(self, exponent: int) -> fmpz_mpoly:
-        if exponent < 0:
-            raise DomainError("a negative power")
-        if len(self.t) == 1:
+        if len(self.t) == 1 and exponent > 0:
             ((k, c),) = self.t.items()
-            return self._new({self.ctx.packed([e * exponent for e in self.ctx.unpacked(k)]): c**exponent})
-        result, square = self.ctx.constant(1), self
-        while exponent:
-            if exponent & 1:
-                result = result * square
-            exponent >>= 1
-            square = square * square if exponent else square
-        return result
-
-    def __truediv__(self, other: fmpz_mpoly | int) -> fmpz_mpoly:
-        divisor = self._terms(other)
-        if not divisor:
-            raise ZeroDivisionError("fmpz_mpoly division by zero")
-        quotient, remainder = division(self.t, divisor, self.ctx.guard)
-        if remainder:
-            raise DomainError("fmpz_mpoly division is not exact")
-        return self._new(quotient)
+            return self.like({self.ctx.packed([e * exponent for e in self.ctx.unpacked(k)]): c**exponent})
+        return super().__pow__(exponent)
 
     def __divmod__(self, other: fmpz_mpoly) -> tuple[fmpz_mpoly, fmpz_mpoly]:
-        """Quotient and remainder, which is only right where it is zero."""
+        """Quotient and remainder in the lexicographic order."""
         if not other.t:
             raise ZeroDivisionError("fmpz_mpoly division by zero")
-        quotient, remainder = division(self.t, other.t, self.ctx.guard, exact=False)
-        return self._new(quotient), self._new(remainder)
+        quotient, remainder = division(self.t, other.t, len(self.places))
+        return self.like(quotient), self.like(remainder)
 
     # --- structure -------------------------------------------------------------------------
     def context(self) -> fmpz_mpoly_ctx:
@@ -147,15 +92,11 @@ class fmpz_mpoly:
 
     def degrees(self) -> tuple[int, ...]:
         """The degree in every variable, -1 for zero."""
-        return tuple([max((k >> place & MASK for k in self.t), default=-1) for place in self.ctx.places])
+        return tuple([max((k >> place & MASK for k in self.t), default=-1) for place in self.places])
 
     def total_degree(self) -> int:
         """The largest sum of exponents, -1 for zero."""
         return max((sum(self.ctx.unpacked(k)) for k in self.t), default=-1)
-
-    def leading_coefficient(self) -> int:
-        """The coefficient of the first term."""
-        return self.t[max(self.t)] if self.t else 0
 
     def coeffs(self) -> list[int]:
         """The coefficients in the order of the terms."""
@@ -168,16 +109,7 @@ class fmpz_mpoly:
     def primitive(self) -> tuple[int, fmpz_mpoly]:
         """The greatest common divisor of the coefficients, and the polynomial over it."""
         number = content(self.t)
-        return number, self._new(divided(self.t, number)) if self.t else self
-
-    def content(self) -> int:
-        """The greatest common divisor of the coefficients."""
-        return content(self.t)
-
-    def derivative(self, i: int) -> fmpz_mpoly:
-        """The derivative in variable i."""
-        place = self.ctx.places[i]
-        return self._new({k - (1 << place): c * (k >> place & MASK) for k, c in self.t.items() if k >> place & MASK})
+        return number, self.like(divided(self.t, number)) if self.t else self
 
     # --- values ----------------------------------------------------------------------------
     def __call__(self, *values: int) -> int:
@@ -189,7 +121,7 @@ class fmpz_mpoly:
             value = known.get(k)
             if value is None:
                 value = 1
-                for place, x in zip(self.ctx.places, values, strict=True):
+                for place, x in zip(self.places, values, strict=True):
                     if e := k >> place & MASK:
                         value *= x**e
                 known[k] = value
@@ -200,9 +132,8 @@ class fmpz_mpoly:
         """The polynomial with integers for variables."""
         terms = self.t
         for i, value in values.items():
-            place = self.ctx.places[i]
-            terms = at_integer(terms, place, value) if value else {k: c for k, c in terms.items() if not k >> place & MASK}
-        return self._new(terms)
+            terms = at_fraction(terms, self.places[i], value)
+        return self.like(terms)
 
     def compose(self, *images: fmpz_mpoly, ctx: fmpz_mpoly_ctx) -> fmpz_mpoly:
         """The polynomial with polynomials for all variables."""
@@ -217,39 +148,22 @@ class fmpz_mpoly:
             total = total + product
         return total
 
-    # --- algebra ---------------------------------------------------------------------------
-    def gcd(self, other: fmpz_mpoly) -> fmpz_mpoly:
-        """The greatest common divisor, with a positive leading coefficient."""
-        return self._new(common_divisor(self.t, other.t, self.ctx.places))
-
     def resultant(self, other: fmpz_mpoly, i: int) -> fmpz_mpoly:
         """The resultant with respect to variable i."""
-        return self._new(resultant(self.t, other.t, self.ctx.places[i], self.ctx.guard))
+        return self.like(resultant(self.t, other.t, self.places[i], len(self.places)))
 
     def discriminant(self, i: int) -> fmpz_mpoly:
         """The discriminant with respect to variable i, of degree at least 1 in it."""
         degree = self.degrees()[i]
         if degree == 1:
             return self.ctx.constant(1)
-        place = self.ctx.places[i]
+        place = self.places[i]
         lead = {k - (degree << place): c for k, c in self.t.items() if k >> place & MASK == degree}
-        found = self.resultant(self.derivative(i), i) / self._new(lead)
+        found = self.resultant(self.derivative(i), i) / self.like(lead)
         return -found if degree * (degree - 1) // 2 % 2 else found
 
-    def factor(self) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
-        """The unit, and irreducible factors with their multiplicities."""
-        unit, parts = factors.of_terms(self.t, self.ctx.places)
-        return unit, [(self._new(f), e) for f, e in parts]
 
-
-class fmpq_mpoly_ctx(fmpz_mpoly_ctx):
-    """The same for polynomials with fractions for coefficients."""
-
-    @staticmethod
-    @cache
-    def get(names: tuple[str, ...], order: str) -> fmpq_mpoly_ctx:
-        """The context; equal names give the same one."""
-        return fmpq_mpoly_ctx(names)
+fmpq_mpoly_ctx = fmpz_mpoly_ctx
 
 
 class fmpq_mpoly:
@@ -264,14 +178,8 @@ class fmpq_mpoly:
         """The polynomial with fractions for variables."""
         top, bottom = self.top, self.bottom
         for i, x in values.items():
-            place, degree = top.ctx.places[i], max(top.degrees()[i], 0)
-            total: Terms = {}
-            powers = [x.p**e * x.q ** (degree - e) for e in range(degree + 1)]
-            for k, c in top.t.items():
-                e = k >> place & MASK
-                k -= e << place
-                total[k] = total.get(k, 0) + c * powers[e]
-            top, bottom = top._new({k: c for k, c in total.items() if c}), bottom * x.q**degree
+            place, degree = top.places[i], max(top.degrees()[i], 0)
+            top, bottom = top.like(at_fraction(top.t, place, x.p, x.q, degree)), bottom * x.q**degree
         return fmpq_mpoly(top, bottom=bottom)
 
     def __call__(self, *values: fmpq) -> fmpq:

@@ -7,14 +7,17 @@ monomials are sums, and the lexicographic order is that of the integers. The hig
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache, reduce
 from heapq import heapify, heappop, heappush
 from math import gcd
+from operator import or_
 
 WIDTH = 32
 MASK = (1 << WIDTH) - 1
 Terms = dict[int, int]
 
 
+@cache
 def guard(count: int) -> int:
     """The highest bits of so many exponents: a difference of monomials has one of them where one is negative."""
     return sum(1 << (WIDTH * k + WIDTH - 1) for k in range(count))
@@ -42,31 +45,29 @@ def added(a: Terms, b: Terms, factor: int = 1) -> Terms:
     return total
 
 
-def times(a: Terms, b: Terms) -> Terms:
-    """The product."""
+def times(a: Terms, b: Terms, count: int) -> Terms:
+    """The product of polynomials in ``count`` variables."""
     if len(a) > len(b):
         a, b = b, a
-    if len(a) == 1:
-        ((k, c),) = a.items()
-        return {k + l: c * d for l, d in b.items()}
     total: Terms = {}
     get = total.get
     for k, c in a.items():
         for l, d in b.items():
             m = k + l
             total[m] = get(m, 0) + c * d
+    if reduce(or_, total, 0) & guard(count):
+        raise OverflowError("an exponent is too large")
     return {k: c for k, c in total.items() if c}
 
 
-def division(a: Terms, b: Terms, guard: int, *, exact: bool = True) -> tuple[Terms, Terms]:
-    """(q, r) with a = q*b + r, in the lexicographic order: in r no monomial is divisible by the leading one of b, or
-    its coefficient is smaller. ``exact``: r = 0, or else r and q are not complete.
+def division(a: Terms, b: Terms, count: int) -> tuple[Terms, Terms]:
+    """(q, r) with a = q*b + r, in the lexicographic order of ``count`` variables: in r no monomial is divisible by the
+    leading one of b, or its coefficient is smaller.
     """
-    lead = max(b)
+    lead, bits = max(b), guard(count)
     top = b[lead]
-    if exact and len(b) == 1:
-        possible = all(c % top == 0 and k >= lead and not (k - lead) & guard for k, c in a.items())
-        return ({k - lead: c // top for k, c in a.items()}, {}) if possible else ({}, a)
+    if len(b) == 1 and all(c % top == 0 and k >= lead and not (k - lead) & bits for k, c in a.items()):
+        return {k - lead: c // top for k, c in a.items()}, {}
     rest = [(k, c) for k, c in b.items() if k != lead]
     quotient: Terms = {}
     remainder: Terms = {}
@@ -77,11 +78,9 @@ def division(a: Terms, b: Terms, guard: int, *, exact: bool = True) -> tuple[Ter
         m = -heappop(order)
         c = pending.pop(m, 0)
         shift = m - lead
-        factor = 0 if shift < 0 or shift & guard else c // top if (c < 0) == (top < 0) else -(-c // top)
+        factor = 0 if shift < 0 or shift & bits else c // top if (c < 0) == (top < 0) else -(-c // top)
         if c != factor * top:
             remainder[m] = c - factor * top
-            if exact:
-                break
         if factor:
             quotient[shift] = factor
             for l, d in rest:
@@ -97,14 +96,14 @@ def division(a: Terms, b: Terms, guard: int, *, exact: bool = True) -> tuple[Ter
     return quotient, remainder
 
 
-def at_integer(a: Terms, place: int, value: int) -> Terms:
-    """The terms with an integer for the variable whose exponents begin at bit ``place``."""
+def at_fraction(a: Terms, place: int, p: int, q: int = 1, degree: int = 0) -> Terms:
+    """q^degree times the value at p/q of the variable whose exponents begin at bit ``place``."""
     total: Terms = {}
     powers: dict[int, int] = {}
     for k, c in a.items():
         e = k >> place & MASK
         if e not in powers:
-            powers[e] = value**e
+            powers[e] = p**e if q == 1 else p**e * q ** (degree - e)
         k -= e << place
         total[k] = total.get(k, 0) + c * powers[e]
     return {k: c for k, c in total.items() if c}
@@ -121,18 +120,18 @@ def common_divisor(a: Terms, b: Terms, places: Sequence[int]) -> Terms:
     if not a or not b:
         c = a or b
         return {k: -d for k, d in c.items()} if c and c[max(c)] < 0 else c
-    number, bits = gcd(content(a), content(b)), guard(max(places, default=0) // WIDTH + 1)
+    number, count = gcd(content(a), content(b)), max(places, default=0) // WIDTH + 1
     places = [p for p in places if any(k >> p & MASK for k in a) or any(k >> p & MASK for k in b)]
     if not places or len(a) == len(b) == 1:
         return {sum(min(*(k >> p & MASK for k in (*a, *b))) << p for p in places): number}
     a, b = divided(a, content(a)), divided(b, content(b))
     place, x = places[0], 2 * min(max(map(abs, a.values())), max(map(abs, b.values()))) + 29
     while True:
-        low, high = at_integer(a, place, x), at_integer(b, place, x)
+        low, high = at_fraction(a, place, x), at_fraction(b, place, x)
         if low and high:
             found = _with_digits(common_divisor(low, high, places[1:]), place, x)
             found = divided(found, content(found) if found[max(found)] > 0 else -content(found))
-            if not division(a, found, bits)[1] and not division(b, found, bits)[1]:
+            if not division(a, found, count)[1] and not division(b, found, count)[1]:
                 return {k: number * c for k, c in found.items()}
         x = x * 73794 // 27011
 
