@@ -51,7 +51,7 @@ def verify(certificate: Certificate, budget: Budget | None = None, *, core: bool
     return Verdict(True)
 
 
-def verify_json(text: str, budget: Budget | None = None) -> Verdict:
+def verify_json(text: str, budget: Budget | None = None, *, core: bool = False) -> Verdict:
     """``verify`` for a certificate as text; unreadable text is rejected too."""
     try:
         certificate = Certificate.from_json(text)
@@ -59,7 +59,7 @@ def verify_json(text: str, budget: Budget | None = None) -> Verdict:
         return Verdict(False, error.step, error.reason)
     except InputError as error:
         return Verdict(False, "certificate", str(error))
-    return verify(certificate, budget)
+    return verify(certificate, budget, core=core)
 
 
 def check_certificate(certificate: Certificate, budget: Budget, *, core: bool = False) -> None:

@@ -91,7 +91,7 @@ def _irreducible(a: Terms, main: int, places: Sequence[int]) -> Iterator[Terms]:
 
 
 def _image(a: Terms, main: int, others: Sequence[int]) -> tuple[dict[int, int], list[list[int]]]:
-    """Integers for the other variables where the polynomial keeps its degree and has simple roots; its factors there."""
+    """Integers for the other variables where the polynomial keeps its degree and its roots are simple; its factors."""
     rng, found = Random(len(a)), list[tuple[int, dict[int, int], list[list[int]]]]()
     degree = max(k >> main & MASK for k in a)
     for attempt in naturals():

@@ -14,7 +14,6 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from importlib.resources import files
 from importlib.resources.abc import Traversable
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -25,8 +24,8 @@ import qe.kernel.gauss
 import qe.kernel.witness  # noqa: F401
 from qe.certify.claims import claim_of
 from qe.certify.trusts import trusts
-from qe.certify.verify import verify
-from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
+from qe.certify.verify import verify_json
+from qe.errors import BudgetExceeded, Unable
 from qe.kernel.verdict import Verdict
 from qe.options import VERIFY_SECONDS, Budget
 from qe.proof.certificate import Certificate
@@ -35,7 +34,7 @@ OK, BAD_INPUT, UNABLE, REJECTED = 0, 2, 3, 4
 
 
 def main() -> NoReturn:
-    """Run the command line. Exit status 0: accepted, 2: no certificate, 3: not decided, 4: rejected."""
+    """Run the command line. Exit status 0: accepted, 2: no such file, 3: not decided, 4: rejected."""
     parser = argparse.ArgumentParser(prog="reader", description="Check certificates, in plain Python.")
     parser.add_argument("certificate", nargs="*", metavar="CERTIFICATE", help="a file, or - for standard input")
     parser.add_argument("--timeout", type=float, default=VERIFY_SECONDS, help="seconds for each")
@@ -56,14 +55,14 @@ def _checked(name: str, seconds: float, as_json: bool) -> int:
         signal.setitimer(signal.ITIMER_REAL, seconds)
     lines: tuple[str, ...] = ()
     try:
-        certificate = Certificate.from_json(sys.stdin.read() if name == "-" else Path(name).read_text("utf-8"))
-        verdict = verify(certificate, Budget(seconds), core=True)
-        lines = (*claim_of(certificate).words, *_axioms(certificate)) if verdict.accepted else ()
-    except CertificateRejected as error:
-        verdict = Verdict(False, error.step, error.reason)
+        text = sys.stdin.read() if name == "-" else Path(name).read_text("utf-8")
+        verdict = verify_json(text, Budget(seconds), core=True)
+        if verdict.accepted:
+            certificate = Certificate.from_json(text)
+            lines = (*claim_of(certificate).words, *(f"rests on: {name}" for name in trusts(certificate)))
     except Unable as error:
         verdict = Verdict(False, "", str(error), decided=False)
-    except (InputError, OSError, UnicodeDecodeError) as error:
+    except (OSError, UnicodeDecodeError) as error:
         print(f"{name}: {error}", file=sys.stderr)
         return BAD_INPUT
     print(json.dumps(asdict(verdict)) if as_json else "\n".join((str(verdict), *lines)))
@@ -74,17 +73,14 @@ def _out_of_time(*_: object) -> None:
     raise BudgetExceeded("time limit reached", limit="time")
 
 
-def _axioms(certificate: Certificate) -> Iterator[str]:
-    return (f"rests on: {name}, which is believed" for name in trusts(certificate))
-
-
 def write_reader(file: Path) -> None:
     """The modules that are loaded, and the theorems, as one file that Python runs."""
-    sources = {"__main__.py": "from qe.plain.__main__ import main\n\nmain()\n"}
-    for name in sorted({"qe.plain.__main__", *(name for name in sys.modules if name.split(".")[0] == "qe")}):
-        spec: Any = find_spec(name)
+    loaded = {name: module for name, module in sys.modules.items() if name.split(".")[0] in ("qe", "__main__")}
+    sources = {}
+    for name, module in sorted(loaded.items()):
+        spec: Any = module.__spec__
         path = name.replace(".", "/") + ("/__init__.py" if spec.submodule_search_locations else ".py")
-        sources[path] = spec.loader.get_source(name)
+        sources[path] = spec.loader.get_source(spec.name)
     sources |= dict(_texts(files("qe.theorems"), "qe/theorems"))
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for path, text in sources.items():
