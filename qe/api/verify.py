@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from qe.certify.verify import verify as kernel_verdict
@@ -87,9 +88,9 @@ def read_plainly(text: str, seconds: float) -> Verdict:
         today = recent(certificate, budget)
         if today is not certificate and len(set(certificate.digests or ())) == 1:
             text = today.to_json()
-        command = [sys.executable, "-P", "-m", "qe.plain", "--json", "--timeout", str(seconds), "-"]
-        places = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-        run = partial(subprocess.run, input=text, stdout=subprocess.PIPE, env=places, encoding="utf-8")
+        command = [sys.executable, "-P", "-S", "-m", "qe.plain", "--json", "--timeout", str(seconds), "-"]
+        place = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}  # and no installed package
+        run = partial(subprocess.run, input=text, stdout=subprocess.PIPE, env=place, encoding="utf-8")
         said = run(command, timeout=budget.remaining()).stdout
     except CertificateRejected as error:
         return Verdict(False, error.step, error.reason)
