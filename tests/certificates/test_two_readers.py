@@ -10,8 +10,7 @@ import random
 import subprocess
 import sys
 import zipfile
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict
+from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -19,10 +18,10 @@ from typing import Any
 import pytest
 
 import qe.kernel.signs
-from qe.certify.verify import verify_json
-from qe.options import Budget, Projection
+from qe.options import Projection
 from qe.proof.certificate import Certificate
 from tests.certificates.altered_derivations import altered_derivation
+from tests.certificates.both_readers import compared
 from tests.certificates.derivations import CASES, certificate
 from tests.certificates.false_claims import derivation, derivation_by_a_rule, other_claim, text_of
 from tests.certificates.mutation import leaves, replaced
@@ -39,36 +38,6 @@ TABLES = [
     ("x^2 - 3 = 0 and y^3 - x*y + x = 0 and (y^2 - x)^2 > 0", "x y", "EE"),
     ("x^4 - x - 1 = 0 and y^2 < x", "x y", "EE"),
 ]
-SECONDS = 60
-
-
-@pytest.fixture(scope="session")
-def reader(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The plain reader as one file."""
-    file = tmp_path_factory.mktemp("reader") / "reader.pyz"
-    subprocess.run([sys.executable, "-m", "qe.plain", "--write-reader", str(file)], check=True)
-    return file
-
-
-def plain_verdicts(reader: Path, texts: Sequence[str], folder: Path) -> list[dict[str, Any]]:
-    """What the reader alone says, in an interpreter that sees the standard library only."""
-    for k, text in enumerate(texts):
-        (folder / f"{k}.json").write_text(text, encoding="utf-8")
-    names = [str(folder / f"{k}.json") for k in range(len(texts))]
-    command = [sys.executable, "-I", "-S", str(reader), "--json", "--timeout", str(SECONDS), *names]
-    done = subprocess.run(command, stdout=subprocess.PIPE, encoding="utf-8", cwd=folder, check=False)
-    return [json.loads(line) for line in done.stdout.splitlines()]
-
-
-def compared(reader: Path, texts: Sequence[str], folder: Path) -> list[str]:
-    """The verdicts that both give; fails where they differ, in the entry or the reason too."""
-    found = []
-    for text, plainly in zip(texts, plain_verdicts(reader, texts, folder), strict=True):
-        verdict = asdict(verify_json(text, Budget(SECONDS), core=True))
-        assert verdict == plainly, text[:2000]
-        found.append("accepted" if verdict["accepted"] else "rejected" if verdict["decided"] else "undecided")
-    return found
-
 
 def altered(rng: random.Random, text: str, count: int) -> Iterator[str]:
     """The certificate with other claims, other leaves of its data, and, of a derivation, other steps."""
