@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import json
+import os
+import subprocess
+import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from qe.certify.verify import verify as kernel_verdict
@@ -60,19 +65,42 @@ def checked(certificate: Certificate, budget: Budget | None = None, *, core: boo
 
     With ``core``, one that needs the expert ring (``qe.certify.trusts``) is rejected.
     """
-    from qe.certify.trusts import expert_parts
     from qe.kernel.verdict import Verdict
 
     budget = budget or Budget()
     try:
-        certificate = recent(certificate, budget)
-        if core and (names := expert_parts(certificate)):
-            return Verdict(False, "core", f"it needs the expert ring: {', '.join(names)}")
-        return kernel_verdict(certificate, budget)
+        return kernel_verdict(recent(certificate, budget), budget, core=core)
     except CertificateRejected as error:
         return Verdict(False, error.step, error.reason)
     except Unable as error:
         return Verdict(False, "", str(error), decided=False)
+
+
+def read_plainly(text: str, seconds: float) -> Verdict:
+    """The verdict of the plain reader on a certificate in JSON, in a process of its own without FLINT (``qe.plain``).
+
+    It reads the text itself, or what one of a former release is converted to. Raises ``InputError`` for what is no
+    certificate.
+    """
+    from qe.kernel.verdict import Verdict
+
+    budget = Budget(seconds)
+    try:
+        certificate = Certificate.from_json(text)
+        today = recent(certificate, budget)
+        if today is not certificate and len(set(certificate.digests or ())) == 1:
+            text = today.to_json()
+        command = [sys.executable, "-P", "-S", "-m", "qe.plain", "--json", "--timeout", str(seconds), "-"]
+        place = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}  # and no installed package
+        run = partial(subprocess.run, input=text, stdout=subprocess.PIPE, env=place, encoding="utf-8")
+        said = run(command, timeout=budget.remaining()).stdout
+    except CertificateRejected as error:
+        return Verdict(False, error.step, error.reason)
+    except (Unable, subprocess.TimeoutExpired) as error:
+        return Verdict(False, "", str(error), decided=False)
+    if not said.endswith("}\n"):
+        return Verdict(False, "", "the plain reader ended early", decided=False)
+    return Verdict(**json.loads(said))
 
 
 def recent(certificate: Certificate, budget: Budget) -> Certificate:

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 from qe.certify.kinds import brought_kind
 from qe.exact.ring import Ring, format_poly
-from qe.expert.solutions import system_of
 from qe.formula.build import atom, conj, convert, exists, forall
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
@@ -186,6 +185,8 @@ def _size(table: CellTable) -> int:
 
 
 def _of_solutions(entry: Entry) -> Claim:
+    from qe.expert.solutions import system_of
+
     ring, parts, solutions = system_of(entry)
     where, count = conj(parts), len(list(solutions.items()))
     question = exists(ring.names, where)

@@ -149,6 +149,7 @@ def check(
         str | None, typer.Option("--formula", metavar="FORMULA|FILE", help="The question that it has to be about.")
     ] = None,
     core: Annotated[bool, typer.Option("--core", help="Believe the kernel and the listed theorems alone.")] = False,
+    plain: Annotated[bool, typer.Option("--plain", help="As --core, and in plain Python, without FLINT.")] = False,
     json: Json = False,
     **settings: Any,
 ) -> int:
@@ -159,7 +160,7 @@ def check(
     text, limits = _certificate(certificate, settings)
     asked = None if formula is None else read_source(formula, None)
     seconds = remaining(limits["timeout"])
-    verdict = partial(work.check, text=text, asked=asked, seconds=seconds, as_json=json, core=core)
+    verdict = partial(work.check, text=text, asked=asked, seconds=seconds, as_json=json, core=core, plainly=plain)
     return deliver(limited(verdict, **limits), {})
 
 

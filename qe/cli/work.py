@@ -157,18 +157,26 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
 
 
 def check(
-    channel: Channel, text: str, asked: Source | None, seconds: float, *, as_json: bool = False, core: bool = False
+    channel: Channel,
+    text: str,
+    asked: Source | None,
+    seconds: float,
+    *,
+    as_json: bool = False,
+    core: bool = False,
+    plainly: bool = False,
 ) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe.api.verify import checked as verify
-    from qe.api.verify import of_question, recent
+    from qe.api.verify import of_question, read_plainly, recent
     from qe.certify.claims import claim_of, is_about, parts_of
     from qe.proof.certificate import Certificate
 
     start = time.perf_counter()
     formula = None if asked is None else read_formula(channel, asked)
     certificate = Certificate.from_json(text)
-    verdict = verify(certificate, Budget(seconds, listener=channel.event), core=core)
+    budget = Budget(seconds, listener=channel.event)
+    verdict = read_plainly(text, seconds) if plainly else verify(certificate, budget, core=core)
     if verdict.accepted and formula is not None:
         verdict = of_question(certificate, formula)
     if not verdict.decided:
