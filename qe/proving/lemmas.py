@@ -37,8 +37,9 @@ from qe.simplify.facts import factor_list, key_of
 MOST_POLYNOMIALS, MOST_PAIRS, MOST_TRIED, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 16, 8, 12, 400
 MOST_REDUCED = 40
 BRIEF_BASIS = BasisLimits(elements=80, terms=300, bits=600)
-FEW_CASES = 300
-"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this."""
+FEW_CASES, FEW_SPLITS = 300, 8
+"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this, and no
+more of them by the sign of a polynomial."""
 
 
 def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
@@ -95,7 +96,7 @@ def _used(theory: Theory, goals: Sequence[Goal], most: int) -> set[int] | None:
     used: set[int] = set()
     for goal in goals:
         try:
-            found = refutation(theory, goal, most)
+            found = refutation(theory, goal, most, FEW_SPLITS if most == FEW_CASES else most)
         except BudgetExceeded:
             raise
         except Unable:  # too many cases; further lemmas may settle most of them at once
