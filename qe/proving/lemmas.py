@@ -326,7 +326,7 @@ def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
                 continue
             for a in side:
                 if isinstance(a, Atom) and a.relation is not Relation.EQ and rest == _remainder(a.poly, basis):
-                    _combined(found, [target.poly, a.poly], generators, budget)
+                    _combined(found, [target.poly, a.poly], generators, budget, basis)
 
 
 def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
@@ -352,16 +352,34 @@ def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
                 alike.setdefault(rest, []).append(p)
         for key, members in alike.items():
             for targets in pairwise(members) if key else ((p,) for p in members):
-                _combined(found, targets, system, budget)
+                _combined(found, targets, system, budget, basis)
 
 
-def _combined(found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget) -> None:
-    solved = cofactors(targets, generators, budget)
+def _combined(
+    found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget, basis: Basis | None = None
+) -> None:
+    """A sum of multiples of the targets as a combination; with a basis, by which two have proportional remainders, the
+    one that vanishes modulo it."""
+    weights = _weights(targets, basis)
+    wanted = [targets[0] * weights[0] + targets[1] * weights[1]] if weights else targets
+    solved = cofactors(wanted, generators, budget)
     if solved is None:
         return
     numbers, factors = solved
+    numbers = [numbers[0] * w for w in weights] if weights else numbers
     terms: list[Term] = [(n, ((t, 1),)) for n, t in zip(numbers, targets, strict=True) if n]
     found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
+
+
+def _weights(targets: Sequence[Poly], basis: Basis | None) -> list[int]:
+    """Integers with which two polynomials, whose remainders are proportional, add up to one that vanishes modulo the
+    basis; none without one, or for a single polynomial."""
+    if basis is None or len(targets) != 2:
+        return []
+    (s, p), (t, q) = (basis.reduce(target) for target in targets)
+    if not p or not q:
+        return []
+    return [s * content_of(q)[0], -t * content_of(p)[0]]
 
 
 def _squarefree(found: Lemmas, poly: Poly) -> Poly:
