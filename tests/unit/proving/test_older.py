@@ -57,7 +57,8 @@ def test_a_former_boolean_search_is_read() -> None:
     assert not verdict("Boolean search", sentence, "false", by_top).accepted
     learnt = {"refuted": [], "learnt": [[-3]]}  # 2 is the first disjunction, 3 is a > 0 (or a < 0) in it
     assert verdict("Boolean search", sentence, "false", learnt).accepted
-    assert not verdict("Boolean search", sentence.replace("a < 0 or b < 0", "a < 0 or b /= 1"), "false", learnt).accepted
+    other = sentence.replace("a < 0 or b < 0", "a < 0 or b /= 1")
+    assert not verdict("Boolean search", other, "false", learnt).accepted
 
 
 def test_its_conflicts_are_refuted_in_the_language_of_today() -> None:
