@@ -14,8 +14,7 @@ from qe.options import Budget
 from qe.proof.entry import formula_to_json
 from tests.unit.certify.claims import NO_LEMMAS, RING, formula
 
-
-AT_LEAST = ["a >= 0"]
+WEAK = ["a >= 0"]
 
 
 def written(text: str) -> Any:
@@ -39,7 +38,7 @@ def objection(start: str, at: list[int], before: str, after: str, answer: str, *
     [
         ("a > 0 and b > 0", [1], "b > 0", "b > 0 and a >= 0", "a > 0 and b > 0 and a >= 0", ["a > 0"]),
         ("a > 0 or b > 0", [1], "b > 0", "b > 0 and a <= 0", "a > 0 or (b > 0 and a <= 0)", ["a <= 0"]),
-        ("a > 0 and b > 0 and a >= 0", [], "a > 0 and b > 0", "a /= 0 and b > 0", "a >= 0 and a /= 0 and b > 0", AT_LEAST),
+        ("a > 0 and b > 0 and a >= 0", [], "a > 0 and b > 0", "a /= 0 and b > 0", "a >= 0 and a /= 0 and b > 0", WEAK),
         ("a > 0 and (ex x. x > b)", [1, 0], "x > b", "a >= 0 and x > b", "a > 0 and ex x. a >= 0 and x > b", ["a > 0"]),
     ],
 )
