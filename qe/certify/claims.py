@@ -14,7 +14,7 @@ from qe.formula.build import atom, conj, convert, exists, forall
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.kernel.negation import negation, normal
-from qe.kernel.renaming import arranged, same_up_to_names
+from qe.kernel.renaming import arranged, shape
 from qe.kernel.sentence import RELATIONS, read_polynomial
 from qe.kernel.table import is_prenex_form
 from qe.proof.cells import CellTable
@@ -120,7 +120,7 @@ def _asks(certificate: Certificate, claim: Claim, formula: Formula) -> bool | No
 
 def _is_table_of(asked: Formula, table: CellTable) -> bool:
     apart = rename_apart(normal(asked))
-    if not same_up_to_names(normal(asked), apart):
+    if shape(normal(asked)) != shape(apart):
         return False
     ring = Ring.of(dict.fromkeys((*table.order, *(apart.ring.names if apart.ring else ()))))
     return is_prenex_form(convert(apart, ring), table)

@@ -61,10 +61,12 @@ class Identity:
         A term may be positive where another may be negative, and conversely; it may be 0 where two others may cancel
         each other, or all others vanish.
         """
-        values = [_product(*term, domains) for term in self.terms]
-        positive, negative = (sum(bool(v & sign) for v in values) for sign in (POSITIVE, NEGATIVE))
-        active, strict = sum(v != ZERO for v in values), sum(not v & ZERO for v in values)
-        changed = []
+        values = [_product(unit, powers, domains) for unit, powers in self.terms]
+        positive, negative = len([v for v in values if v & POSITIVE]), len([v for v in values if v & NEGATIVE])
+        active, strict = len(values) - values.count(ZERO), len([v for v in values if not v & ZERO])
+        changed = list[int]()
+        if positive > 1 and negative > 1 and active > 2:
+            return changed
         for (unit, powers), value in zip(self.terms, values, strict=True):
             up, down = positive > bool(value & POSITIVE), negative > bool(value & NEGATIVE)
             cancelling = up and down and active - (value != ZERO) > 1

@@ -37,8 +37,9 @@ from qe.simplify.facts import factor_list, key_of
 MOST_POLYNOMIALS, MOST_PAIRS, MOST_TRIED, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 16, 8, 12, 400
 MOST_REDUCED = 40
 BRIEF_BASIS = BasisLimits(elements=80, terms=300, bits=600)
-FEW_CASES = 300
-"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this."""
+FEW_CASES, FEW_SPLITS = 300, 8
+"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this, and no
+more of them by the sign of a polynomial."""
 
 
 def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
@@ -95,7 +96,7 @@ def _used(theory: Theory, goals: Sequence[Goal], most: int) -> set[int] | None:
     used: set[int] = set()
     for goal in goals:
         try:
-            found = refutation(theory, goal, most)
+            found = refutation(theory, goal, most, FEW_SPLITS if most == FEW_CASES else most)
         except BudgetExceeded:
             raise
         except Unable:  # too many cases; further lemmas may settle most of them at once
@@ -325,7 +326,7 @@ def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
                 continue
             for a in side:
                 if isinstance(a, Atom) and a.relation is not Relation.EQ and rest == _remainder(a.poly, basis):
-                    _combined(found, [target.poly, a.poly], generators, budget)
+                    _combined(found, [target.poly, a.poly], generators, budget, basis)
 
 
 def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
@@ -351,16 +352,34 @@ def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
                 alike.setdefault(rest, []).append(p)
         for key, members in alike.items():
             for targets in pairwise(members) if key else ((p,) for p in members):
-                _combined(found, targets, system, budget)
+                _combined(found, targets, system, budget, basis)
 
 
-def _combined(found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget) -> None:
-    solved = cofactors(targets, generators, budget)
+def _combined(
+    found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget, basis: Basis | None = None
+) -> None:
+    """A sum of multiples of the targets as a combination; with a basis, by which two have proportional remainders, the
+    one that vanishes modulo it."""
+    weights = _weights(targets, basis)
+    wanted = [targets[0] * weights[0] + targets[1] * weights[1]] if weights else targets
+    solved = cofactors(wanted, generators, budget)
     if solved is None:
         return
     numbers, factors = solved
+    numbers = [numbers[0] * w for w in weights] if weights else numbers
     terms: list[Term] = [(n, ((t, 1),)) for n, t in zip(numbers, targets, strict=True) if n]
     found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
+
+
+def _weights(targets: Sequence[Poly], basis: Basis | None) -> list[int]:
+    """Integers with which two polynomials, whose remainders are proportional, add up to one that vanishes modulo the
+    basis; none without one, or for a single polynomial."""
+    if basis is None or len(targets) != 2:
+        return []
+    (s, p), (t, q) = (basis.reduce(target) for target in targets)
+    if not p or not q:
+        return []
+    return [s * content_of(q)[0], -t * content_of(p)[0]]
 
 
 def _squarefree(found: Lemmas, poly: Poly) -> Poly:

@@ -20,7 +20,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
 from qe.formula.traverse import children, clashes, conjuncts, subformula
 from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import ByLemmas
-from qe.kernel.derivation import Accepted, check_derivation, limits_of, replaced, step_key
+from qe.kernel.derivation import check_derivation, limits_of, replaced
 from qe.kernel.step import Claim, Context, Limits, check_names
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
@@ -35,6 +35,7 @@ from qe.proving.lemma_list import EMPTY, identities, with_cases
 from qe.proving.lemmas import refuting
 from qe.proving.nested import derivations_within, names_within, proved_inside
 from qe.proving.primitive_names import PRIMITIVE_OF, QUANTIFIERS, SIGNS, STEPS, THEOREM
+from qe.proving.remembering import Accepted, remembering, step_key
 from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
 
@@ -82,7 +83,7 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
     certificate = Certificate.derivation(prover.ring.names, start, prover.steps, goal)
     assert isinstance(certificate.payload, dict)
     try:
-        check_derivation(certificate.payload, budget, RULES, check_certificate, prover.accepted)
+        check_derivation(certificate.payload, budget, remembering(RULES, prover.accepted), check_certificate)
     except CertificateRejected as error:
         raise InternalError(f"the certificate of an answer was rejected at {error.step}: {error.reason}") from error
     return Proof(certificate, checked=True)
@@ -114,7 +115,7 @@ class Prover:
     limits: Limits = field(init=False)
 
     def __post_init__(self) -> None:
-        self.limits = limits_of(self.budget, RULES, check_certificate, self.accepted)
+        self.limits = limits_of(self.budget, remembering(RULES, self.accepted), check_certificate)
 
     # --- steps ---------------------------------------------------------------------------------
     def whole(self, derivation: Derivation, start: Formula, goal: Formula) -> None:

@@ -31,10 +31,7 @@ class _Noted:
     lemma: Lemma
     number: int
     used: set[int]
-
-    @property
-    def polynomials(self) -> tuple[int, ...]:
-        return self.lemma.polynomials
+    polynomials: tuple[int, ...]
 
     def cut(self, domains: Domains) -> list[int]:
         changed = self.lemma.cut(domains)
@@ -43,12 +40,16 @@ class _Noted:
         return changed
 
 
-def refutation(theory: Theory, goal: Iterable[Formula], nodes: int = NODES) -> Refutation | None:
-    """A refutation of the goal, or None where there is none. ``Unable`` past so many case distinctions."""
+def refutation(
+    theory: Theory, goal: Iterable[Formula], nodes: int = NODES, splits: int = NODES
+) -> Refutation | None:
+    """A refutation of the goal, or None where there is none. ``Unable`` past so many case distinctions, and past so
+    many by the sign of a polynomial."""
     used = set[int]()
-    noted = tuple(_Noted(lemma, k, used) for k, lemma in enumerate(theory.lemmas))
+    noted = tuple(_Noted(lemma, k, used, lemma.polynomials) for k, lemma in enumerate(theory.lemmas))
     search = Search(Theory(theory.polynomials, noted, theory.limits, theory.refuted), goal)  # type: ignore[arg-type]
-    tree = _Tree(search, noted, nodes)
+    split = list(dict.fromkeys(i for lemma in noted for i in lemma.polynomials))
+    tree = _Tree(search, split, nodes, splits)
     return Refutation(tree.cases, frozenset(used)) if tree.is_refuted() else None
 
 
@@ -68,8 +69,9 @@ class _Tree:
     """Case distinctions over the alternatives of disjunctions, and over the signs on which lemmas depend."""
 
     search: Search
-    lemmas: Sequence[_Noted]
+    about: Sequence[int]
     most: int
+    splits: int
     cases: list[list[Literal]] = field(default_factory=list)
     nodes: int = 0
 
@@ -114,8 +116,11 @@ class _Tree:
                 break
         if chosen:
             return chosen
-        for i in dict.fromkeys(i for lemma in self.lemmas for i in lemma.polynomials):
+        for i in self.about:
             if domains[i] not in (NEGATIVE, ZERO, POSITIVE):
+                self.splits -= 1
+                if self.splits < 0:
+                    raise Unable("too many cases of signs")
                 return [(i, s) for s in (NEGATIVE, ZERO, POSITIVE) if domains[i] & s]
         return []
 

@@ -111,3 +111,12 @@ def test_what_is_no_combination_of_equations_is_seen_by_its_remainder() -> None:
     assert refuting(goals, RING, LIMITS) is None
     same = equivalence(*goal("x^2 - y*z = 0 and y^2 - x*z = 0", "x^2 - y*z = 0 and y^2 - x*z = 0 and x^3 = y^3"), ())
     assert lemmas(*map(list, same))
+
+
+def test_a_condition_that_equations_of_high_degree_turn_into_another() -> None:
+    """The difference of the equations gives x^2*y^2, but their cofactors have degrees beyond those tried at first."""
+    equations = "81*x^6*y^6 + 9*x^2*y^2 - a^2 = 0 and 81*x^6*y^6 + 144*x^2*y^2 - 64*z^2 = 0"
+    sides = (f"{equations} and 9*x^4*y^4 - 2 > 0", f"{equations} and a^4 - 128*a^2*z^2 + 4096*z^4 - 4050 > 0")
+    assert lemmas(*map(list, equivalence(*goal(*sides), ())))
+    wrong = (sides[0], f"{equations} and a^4 - 128*a^2*z^2 + 4096*z^4 - 4051 > 0")
+    assert refuting(equivalence(*goal(*wrong), ()), RING, LIMITS) is None

@@ -18,6 +18,7 @@ from qe.proof.derivation import moved, put_together
 from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
 from qe.proving.prover import proved
+from qe.proving.remembering import remembering
 from qe.simplify.simplify import simplify
 from tests.strategies import formulas
 
@@ -88,11 +89,11 @@ def test_a_step_that_was_accepted_is_known_by_all_that_it_depends_on():
     good = certificate(start, over("x > 0"))
     assert good is not None and isinstance(good.payload, dict)
     known: set[tuple[object, ...]] = set()
-    check_derivation(good.payload, Budget(), RULES, check_certificate, known)
+    check_derivation(good.payload, Budget(), remembering(RULES, known), check_certificate)
     assert len(known) == 1
     step = good.payload["steps"][0]  # type: ignore[call-overload, index]
     for entry, value in (("after", wrong), ("after", TRUE), ("after", FALSE)):
         changed = {**step, entry: formula_to_json(value)}
         payload = {**good.payload, "steps": [changed], "answer": changed["after"]}
         with pytest.raises(qe.CertificateRejected):
-            check_derivation(payload, Budget(), RULES, check_certificate, known)
+            check_derivation(payload, Budget(), remembering(RULES, known), check_certificate)
