@@ -8,7 +8,6 @@ from qe.kernel.alternatives import check_alternatives
 from qe.kernel.block import check_block
 from qe.kernel.boolean_search import check_boolean_search
 from qe.kernel.covering import check_covering
-from qe.kernel.degree_shift import check_degree_shift
 from qe.kernel.elimination_set import check_elimination_set
 from qe.kernel.independent_parts import check_independent_parts
 from qe.kernel.inequations import check_inequations, check_only_nonzero
@@ -56,7 +55,6 @@ PRIMITIVES: Mapping[str, Check] = {
     "root": check_root,
     "linear equation solved": check_linear,
     "linear equation solved under a guard": check_guarded_linear,
-    "degree shift": check_degree_shift,
     # test points
     "elimination set": check_elimination_set,
     # cylinders

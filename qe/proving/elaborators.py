@@ -32,7 +32,11 @@ from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.lemma_list import EMPTY
 from qe.proving.lemmas import refuting
 from qe.proving.made import FRESH, Made, solved
+from qe.proving.along import constant_along
+from qe.proving.far import infinity_first, zeros
+from qe.proving.forms import named
 from qe.proving.mirrors import mirrored
+from qe.proving.ranges import by_ranges
 from qe.proving.shifts import lower, shifted
 from qe.proving.simplified import Simplified
 from qe.rules.closed_forms import matches
@@ -422,7 +426,12 @@ ELABORATORS: Mapping[str, Elaborator] = {
     "constant": constant,
     "witness in the parameters": witness,
     "degree shift": shifted,
+    "constant along directions": constant_along,
+    "conditions on zeros that follow": zeros,
+    "infinity first": infinity_first,
+    "ranges that exclude each other": by_ranges,
     "linear form as a variable": sheared,
+    "linear form named": named,
     "mirror images of a convex set": mirrored,
     "disjuncts with equations apart": distributed,
 }

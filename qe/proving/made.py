@@ -88,6 +88,11 @@ class Made:
         """Steps from what stands after to what stands before."""
         self.step("converse", before, after, {"steps": made.steps})
 
+    def derived(self, before: Formula, after: Formula, steps: Entry) -> None:
+        """Steps that lead from the one to the other, under what holds around all."""
+        back = written("converse", (), after, before, self.known, {"steps": steps.value})
+        self.step("converse", before, after, {"steps": [back]}, self.known)
+
     def simplified(self, before: Formula, after: Formula) -> None:
         """What signs of polynomials prove, with what stands beside it where that is needed, a part after the other."""
 

@@ -21,7 +21,7 @@ from qe.formula.traverse import children, clashes, conjuncts, subformula
 from qe.kernel.block import existential
 from qe.kernel.boolean import ByLemmas
 from qe.kernel.derivation import Accepted, check_derivation, limits_of, replaced, step_key
-from qe.kernel.step import Claim, Context, Limits, check_names
+from qe.kernel.step import Check, Claim, Context, Limits, check_names
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together
@@ -53,6 +53,13 @@ SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
 THEOREM, REDUNDANT = "theorem", "redundant part"
 STEPS = "steps"
 ELABORATED = (
+    "conditions on zeros that follow",
+    "constant along directions",
+    "degree shift",
+    "infinity first",
+    "linear form named",
+    "ranges that exclude each other",
+    "mirror images of a convex set",
     "disjuncts with equations apart",
     "homogeneous scaling",
     "linear form as a variable",
@@ -245,7 +252,8 @@ class Prover:
         try:
             check_names(self._claim(rule, step, evidence), context)
             if any(derivations_within(evidence)):
-                evidence = proved_inside(checker, self._claim(rule, step, evidence), context, self.limits, self.nested)
+                given = self._claim(rule, step, evidence)
+                evidence = proved_inside(lambda limits: _checked(checker, given, context, limits), self.limits, self.nested)
             if isinstance(checker, ByLemmas):
                 evidence = {**evidence, "theory": EMPTY}
                 goals = checker.obligations(self._claim(rule, step, evidence), context)
@@ -262,7 +270,8 @@ class Prover:
     def _elaborated(self, step: Step, context: Context, evidence: Json) -> tuple[str, Json] | None:
         """Steps of the kernel that make a step of another rule."""
         try:
-            made: list[Json] = ELABORATORS[step.rule](self._claim(step.rule, step, evidence), context, self.limits)
+            claim, elaborator = self._claim(step.rule, step, evidence), ELABORATORS[step.rule]
+            made = proved_inside(lambda limits: elaborator(claim, context, limits), self.limits, self.nested)
         except CertificateRejected:
             return None
         except Unable:
@@ -390,6 +399,12 @@ class Prover:
             case None | bool() | int() | str():
                 return value
         raise TypeError(f"no evidence: {type(value).__name__}")
+
+
+def _checked(checker: Check, claim: Claim, context: Context, limits: Limits) -> Json:
+    """The evidence of a claim that its checker accepts."""
+    checker(claim, context, limits)
+    return claim.evidence.value  # type: ignore[return-value]  # the checker has read it
 
 
 def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:
