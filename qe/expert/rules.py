@@ -11,7 +11,6 @@ from qe.expert.degenerate_truth_set import check_degenerate_truth_set
 from qe.expert.roots_by_signs import check_roots_by_signs
 from qe.expert.roots_counted import check_roots_counted
 from qe.expert.rotation import check_rotation
-from qe.expert.sphere import check_sphere
 from qe.kernel.step import Check
 
 EXPERT: Mapping[str, Check] = {
@@ -22,5 +21,4 @@ EXPERT: Mapping[str, Check] = {
     "roots by signs": check_roots_by_signs,
     "roots counted": check_roots_counted,
     "rotation of the axes": check_rotation,
-    "sphere seen along a form": check_sphere,
 }

@@ -34,7 +34,7 @@ from qe.proving.lemmas import refuting
 from qe.proving.made import FRESH, Made, solved
 from qe.proving.along import constant_along
 from qe.proving.far import infinity_first, zeros
-from qe.proving.forms import named
+from qe.proving.forms import named, seen_along
 from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
 from qe.proving.shifts import lower, shifted
@@ -409,7 +409,7 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [simplified(claim.before, claim.after, (), claim, limits)]
 
 
-NAMING = frozenset(("degree shift", "homogeneous scaling", "two variables exchanged"))
+NAMING = frozenset(("degree shift", "homogeneous scaling", "sphere seen along a form", "two variables exchanged"))
 """Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
 
 ELABORATORS: Mapping[str, Elaborator] = {
@@ -430,6 +430,7 @@ ELABORATORS: Mapping[str, Elaborator] = {
     "conditions on zeros that follow": zeros,
     "infinity first": infinity_first,
     "ranges that exclude each other": by_ranges,
+    "sphere seen along a form": seen_along,
     "linear form as a variable": sheared,
     "linear form named": named,
     "mirror images of a convex set": mirrored,

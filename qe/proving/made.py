@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or, Relation
-from qe.formula.traverse import children
+from qe.formula.traverse import children, conjuncts
 from qe.kernel.block import block_goals
 from qe.kernel.boolean import Goal, equivalence
 from qe.kernel.derivation import replaced
@@ -24,6 +24,9 @@ from qe.proving.simplified import Simplified
 
 FRESH = ("'", "''")
 """Names for variables that steps need on their way; where a formula has them, there are no steps."""
+
+
+Obligations = Callable[[Claim, Context], Sequence[Goal]]
 
 
 @dataclass(slots=True)
@@ -113,17 +116,20 @@ class Made:
         self, before: Formula, after: Formula, there: Mapping[str, Quotient], back: Mapping[str, Quotient]
     ) -> None:
         """A change of variables by these terms."""
-        self._by_lemmas("terms", terms_goals, before, after, {"there": rows(there), "back": rows(back)})
+        self.by_lemmas("terms", terms_goals, before, after, {"there": rows(there), "back": rows(back)})
 
     def root(self, block: Exists, low: Poly | None = None) -> None:
         """An equation for x that rises, or falls, from a place (or the left end) to the right end has a root."""
-        (part,) = (f for f in (block.body.args if isinstance(block.body, And) else (block.body,)) if isinstance(f, Atom) and f.relation is Relation.EQ)
+        part = next(f for f in conjuncts(block.body) if isinstance(f, Atom) and f.relation is Relation.EQ)
         lead = part.poly.leading(self.ring.index[block.variables[0]])
         sign = 0 if low is None else 1 if lead.is_constant and lead.constant_value() > 0 else -1
         start: Json = None if low is None else [poly_to_text(low), "1"]
-        self._by_lemmas("root", root_goals, block, TRUE, {"low": start, "high": None, "rising": sign})
+        self.by_lemmas("root", root_goals, block, TRUE, {"low": start, "high": None, "rising": sign})
 
-    def _by_lemmas(self, rule: str, obligations, before: Formula, after: Formula, evidence: dict[str, Json]) -> None:
+    def by_lemmas(
+        self, rule: str, obligations: Obligations, before: Formula, after: Formula, evidence: dict[str, Json]
+    ) -> None:
+        """A step whose obligations follow from signs, with what stands beside it."""
         facts = self.beside(self.place(before), before, after)[0]
         goals = obligations(self._step(rule, before, after, {**evidence, "theory": EMPTY}), facts)
         self.step(rule, before, after, {**evidence, "theory": theory(goals, self.claim, self.limits)}, facts)

@@ -63,6 +63,7 @@ ELABORATED = (
     "disjuncts with equations apart",
     "homogeneous scaling",
     "linear form as a variable",
+    "sphere seen along a form",
     "square of a variable alone",
     "translation of the origin",
     "two variables exchanged",
