@@ -43,7 +43,7 @@ def constant_along(claim: Claim, context: Context, limits: Limits) -> list[Json]
             as_given = normal(one) == normal(claim.before) or normal(other) == negation(claim.before)
             whole = conj((start, negation(end))) if as_given else conj((normal(end), Not(start)))
             made.moved(body, whole)
-            made.derived(start, end, steps)
+            made.derived(start, end, steps.value)
             made.simplified(made.current, FALSE)
         lists.append(list(made.steps))
     return [written("no exception", (), before, after, context, {"exceptions": lists})]

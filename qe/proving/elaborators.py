@@ -33,6 +33,7 @@ from qe.proving.lemma_list import EMPTY
 from qe.proving.lemmas import refuting
 from qe.proving.made import FRESH, Made, solved
 from qe.proving.along import constant_along
+from qe.proving.apart import alternatives, independent_parts
 from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.mirrors import mirrored
@@ -431,6 +432,8 @@ ELABORATORS: Mapping[str, Elaborator] = {
     "infinity first": infinity_first,
     "ranges that exclude each other": by_ranges,
     "sphere seen along a form": seen_along,
+    "alternatives": alternatives,
+    "independent parts": independent_parts,
     "linear form as a variable": sheared,
     "linear form named": named,
     "mirror images of a convex set": mirrored,

@@ -35,11 +35,11 @@ def infinity_first(claim: Claim, context: Context, limits: Limits) -> list[Json]
             _taken(made, before, name, side, end)
     near = limits.replay(first, far, made.known, ring)
     if far not in (near, FALSE):
-        made.derived(far, near, first)
+        made.derived(far, near, first.value)
     left = exists((name,), conj((before.body, negation(near))))
     if left != rest:
         made.moved(rest, exists((name,), And((*conjuncts(before.body), Not(far)))))
-        made.derived(far, near, first)
+        made.derived(far, near, first.value)
         made.moved(exists((name,), And((*conjuncts(before.body), Not(near)))), left)
     starts = [exists((name,), conj((before.body, negation(near), case))) for case in listed]
     if left != FALSE:
@@ -47,7 +47,7 @@ def infinity_first(claim: Claim, context: Context, limits: Limits) -> list[Json]
     for start, steps in zip(starts, others, strict=True):
         end = limits.replay(steps, start, made.known, ring)
         if start in disjuncts(made.current):
-            made.derived(start, end, steps)
+            made.derived(start, end, steps.value)
     return made.finished(after)
 
 

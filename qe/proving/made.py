@@ -7,11 +7,12 @@ from dataclasses import dataclass, field, replace
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import children, conjuncts
 from qe.kernel.block import block_goals
 from qe.kernel.boolean import Goal, equivalence
 from qe.kernel.derivation import replaced
+from qe.kernel.negation import normal
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits
 from qe.kernel.terms import Quotient, terms_goals
@@ -91,10 +92,12 @@ class Made:
         """Steps from what stands after to what stands before."""
         self.step("converse", before, after, {"steps": made.steps})
 
-    def derived(self, before: Formula, after: Formula, steps: Entry) -> None:
+    def derived(self, before: Formula, after: Formula, steps: Json) -> None:
         """Steps that lead from the one to the other, under what holds around all."""
-        back = written("converse", (), after, before, self.known, {"steps": steps.value})
-        self.step("converse", before, after, {"steps": [back]}, self.known)
+        if normal(before) == before and normal(after) == after and not isinstance(before, ForAll):
+            return self.step("steps", before, after, {"steps": steps}, self.known)
+        back = written("converse", (), after, before, self.known, {"steps": steps})  # both sides as they stand
+        return self.step("converse", before, after, {"steps": [back]}, self.known)
 
     def simplified(self, before: Formula, after: Formula) -> None:
         """What signs of polynomials prove, with what stands beside it where that is needed, a part after the other."""

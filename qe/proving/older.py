@@ -58,7 +58,7 @@ class _Conversion:
     """Steps of one certificate, with those inside their evidence, under one budget."""
 
     def __init__(self, budget: Budget) -> None:
-        self.limits = limits_of(budget, RULES, check_certificate)
+        self.limits = limits_of(budget, RULES, check_certificate, set())
         self.ring = Ring.of(())
 
     def data(self, value: Json, path: str) -> Json:
