@@ -38,7 +38,7 @@ from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
-from qe.proving.shifts import lower, shifted
+from qe.proving.shifts import elimination_set, lower, shifted
 from qe.proving.simplified import Simplified
 from qe.rules.closed_forms import matches
 
@@ -410,7 +410,7 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [simplified(claim.before, claim.after, (), claim, limits)]
 
 
-NAMING = frozenset(("degree shift", "homogeneous scaling", "sphere seen along a form", "two variables exchanged"))
+NAMING = frozenset(("degree shift", "elimination set", "homogeneous scaling", "sphere seen along a form", "two variables exchanged"))
 """Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
 
 ELABORATORS: Mapping[str, Elaborator] = {
@@ -434,6 +434,7 @@ ELABORATORS: Mapping[str, Elaborator] = {
     "sphere seen along a form": seen_along,
     "alternatives": alternatives,
     "independent parts": independent_parts,
+    "elimination set": elimination_set,
     "linear form as a variable": sheared,
     "linear form named": named,
     "mirror images of a convex set": mirrored,

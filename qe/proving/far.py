@@ -57,7 +57,7 @@ def _taken(made: Made, block: Exists, name: str, side: int, end: Formula) -> Non
     point: Json = {"coefficients": [], "branch": 0, "shift": side}
     tried: Json = {"point": point, "guard": True, "formula": None, "settled": []}
     steps = [written("simplification", (), end, TRUE, known, {"theory": EMPTY})] if known else []
-    evidence: dict[str, Json] = {"variable": name, "exponent": 1, "side": 1, "quadratics": []}
+    evidence: dict[str, Json] = {"variable": name, "side": 1, "quadratics": []}
     made.step("elimination set", block, TRUE, {**evidence, "points": [tried], "parts": [steps]}, known)
 
 

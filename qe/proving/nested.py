@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
+from qe.elimination.vs.trace import Eliminated, shifts_degrees
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
@@ -16,7 +17,8 @@ from qe.kernel.step import Context, Limits
 from qe.proof.entry import Entry, Json
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
-from qe.proving.elaborators import FRESH, NAMING
+from qe.proving.elaborators import NAMING
+from qe.proving.made import FRESH
 
 Prove = Callable[[Nested, Formula, Context], tuple[Formula, list[Json]]]
 """From the formula with which a checker begins, under a context, to the answer of a derivation: that, and the steps.
@@ -49,6 +51,8 @@ def names_within(value: object) -> Iterator[str]:
         case Step(rule, before, after, context, evidence):
             yield from FRESH if rule in NAMING else ()
             yield from names_within([before, after, context, evidence])
+        case Eliminated(trace=trace):
+            yield from FRESH if shifts_degrees(trace) else ()
         case RunLog():
             yield from names_within(list(value.steps()))
         case Mapping():

@@ -20,7 +20,8 @@ from qe.kernel.verdict import CRASHES
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Labelled
 from qe.proof.entry import Entry, Json, formula_from_json
-from qe.proving.elaborators import ELABORATORS, FRESH, NAMING, Elaborator
+from qe.proving.elaborators import ELABORATORS, NAMING, Elaborator
+from qe.proving.made import FRESH
 
 
 def recent(certificate: Certificate, budget: Budget) -> Certificate:
@@ -46,12 +47,21 @@ def _mentions(data: Json, rules: Container[str]) -> bool:
         node = pending.pop()
         if isinstance(node, dict):
             rule = node.get("rule")
-            if isinstance(rule, str) and rule in rules:
+            if isinstance(rule, str) and rule in rules and _is_former(node):
                 return True
             pending += node.values()
         elif isinstance(node, list):
             pending += node
     return False
+
+
+def _is_former(step: dict[str, Json]) -> bool:
+    """Whether the evidence is not what the rule has today."""
+    evidence = step.get("evidence")
+    return step.get("rule") != ELIMINATION or (isinstance(evidence, dict) and "exponent" in evidence)
+
+
+ELIMINATION = "elimination set"
 
 
 class _Conversion:
@@ -75,7 +85,7 @@ class _Conversion:
             self.ring = Ring.of(dict.fromkeys((*names, *fresh)))
         found = {name: self.data(part, f"{path}.{name}") for name, part in value.items()}
         rule = value.get("rule")
-        if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None:
+        if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None and _is_former(value):
             try:
                 found = self.step(Entry(found, path), elaborator)
             except (CertificateRejected, *CRASHES) as error:

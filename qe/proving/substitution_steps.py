@@ -34,6 +34,7 @@ from qe.proof.entry import Entry, Json, formula_to_json
 from qe.proving.apart import Part, by_alternatives, by_independent_parts
 from qe.proving.elimination_points import Point, Points
 from qe.proving.made import Made
+from qe.proving.shifts import lower_first, raised
 
 Simplified = Callable[[Formula, Formula], Json]
 """A step of the rule "simplification" with its evidence; raises ``CertificateRejected`` where none is found."""
@@ -136,6 +137,21 @@ class _Steps:
     def substituted(self, before: Formula, names: Collection[str], trace: Substituted) -> list[Json]:
         if not isinstance(before, Exists):
             raise CertificateRejected("trace", "an existential block expected")
+        if trace.plan.exponent > 1:
+            return self.lowered(before, names, trace)
+        return self.at_points(before, names, trace, None)
+
+    def lowered(self, before: Exists, names: Collection[str], trace: Substituted) -> list[Json]:
+        """The power of a variable for the variable first."""
+        name = trace.formula.ring.names[trace.plan.x]
+        made = self.made(before)
+        low = lower_first(made, before, name, trace.plan.exponent)
+        return [*made.steps, *self.at_points(low, names, trace, (name, trace.plan.exponent))]
+
+    def at_points(
+        self, before: Exists, names: Collection[str], trace: Substituted, shift: tuple[str, int] | None
+    ) -> list[Json]:
+        """The elimination set; where ``shift`` says of which power it is, what stays quantified is of the variable."""
         thin = self.is_thinned(before, trace)
         points = Points(before, trace, self.ring, self.limits, complete=thin)
         rest = [v for v in before.variables if v != points.name]
@@ -146,7 +162,12 @@ class _Steps:
         for point in points.listed:
             begin = start(point.tried, points.x, points.name, before.variables, self.ring)
             left = before.variables if point.tried.point is None else rest
-            lists.append(self.solved(begin, block_of(left, point.result, self.ring), left, point))
+            back: list[Json] = []
+            if shift is not None and point.tried.point is None:
+                whole = block_of(left, point.result, self.ring)
+                if isinstance(whole, Exists) and point.trace is not None:
+                    back, begin = raised(self.made(begin), whole, *shift), whole
+            lists.append([*back, *self.solved(begin, block_of(left, point.result, self.ring), left, point)])
             answers.append(point.answer)
         return self.step("elimination set", before, disj(answers), points.evidence(lists))
 
