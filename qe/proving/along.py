@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import FALSE, Exists, Formula, Not
+from qe.formula.syntax import FALSE, Atom, Exists, Formula, Not, RootAtom
 from qe.formula.traverse import map_atoms
 from qe.kernel.block import existential
 from qe.kernel.negation import negation, normal
@@ -59,9 +59,11 @@ def _move(direction: Entry, claim: Claim) -> tuple[str, dict[str, Fraction]]:
 
 
 def _at_zero(formula: Formula, names: list[str]) -> Formula:
-    for name in names:
-        formula = map_atoms(formula, lambda a, name=name: atom(a.poly.at_rational(a.poly.ring.index[name], 0), a.relation))
-    return formula
+    def change(found: Atom | RootAtom) -> Formula:
+        ring = found.poly.ring
+        return atom(found.poly.compose({ring.index[v]: ring.constant(0) for v in names}), found.relation)
+
+    return map_atoms(formula, change)
 
 
 def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:

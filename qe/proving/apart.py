@@ -56,7 +56,7 @@ def independent_parts(claim: Claim, context: Context, limits: Limits) -> list[Js
         piece, together, steps = entry.fields("body", "together", "steps")
         body, known = formula_from_json(piece, claim.ring, quantified=True), beside if together.truth() else ()
         start = block_of(block.variables, conj((*known, body)), claim.ring)
-        found.append(Part(body, limits.replay(steps, start, context, claim.ring), steps.value, together.truth()))
+        found.append(Part(body, limits.replay(steps, start, context, claim.ring), steps.value, bool(known)))
     return by_independent_parts(Made(claim, limits, block, context), block.variables, found, claim.after)
 
 

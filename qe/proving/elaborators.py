@@ -29,13 +29,13 @@ from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.kernel.theorem import theorem_goals
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, poly_to_text
-from qe.proving.lemma_list import EMPTY
-from qe.proving.lemmas import refuting
-from qe.proving.made import FRESH, Made, solved
 from qe.proving.along import constant_along
 from qe.proving.apart import alternatives, independent_parts
 from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
+from qe.proving.lemma_list import EMPTY
+from qe.proving.lemmas import refuting
+from qe.proving.made import FRESH, Made, solved
 from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
 from qe.proving.shifts import elimination_set, lower, shifted
@@ -410,7 +410,9 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [simplified(claim.before, claim.after, (), claim, limits)]
 
 
-NAMING = frozenset(("degree shift", "elimination set", "homogeneous scaling", "sphere seen along a form", "two variables exchanged"))
+NAMING = frozenset(
+    ("degree shift", "elimination set", "homogeneous scaling", "sphere seen along a form", "two variables exchanged")
+)
 """Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
 
 ELABORATORS: Mapping[str, Elaborator] = {

@@ -64,11 +64,11 @@ def _taken(made: Made, block: Exists, name: str, side: int, end: Formula) -> Non
 def zeros(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """Which variables are 0 decides the terms of the polynomials, one by one."""
     only(claim)
-    ring = claim.ring
-    polys = dict.fromkeys(a.poly for side in (claim.before, claim.after) for a in atoms(side) if isinstance(a, Atom))
+    (before, after), ring = existential(claim), claim.ring
+    polys = dict.fromkeys(a.poly for side in (before, after) for a in atoms(side) if isinstance(a, Atom))
     listed: list[list[Term]] = []
     for poly in polys:
         terms = [(-c, tuple((ring.gen(i), e) for i, e in powers)) for powers, c in poly.sparse_terms()]
         listed.append([(1, ((poly, 1),)), *terms])
     evidence = {"theory": identities(listed, ring)}
-    return [written("simplification", (), claim.before, claim.after, context, evidence)]
+    return [written("simplification", (), before, after, context, evidence)]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import children, conjuncts
 from qe.kernel.block import block_goals
 from qe.kernel.boolean import Goal, equivalence
@@ -49,7 +49,8 @@ class Made:
 
     def fresh(self) -> str:
         """A name that the formula does not have."""
-        name = next((n for n in FRESH if n in self.ring.index and n not in {*self.current.free, *self.current.bound}), "")
+        taken = {*self.current.free, *self.current.bound}
+        name = next((n for n in FRESH if n in self.ring.index and n not in taken), "")
         if not name:
             raise self.claim.fail("no name is free")
         return name

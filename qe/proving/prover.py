@@ -22,6 +22,7 @@ from qe.kernel.block import existential
 from qe.kernel.boolean import ByLemmas
 from qe.kernel.derivation import Accepted, check_derivation, limits_of, replaced, step_key
 from qe.kernel.step import Check, Claim, Context, Limits, check_names
+from qe.kernel.verdict import CRASHES
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together
@@ -254,7 +255,9 @@ class Prover:
             check_names(self._claim(rule, step, evidence), context)
             if any(derivations_within(evidence)):
                 given = self._claim(rule, step, evidence)
-                evidence = proved_inside(lambda limits: _checked(checker, given, context, limits), self.limits, self.nested)
+                inside = proved_inside(lambda own: _checked(checker, given, context, own), self.limits, self.nested)
+                assert isinstance(inside, dict)  # the checker has read it
+                evidence = inside
             if isinstance(checker, ByLemmas):
                 evidence = {**evidence, "theory": EMPTY}
                 goals = checker.obligations(self._claim(rule, step, evidence), context)
@@ -273,7 +276,7 @@ class Prover:
         try:
             claim, elaborator = self._claim(step.rule, step, evidence), ELABORATORS[step.rule]
             made = proved_inside(lambda limits: elaborator(claim, context, limits), self.limits, self.nested)
-        except CertificateRejected:
+        except (CertificateRejected, *CRASHES):  # what evidence an elaborator cannot read proves nothing
             return None
         except Unable:
             self.budget.check("prove")
@@ -405,7 +408,7 @@ class Prover:
 def _checked(checker: Check, claim: Claim, context: Context, limits: Limits) -> Json:
     """The evidence of a claim that its checker accepts."""
     checker(claim, context, limits)
-    return claim.evidence.value  # type: ignore[return-value]  # the checker has read it
+    return claim.evidence.value
 
 
 def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:

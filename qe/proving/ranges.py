@@ -52,7 +52,7 @@ def by_ranges(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         made.about(claim.ring.gen(i) * value.rational().denominator - value.rational().numerator)
     for poly in _at_most_zero(parts, last):
         made.follow(poly, None, 0)
-    return [written("simplification", (), claim.before, claim.after, context, {"theory": made.evidence()})]
+    return [written("simplification", (), before, after, context, {"theory": made.evidence()})]
 
 
 def _at_most_zero(parts: tuple[object, ...], entry: Entry) -> Iterator[Poly]:
@@ -123,7 +123,8 @@ class _Ranges:
 
     def ends_of(self, powers: tuple[tuple[int, int], ...]) -> Ends:
         """The range of a product of powers, with lemmas for it."""
-        ring, total, product = self.claim.ring, (Fraction(1), Fraction(1)), tuple[tuple[Poly, int], ...]()
+        ring, product = self.claim.ring, tuple[tuple[Poly, int], ...]()
+        total: Ends = Fraction(1), Fraction(1)
         for i, e in powers:
             for end in self.ends.get(i, ()):
                 check_value(ring.gen(i) ** e, i, end if isinstance(end, Fraction) else Fraction(0))
@@ -158,7 +159,7 @@ class _Ranges:
                     products.append((first, [_less(other, second)], ()))
                 return self._sum((*p, *x), end, products)
         (a, b), (c, d) = of_p, of_x
-        assert isinstance(a, Fraction) and isinstance(b, Fraction) and isinstance(c, Fraction) and isinstance(d, Fraction)
+        a, b, c, d = (Fraction(end) for end in (a, b, c, d))  # a finite end says that all are
         weight = 1 / ((b - a) * (d - c))
         corners = [(a, b, c, d, 1), (a, b, d, c, -1), (b, a, c, d, -1), (b, a, d, c, 1)]
         return self._sum(

@@ -35,7 +35,7 @@ def low(body: Formula, x: int, power: int) -> Formula:
 def lower_first(made: Made, block: Exists, name: str, power: int) -> Exists:
     """Steps from a block to that over ``low``; where its solutions are open, 0 is not the only one."""
     ring, x = made.ring, made.ring.index[name]
-    after, whole = low(block.body, x, power), block
+    after, whole = low(block.body, x, power), exists(block.variables, block.body)
     positive, weak = atom(ring.gen(x), Relation.GT), atom(ring.gen(x), Relation.GE)
     if power % 2 == 0 and positive in conjuncts(after) and positive not in conjuncts(block.body):
         inner = Exists((name,), block.body)

@@ -143,7 +143,9 @@ class _Steps:
 
     def lowered(self, before: Exists, names: Collection[str], trace: Substituted) -> list[Json]:
         """The power of a variable for the variable first."""
-        name = trace.formula.ring.names[trace.plan.x]
+        given = trace.formula.ring
+        assert given is not None
+        name = given.names[trace.plan.x]
         made = self.made(before)
         low = lower_first(made, before, name, trace.plan.exponent)
         return [*made.steps, *self.at_points(low, names, trace, (name, trace.plan.exponent))]

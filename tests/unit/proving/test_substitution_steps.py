@@ -48,8 +48,8 @@ def eliminated(text: str) -> tuple[Exists, Formula, list[Json], Ring]:
     [
         ("ex x. x > a and x < b", ["elimination set"]),
         ("ex x. a*x = b and x > 0", ["elimination set"]),
-        ("ex x, y. x > a and y < b and y > 0", ["independent parts"]),
-        ("ex x. x > a and x < 0 or x < b and x > 1", ["alternatives"]),
+        ("ex x, y. x > a and y < b and y > 0", ["quantifiers", "steps", "steps"]),
+        ("ex x. x > a and x < 0 or x < b and x > 1", ["quantifiers", "steps", "steps"]),
         ("ex x. x^2 = 2", ["instance"]),
         ("ex x. x^2 < a", ["elimination set"]),
     ],
