@@ -43,8 +43,14 @@ def lower_first(made: Made, block: Exists, name: str, power: int) -> Exists:
         regular = exists((name,), conj((block.body, atom(ring.gen(x), Relation.NE))))
         nested = Exists(tuple(v for v in block.variables if v != name), inner) if len(block.variables) > 1 else inner
         made.moved(block, nested)
-        made.step(OPEN, inner, plain, {})
-        made.step("converse", plain, regular, {"steps": [written(OPEN, (), regular, plain, (), {})]})
+        made.derived(
+            inner,
+            regular,
+            [
+                written(OPEN, (), inner, plain, (), {}),
+                written("converse", (), plain, regular, (), {"steps": [written(OPEN, (), regular, plain, (), {})]}),
+            ],
+        )
         whole = exists(block.variables, conj((block.body, atom(ring.gen(x), Relation.NE))))
         made.moved(made.current, whole)
     assert isinstance(whole, Exists)

@@ -6,19 +6,21 @@ import random
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 from unittest.mock import patch
 
 from qe.engine.run import answered
 from qe.exact.ring import Ring
-from qe.formula.syntax import Formula
+from qe.formula.syntax import Exists, Formula
+from qe.formula.traverse import conjuncts, disjuncts
 from qe.io.names import names_in
 from qe.io.text import read
 from qe.kernel.statements import rows
 from qe.options import Budget, Options
 from qe.proof.derivation import moved, put_together
-from qe.proof.entry import Entry, Json, formula_from_json
+from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json
 from qe.proof.run_log import Choice, RunLog
-from qe.proof.step import Place, Step
+from qe.proof.step import Nested, Place, Step
 from qe.proving.elaborators import ELABORATORS
 from qe.proving.nested import names_within
 from qe.proving.prover import Prover
@@ -132,8 +134,18 @@ def former_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
             at = {"at": list(proof["at"])} if step.rule == "redundant part" else {}
             return {**at, "steps": exceptions[0]}
         case "steps":
-            return prover._plain(proof) if isinstance(proof, Mapping) else {}
+            facts = _facts(made, prover.ring)
+            return _proved_inside(prover, prover._plain(proof), facts) if isinstance(proof, Mapping) else {}
     return evidence if (step.rule, made["rule"]) == ("constant", "cells") else None
+
+
+def _proved_inside(prover: Prover, value: Any, facts: tuple[Formula, ...]) -> Any:
+    """Evidence with the steps of the derivations inside it."""
+    if isinstance(value, Nested):
+        return prover.nested(value, moved(value.start, prover.ring), facts)[1]
+    if isinstance(value, dict):
+        return {name: _proved_inside(prover, part, facts) for name, part in value.items()}
+    return [_proved_inside(prover, part, facts) for part in value] if isinstance(value, list) else value
 
 
 def former_step(rng: random.Random, rule: str) -> TrueStep:
@@ -142,9 +154,20 @@ def former_step(rng: random.Random, rule: str) -> TrueStep:
     before, after = (read(filled(random.Random(seed), text)) for text in FORMER[rule])
     ring = Ring.of(dict.fromkeys((*names_in(before), *names_in(after))))
     step = Step(rule, moved(before, ring), moved(after, ring))
+    if rule in ELABORATORS:
+        return TrueStep(rule, ring, step.before, step.after, (), _of_parts(rule, step.after))
     found = Prover(ring, Options(), Budget(TO_PROVE)).evidence(step, ())
     assert found is not None, step
     return TrueStep(rule, ring, step.before, step.after, (), found[1])
+
+
+def _of_parts(rule: str, after: Formula) -> Json:
+    """The evidence that a block falls into those after, with no steps of theirs."""
+    blocks = [f.body for f in (*conjuncts(after), *disjuncts(after)) if isinstance(f, Exists)]
+    bodies: list[Json] = [formula_to_json(body, quantified=True) for body in blocks]
+    if rule == "alternatives":
+        return {"pieces": bodies, "parts": [[] for _ in bodies]}
+    return {"pieces": [{"body": body, "together": False, "steps": []} for body in bodies]}
 
 
 def _read(listed: list[Json], ring: Ring) -> Iterator[TrueStep]:

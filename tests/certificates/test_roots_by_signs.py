@@ -10,7 +10,7 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from qe.certify.arithmetic import root_patterns
+from qe.expert.arithmetic import root_patterns
 
 import qe
 from qe.certify.registry import RULES
