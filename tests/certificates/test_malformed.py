@@ -56,12 +56,6 @@ OTHERS = [
 """Questions for rules that those of ``derivations`` do not need, with the method."""
 
 BY_HAND = [
-    step(
-        "linear form as a variable",
-        "ex x. x + a > b and x + a < c",
-        "ex x. x > b and x < c",
-        {"variable": "x", "form": "a + x"},
-    ),
     step("degenerate truth set", "all y. a*y > 1", "false", by(["0"], [[]])),
     step(
         "degenerate truth set",

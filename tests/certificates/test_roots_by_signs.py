@@ -10,7 +10,6 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from qe.expert.arithmetic import root_patterns
 
 import qe
 from qe.certify.registry import RULES
@@ -19,6 +18,7 @@ from qe.elimination.protocol import Problem
 from qe.elimination.rootsigns import forms, method, question, theory
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
+from qe.expert.arithmetic import root_patterns
 from qe.formula.build import atom, conj, convert, disj
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or, Relation
