@@ -1,8 +1,8 @@
 """Rule "elimination set": a quantified variable replaced by finitely many test points.
 
 Evidence: ``variable`` x; ``side`` s (1, -1, or 0 for sets without radicals, with ``quadratics``); ``points``, tried
-in their order, each with ``point``, ``guard``, ``formula`` (null: the whole), ``settled``; ``parts``: for each point the
-steps from (exists the other variables. guard and formula at the point) on. The claim is that exists x, ... F is
+in their order, each with ``point``, ``guard``, ``formula`` (null: the whole), ``settled``; ``parts``: for each point
+the steps from (exists the other variables. guard and formula at the point) on. The claim is that exists x, ... F is
 equivalent to the disjunction of the formulas to which these steps lead.
 
 THEOREM. Let F be an and/or combination of atoms with factors of degree at most 3 in x. The disjunction implies exists

@@ -23,6 +23,7 @@ from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import Goal, equivalence
 from qe.kernel.derivation import replaced
 from qe.kernel.linear_equation import term
+from qe.kernel.negation import normal
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.terms import Quotient, at_terms, terms_goals
@@ -40,6 +41,7 @@ from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
 from qe.proving.shifts import elimination_set, lower, shifted
 from qe.proving.simplified import Simplified
+from qe.proving.thin import degenerate_truth_set
 from qe.rules.closed_forms import matches
 
 Elaborator = Callable[[Claim, Context, Limits], list[Json]]
@@ -415,7 +417,7 @@ NAMING = frozenset(
 )
 """Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
 
-ELABORATORS: Mapping[str, Elaborator] = {
+_BY_RULE: Mapping[str, Elaborator] = {
     "cubic on an interval": closed_form,
     "two variables exchanged": exchanged,
     "homogeneous scaling": scaled,
@@ -428,6 +430,7 @@ ELABORATORS: Mapping[str, Elaborator] = {
     "redundant part": redundant,
     "constant": constant,
     "witness in the parameters": witness,
+    "degenerate truth set": degenerate_truth_set,
     "degree shift": shifted,
     "constant along directions": constant_along,
     "conditions on zeros that follow": zeros,
@@ -442,3 +445,17 @@ ELABORATORS: Mapping[str, Elaborator] = {
     "mirror images of a convex set": mirrored,
     "disjuncts with equations apart": distributed,
 }
+
+
+def _from_normal(elaborator: Elaborator) -> Elaborator:
+    """An existential block is one with its negations in the atoms, as the kernel's steps begin with it."""
+
+    def made(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+        if isinstance(claim.before, Exists):
+            claim = replace(claim, before=normal(claim.before), after=normal(claim.after))
+        return elaborator(claim, context, limits)
+
+    return made
+
+
+ELABORATORS: Mapping[str, Elaborator] = {rule: _from_normal(elaborator) for rule, elaborator in _BY_RULE.items()}

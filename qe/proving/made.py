@@ -143,14 +143,14 @@ class Made:
 
 
 def _place(formula: Formula, part: Formula) -> Place | None:
-    if formula == part:
-        return ()
-    if isinstance(formula, And | Or) and type(part) is type(formula) and set(part.args) <= set(formula.args):
-        return ()
-    for k, child in enumerate(children(formula)):
-        inner = _place(child, part)
-        if inner is not None:
-            return (k, *inner)
+    """The place nearest to the root."""
+    level: list[tuple[Place, Formula]] = [((), formula)]
+    while level:
+        for place, found in level:
+            joined = isinstance(found, And | Or) and type(part) is type(found)
+            if found == part or (joined and set(part.args) <= set(found.args)):  # type: ignore[attr-defined]
+                return place
+        level = [((*place, k), child) for place, found in level for k, child in enumerate(children(found))]
     return None
 
 

@@ -56,6 +56,7 @@ STEPS = "steps"
 ELABORATED = (
     "conditions on zeros that follow",
     "constant along directions",
+    "degenerate truth set",
     "degree shift",
     "infinity first",
     "linear form named",

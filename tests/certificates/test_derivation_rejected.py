@@ -81,7 +81,6 @@ def refused(verdict: Verdict, k: int | None = None) -> None:
 ELSEWHERE = {
     "critical values": "certificates/test_critical_values",
     "critical values of a universal block": "certificates/test_critical_universal",
-    "degenerate truth set": "certificates/test_broken_blocks",
     "covering": "certificates/test_covering",
     "Boolean search": "certificates/test_boolean_search",
     "comprehensive Gröbner system": "certificates/test_counted_solutions",
