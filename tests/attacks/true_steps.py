@@ -6,7 +6,6 @@ import random
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
 from unittest.mock import patch
 
 from qe.engine.run import answered
@@ -16,13 +15,14 @@ from qe.formula.traverse import conjuncts, disjuncts
 from qe.io.names import names_in
 from qe.io.text import read
 from qe.kernel.statements import rows
+from qe.kernel.step import Limits
 from qe.options import Budget, Options
 from qe.proof.derivation import moved, put_together
 from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json
 from qe.proof.run_log import Choice, RunLog
-from qe.proof.step import Nested, Place, Step
+from qe.proof.step import Place, Step
 from qe.proving.elaborators import ELABORATORS
-from qe.proving.nested import names_within
+from qe.proving.nested import names_within, proved_inside
 from qe.proving.prover import Prover
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
@@ -135,17 +135,19 @@ def former_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
             return {**at, "steps": exceptions[0]}
         case "steps":
             facts = _facts(made, prover.ring)
-            return _proved_inside(prover, prover._plain(proof), facts) if isinstance(proof, Mapping) else {}
+            return _proved_inside(prover, step, prover._plain(proof), facts) if isinstance(proof, Mapping) else {}
     return evidence if (step.rule, made["rule"]) == ("constant", "cells") else None
 
 
-def _proved_inside(prover: Prover, value: Any, facts: tuple[Formula, ...]) -> Any:
+def _proved_inside(prover: Prover, step: Step, plain: Json, facts: tuple[Formula, ...]) -> Json:
     """Evidence with the steps of the derivations inside it."""
-    if isinstance(value, Nested):
-        return prover.nested(value, moved(value.start, prover.ring), facts)[1]
-    if isinstance(value, dict):
-        return {name: _proved_inside(prover, part, facts) for name, part in value.items()}
-    return [_proved_inside(prover, part, facts) for part in value] if isinstance(value, list) else value
+    claim = prover._claim(step.rule, step, plain)
+
+    def read_by_it(limits: Limits) -> Json:
+        ELABORATORS[step.rule](claim, facts, limits)
+        return plain
+
+    return proved_inside(read_by_it, prover.limits, prover.nested)
 
 
 def former_step(rng: random.Random, rule: str) -> TrueStep:

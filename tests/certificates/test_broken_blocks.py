@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -181,17 +182,18 @@ THIN = ("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4", "all t. 0 <= t a
 @pytest.mark.parametrize("text", THIN)
 def test_every_entry_of_the_evidence_of_a_thin_set(text: str) -> None:
     made = data(text)
-    (k,) = (k for k, step in enumerate(made["payload"]["steps"]) if step["rule"] == "degenerate truth set")
-    evidence = made["payload"]["steps"][k]["evidence"]
-    for name in evidence:
-        for other in (None, "x", 3, [], [["x", "x + y"]], ["x", "x + y"]):
-            if other == evidence[name]:
-                continue
+    k = next(k for k, step in enumerate(made["payload"]["steps"]) if "no exception" in json.dumps(step))
+    inner = made["payload"]["steps"][k]["evidence"]["steps"]
+    for j, step in enumerate(inner):
+        for name in ("before", "after", "evidence"):
+            for other in (None, "x", 3, [], True, ["x", "x + y"]):
+                if other == step[name]:
+                    continue
 
-            def change(payload: dict[str, Any], name: str = name, other: object = other) -> None:
-                payload["steps"][k]["evidence"][name] = other
+                def change(payload: dict[str, Any], j: int = j, name: str = name, other: object = other) -> None:
+                    payload["steps"][k]["evidence"]["steps"][j][name] = other
 
-            refused(altered(made, change), k)
+                refused(altered(made, change), k)
 
 
 @pytest.mark.parametrize("name", BROKEN)
