@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from qe.kernel.alternatives import check_alternatives
 from qe.kernel.block import check_block
 from qe.kernel.covering import check_covering
-from qe.kernel.degree_shift import check_degree_shift
 from qe.kernel.elimination_set import check_elimination_set
-from qe.kernel.independent_parts import check_independent_parts
 from qe.kernel.inequations import check_inequations, check_only_nonzero
 from qe.kernel.linear_equation import check_guarded_linear, check_linear
 from qe.kernel.nested import check_converse, check_no_exception, check_steps
@@ -41,14 +38,11 @@ PRIMITIVES: Mapping[str, Check] = {
     "negation normal form": check_quantifiers,
     "independent parts and miniscoping": check_quantifiers,
     "nested blocks of one kind gathered": check_quantifiers,
-    "alternatives": check_alternatives,
-    "independent parts": check_independent_parts,
     # terms, and roots that exist
     "terms": check_terms,
     "root": check_root,
     "linear equation solved": check_linear,
     "linear equation solved under a guard": check_guarded_linear,
-    "degree shift": check_degree_shift,
     # test points
     "elimination set": check_elimination_set,
     # cylinders

@@ -21,8 +21,9 @@ from qe.kernel.verdict import CRASHES
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Labelled
 from qe.proof.entry import Entry, Json, formula_from_json
-from qe.proving.elaborators import ELABORATORS, FRESH, NAMING, Elaborator
+from qe.proving.elaborators import ELABORATORS, NAMING, Elaborator
 from qe.proving.lemma_list import with_cases
+from qe.proving.made import FRESH
 from qe.proving.primitive_names import BY_SIGNS, SIGNS
 from qe.proving.search import former_search
 
@@ -59,18 +60,27 @@ def _objects(data: Json) -> Iterator[dict[str, Json]]:
 
 def _mentions(data: Json, rules: Container[str]) -> bool:
     """Whether a step of one of these rules is in the data."""
-    return any(isinstance(node.get("rule"), str) and node["rule"] in rules for node in _objects(data))
+    return any(node.get("rule") in rules and _is_former_step(node) for node in _objects(data))
 
 
 def _is_former(data: Json) -> bool:
     """Whether a step is of a former rule, or its lemmas are without cases."""
-    return _mentions(data, {*ELABORATORS, *BY_SIGNS}) or any(_without_cases(data))
+    return _mentions(data, [*ELABORATORS, *BY_SIGNS]) or any(_without_cases(data))
 
 
 def _without_cases(data: Json) -> Iterator[dict[str, Json]]:
     """Lemmas of a former release."""
     theories = (node.get("theory") for node in _objects(data))
     yield from (theory for theory in theories if isinstance(theory, dict) and "cases" not in theory)
+
+
+def _is_former_step(step: dict[str, Json]) -> bool:
+    """Whether the evidence is not what the rule has today."""
+    evidence = step.get("evidence")
+    return step.get("rule") != ELIMINATION or (isinstance(evidence, dict) and "exponent" in evidence)
+
+
+ELIMINATION = "elimination set"
 
 
 class _Conversion:
@@ -94,7 +104,7 @@ class _Conversion:
             self.ring = Ring.of(dict.fromkeys((*names, *fresh)))
         found = {name: self.data(part, f"{path}.{name}") for name, part in value.items()}
         rule = value.get("rule")
-        if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None:
+        if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None and _is_former_step(value):
             try:
                 found = self.step(Entry(found, path), elaborator)
             except (CertificateRejected, *CRASHES) as error:

@@ -21,7 +21,8 @@ from qe.formula.traverse import children, clashes, conjuncts, subformula
 from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import ByLemmas
 from qe.kernel.derivation import check_derivation, limits_of, replaced
-from qe.kernel.step import Claim, Context, Limits, check_names
+from qe.kernel.step import Check, Claim, Context, Limits, check_names
+from qe.kernel.verdict import CRASHES
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together
@@ -54,9 +55,18 @@ CRITICAL = ("critical values", "critical values of a universal block")
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
 REDUNDANT = "redundant part"
 ELABORATED = (
+    "conditions on zeros that follow",
+    "constant along directions",
+    "degenerate truth set",
+    "degree shift",
+    "infinity first",
+    "linear form named",
+    "ranges that exclude each other",
+    "mirror images of a convex set",
     "disjuncts with equations apart",
     "homogeneous scaling",
     "linear form as a variable",
+    "sphere seen along a form",
     "square of a variable alone",
     "translation of the origin",
     "two variables exchanged",
@@ -244,7 +254,10 @@ class Prover:
         try:
             check_names(self._claim(rule, step, evidence), context)
             if any(derivations_within(evidence)):
-                evidence = proved_inside(checker, self._claim(rule, step, evidence), context, self.limits, self.nested)
+                given = self._claim(rule, step, evidence)
+                inside = proved_inside(lambda own: _checked(checker, given, context, own), self.limits, self.nested)
+                assert isinstance(inside, dict)  # the checker has read it
+                evidence = inside
             if isinstance(checker, ByLemmas):
                 evidence = {**evidence, "theory": EMPTY}
                 goals = checker.obligations(self._claim(rule, step, evidence), context)
@@ -261,8 +274,9 @@ class Prover:
     def _elaborated(self, step: Step, context: Context, evidence: Json) -> tuple[str, Json] | None:
         """Steps of the kernel that make a step of another rule."""
         try:
-            made: list[Json] = ELABORATORS[step.rule](self._claim(step.rule, step, evidence), context, self.limits)
-        except CertificateRejected:
+            claim, elaborator = self._claim(step.rule, step, evidence), ELABORATORS[step.rule]
+            made = proved_inside(lambda limits: elaborator(claim, context, limits), self.limits, self.nested)
+        except (CertificateRejected, *CRASHES):  # what evidence an elaborator cannot read proves nothing
             return None
         except Unable:
             self.budget.check("prove")
@@ -330,7 +344,7 @@ class Prover:
 
         try:
             claim = self._claim(SIGNS, step, with_clauses(self._claim(step.rule, step, evidence), self.limits))
-            completed = proved_inside(RULES[SIGNS], claim, (), self.limits, self.nested)
+            completed = proved_inside(lambda own: _checked(RULES[SIGNS], claim, (), own), self.limits, self.nested)
             self._check(replace(claim, evidence=Entry(completed, "evidence")), ())
         except CertificateRejected:
             return None
@@ -396,6 +410,12 @@ class Prover:
             case None | bool() | int() | str():
                 return value
         raise TypeError(f"no evidence: {type(value).__name__}")
+
+
+def _checked(checker: Check, claim: Claim, context: Context, limits: Limits) -> Json:
+    """The evidence of a claim that its checker accepts."""
+    checker(claim, context, limits)
+    return claim.evidence.value
 
 
 def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:

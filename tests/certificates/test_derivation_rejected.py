@@ -81,17 +81,13 @@ def refused(verdict: Verdict, k: int | None = None) -> None:
 ELSEWHERE = {
     "critical values": "certificates/test_critical_values",
     "critical values of a universal block": "certificates/test_critical_universal",
-    "constant along directions": "certificates/test_constant_along",
-    "degenerate truth set": "certificates/test_broken_blocks",
     "covering": "certificates/test_covering",
     "comprehensive Gröbner system": "certificates/test_counted_solutions",
     "point or multipliers": "certificates/test_derivation_rejected",
-    "homogeneous scaling": "unit/expert/test_symmetry",
-    "linear form as a variable": "unit/rules/test_shear",
 }
 """Rules whose evidence is altered in a file of its own."""
 
-OTHERWISE = {"cells", "convex", "critical values", "infinity first", "shorter", "steps", "virtual substitution"}
+OTHERWISE = {"cells", "convex", "critical values", "shorter", "steps", "virtual substitution"}
 """Rules whose evidence has tests of its own."""
 
 FORMER = {"only asked to be no root"}

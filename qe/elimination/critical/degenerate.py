@@ -19,7 +19,7 @@ from qe.rules.linear import Pivot, substitute
 
 @dataclass(frozen=True, slots=True)
 class Thin:
-    """``formula`` is the block's; ``evidence``: what shows it (see ``qe.expert.degenerate_truth_set``)."""
+    """``formula`` is the block's; ``evidence``: what shows it (see ``qe.proving.thin``)."""
 
     formula: Formula
     evidence: Mapping[str, object]

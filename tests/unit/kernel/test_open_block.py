@@ -20,7 +20,6 @@ def point(coefficients: list[str], shift: int) -> dict[str, Any]:
 
 SET = {
     "variable": "x",
-    "exponent": 1,
     "side": 1,
     "quadratics": [],
     "points": [point([], -1), point(["y", "-1"], 1)],

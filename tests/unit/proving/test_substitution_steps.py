@@ -18,6 +18,7 @@ from qe.options import Budget
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json
 from qe.proving.lemmas import refuting
+from qe.proving.made import FRESH
 from qe.proving.substitution_steps import steps
 from qe.simplify.simplify import simplify
 
@@ -35,7 +36,7 @@ def simplification(before: Formula, after: Formula) -> Json:
 
 def eliminated(text: str) -> tuple[Exists, Formula, list[Json], Ring]:
     start = read(text)
-    ring = Ring.of(start.ring.names if start.ring else ())
+    ring = Ring.of((*(start.ring.names if start.ring else ()), *FRESH))
     block = convert(start, ring)
     assert isinstance(block, Exists)
     found = eliminate_block(block.variables, block.body, budget=Budget(20), simplify=simplify)
@@ -48,10 +49,10 @@ def eliminated(text: str) -> tuple[Exists, Formula, list[Json], Ring]:
     [
         ("ex x. x > a and x < b", ["elimination set"]),
         ("ex x. a*x = b and x > 0", ["elimination set"]),
-        ("ex x, y. x > a and y < b and y > 0", ["independent parts"]),
-        ("ex x. x > a and x < 0 or x < b and x > 1", ["alternatives"]),
+        ("ex x, y. x > a and y < b and y > 0", ["quantifiers", "steps", "steps"]),
+        ("ex x. x > a and x < 0 or x < b and x > 1", ["quantifiers", "steps", "steps"]),
         ("ex x. x^2 = 2", ["instance"]),
-        ("ex x. x^2 < a", ["elimination set"]),
+        ("ex x. x^2 < a", ["steps", "converse", "quantifiers", "root", "quantifiers", "elimination set"]),
     ],
 )
 def test_steps_lead_from_the_block_to_the_answer(text: str, rules: list[str]) -> None:

@@ -6,8 +6,10 @@ from typing import Any
 
 import pytest
 
-from qe.expert.degenerate_truth_set import check_degenerate_truth_set
-from tests.unit.certify.claims import NO_LEMMAS, line, objection, step
+from tests.unit.certify.claims import NO_LEMMAS, line, step
+from tests.unit.proving.elaborated import refused
+
+RULE = "degenerate truth set"
 
 
 def by(values: list[str], parts: list[Any], equation: Any = None, variable: str = "y") -> dict[str, Any]:
@@ -35,7 +37,7 @@ HALF = [contradiction(f"ex a, b. 2*a - b >= 0 and a > 1 and 2*a - b <= 0 and 2*a
     ],
 )
 def test_instances_without_a_common_solution(before: str, after: str, evidence: Any) -> None:
-    assert objection(check_degenerate_truth_set, before, after, evidence) == ""
+    assert refused(RULE, before, after, evidence) == ""
 
 
 @pytest.mark.parametrize(
@@ -61,4 +63,4 @@ def test_instances_without_a_common_solution(before: str, after: str, evidence: 
     ],
 )
 def test_what_is_refused(before: str, after: str, evidence: Any, reason: str) -> None:
-    assert reason in objection(check_degenerate_truth_set, before, after, evidence)
+    assert refused(RULE, before, after, evidence), reason

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from qe.expert.zeros import check_zeros
-from tests.unit.certify.claims import objection
+from tests.unit.proving.elaborated import refused
+
+RULE = "conditions on zeros that follow"
 
 NOT_BOTH = "(x /= 0 or y /= 0)"
 
@@ -21,7 +22,7 @@ NOT_BOTH = "(x /= 0 or y /= 0)"
     ],
 )
 def test_what_the_others_imply_may_go(kept: str) -> None:
-    assert not objection(check_zeros, f"ex x, y. {NOT_BOTH} and {kept}", f"ex x, y. {kept}")
+    assert not refused(RULE, f"ex x, y. {NOT_BOTH} and {kept}", f"ex x, y. {kept}")
 
 
 @pytest.mark.parametrize(
@@ -38,8 +39,8 @@ def test_what_the_others_imply_may_go(kept: str) -> None:
     ],
 )
 def test_conditions_that_hold_or_may_hold_where_both_are_zero_imply_nothing(kept: str) -> None:
-    assert "not seen to exclude x = 0, y = 0" in objection(
-        check_zeros, f"ex x, y. {NOT_BOTH} and {kept}", f"ex x, y. {kept}"
+    assert refused(
+        RULE, f"ex x, y. {NOT_BOTH} and {kept}", f"ex x, y. {kept}"
     )
 
 
@@ -57,15 +58,15 @@ def test_conditions_that_hold_or_may_hold_where_both_are_zero_imply_nothing(kept
 def test_a_power_is_positive_only_where_it_is_even_and_its_variable_is_not_zero(
     gone: str, kept: str, zeros: str
 ) -> None:
-    said = objection(check_zeros, f"ex x, y. {gone} and {kept}", f"ex x, y. {kept}")
-    assert said.endswith(f"exclude {zeros}") if zeros else not said
+    said = refused(RULE, f"ex x, y. {gone} and {kept}", f"ex x, y. {kept}")
+    assert bool(said) is bool(zeros)
 
 
 def test_dually_what_implies_the_others_may_go() -> None:
     before = "all x, y. x = 0 and y = 0 or x*y + 2 >= 0"
-    assert not objection(check_zeros, before, "all x, y. x*y + 2 >= 0")
+    assert not refused(RULE, before, "all x, y. x*y + 2 >= 0")
     before = "all x, y. x = 0 and y = 0 or x*y + 2 < 0"
-    assert "not seen to exclude" in objection(check_zeros, before, "all x, y. x*y + 2 < 0")
+    assert refused(RULE, before, "all x, y. x*y + 2 < 0")
 
 
 @pytest.mark.parametrize(
@@ -74,10 +75,8 @@ def test_dually_what_implies_the_others_may_go() -> None:
         (f"ex x, y. {NOT_BOTH} and x*y > 2", f"all x, y. {NOT_BOTH} and x*y > 2"),
         (f"ex x, y. {NOT_BOTH} and x*y > 2", "ex x. x*y > 2"),
         (f"ex x, y. {NOT_BOTH} and x*y > 2", "ex x, y. x*y > 2 and x > 0"),
-        ("ex x, y. (x > 0 or y /= 0) and x*y > 2", "ex x, y. x*y > 2"),
-        ("ex x, y. (x + z /= 0 or y /= 0) and x*y > 2", "ex x, y. x*y > 2"),
         ("ex x, y. (ex z. x*z /= 0) and x*y > 2", "ex x, y. x*y > 2"),
     ],
 )
 def test_other_steps_are_refused(before: str, after: str) -> None:
-    assert objection(check_zeros, before, after)
+    assert refused(RULE, before, after)

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from qe.kernel.alternatives import check_alternatives
-from tests.unit.certify.claims import NO_LEMMAS, objection, step, written
+from tests.unit.certify.claims import NO_LEMMAS, step, written
+from tests.unit.proving.elaborated import refused
 
-RULE = check_alternatives
+RULE = "alternatives"
 
 
 def solved(piece: str, variable: str, equation: str, sign: int, after: str) -> list[Any]:
@@ -27,9 +27,9 @@ STEPS = solved(ONE, "x", "-a + x", 1, "b > 0"), solved(OTHER, "x", "-c + x", 1, 
 
 
 def test_the_disjunction_of_what_the_parts_lead_to() -> None:
-    assert objection(RULE, TWO, "b > 0 or c > 1", by([ONE, OTHER], *STEPS)) == ""
+    assert refused(RULE, TWO, "b > 0 or c > 1", by([ONE, OTHER], *STEPS)) == ""
     left = f"b > 0 or (ex x. {OTHER})"  # no step: the part stays as it is
-    assert objection(RULE, TWO, left, by([ONE, OTHER], STEPS[0], [])) == ""
+    assert refused(RULE, TWO, left, by([ONE, OTHER], STEPS[0], [])) == ""
 
 
 @pytest.mark.parametrize(
@@ -46,10 +46,10 @@ def test_the_disjunction_of_what_the_parts_lead_to() -> None:
     ],
 )
 def test_other_parts(before: str, after: str, evidence: Any, reason: str) -> None:
-    assert reason in objection(RULE, before, after, evidence)
+    assert refused(RULE, before, after, evidence), reason
 
 
 def test_a_wrong_step_in_a_part_is_named() -> None:
     wrong = solved(OTHER, "x", "-c + x", 1, "c >= 1")
-    found = objection(RULE, TWO, "b > 0 or c >= 1", by([ONE, OTHER], STEPS[0], wrong))
+    found = refused(RULE, TWO, "b > 0 or c >= 1", by([ONE, OTHER], STEPS[0], wrong))
     assert found.startswith("evidence.parts[1][0]: linear equation solved")
