@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from qe.kernel.alternatives import check_alternatives
 from qe.kernel.block import check_block
 from qe.kernel.boolean_search import check_boolean_search
-from qe.kernel.covering import check_covering
 from qe.kernel.degree_shift import check_degree_shift
 from qe.kernel.elimination_set import check_elimination_set
 from qe.kernel.independent_parts import check_independent_parts
@@ -62,7 +61,7 @@ PRIMITIVES: Mapping[str, Check] = {
     # cylinders
     "cells": check_table,
     "shorter": check_table,
-    "covering": check_covering,
+    "covering": check_table,
     # open sets
     "inequations that remove no interior": check_inequations,
     "open block": check_open_block,
