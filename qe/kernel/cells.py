@@ -307,7 +307,7 @@ class _Walk:
             missing = self._missing(self.projection.needed(k, part.own, core, order=order), sample, situation)
             if missing is not None:
                 raise line.fail(
-                    "cells", f"factor {missing[1]} of level {missing[0]}, of the projection, may change its sign"
+                    "cells", f"factor {missing[1]} of level {missing[0]}, of the projection, may change its sign or order"
                 )
             for i in part.own if order else core:
                 self._check_not_nullified(i, line, situation)

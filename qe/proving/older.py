@@ -21,6 +21,9 @@ from qe.options import Budget
 from qe.proof.certificate import Certificate, Labelled
 from qe.proof.entry import Entry, Json, formula_from_json
 from qe.proving.elaborators import ELABORATORS, FRESH, NAMING, Elaborator
+from qe.proving.older_coverings import covering
+
+FORMER = {**ELABORATORS, "covering": covering}
 
 
 def recent(certificate: Certificate, budget: Budget) -> Certificate:
@@ -32,7 +35,7 @@ def recent(certificate: Certificate, budget: Budget) -> Certificate:
     if isinstance(payload, tuple):
         members = tuple(Labelled(m.label, recent(m.certificate, budget)) for m in payload)
         return certificate if members == payload else replace(certificate, payload=members)
-    if not isinstance(payload, dict) or not _mentions(payload, ELABORATORS):
+    if not isinstance(payload, dict) or not _mentions(payload, FORMER):
         return certificate
     found = _Conversion(budget).data(payload, "payload")
     assert isinstance(found, dict)
@@ -75,7 +78,7 @@ class _Conversion:
             self.ring = Ring.of(dict.fromkeys((*names, *fresh)))
         found = {name: self.data(part, f"{path}.{name}") for name, part in value.items()}
         rule = value.get("rule")
-        if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None:
+        if isinstance(rule, str) and (elaborator := FORMER.get(rule)) is not None:
             try:
                 found = self.step(Entry(found, path), elaborator)
             except (CertificateRejected, *CRASHES) as error:
