@@ -1,27 +1,27 @@
-"""Checking a cylindrical tree from scratch: cell tables, and coverings of lines by intervals.
+"""Checking a tree of cells from scratch: cell tables, and coverings of lines by intervals.
 
 A tree has a line over the sample of each of its cells that is decomposed. A cell of a line is a sector or a section, or
-an interval from one position to another, with the sample at one of these; ``own`` are the factors of the level that keep
-their signs on it (all that the line uses, where it is a position). What has a sign at the sample of a cell and is its
-own, or own of a cell below it, has this sign on the whole set of points for which the cell stands.
+an interval from one position to another, with the sample at one of these. Its ``own`` factors, of the level of the
+line, keep their signs on it (all that the line uses, where it is a position). So does what is own on the cells below
+it: these signs hold on the whole set of points for which the cell stands.
 
-THEOREM. Let the line over a sample be correct (``line``), and over some connected set around the sample let all factors
-that ``Projection.needed`` names for the own factors of each cell be order-invariant. Let a cell of the line contain no
-root of its own factors, or be such a root, and let its ends be roots of them; let its neighbours share the root at which
-one ends and the other begins, or overlap and let the resultant of the two factors be order-invariant, too. Then over the
-whole set the cells have their signs and cover the line (``projection``; Ábrahám, Davenport, England, Kremer 2021,
-section 4; Nalbach, Kremer 2024). So a formula that three-valued evaluation decides from these signs has that truth value
-on the cell, and a quantifier has the value that the cells give it, or that one of them decides (Collins, Hong 1991).
-A point alone is such a set whatever is zero there; nor is anything else asked below a cell that stands for its sample
-only, as a value of a variable that decides its quantifier.
+THEOREM. Let the line over a sample be correct (``line``). Around the sample, on a connected set, let all factors be
+order-invariant that the own ones of its cells need (``Projection.needed``). Let a cell contain no root of its own
+factors, or be such a root; let its ends be roots of them; let neighbours share the root between them, or overlap and
+let the resultant of the factors with these roots be order-invariant, too. Then over the whole set the cells have their
+signs and cover the line (Collins 1975; Ábrahám, Davenport, England, Kremer 2021, section 4; Nalbach, Kremer 2024). So a
+formula that three-valued evaluation decides from these signs has that truth value on the cell, and a quantifier has the
+value that the cells have, or that one of them decides (Collins, Hong 1991). A point alone is such a set whatever is
+zero there; nor is anything else asked over a cell that stands for its sample only, a value of a variable that decides
+its quantifier.
 
-A factor that is zero on the line over the sample is so where its coefficients are zero: it has the sign 0 on all cells if
-these are invariant. Lines above need its order, too: let all partial derivatives of order < m be zero on the line and one
-of order m, whose factors are own ones of the cell, not. Then it has order m on the cell over the sample; so this must be
-the only point below.
+A factor that is zero on the line over the sample is so where its coefficients are zero: it has the sign 0 on all cells
+if these are invariant. Lines above need its order, too: let all partial derivatives of order < m be zero on the line
+and one of order m, whose factors are own ones of the cell, not. Then it has order m on the cell over the sample; so
+this must be the only point below.
 
-Where an equational constraint restricts a level, the other factors are invariant on the constraint's sections alone. The
-truth value of a sector then has to follow from the signs of the constraint's factors: that the matrix implies the
+Where an equational constraint restricts a level, the other factors are invariant on the constraint's sections alone.
+The truth value of a sector then has to follow from the signs of the constraint's factors: that the matrix implies the
 constraint is thus proved where it is used.
 
 Each of these statements is about one cell, its line and the cells below it. So where parts are claimed, other cells
@@ -30,18 +30,19 @@ over the free variables may be open: nothing follows from them, and the parts mu
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 from qe.errors import CertificateRejected
-from qe.exact.ring import Poly, Ring
+from qe.exact.ring import Ring
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.kernel.arithmetic.products import FactorLists, check_lists
 from qe.kernel.arithmetic.triangular import Point
-from qe.kernel.line import Line, Sample, line_over
+from qe.kernel.line import Sample, line_over
 from qe.kernel.matrix import Situation, Test, compiled, strengthened
-from qe.kernel.projection import RESULTANT, Factor, Projection, factors
+from qe.kernel.neighbourhood import Neighbourhood
+from qe.kernel.projection import Projection
 from qe.options import Budget
 from qe.options import Projection as Operator
 from qe.proof.cells import CHARACTER_OF, Cell, CellTable, Stack
@@ -106,21 +107,6 @@ def _constraints(table: CellTable) -> tuple[frozenset[int], ...]:
 
 
 @dataclass(frozen=True, slots=True)
-class _Part:
-    """A cell on its line: the first and last position, that of the sample, its own factors that have a root somewhere, and
-    the sections at its ends. ``is_point``: it is one point of the line."""
-
-    cell: Cell
-    first: int
-    last: int
-    at: int
-    own: frozenset[int]
-    is_point: bool
-    low: frozenset[int] | None
-    high: frozenset[int] | None
-
-
-@dataclass(frozen=True, slots=True)
 class _Walk:
     """The recursion over the cells, with what does not change on the way."""
 
@@ -176,9 +162,10 @@ class _Walk:
         if k >= len(self.table.order):
             raise fail("cells", "a stack above the last variable")
         line = line_over(sample, stack, self.constraints[k], self.projection, fail)
-        parts = self._parts(line)
+        around = Neighbourhood(line, situation.signs, self.projection)
+        parts = around.parts()
         if not sample.is_alone:
-            self._check_delineated(parts, line, situation)
+            around.check_delineated(parts)
         below = Situation(  # filled in for one child after the other; deeper levels copy what they need
             [*situation.signs, []],
             [*situation.sections, stack.sections],
@@ -186,15 +173,16 @@ class _Walk:
             [*situation.nullified, frozenset()],
             [*situation.positions, 0],
         )
-        way = one_way(self.table, k) if k == self.free - 1 else 0
+        is_plain = all(cell.reach is None for cell in stack.cells)
+        way = one_way(self.table, k) if k == self.free - 1 and is_plain else 0
         truths = []
         for place, part in enumerate(parts):
-            deeper = self._deeper(part, line)
+            deeper = around.sample_of(part)
             row = line.signs[part.at]
             expected = "" if part.cell.reach else "".join([CHARACTER_OF[row[i]] for i in stack.used])
             if part.cell.signs != expected:
                 raise fail(f"cells[{place}].signs", f"said to be {part.cell.signs!r}, found {expected!r}")
-            known = self._known(part, line, situation)
+            known = around.known(part)
             below.signs[-1] = row if len(known) == len(row) else [s if i in known else None for i, s in enumerate(row)]
             below.isolated[-1], below.nullified[-1] = known.intersection(line.branches), known & line.zero
             below.positions[-1] = part.at
@@ -203,145 +191,10 @@ class _Walk:
         kind = self.table.quantifiers[k]
         if kind and (kind == "E") in truths:
             return kind == "E"
-        self._check_cover(parts, line, situation)
+        around.check_cover(parts)
         if None in truths and kind and sectors_suffice(self.table, k):
             truths = [t for part, t in zip(parts, truths, strict=True) if t is not None or part.first % 2 == 0]
         return None if not kind or None in truths else kind == "A"
-
-    # --- the cells of a line ----------------------------------------------------------------------
-    def _parts(self, line: Line) -> list[_Part]:
-        """The cells, each without a root of its own factors or at one, and with such roots at its ends."""
-        cells, sections, end = line.stack.cells, line.stack.sections, len(line.signs) - 1
-        everything, parts = frozenset(line.stack.used), list[_Part]()
-        for place, cell in enumerate(cells):
-            entry = f"cells[{place}]"
-            first, last, at = cell.reach or (place, place, place)
-            if not first <= at <= last <= end or (cell.reach is None and len(cells) != end + 1):
-                raise line.fail("cells", f"{len(cells)} cells do not stand at {end + 1} positions, at {entry}")
-            if cell.reach is None:
-                own = everything if place % 2 else everything.intersection(line.branches)
-            elif cell.own is not None and not self.projection.evaluates and line.branches.keys() >= {*cell.own}:
-                own = frozenset(cell.own)
-            elif cell.own is None and line.sample.is_alone:
-                parts.append(_Part(cell, first, last, at, everything, True, None, None))
-                continue
-            else:
-                raise line.fail(
-                    f"{entry}.own", "factors that the line uses expected, as it is asked what holds beside the sample"
-                )
-            if not self.projection.evaluates:
-                own -= line.zero
-            is_point = any(own.intersection(section) for section in sections[first // 2 : (last + 1) // 2])
-            if is_point and first < last:
-                raise line.fail(entry, "it contains a root of one of its factors")
-            if not is_point and (first % 2 or last % 2):
-                raise line.fail(entry, "a cell that is no root begins and ends with a sector")
-            low = own.intersection(sections[(first - 1) // 2]) if first else None
-            high = own.intersection(sections[last // 2]) if last < end else None
-            if frozenset() in (low, high):
-                raise line.fail(entry, "none of its factors has a root at its end")
-            parts.append(_Part(cell, first, last, at, own, is_point, low, high))
-        return parts
-
-    def _deeper(self, part: _Part, line: Line) -> Sample | None:
-        """The sample of a cell, where it is needed: for what stands above, or for signs of factors besides a constraint's,
-        which are put in the row of its position."""
-        others = part.own.difference(line.branches) if part.cell.reach is None else ()
-        if part.cell.stack is None and not others:
-            return None
-        row, k = line.signs[part.at], line.sample.depth
-        deeper = line.sample.extended(line.number(part.at), row, alone=part.is_point)
-        for i in others:
-            row[i] = deeper.point.sign(deeper.factor(k, i))
-        return deeper
-
-    def _known(self, part: _Part, line: Line, situation: Situation) -> frozenset[int]:
-        """The factors of the level whose signs at the sample are those on the whole cell."""
-        row, sample = line.signs[part.at], line.sample
-        if part.is_point and sample.is_alone:
-            return frozenset(range(len(row)))
-        if part.cell.reach is None and not line.zero and len(part.own) == len(row):
-            return part.own
-        zero = (i for i in line.zero if self._stays_zero(i, part, line, situation))
-        return part.own | frozenset(zero)
-
-    def _stays_zero(self, i: int, part: _Part, line: Line, situation: Situation) -> bool:
-        """Whether a factor that is zero on the line over the sample is zero on the whole cell, and its order known where
-        that is needed."""
-        sample, f = line.sample, self.projection.lists.lists[line.sample.depth][i]
-        if self.projection.evaluates:
-            return True
-        if part.cell.stack is not None:
-            return sample.is_alone and self._has_order(f, part, sample)
-        products = [self.projection.lists.decompose(c) for c in f.coefficients(sample.depth) if c]
-        return sample.is_alone or all(
-            p is not None and self._missing(factors(p), sample, situation) is None for p in products
-        )
-
-    def _has_order(self, f: Poly, part: _Part, sample: Sample) -> bool:
-        """Whether a partial derivative of least order that is not zero on the line has its factors among the cell's own."""
-        partials = [f]
-        while all(map(sample.is_zero, partials)):
-            self.budget.check("verify")
-            partials = list({g.derivative(i): None for g in partials for i in g.variables})
-        products = [self.projection.lists.decompose(g) for g in partials if not sample.is_zero(g)]
-        return any(p and all(i in part.own for k, i in factors(p) if k == sample.depth) for p in products)
-
-    # --- what holds beside the sample -------------------------------------------------------------
-    def _missing(self, needed: Iterable[Factor], sample: Sample, situation: Situation) -> Factor | None:
-        """A factor that is not known to be invariant around the sample."""
-        for level, i in needed:
-            if situation.signs[level][i] is None and sample.dimensions[level + 1]:
-                return level, i
-        return None
-
-    def _check_delineated(self, parts: Sequence[_Part], line: Line, situation: Situation) -> None:
-        """Everything that the own factors of the cells need is invariant around the sample."""
-        k, sample, seen = line.sample.depth, line.sample, set[tuple[frozenset[int], frozenset[int], bool]]()
-        for part in parts:
-            core = part.own.intersection(line.branches)
-            order = part.cell.stack is not None
-            if (part.own, core, order) in seen:
-                continue
-            seen.add((part.own, core, order))
-            missing = self._missing(self.projection.needed(k, part.own, core, order=order), sample, situation)
-            if missing is not None:
-                raise line.fail(
-                    "cells", f"factor {missing[1]} of level {missing[0]}, of the projection, may change its sign or order"
-                )
-            for i in part.own if order else core:
-                self._check_not_nullified(i, line, situation)
-
-    def _check_not_nullified(self, i: int, line: Line, situation: Situation) -> None:
-        """A factor is not zero on a whole line around the sample: a coefficient, or a combination of these, is not zero
-        there, and invariant. On level 1 the leading coefficient is not, or the sample is alone."""
-        sample = line.sample
-        if self.projection.evaluates or sample.depth == 1:
-            return
-        for witness in self.projection.not_nullified(sample.depth, i):
-            product = self.projection.lists.decompose(witness)
-            if product is None:
-                if not sample.dimensions[witness.level + 1] and sample.sign(witness):
-                    return
-            elif self._missing(factors(product), sample, situation) is None and sample.sign_of(product):
-                return
-        raise line.fail("used", f"factor {i} may vanish identically at a point of the cell (Brown 2001, theorem 3.1)")
-
-    def _check_cover(self, parts: Sequence[_Part], line: Line, situation: Situation) -> None:
-        """Each cell begins where the one before ends, or before that, also around the sample."""
-        if any(part.cell.reach is not None and part.cell.own is None for part in parts):
-            raise line.fail("cells", "it is asked what holds beside the sample")
-        if not parts or parts[0].low is not None or parts[-1].high is not None:
-            raise line.fail("cells", "the line is not covered to its ends")
-        for place, (one, other) in enumerate(pairwise(parts)):
-            if other.first > one.last + 1:
-                raise line.fail("cells", f"there is a gap before cell {place + 1}")
-            high, low, k = one.high or frozenset(), other.low or frozenset(), line.sample.depth
-            if line.sample.is_alone or one.high is None or other.low is None or high & low:
-                continue
-            pairs = [self.projection.product(RESULTANT, k, *sorted((i, j))) for i in high for j in low]
-            if not any(p and p.unit and self._missing(factors(p), line.sample, situation) is None for p in pairs):
-                raise line.fail("cells", f"cell {place} and the next need not meet around the sample")
 
     @staticmethod
     def _follows(cells: Sequence[Cell], position: int, way: int) -> bool:

@@ -153,9 +153,9 @@ class Line:
 
 
 def line_over(sample: Sample, stack: Stack, constraint: frozenset[int], projection: Projection, fail: Fail) -> Line:
-    """The sections are all the real roots of the factors used, each listed where it is; or an error by
-    ``fail(entry, reason)``. Where some are the factors of a constraint, and none of these is zero on the whole line, the
-    sections are theirs alone.
+    """The sections are all the real roots of the factors used, each listed where it is; or an error by ``fail(entry,
+    reason)``. Where some are the factors of a constraint, and none of these is zero on the whole line, the sections are
+    theirs alone.
     """
     _check_shape(stack, len(sample.lists.lists[sample.depth]), fail)
     at, first = values(stack.sectors), [i for i in stack.used if i in constraint]

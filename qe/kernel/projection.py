@@ -2,13 +2,14 @@
 
 THEOREM. Let S be a connected submanifold of R^k on which the leading coefficients, discriminants and pairwise
 resultants of some polynomials in x_k are order-invariant and not zero as polynomials, and no point of which makes one
-of them zero on its whole line. Then they are delineable over S, and order-invariant on the cells over it (McCallum 1998;
-Brown 2001, theorem 3.1). With trailing coefficients, and Lazard's valuation in place of the order, points that make one
-zero do no harm: its Lazard evaluation has the roots (Lazard 1994; McCallum, Parusinski, Paunescu 2019, theorem 5.1).
+of them zero on its whole line. Then they are delineable over S, and order-invariant on the cells over it (McCallum
+1998; Brown 2001, theorem 3.1). With trailing coefficients, and Lazard's valuation in place of the order, points that
+make one zero do no harm: its Lazard evaluation has the roots (Lazard 1994; McCallum, Parusinski, Paunescu 2019, theorem
+5.1).
 
-THEOREM. On a section of such polynomials (the ``core``) another one is sign-invariant where its resultants with them are
-order-invariant (McCallum 1999, theorem 2.2); it is order-invariant where its leading coefficient and discriminant are,
-too, and no point makes it zero on its line (McCallum 2001). Resultants of two such others are not needed.
+THEOREM. On a section of such polynomials (the ``core``) another one is sign-invariant where its resultants with them
+are order-invariant (McCallum 1999, theorem 2.2); it is order-invariant where its leading coefficient and discriminant
+are, too, and no point makes it zero on its line (McCallum 2001). Resultants of two such others are not needed.
 
 That discriminants and resultants are not zero shows that the polynomials are squarefree and coprime. Each is compared
 with a Sylvester determinant at an integer point, a second route to the same value.
@@ -32,8 +33,8 @@ Factor = tuple[int, int]
 
 
 class Projection:
-    """Leading and trailing coefficients, discriminants and resultants of listed factors as products of these, each found
-    once. ``evaluates``: by Lazard's theorem."""
+    """Leading and trailing coefficients, discriminants and resultants of listed factors as products of these, each
+    computed once. ``evaluates``: by Lazard's theorem."""
 
     def __init__(self, lists: FactorLists, budget: Budget, *, evaluates: bool) -> None:
         self.lists, self.budget, self.evaluates = lists, budget, evaluates
@@ -52,18 +53,17 @@ class Projection:
         return self._products.get(key)
 
     def _polynomial(self, what: str, f: Poly, g: Poly, k: int, j: int) -> Poly:
-        match what:
-            case "leading coefficient":
-                return f.leading(k)
-            case "trailing coefficient":
-                return f.coefficients(k)[0]
-            case "discriminant":
-                return checked_discriminant(self.lists, f, k, j)
+        if what == LEADING:
+            return f.leading(k)
+        if what == TRAILING:
+            return f.coefficients(k)[0]
+        if what == DISCRIMINANT:
+            return checked_discriminant(self.lists, f, k, j)
         return checked_resultant(self.lists, f, g, k, j)
 
     def needed(self, k: int, polys: frozenset[int], core: frozenset[int], *, order: bool) -> frozenset[Factor]:
-        """The factors that have to be order-invariant for these of level k to be so on the cells over a connected set; for
-        those beside the ``core`` on its sections, and there sign-invariant without ``order``.
+        """The factors that have to be order-invariant for these of level k to be so on the cells over a connected set;
+        for those beside the ``core`` on its sections, and there sign-invariant without ``order``.
 
         ``CertificateRejected`` naming a factor of which a polynomial is missing.
         """
@@ -79,20 +79,19 @@ class Projection:
             self.needed(k, everything, everything, order=True)
 
     def not_nullified(self, k: int, i: int) -> list[Poly]:
-        """Polynomials of which one is not zero at a point if and only if the factor is not zero on the line over it; and
-        combinations of these."""
+        """Polynomials that are zero wherever the factor is zero on a whole line: its coefficients, and resultants of
+        these."""
         if (k, i) not in self._witnesses:
             self._witnesses[k, i] = nullification_witnesses(self.lists.lists[k][i], k)
         return self._witnesses[k, i]
 
     def _all(self, k: int, polys: frozenset[int], core: frozenset[int], order: bool) -> Iterator[Product]:
+        variable = self.lists.ring.gen(k)  # the only irreducible polynomial without a trailing coefficient
         for i in sorted(polys):
             if order or i in core:
                 yield self._listed(LEADING, k, i, i)
                 yield self._listed(DISCRIMINANT, k, i, i)
-            if self.evaluates and self.lists.lists[k][i] != self.lists.ring.gen(
-                k
-            ):  # which is the only irreducible one without
+            if self.evaluates and self.lists.lists[k][i] != variable:
                 yield self._listed(TRAILING, k, i, i)
             for j in polys:
                 if j < i and (i in core or j in core):
@@ -100,15 +99,11 @@ class Projection:
 
     def _listed(self, what: str, k: int, i: int, j: int) -> Product:
         product = self.product(what, k, i, j)
-        if product is None or not product.unit:
-            reason = (
-                "is not a product of listed factors"
-                if product is None
-                else "is zero: the list is not squarefree and coprime"
-            )
-            other = "" if i == j else f" with payload.factors[{k}][{i}]"
-            raise CertificateRejected(f"payload.factors[{k}][{j}]", f"its {what}{other} {reason}")
-        return product
+        if product is not None and product.unit:
+            return product
+        other = "" if i == j else f" with payload.factors[{k}][{i}]"
+        reason = "not a product of listed factors" if product is None else "zero: they are not squarefree and coprime"
+        raise CertificateRejected(f"payload.factors[{k}][{j}]", f"its {what}{other} is {reason}")
 
 
 def factors(product: Product) -> Iterator[Factor]:

@@ -54,17 +54,16 @@ class Stack:
 class Cell:
     """One cell.
 
-    ``signs``: for the cell at depth k+1, one character of ``+-0`` per factor of level k that its parent's
-    stack used, in the order of ``Stack.used`` (empty for the root). A factor that is nullified over the
-    parent's sample has sign 0 on the whole stack. In a sector between the sections of an equational constraint
-    the signs of the other factors are open (``?``), and the cell is a leaf. ``truth``: the truth value of the formula
-    (with its quantified variables above this depth) on the cell; None only for a cell that was not needed because
-    its quantifier was already decided by a sibling, or for a cell over free variables that was decomposed.
-    ``stack`` is None for a leaf.
+    ``signs``: for the cell at depth k+1, one character of ``+-0`` per factor of level k that its parent's stack used,
+    in the order of ``Stack.used`` (empty for the root). A factor that is nullified over the parent's sample has sign 0
+    on the whole stack. In a sector between the sections of an equational constraint the signs of the other factors are
+    open (``?``), and the cell is a leaf. ``truth``: the truth value of the formula (with its quantified variables above
+    this depth) on the cell; None only for a cell that was not needed because its quantifier was already decided by a
+    sibling, or for a cell over free variables that was decomposed. ``stack`` is None for a leaf.
 
     ``reach``: of an interval of a covering the first and last position, and that of its sample; ``own`` are the factors
-    of its level that keep their signs on it, at least (None: nothing but its sample is looked at). Its truth follows, and
-    no signs are listed. Sections between its sectors may then be empty.
+    of its level that keep their signs on it, at least (None: nothing but its sample is looked at). Its truth follows,
+    and no signs are listed. Sections between its sectors may then be empty.
     """
 
     signs: str

@@ -1,7 +1,7 @@
 """Coverings as certificates of former releases have them, as trees of cells. Nothing here is trusted.
 
-Their evidence: a prenex form of the formula (``order``, ``quantifiers``, ``matrix``; the oldest have only the first, and
-are about closed blocks), ``factors`` by level, and ``line``. A line has ``used``, ``sectors``, ``sections`` and
+Their evidence: a prenex form of the formula (``order``, ``quantifiers``, ``matrix``; the oldest have only the first,
+and are about closed blocks), ``factors`` by level, and ``line``. A line has ``used``, ``sectors``, ``sections`` and
 ``intervals``, these ``first`` and ``last`` position, ``at``, ``own`` (null where the sample is enough), ``lower`` and
 ``upper`` (factors with a root at the ends), and ``atoms`` (``false`` in the oldest) or the ``line`` over the sample.
 """
