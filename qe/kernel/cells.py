@@ -6,7 +6,7 @@ line, keep their signs on it (all that the line uses, where it is a position). S
 it: these signs hold on the whole set of points for which the cell stands.
 
 THEOREM. Let the line over a sample be correct (``line``). Around the sample, on a connected set, let all factors be
-order-invariant that the own ones of its cells need (``Projection.needed``). Let a cell contain no root of its own
+order-invariant that the own ones of its cells need (``Projected.needed``). Let a cell contain no root of its own
 factors, or be such a root; let its ends be roots of them; let neighbours share the root between them, or overlap and
 let the resultant of the factors with these roots be order-invariant, too. Then over the whole set the cells have their
 signs and cover the line (Collins 1975; Ábrahám, Davenport, England, Kremer 2021, section 4; Nalbach, Kremer 2024). So a
@@ -42,9 +42,8 @@ from qe.kernel.arithmetic.triangular import Point
 from qe.kernel.line import Sample, line_over
 from qe.kernel.matrix import Situation, Test, compiled, strengthened
 from qe.kernel.neighbourhood import Neighbourhood
-from qe.kernel.projection import Projection
-from qe.options import Budget
-from qe.options import Projection as Operator
+from qe.kernel.projection import Projected
+from qe.options import Budget, Projection
 from qe.proof.cells import CHARACTER_OF, Cell, CellTable, Stack
 from qe.proof.cells_json import CellEvidence
 from qe.truth import Truth
@@ -63,7 +62,7 @@ def check_cells(evidence: CellEvidence, budget: Budget) -> None:
     check_lists(ring, table.factors)
     lists = FactorLists(ring, table.factors)
     constraints = _constraints(table)
-    projection = Projection(lists, budget, evaluates=table.projection is Operator.LAZARD)
+    projection = Projected(lists, budget, evaluates=table.projection is Projection.LAZARD)
     matrix = strengthened(table.matrix, lists, constraints, "payload.matrix")
     answer = None if evidence.answer is None else compiled(evidence.answer, lists, "payload.answer")
     if answer is not None and evidence.parts is not None:
@@ -93,7 +92,7 @@ def _check_header(table: CellTable) -> int:
 
 def _constraints(table: CellTable) -> tuple[frozenset[int], ...]:
     """The factors of the constraint of every level, where there are any and the operator allows it."""
-    if table.projection not in (Operator.LAZARD, Operator.BROWN_MCCALLUM):
+    if table.projection not in (Projection.LAZARD, Projection.BROWN_MCCALLUM):
         raise CertificateRejected("payload.projection", "an operator that this checker has no theorem for")
     listed = table.constraints or ((),) * len(table.order)
     if len(listed) != len(table.order):
@@ -101,7 +100,7 @@ def _constraints(table: CellTable) -> tuple[frozenset[int], ...]:
     for k, own in enumerate(listed):
         if any(a >= b for a, b in pairwise(own)) or (own and not 0 <= own[0] <= own[-1] < len(table.factors[k])):
             raise CertificateRejected(f"payload.constraints[{k}]", "not an ascending list of factors of this level")
-        if own and table.projection is Operator.LAZARD:
+        if own and table.projection is Projection.LAZARD:
             raise CertificateRejected("payload.projection", "no theorem restricts this operator by constraints")
     return tuple(map(frozenset, listed))
 
@@ -113,7 +112,7 @@ class _Walk:
     table: CellTable
     free: int
     constraints: Sequence[frozenset[int]]
-    projection: Projection
+    projection: Projected
     matrix: Test
     answer: Test | None
     parts: Sequence[Test]

@@ -30,7 +30,7 @@ from qe.kernel.arithmetic.fibre import (
 from qe.kernel.arithmetic.products import FactorLists, Product, Signs, sign
 from qe.kernel.arithmetic.triangular import Coordinate, Point
 from qe.kernel.limits import check_value
-from qe.kernel.projection import DISCRIMINANT, LEADING, RESULTANT, Projection
+from qe.kernel.projection import DISCRIMINANT, LEADING, RESULTANT, Projected
 from qe.proof.cells import Stack
 
 Fail = Callable[[str, str], CertificateRejected]
@@ -152,7 +152,7 @@ class Line:
         raise self.fail(f"sections[{j}]", "its root could not be represented")
 
 
-def line_over(sample: Sample, stack: Stack, constraint: frozenset[int], projection: Projection, fail: Fail) -> Line:
+def line_over(sample: Sample, stack: Stack, constraint: frozenset[int], projection: Projected, fail: Fail) -> Line:
     """The sections are all the real roots of the factors used, each listed where it is; or an error by ``fail(entry,
     reason)``. Where some are the factors of a constraint, and none of these is zero on the whole line, the sections are
     theirs alone.
@@ -203,7 +203,7 @@ class _Lines:
     sample: Sample
     stack: Stack
     at: Values
-    projection: Projection
+    projection: Projected
     fail: Fail
 
     def branches(self, indices: Iterable[int]) -> dict[int, Branch]:

@@ -9,7 +9,7 @@ from itertools import pairwise
 from qe.exact.ring import Poly
 from qe.kernel.arithmetic.products import Signs
 from qe.kernel.line import Line, Sample
-from qe.kernel.projection import RESULTANT, Factor, Projection, factors
+from qe.kernel.projection import RESULTANT, Factor, Projected, factors
 from qe.proof.cells import Cell
 
 
@@ -34,7 +34,7 @@ class Neighbourhood:
 
     line: Line
     signs: Signs
-    projection: Projection
+    projection: Projected
 
     def parts(self) -> list[Part]:
         """The cells, each without a root of its own factors or at one, and with such roots at its ends."""

@@ -32,7 +32,7 @@ Factor = tuple[int, int]
 """Level and index."""
 
 
-class Projection:
+class Projected:
     """Leading and trailing coefficients, discriminants and resultants of listed factors as products of these, each
     computed once. ``evaluates``: by Lazard's theorem."""
 

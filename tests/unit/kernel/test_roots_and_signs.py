@@ -12,7 +12,7 @@ from qe.formula.evaluate import holds_at
 from qe.io.text import read
 from qe.kernel.arithmetic.fibre import fibre, values
 from qe.kernel.arithmetic.triangular import Point
-from qe.kernel.stacks import roots_and_signs
+from qe.kernel.line import roots_and_signs
 
 SAMPLES = (0, Fraction(3, 2), 3, 4, 5, 11)
 

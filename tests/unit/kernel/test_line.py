@@ -15,12 +15,13 @@ from qe.io.text import read
 from qe.kernel.arithmetic.fibre import fibre
 from qe.kernel.arithmetic.products import FactorLists
 from qe.kernel.arithmetic.triangular import Coordinate, Point
-from qe.kernel.closure import check_closure
-from qe.kernel.stacks import Checked, Sample, StackChecker
-from qe.options import Budget, Projection
+from qe.kernel.line import Line, Sample, line_over
+from qe.kernel.neighbourhood import Neighbourhood
+from qe.kernel.projection import Projected
+from qe.options import Budget
 from qe.proof.cells import Cell, Stack
 
-BROWN, LAZARD = Projection.BROWN_MCCALLUM, Projection.LAZARD
+BROWN, LAZARD = False, True
 Place = int | tuple[str, int, int]
 """A sector, by its sample, or the section of the only root of a polynomial between two numbers."""
 
@@ -28,35 +29,53 @@ Place = int | tuple[str, int, int]
 class Table:
     """Factors by level (``"x, x - 1; y^2 - x"``), and the cells over which stacks are put."""
 
-    def __init__(self, factors: str, projection: Projection = BROWN, constraints: tuple[tuple[int, ...], ...] = ()):
+    def __init__(self, factors: str, evaluates: bool = BROWN, constraints: tuple[tuple[int, ...], ...] = ()):
         levels = factors.split(";")
         self.ring = Ring.of(tuple("xyzw"[: len(levels)]))
         lists = FactorLists(self.ring, [[self.poly(f) for f in level.split(",") if f.strip()] for level in levels])
-        self.lists = lists
-        self.checker = StackChecker(lists, check_closure(lists, projection, constraints, Budget()))
+        self.lists, self.constraints = lists, constraints or ((),) * len(levels)
+        self.projection = Projected(lists, Budget(), evaluates=evaluates)
 
     def poly(self, text: str) -> Poly:
         return convert(read(f"{text} = 0"), self.ring).poly  # type: ignore[attr-defined,no-any-return]
 
     def over(self, places: tuple[Place, ...]) -> Sample:
-        sample = Sample(Point(), {}, self.lists.lists, [], (0,))
+        sample = Sample(self.lists, Point(), {}, [], (0,))
         for k, place in enumerate(places):
             number: Fraction | Coordinate | None = Fraction(place) if isinstance(place, int) else None
             if isinstance(place, tuple):
                 low, high = map(Fraction, place[1:])
                 number = fibre(sample.point, self.poly(place[0]), k).squarefree().coordinate(low, high)
             assert number is not None
-            sample = sample.extended(number, [], sector=isinstance(place, int))
-            here = [sample.point.sign(f) for f in sample.polys[k]]
+            sample = sample.extended(number, [], alone=isinstance(place, tuple))
+            here = [sample.point.sign(sample.factor(k, i)) for i in range(len(self.lists.lists[k]))]
             sample = replace(sample, signs=[*sample.signs[:-1], here])
         return sample
 
     def checked(
-        self, places: tuple[Place, ...], sectors: tuple[int, ...], *sections: tuple[int, ...], used: tuple[int, ...]
-    ) -> Checked:
-        cells = (Cell("", None),) * (2 * len(sections) + 1)
-        self.stack = Stack(used, tuple(map(Fraction, sectors)), sections, cells)
-        return self.checker.check(self.stack, self.over(places), CertificateRejected)
+        self,
+        places: tuple[Place, ...],
+        sectors: tuple[int, ...],
+        *sections: tuple[int, ...],
+        used: tuple[int, ...],
+        above: bool = False,
+    ) -> Line:
+        cells = (Cell("", None, Stack((), (), (), ()) if above else None),) * (2 * len(sections) + 1)
+        stack = Stack(used, tuple(map(Fraction, sectors)), sections, cells)
+        return self.around(stack, self.over(places))
+
+    def around(self, stack: Stack, sample: Sample) -> Line:
+        """The line, and what holds of its cells around the sample."""
+        constraint = frozenset(self.constraints[sample.depth])
+        line = line_over(sample, stack, constraint, self.projection, CertificateRejected)
+        around = Neighbourhood(line, sample.signs, self.projection)
+        parts = around.parts()
+        if not sample.is_alone:
+            around.check_delineated(parts)
+        self.samples = [around.sample_of(part) for part in parts]
+        self.known = [around.known(part) for part in parts]
+        around.check_cover(parts)
+        return line
 
     def signs(
         self,
@@ -64,9 +83,10 @@ class Table:
         sectors: tuple[int, ...],
         *sections: tuple[int, ...],
         used: tuple[int, ...] = (0,),
+        above: bool = False,
     ) -> str:
         """The signs of all factors, cell by cell."""
-        rows = self.checked(places, sectors, *sections, used=used).signs
+        rows = self.checked(places, sectors, *sections, used=used, above=above).signs
         return " ".join("".join("?" if s is None else "0+-"[s] for s in row) for row in rows)
 
     def objection(
@@ -75,9 +95,10 @@ class Table:
         sectors: tuple[int, ...],
         *sections: tuple[int, ...],
         used: tuple[int, ...] = (0,),
+        above: bool = False,
     ) -> str:
         with pytest.raises(CertificateRejected) as caught:
-            self.checked(places, sectors, *sections, used=used)
+            self.checked(places, sectors, *sections, used=used, above=above)
         return f"{caught.value.step}: {caught.value.reason}"
 
 
@@ -99,7 +120,9 @@ def test_a_parabola() -> None:
 def test_the_first_level_needs_no_projection() -> None:
     table = Table("x^2 - 2, x; y")
     assert table.signs((), (-2, -1, 1, 2), (0,), (1,), (0,), used=(0, 1)) == "+- 0- -- -0 -+ 0+ ++"
-    assert "a factor of this level is missing" in table.objection((), (-2, 0, 2), (0,), (0,), used=(0,))
+    assert (
+        table.signs((), (-2, 0, 2), (0,), (0,), used=(0,)) == "+? 0? -? 0? +?"
+    )  # nothing is known of what is left out
 
 
 SHARED = Table("x^2 - 2, x; y - x, y^2 - 2")
@@ -137,10 +160,10 @@ def test_a_resultant_that_is_zero_as_both_degrees_drop_shows_no_common_root() ->
         ((-2, -2, 2), ((0,), (0,)), (0,), "sectors[1]: the sector samples do not ascend"),
         ((2, 0), ((0,),), (0,), "sectors[1]: the sector samples do not ascend"),
         ((-2, 0, 2), ((0,),), (0,), "sections: 1 sections between 3 sectors"),
-        ((-2, 0, 2), ((0,), ()), (0,), "sections[1]: not a nonempty ascending list"),
-        ((-2, 0, 2), ((0,), (0, 0)), (0,), "sections[1]: not a nonempty ascending list"),
-        ((-2, 0, 2), ((1,), (0,)), (0,), "sections[0]: not a nonempty ascending list of used factors"),
-        ((-2, 0, 2), ((0,), (0,)), (), "sections[0]: not a nonempty ascending list of used factors"),
+        ((-2, 0, 2, 3), ((0,), (0,), ()), (0,), "cells[4]: none of its factors has a root at its end"),
+        ((-2, 0, 2), ((0,), (0, 0)), (0,), "sections[1]: not an ascending list"),
+        ((-2, 0, 2), ((1,), (0,)), (0,), "sections[0]: not an ascending list of used factors"),
+        ((-2, 0, 2), ((0,), (0,)), (), "sections[0]: not an ascending list of used factors"),
     ],
 )
 def test_shapes(
@@ -152,27 +175,40 @@ def test_shapes(
 def test_the_number_of_cells() -> None:
     stack = Stack((0,), (Fraction(0),), (), (Cell("", None),) * 2)
     with pytest.raises(CertificateRejected, match="2 cells where 1 are needed"):
-        PARABOLA.checker.check(stack, PARABOLA.over((-1,)), CertificateRejected)
+        PARABOLA.around(stack, PARABOLA.over((-1,)))
 
 
-def test_a_factor_zero_on_a_line_is_allowed_over_one_point_on_the_last_level() -> None:
-    table, origin = Table("x; y; x*z + y"), (ZERO, ("y", -1, 1))
-    assert table.signs(origin, (0,)) == "0"
+ORIGIN = (ZERO, ("y", -1, 1))
+
+
+def test_a_factor_zero_on_a_line_is_known_over_one_point_or_where_its_coefficients_are() -> None:
+    table = Table("x; y; x*z + y")
+    assert table.signs(ORIGIN, (0,)) == "0" and table.known == [{0}]
     assert table.signs((ZERO, 1), (0,)) == "+"
     assert table.signs((1, ("y", -1, 1)), (-1, 1), (0,)) == "- 0 +"
-    assert "vanishes identically" in table.objection(origin, (0, 1), (0,))
-    above = Table("x; y; x*z + y; w")
-    assert "not well-oriented" in above.objection(origin, (0,))
-    line = Table("x; y; z; x*w + y")
-    assert "not well-oriented" in line.objection((*origin, 1), (0,))
-    assert line.signs((*origin, ("z", -1, 1)), (0,)) == "0"
+    assert "is zero on the whole line" in table.objection(ORIGIN, (0, 1), (0,))
+    table = Table("x; y; z; x*w + y")
+    assert table.signs((*ORIGIN, 1), (0,)) == "0" and table.known == [{0}]
+    assert table.signs((*ORIGIN, ("z", -1, 1)), (0,)) == "0" and table.known == [{0}]
+    table = Table("x; y; z; x*w + z - 1")
+    assert table.signs((ZERO, 0, 1), (0,)) == "0" and table.known == [set()]  # nobody says that z stays 1
+
+
+def test_lines_above_a_factor_that_is_zero_on_a_line_need_its_order() -> None:
+    assert Table("x; y; x*z + y; w").signs(ORIGIN, (0,), above=True) == "0"  # order 1, as its derivative in y is 1
+    table = Table("x; y; x^2 + y*z, z; w")  # order 1, but 2 where z is 0
+    assert table.signs(ORIGIN, (0,), used=(0,), above=True) == "0?" and table.known == [set()]
+    assert table.signs(ORIGIN, (0,), used=(0,)) == "0?" and table.known == [{0}]
+    assert table.signs(ORIGIN, (-1, 1), (1,), used=(0, 1), above=True) == "0- 00 0+" and table.known == [{0, 1}] * 3
+    table = Table("x; y; z; x*w + y; w")
+    assert table.signs((*ORIGIN, 1), (0,), above=True) == "0" and table.known == [set()]  # over more than a point
 
 
 def test_lazard_lifts_over_what_is_zero_on_a_line() -> None:
     table = Table("x; y; x*z + y", LAZARD)
     assert table.signs((ZERO, ("y", -1, 1)), (0,)) == "0"
     above = Table("x; y, y - 1; x*z + y - 1; w", LAZARD)
-    assert above.checked((ZERO, ("y - 1", 0, 2)), (0,), used=(0,)).nullified == {0}
+    assert above.checked((ZERO, ("y - 1", 0, 2)), (0,), used=(0,), above=True).zero == {0} and above.known == [{0}]
 
 
 def test_no_point_of_a_cell_may_make_a_factor_zero() -> None:
@@ -192,7 +228,8 @@ def test_a_constraint_has_the_only_sections() -> None:
     assert CONSTRAINED.signs((("x - 1", 0, 2),), (-2, 0, 2), (0,), (0,), used=(0, 1)) == "+? 0- -? 00 +?"
     assert CONSTRAINED.signs((-1,), (0,), used=(0, 1)) == "+?"
     found = CONSTRAINED.checked((2,), (-2, 0, 2), (0,), (0,), used=(0, 1))
-    assert found.restricted and sorted(found.places) == [0, 1] and sorted(found.branches) == [0]
+    assert sorted(found.branches) == [0] and CONSTRAINED.known == [{0}, {0, 1}, {0}, {0, 1}, {0}]
+    assert [sample is not None for sample in CONSTRAINED.samples] == [False, True, False, True, False]
 
 
 def test_a_section_that_lists_a_factor_besides_the_constraint_s_is_refused_where_it_was_a_key_error() -> None:
@@ -201,22 +238,27 @@ def test_a_section_that_lists_a_factor_besides_the_constraint_s_is_refused_where
         assert re.fullmatch(r"sections\[\d\]: factor (1 is none of the constraint's|0: .* not listed)", message)
 
 
-def test_without_its_constraint_a_stack_stands_over_a_point_only() -> None:
-    assert "does not restrict the stack" in CONSTRAINED.objection((2,), (0, 2), (1,), used=(1,))
-    assert CONSTRAINED.signs((("x - 1", 0, 2),), (0, 2), (1,), used=(1,)) == "?- ?0 ?+"
+def test_where_its_constraint_does_not_restrict_a_line_all_is_needed() -> None:
+    table = Table("x, x - 1; y^2 - x, y - 1, y - x - 5", constraints=((), (0,)))
+    assert table.signs((2,), (0, 2), (1,), used=(1,)) == "?-? ?0? ?+?"
+    assert "its resultant" in table.objection((2,), (0, 2, 8), (1,), (2,), used=(1, 2))
+    assert table.signs((("x - 1", 0, 2),), (0, 2, 8), (1,), (2,), used=(1, 2)) == "?-- ?0- ?+- ?+0 ?++"
     nullified = Table("x; y; x*z + y, z", constraints=((), (), (0,)))
-    assert nullified.signs((ZERO, ("y", -1, 1)), (-1, 1), (1,), used=(0, 1)) == "0- 00 0+"
+    assert nullified.signs(ORIGIN, (-1, 1), (1,), used=(0, 1)) == "0- 00 0+"
 
 
-def test_below_the_last_level_no_other_factor_vanishes_on_a_section_s_line() -> None:
+def test_where_a_section_is_decomposed_no_other_factor_is_zero_on_its_line() -> None:
+    table = Table("x; y - 7, y + x; z - 1, x*z + y; w", constraints=((), (), (0,), ()))
+    assert table.signs((ZERO, 1), (0, 2), (0,), used=(0, 1)) == "-? 0+ +?"
+    assert "may vanish identically" in table.objection((ZERO, 1), (0, 2), (0,), used=(0, 1), above=True)
     table = Table("x; y, y + x; z - 1, x*z + y; w", constraints=((), (), (0,), ()))
-    assert table.signs((1, 1), (0, 2), (0,), used=(0, 1)) == "-? 0+ +?"
-    assert "not well-oriented" in table.objection((ZERO, ("y", -1, 1)), (0, 2), (0,), used=(0, 1))
+    assert table.signs((1, 1), (0, 2), (0,), used=(0, 1), above=True) == "-? 0+ +?"
+    assert table.signs((ZERO, 1), (0, 2), (0,), used=(0, 1), above=True) == "-? 0+ +?"
 
 
-def test_coordinates_of_sections() -> None:
+def test_numbers_of_sections() -> None:
     found = SHARED.checked((ROOT,), (-2, 0, 2), (1,), (0, 1), used=(0, 1))
-    number = SHARED.checker.section_coordinate(found, SHARED.stack, 1, CertificateRejected)
+    number = found.number(3)
     assert isinstance(number, Coordinate) and (number.index, number.poly) == (1, SHARED.poly("y - x"))
     found = PARABOLA.checked((ZERO,), (-2, 2), (0,), used=(0,))
-    assert PARABOLA.checker.section_coordinate(found, PARABOLA.stack, 0, CertificateRejected) == 0
+    assert found.number(1) == 0 and found.number(2) == 2
