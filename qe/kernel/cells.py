@@ -160,7 +160,10 @@ class _Walk:
         k = sample.depth
         if k >= len(self.table.order):
             raise fail("cells", "a stack above the last variable")
-        line = line_over(sample, stack, self.constraints[k], self.projection, fail)
+        is_plain = all(cell.reach is None for cell in stack.cells)
+        if is_plain and k + 1 < len(self.table.order) and len(stack.used) != len(self.table.factors[k]):
+            raise fail("used", "a factor of this level is missing")  # who reads a decomposition relies on all of them
+        line = line_over(sample, stack, self.constraints[k], fail, evaluates=self.projection.evaluates)
         around = Neighbourhood(line, situation.signs, self.projection)
         parts = around.parts()
         if not sample.is_alone:
@@ -172,7 +175,6 @@ class _Walk:
             [*situation.nullified, frozenset()],
             [*situation.positions, 0],
         )
-        is_plain = all(cell.reach is None for cell in stack.cells)
         way = one_way(self.table, k) if k == self.free - 1 and is_plain else 0
         truths = []
         for place, part in enumerate(parts):

@@ -76,9 +76,6 @@ def _atom(product: Product, relation: Relation) -> Test:
     holding = relation.signs
 
     def run(situation: Situation) -> Truth:
-        s = sign(product, situation.signs)
-        if s is not None:
-            return s in holding
         possible = possible_signs(product, situation.signs)
         return True if possible <= holding else None if possible & holding else False
 

@@ -42,15 +42,14 @@ class Projected:
         self._needed: dict[tuple[int, frozenset[int], frozenset[int], bool], frozenset[Factor]] = {}
         self._witnesses: dict[Factor, list[Poly]] = {}
 
-    def product(self, what: str, k: int, i: int, j: int, *, known: bool = False) -> Product | None:
-        """A part of the projection of factors i <= j of level k; None for what is no product of listed factors.
-        ``known``: None also where it has not been computed before."""
+    def product(self, what: str, k: int, i: int, j: int) -> Product | None:
+        """A part of the projection of factors i <= j of level k; None for what is no product of listed factors."""
         key = (what, k, i, j)
-        if key not in self._products and not known:
+        if key not in self._products:
             self.budget.check("verify")
             f, g = self.lists.lists[k][i], self.lists.lists[k][j]
             self._products[key] = self.lists.decompose(self._polynomial(what, f, g, k, j))
-        return self._products.get(key)
+        return self._products[key]
 
     def _polynomial(self, what: str, f: Poly, g: Poly, k: int, j: int) -> Poly:
         if what == LEADING:

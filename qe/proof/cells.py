@@ -96,6 +96,15 @@ class CellTable:
     root: Cell
     constraints: tuple[tuple[int, ...], ...] = ()
 
+    @property
+    def is_decomposition(self) -> bool:
+        """Whether no cell is an interval of a covering."""
+
+        def is_one(cell: Cell) -> bool:
+            return cell.reach is None and (cell.stack is None or all(map(is_one, cell.stack.cells)))
+
+        return is_one(self.root)
+
 
 @dataclass(frozen=True, slots=True)
 class FreeCell:

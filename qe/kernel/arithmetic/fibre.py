@@ -170,24 +170,6 @@ class AlgebraicFibre:
         """The coefficients as balls; the working precision must be ``bits``."""
         return fibre_balls(self.point, self.poly, self.index, bits)
 
-    def shares_root(self, other: Fibre, low: Fraction, high: Fraction) -> bool:
-        """True if self and other, known to have a common complex root, provably have one in (low, high).
-
-        A common root lies in a ball of each; if one pair of balls only meets, the root is there, and it is real
-        because its conjugate is common too.
-        """
-        if not isinstance(other, AlgebraicFibre):
-            return False
-        for bits in ENCLOSURE_BITS:
-            mine, theirs = self.enclosures(bits), other.enclosures(bits)
-            if mine is None or theirs is None:
-                continue
-            meeting = [z for z in mine for w in theirs if z.overlaps(w)]
-            if len(meeting) == 1:
-                place = meeting[0].real
-                return bool(place > arb(exact(low)) and place < arb(exact(high)))
-        return False
-
     def count(self) -> int:
         """The number of distinct real roots: from enclosures of all complex roots if these separate them, else by
         the signed remainder sequence over the point's field."""
@@ -261,15 +243,10 @@ Fibre = RationalFibre | AlgebraicFibre
 Simple = Fibre | SimplePart
 
 
-def fibre(point: Point, poly: Poly, index: int, *, leading_nonzero: bool = False) -> Fibre:
-    """``poly`` over the point as a polynomial in variable ``index``; rational coordinates already substituted.
-
-    ``leading_nonzero`` says that the leading coefficient is already proved nonzero at the point.
-    """
+def fibre(point: Point, poly: Poly, index: int) -> Fibre:
+    """``poly`` over the point as a polynomial in variable ``index``; rational coordinates already substituted."""
     if not point.indices or all(i == index for i in poly.variables):
         return RationalFibre(poly.ring, index, poly.to_univariate(index), point.check)
-    if leading_nonzero:
-        return AlgebraicFibre(point, index, poly)
     poly = trim(point, poly, index)
     if all(i == index for i in poly.variables):
         return RationalFibre(poly.ring, index, poly.to_univariate(index), point.check)

@@ -67,7 +67,7 @@ class Table:
     def around(self, stack: Stack, sample: Sample) -> Line:
         """The line, and what holds of its cells around the sample."""
         constraint = frozenset(self.constraints[sample.depth])
-        line = line_over(sample, stack, constraint, self.projection, CertificateRejected)
+        line = line_over(sample, stack, constraint, CertificateRejected, evaluates=self.projection.evaluates)
         around = Neighbourhood(line, sample.signs, self.projection)
         parts = around.parts()
         if not sample.is_alone:
