@@ -1,8 +1,9 @@
 """One line over a sample: where the real roots of its factors are, and the signs that they have between these.
 
-The counting differs from the producers': a sign change between neighbouring rational numbers proves at least one
-root, and the total number of distinct real roots comes from enclosures of all complex roots or Sturm's theorem. If every listed section shows a sign change and the total equals the number of listed sections, each holds exactly one root
-and there are no others. A root of even order shows no sign change; it does in the squarefree part.
+The counting differs from the producers': a sign change between neighbouring rational numbers proves at least one root,
+and the total number of distinct real roots comes from enclosures of all complex roots or Sturm's theorem. If every
+listed section shows a sign change and the total equals the number of listed sections, each holds exactly one root and
+there are no others. A root of even order shows no sign change; it does in the squarefree part.
 """
 
 from __future__ import annotations
@@ -119,8 +120,8 @@ class Branch:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line found correct: the factors whose roots are its sections, those that are zero on all of it, and the signs of
-    all at every position."""
+    """A line found correct: the factors whose roots are its sections, those that are zero on all of it, and the signs
+    of all at every position."""
 
     stack: Stack
     sample: Sample
