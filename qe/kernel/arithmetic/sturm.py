@@ -167,11 +167,6 @@ def irreducible_factor_at(p: fmpz_poly, low: fmpq, high: fmpq) -> fmpz_poly | No
     return found[0] if len(found) == 1 else None
 
 
-def rational_root(p: fmpz_poly) -> Fraction:
-    """The root of a polynomial of degree 1."""
-    return Fraction(-int(p[0]), int(p[1]))
-
-
 def ball(low: fmpq, high: fmpq) -> arb:
     """A ball that contains the interval."""
     return arb(low).union(arb(high))
