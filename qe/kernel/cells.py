@@ -41,7 +41,9 @@ from qe.kernel.arithmetic.products import FactorLists, check_lists
 from qe.kernel.arithmetic.triangular import Point
 from qe.kernel.line import Sample, line_over
 from qe.kernel.matrix import Situation, Test, compiled, strengthened
+from qe.kernel.negation import negation
 from qe.kernel.neighbourhood import Neighbourhood
+from qe.kernel.open_block import shows_open
 from qe.kernel.projection import Projected
 from qe.options import Budget, Projection
 from qe.proof.cells import CHARACTER_OF, Cell, CellTable, Stack
@@ -214,10 +216,10 @@ def sectors_suffice(table: CellTable, level: int) -> bool:
     is not empty it meets a sector, the sections being finitely many points. Dually for atoms <=, >=, = and
     universal quantifiers, where the exceptions form an open set.
     """
-    later = set(table.quantifiers[level:])
+    later = {*table.quantifiers[level:]}
     if later == {"E"}:
-        return _positive(table.matrix, (Relation.LT, Relation.GT, Relation.NE))
-    return later == {"A"} and _positive(table.matrix, (Relation.LE, Relation.GE, Relation.EQ))
+        return shows_open(table.matrix, table.order)
+    return later == {"A"} and shows_open(negation(table.matrix), table.order)
 
 
 def one_way(table: CellTable, level: int) -> int:
@@ -247,17 +249,6 @@ def _goes(formula: Formula, x: int, way: int) -> Iterator[bool]:
                 yield from _goes(part, x, way)
         case _:
             yield False
-
-
-def _positive(formula: Formula, relations: tuple[Relation, ...]) -> bool:
-    match formula:
-        case Constant():
-            return True
-        case Atom(_, relation):
-            return relation in relations
-        case And(args) | Or(args):
-            return all(_positive(a, relations) for a in args)
-    return False
 
 
 def _text(path: Path) -> str:
