@@ -236,3 +236,13 @@ def test_roots_of_a_factor_beside_a_constraint_are_not_known() -> None:
     assert verify(Certificate.cells(sound)).accepted
     answer = convert(read("x^2 - 1 = 0 and x > root(1, x^2 - 4*x, x)"), ring)
     assert verify(Certificate.cells(sound, answer)).step == "payload.answer"
+
+
+def test_a_decomposition_shows_all_factors_of_a_level_below_the_last() -> None:
+    """Who reads the cells of a table relies on that; what is not used is not known, so nothing else would notice."""
+    leaves = [_leaf(sign, sign == "+") for sign in "-0+"]
+    over = Cell("", None, _stack((0,), "-1 1", ((0,),), *leaves))
+    root = Cell("", None, _stack((), "0", (), over))
+    verdict = _verdict(("x", "y"), ("", ""), read("y > 0"), [["x"], ["y"]], root)
+    assert (verdict.step, verdict.reason) == ("payload.root.stack.used", "a factor of this level is missing")
+    assert _verdict(("x", "y"), ("", ""), read("y > 0"), [[], ["y"]], root).accepted

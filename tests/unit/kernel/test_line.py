@@ -262,3 +262,80 @@ def test_numbers_of_sections() -> None:
     assert isinstance(number, Coordinate) and (number.index, number.poly) == (1, SHARED.poly("y - x"))
     found = PARABOLA.checked((ZERO,), (-2, 2), (0,), used=(0,))
     assert found.number(1) == 0 and found.number(2) == 2
+
+
+Interval = tuple[int, int, int, tuple[int, ...] | None]
+
+
+def objected(table: Table, places: tuple[Place, ...], sectors: tuple[int, ...], sections: str, *cells: Interval) -> str:
+    """What is objected to intervals (first, last and sample's position, own factors); sections as "0 01 ." """
+    listed = tuple(tuple(int(i) for i in section.strip(".")) for section in sections.split())
+    used = tuple(sorted({i for section in listed for i in section}))
+    intervals = tuple(Cell("", None, None, (first, last, at), own) for first, last, at, own in cells)
+    try:
+        table.around(Stack(used, tuple(map(Fraction, sectors)), listed, intervals), table.over(places))
+    except CertificateRejected as error:
+        return f"{error.step}: {error.reason}"
+    return ""
+
+
+RAYS = Table("x; y^2 - x, y - x - 5, y")
+ROOTS = ((1,), (-2, 0, 2, 7), "0 0 1")
+GOOD: tuple[Interval, ...] = ((0, 0, 0, (0,)), (1, 1, 1, (0,)), (2, 2, 2, (0,)), (3, 3, 3, (0,)), (4, 6, 6, (0,)))
+
+
+def test_intervals_know_their_own_factors() -> None:
+    assert objected(RAYS, *ROOTS, *GOOD) == "" and RAYS.known == [{0}] * 5
+    cut: tuple[Interval, ...] = ((0, 2, 0, (0,)), *((p + 2, p + 2, p + 2, (0,)) for p in (1, 2, 3)), (6, 8, 8, (0,)))
+    assert objected(RAYS, (1,), (-3, -2, 0, 2, 7), ". 0 0 1", *cut) == ""
+
+
+@pytest.mark.parametrize(
+    ("change", "objection"),
+    [
+        ({0: (0, 2, 0, (0,))}, "contains a root"),
+        ({1: (1, 1, 1, ())}, "begins and ends with a sector"),
+        ({4: (3, 6, 6, ())}, "begins and ends with a sector"),
+        ({0: (0, 0, 0, (1,))}, "no root at its end|none of its factors has a root at its end"),
+        ({2: (2, 2, 2, (1,))}, "none of its factors has a root at its end"),
+        ({4: (4, 6, 6, (0, 1))}, "contains a root"),
+        ({2: (2, 2, 2, (0, 2))}, "factors of the line expected"),
+        ({2: (2, 2, 2, None)}, "asked what holds beside the sample"),
+        ({2: (2, 2, 3, (0,))}, "are needed"),
+        ({2: (2, 1, 1, (0,))}, "are needed"),
+        ({4: (4, 7, 4, (0,))}, "are needed"),
+        ({4: None}, "not covered to its ends"),
+        ({0: GOOD[1]}, "not covered to its ends"),
+        ({1: GOOD[2]}, "a gap before cell 1"),
+        ({2: GOOD[3]}, "a gap before cell 2"),
+    ],
+)
+def test_intervals_cover_their_line_between_roots_of_their_own(change: dict[int, Interval | None], objection: str) -> None:
+    cells = [change.get(k, cell) for k, cell in enumerate(GOOD)]
+    assert re.search(objection, objected(RAYS, *ROOTS, *(cell for cell in cells if cell)))
+
+
+def test_no_theorem_of_lazard_is_about_intervals() -> None:
+    table = Table("x; y^2 - x, y - x - 5, y", LAZARD)
+    assert "factors of the line expected" in objected(table, *ROOTS, *GOOD)
+
+
+def test_intervals_that_overlap_need_the_resultant_of_their_ends() -> None:
+    cells: tuple[Interval, ...] = ((0, 2, 0, (1,)), (2, 4, 4, (0,)))
+    for below, accepted in (("x - 7", False), ("x - 7, x - 2", True)):
+        table = Table(f"{below}; y - 2, y - x")
+        assert (objected(table, (4,), (0, 3, 5), "0 1", *cells) == "") is accepted
+    touching: tuple[Interval, ...] = ((0, 0, 0, (1,)), (1, 1, 1, (0,)), (2, 2, 2, (0,)))
+    assert "need not meet" in objected(Table("x - 7; y - 2, y - x"), (2,), (0, 5), "01", *touching)
+    assert objected(Table("x - 2; y - 2, y - x"), (("x - 2", 0, 3),), (0, 5), "01", *touching) == ""
+
+
+def test_a_sample_alone_covers_no_line() -> None:
+    assert "covers its sample only" in objected(RAYS, (), (-1, 1), "0", (0, 0, 0, None), (1, 1, 1, (0,)), (2, 2, 2, (0,)))
+
+
+def test_what_keeps_a_factor_from_being_zero_on_a_line_nearby() -> None:
+    """A coefficient that is not zero, if it has only coordinates that are fixed, or its factors are own ones."""
+    table = Table("x; y - 7; z; x*w + y")
+    assert table.signs((ZERO, ("y - 7", 6, 8), 1), (0,)) == "+"
+    assert "may vanish identically" in table.objection((ZERO, 1, 1), (0,))
