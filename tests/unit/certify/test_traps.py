@@ -246,3 +246,12 @@ def test_a_decomposition_shows_all_factors_of_a_level_below_the_last() -> None:
     verdict = _verdict(("x", "y"), ("", ""), read("y > 0"), [["x"], ["y"]], root)
     assert (verdict.step, verdict.reason) == ("payload.root.stack.used", "a factor of this level is missing")
     assert _verdict(("x", "y"), ("", ""), read("y > 0"), [[], ["y"]], root).accepted
+
+
+def test_a_decomposition_shows_all_cells_of_a_line() -> None:
+    """Also where one of them decides the quantifier."""
+    leaves = [_leaf("-", True), _leaf("0", False), _leaf("+", False)]
+    for count in (1, 2, 3):
+        root = Cell("", True, _stack((0,), "-1 1", ((0,),), *leaves[:count]))
+        verdict = _verdict(("x",), ("E",), read("x < 0"), [["x"]], root)
+        assert verdict.accepted is (count == 3) and (count == 3 or "where 3 are needed" in verdict.reason)

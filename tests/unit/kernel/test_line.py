@@ -339,3 +339,16 @@ def test_what_keeps_a_factor_from_being_zero_on_a_line_nearby() -> None:
     table = Table("x; y - 7; z; x*w + y")
     assert table.signs((ZERO, ("y - 7", 6, 8), 1), (0,)) == "+"
     assert "may vanish identically" in table.objection((ZERO, 1, 1), (0,))
+    table, stack = Table("x; y; x*z + y"), Stack((0,), (Fraction(0),), (), (Cell("+", None),))
+    sample = table.over((ZERO, 1))
+    table.around(stack, sample)
+    sample.signs[1][0] = None  # y is 1 at the sample, but is no own factor of the cell
+    with pytest.raises(CertificateRejected, match="may vanish identically"):
+        table.around(stack, sample)
+
+
+def test_a_lazard_evaluation_has_the_sections_of_a_factor_that_is_zero_on_the_line() -> None:
+    """x + y*(z - 1) over x = 0, then y = 0, leaves z - 1."""
+    table = Table("x; y; x + y*z - y", LAZARD)
+    assert table.signs(ORIGIN, (0, 2), (0,)) == "0 0 0"
+    assert "missing" in table.objection(ORIGIN, (0,)) and "no root here" in table.objection(ORIGIN, (2, 3), (0,))
