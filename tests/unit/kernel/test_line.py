@@ -310,7 +310,9 @@ def test_intervals_know_their_own_factors() -> None:
         ({2: GOOD[3]}, "a gap before cell 2"),
     ],
 )
-def test_intervals_cover_their_line_between_roots_of_their_own(change: dict[int, Interval | None], objection: str) -> None:
+def test_intervals_cover_their_line_between_roots_of_their_own(
+    change: dict[int, Interval | None], objection: str
+) -> None:
     cells = [change.get(k, cell) for k, cell in enumerate(GOOD)]
     assert re.search(objection, objected(RAYS, *ROOTS, *(cell for cell in cells if cell)))
 
@@ -331,7 +333,8 @@ def test_intervals_that_overlap_need_the_resultant_of_their_ends() -> None:
 
 
 def test_a_sample_alone_covers_no_line() -> None:
-    assert "covers its sample only" in objected(RAYS, (), (-1, 1), "0", (0, 0, 0, None), (1, 1, 1, (0,)), (2, 2, 2, (0,)))
+    cells: tuple[Interval, ...] = ((0, 0, 0, None), (1, 1, 1, (0,)), (2, 2, 2, (0,)))
+    assert "covers its sample only" in objected(RAYS, (), (-1, 1), "0", *cells)
 
 
 def test_what_keeps_a_factor_from_being_zero_on_a_line_nearby() -> None:

@@ -97,3 +97,10 @@ def test_witnesses_against_nullification_lie_in_the_ideal_of_the_coefficients() 
     assert any(w in (x**2 + 1, -(x**2) - 1) for w in found)
     for witness in nullification_witnesses((x - y) * z**2 + (x + y - 2) * z, 2):
         assert not witness.at_rational(0, 1).at_rational(1, 1)  # it vanishes where all coefficients do
+
+
+@pytest.mark.parametrize("name", ["resultant", "discriminant"])
+def test_what_the_library_computes_is_compared_with_a_second_route(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert objection("x, x - 1", THREE) == ""
+    monkeypatch.setattr(Poly, name, lambda f, *rest: f.ring.constant(1))
+    assert "two ways" in objection("x, x - 1", THREE)
