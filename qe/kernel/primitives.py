@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from qe.kernel.block import check_block
-from qe.kernel.covering import check_covering
 from qe.kernel.elimination_set import check_elimination_set
 from qe.kernel.inequations import check_inequations, check_only_nonzero
 from qe.kernel.linear_equation import check_guarded_linear, check_linear
@@ -48,7 +47,7 @@ PRIMITIVES: Mapping[str, Check] = {
     # cylinders
     "cells": check_table,
     "shorter": check_table,
-    "covering": check_covering,
+    "covering": check_table,
     # open sets
     "inequations that remove no interior": check_inequations,
     "open block": check_open_block,

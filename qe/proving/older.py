@@ -24,8 +24,11 @@ from qe.proof.entry import Entry, Json, formula_from_json
 from qe.proving.elaborators import ELABORATORS, NAMING, Elaborator
 from qe.proving.lemma_list import with_cases
 from qe.proving.made import FRESH
+from qe.proving.older_coverings import covering
 from qe.proving.primitive_names import BY_SIGNS, SIGNS
 from qe.proving.search import former_search
+
+FORMER = {**ELABORATORS, "covering": covering}
 
 
 def recent(certificate: Certificate, budget: Budget) -> Certificate:
@@ -65,7 +68,7 @@ def _mentions(data: Json, rules: Container[str]) -> bool:
 
 def _is_former(data: Json) -> bool:
     """Whether a step is of a former rule, or its lemmas are without cases."""
-    return _mentions(data, [*ELABORATORS, *BY_SIGNS]) or any(_without_cases(data))
+    return _mentions(data, [*FORMER, *BY_SIGNS]) or any(_without_cases(data))
 
 
 def _without_cases(data: Json) -> Iterator[dict[str, Json]]:
@@ -76,11 +79,12 @@ def _without_cases(data: Json) -> Iterator[dict[str, Json]]:
 
 def _is_former_step(step: dict[str, Json]) -> bool:
     """Whether the evidence is not what the rule has today."""
-    evidence = step.get("evidence")
-    return step.get("rule") != ELIMINATION or (isinstance(evidence, dict) and "exponent" in evidence)
+    evidence, entry = step.get("evidence"), CHANGED.get(str(step.get("rule")))
+    return entry is None or (isinstance(evidence, dict) and entry in evidence)
 
 
-ELIMINATION = "elimination set"
+CHANGED = {"elimination set": "exponent", "covering": "line"}
+"""Rules of today whose evidence was another, by an entry that it had."""
 
 
 class _Conversion:
@@ -104,7 +108,7 @@ class _Conversion:
             self.ring = Ring.of(dict.fromkeys((*names, *fresh)))
         found = {name: self.data(part, f"{path}.{name}") for name, part in value.items()}
         rule = value.get("rule")
-        if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None and _is_former_step(value):
+        if isinstance(rule, str) and (elaborator := FORMER.get(rule)) is not None and _is_former_step(value):
             try:
                 found = self.step(Entry(found, path), elaborator)
             except (CertificateRejected, *CRASHES) as error:

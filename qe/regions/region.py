@@ -304,9 +304,10 @@ class Region(SetOperations):
     def from_json(text: str) -> Region:
         """The region of a JSON text. Nothing is verified; use ``qe.verify`` on ``certificate`` for that."""
         payload = Certificate.from_json(text).payload
-        if not isinstance(payload, CellEvidence) or payload.parts is not None or any(payload.table.quantifiers):
+        table = payload.table if isinstance(payload, CellEvidence) and payload.parts is None else None
+        if table is None or any(table.quantifiers) or not table.is_decomposition:
             raise InputError("a region in JSON expected")
-        return Region(payload.table.matrix, payload.table, payload.table.order)
+        return Region(table.matrix, table, table.order)
 
     def within(self, condition: Formula) -> Region:
         """The part where a quantifier-free condition on the region's variables holds, decomposed in the same order."""
