@@ -118,7 +118,7 @@ class Stage(Enum):
 
 @dataclass(slots=True)
 class Handover:
-    """What ``Budget.check`` does once ``time.monotonic()`` has passed ``due``: ``move()``, and never again.
+    """What ``Budget.check`` does once ``time.monotonic()`` has passed ``due``: ``move()``, which may set another time.
 
     ``qe.processes.execution`` moves long work to another process by it.
     """

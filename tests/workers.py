@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,6 +19,21 @@ from qe.processes.worker import IDLE
 def replace_in_worker(place: str, value: object) -> None:
     """In the worker that gets the next question, this name stands for ``value``, which can be pickled."""
     run(partial(_replaced, place, value), Limits(memory=1 << 20))  # limited: it moves in all tests
+
+
+def stuck(*_: object, **__: object) -> None:
+    """What is put in the place of work that takes too long, and never looks up."""
+    time.sleep(600)
+
+
+def large(*_: object, **__: object) -> bytes:
+    """What is put in the place of work that takes too much memory."""
+    return bytes(1 << 33)
+
+
+def killed(*_: object, **__: object) -> None:
+    """What is put in the place of work that a limit ends."""
+    os.kill(os.getpid(), signal.SIGKILL)
 
 
 def _replaced(place: str, value: object, channel: Channel) -> None:

@@ -41,9 +41,11 @@ GRACE = 0.25
 SWITCH = "QE_PROCESS"
 """The environment variable that, set to ``off``, keeps all work in the process of the caller."""
 
-OUTER: ContextVar[Handover | float | None] = ContextVar("OUTER", default=None)
-"""Of the question that is being worked on: how it moves while it is here; when its limit ends it in a worker (of
-``time.monotonic``; infinity: none does). None outside of all questions."""
+Bounds = tuple[float, float]
+"""When a limit ends a worker (of ``time.monotonic``), and the MiB that it may have; infinity where none does."""
+
+OUTER: ContextVar[Handover | Bounds | None] = ContextVar("OUTER", default=None)
+"""Of the question that is being worked on: how it moves while it is here, or the bounds of its worker."""
 
 
 class _Moves(BaseException):
@@ -119,11 +121,13 @@ def run(
         known.seconds = time.monotonic() - start
 
 
-def _may_move(limits: Limits, deadline: float, outer: Handover | float | None) -> bool:
-    """Whether processes are wanted, and one would serve: inside a worker only an earlier limit does."""
+def _may_move(limits: Limits, deadline: float, outer: Handover | Bounds | None) -> bool:
+    """Whether processes are wanted, and one would serve: inside a worker only a tighter limit does."""
     if not limits.process or not sys.executable or os.environ.get(SWITCH, "").lower() in ("off", "0"):
         return False
-    return not isinstance(outer, float) or limits.memory is not None or deadline < outer
+    if not isinstance(outer, tuple):
+        return True
+    return deadline < outer[0] or (limits.memory is not None and limits.memory < outer[1])
 
 
 def _done_here(

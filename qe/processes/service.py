@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import pickle
 import select
@@ -43,7 +44,7 @@ def serve() -> None:
             sys.path[:], recursion, digits = general
             sys.setrecursionlimit(recursion)
             sys.set_int_max_str_digits(digits)
-            OUTER.set(deadline)
+            OUTER.set((deadline, math.inf if memory is None else memory))
             _answer(work, Channel(partial(_send, home), deadline), memory, questions, home)
 
 
@@ -98,6 +99,8 @@ def _confined(memory: int | None) -> Iterator[None]:
         return
     import resource
 
+    from qe.processes.worker import end_idle
+
     before, hard = resource.getrlimit(resource.RLIMIT_AS)
     bounds = [v for v in (memory << 20, before, hard) if v != resource.RLIM_INFINITY]
     resource.setrlimit(resource.RLIMIT_AS, (min(bounds), hard))
@@ -105,6 +108,7 @@ def _confined(memory: int | None) -> Iterator[None]:
         yield
     finally:
         resource.setrlimit(resource.RLIMIT_AS, (before, hard))
+        end_idle()  # workers of this one that were started under the limit
 
 
 def _size() -> int:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import pickle
 import threading
-import time
 from collections.abc import Iterator
 
 import pytest
@@ -18,7 +17,7 @@ from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
 from qe.kernel.verdict import Verdict
 from qe.processes.worker import IDLE, end_idle
-from tests.workers import replace_in_worker
+from tests.workers import large, replace_in_worker, stuck
 
 CUBIC = {"start": [-4, 2, 1], "via": [["-3/2", 2, 3], ["3/2", 2, 3]], "goal": [4, 2, 1], "radius": 6, "method": "cubic"}
 
@@ -78,14 +77,6 @@ def test_a_plan_is_stored_whole(finished):
     again = pickle.loads(pickle.dumps(plan))
     assert len(finished) == 1 and again == plan and again.certified and again.length == plan.length
     assert len(finished) == 1
-
-
-def stuck(*_: object, **__: object) -> None:
-    time.sleep(600)
-
-
-def large(*_: object, **__: object) -> object:
-    return bytearray(4_000_000_000)
 
 
 def test_the_limit_holds_for_what_is_asked_for_later():

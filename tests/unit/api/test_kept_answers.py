@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -18,7 +16,7 @@ from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.processes.worker import end_idle
 from qe.proof.answer import UNPROVED
-from tests.workers import replace_in_worker
+from tests.workers import killed, replace_in_worker, stuck
 
 pytestmark = pytest.mark.processes
 
@@ -35,18 +33,10 @@ CALLS: dict[str, Callable[[], object]] = {
 }
 
 
-def ended(*_: object) -> None:
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-def stuck(*_: object) -> None:
-    time.sleep(LONG)
-
-
 @pytest.mark.parametrize("name", CALLS)
 def test_an_answer_whose_proof_was_ended_comes_back_derived(name):
-    replace_in_worker("qe.proving.certificates.derived", ended)
-    replace_in_worker("qe.optimization.values.proved", ended)
+    replace_in_worker("qe.proving.certificates.derived", killed)
+    replace_in_worker("qe.optimization.values.proved", killed)
     found = CALLS[name]()
     answer = found if isinstance(found, qe.Answer) else found.answer  # type: ignore[attr-defined]
     assert answer.formula is not None and answer.certificate is None

@@ -18,7 +18,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.options import Budget
 from qe.processes.worker import end_idle
 from qe.progress import Event
-from tests.workers import replace_in_worker
+from tests.workers import large, replace_in_worker, stuck
 
 pytestmark = pytest.mark.processes
 
@@ -30,10 +30,6 @@ LIMIT, BOUND = 0.04, 15.0
 """Seconds; the worker is killed 0.25 s after its limit, and the machine may be busy."""
 ASKED_BEFORE = 0.5
 """The limit of a region that is made within it, before it is asked for more."""
-
-
-def stuck(*arguments: object, **keywords: object) -> None:
-    time.sleep(120)
 
 
 def witness() -> qe.ParametricWitness:
@@ -186,10 +182,6 @@ def test_what_a_volume_is_known_to_be_is_told_at_the_limit():
     region = qe.region("x^2 + y^2 <= 1 and x*y^3 >= 1/50")  # decomposed in no time, also on a slow machine
     with pytest.raises(BudgetExceeded, match=r"volume known only between [\d.]+ and \d"):
         region.volume(1e-40, timeout=1)
-
-
-def large(*arguments: object, **keywords: object) -> object:
-    return bytearray(1 << 33)
 
 
 def test_memory_limits_hold_for_regions_and_their_questions():

@@ -182,14 +182,14 @@ def test_the_limit_kills_work_that_never_looks_up() -> None:
     assert caught.value.limit == "time" and time.monotonic() - start < 30
 
 
-def inside(budget: Budget) -> list[object]:
-    several = Limits(), Limits(timeout=100), Limits(timeout=20)
+def inside(several: list[Limits], budget: Budget) -> list[object]:
     return [os.getpid(), *(perform(work(0.0), limits, at_once=True) for limits in several)]
 
 
-def test_inside_a_worker_only_an_earlier_limit_needs_another() -> None:
-    this, free, late, early = perform(inside, Limits(timeout=60), at_once=True)
-    assert os.getpid() != this == free == late != early
+def test_inside_a_worker_only_a_tighter_limit_needs_another() -> None:
+    several = [Limits(), Limits(timeout=100), Limits(memory=5000), Limits(timeout=20), Limits(memory=3000)]
+    this, *found = perform(partial(inside, several), Limits(timeout=60, memory=5000), at_once=True)
+    assert [pid == this for pid in found] == [True, True, True, False, False] and this != os.getpid()
 
 
 def outer(first: Callable[[Budget], object], at_once: bool, budget: Budget) -> tuple[object, int]:

@@ -244,6 +244,17 @@ def test_a_memory_limit_is_that_of_one_question() -> None:
     assert run(a_gigabyte, Limits()) == 1 << 30 and run(process, Limits()) == first
 
 
+def asking(inner: Limits, channel: Channel) -> int:
+    return run(a_gigabyte, inner)
+
+
+def test_workers_of_a_worker_have_its_memory_limit_for_as_long() -> None:
+    inner = Limits(timeout=100)
+    with pytest.raises(BudgetExceeded):
+        run(partial(asking, inner), Limits(timeout=200, memory=600))
+    assert run(partial(asking, inner), Limits(timeout=200)) == 1 << 30
+
+
 grown: list[bytes] = []
 
 
