@@ -57,7 +57,8 @@ class Simplified:
         return self._at_once(place, before, after, current) or self._parted(place, before, after, current)
 
     def _parted(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
-        """As ``_inside``, where all of it in one step has been tried: for a block that is as much as for its body."""
+        """As ``_inside``, where all of it in one step has been tried: for a block that is as much as for its body,
+        unless this is a block of the other kind."""
         if before == after:
             return current
         if isinstance(before, Exists | ForAll):
@@ -99,8 +100,9 @@ class Simplified:
             return None
         else:
             body = after
-        inner = self._parted((*place, 0), before.body, body, current)
-        if inner is None and before.body != body and body is after:
+        nested = isinstance(before.body, Exists | ForAll)
+        inner = (self._inside if nested else self._parted)((*place, 0), before.body, body, current)
+        if inner is None and before.body != body and body is after and not nested:
             inner = self._at_once((*place, 0), before.body, body, current)
         if inner is None:
             return None
