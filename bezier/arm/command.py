@@ -9,14 +9,13 @@ from math import degrees
 from typing import Any
 
 from bezier.arm import evidence, path_report
-from bezier.arm.choices import Arc, Choice, Edge, spans
+from bezier.arm.choices import Arc, Choice, Edge, Ends, Value, spans
 from bezier.arm.evidence import certificates, without_certificate
 from bezier.arm.inverse import MOST_BITS, Inverse, Solution, separated, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
 from bezier.arm.model import Arm, Joint, Motion
 from bezier.arm.pose import rotation_of, solve_pose
-from bezier.arm.value import Ends, Value
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
 from qe.certify.verify import verify

@@ -22,8 +22,7 @@ from bezier.arm.critical import AlongCurve, Number, S
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio
-from bezier.arm.signs_along import SignsAlong
-from bezier.arm.vertical import Label, vertical_arm
+from bezier.arm.vertical import Label, SignsAlong, vertical_arm
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import sign
 from qe.errors import InternalError

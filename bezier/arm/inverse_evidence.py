@@ -6,17 +6,14 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
-from bezier.arm.arm_json import arm_json
-from bezier.arm.choices import Choice
+from bezier.arm.choices import Choice, Value
 from bezier.arm.elimination import TURNS
+from bezier.arm.evidence import accepted_certificate, arm_json, surd_json
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve
-from bezier.arm.model import Arm, Motion
-from bezier.arm.square_roots import square_roots
-from bezier.arm.value import Value
+from bezier.arm.model import Motion
 from bezier.arm.wrist import centre_at, wrist_of
-from qe.certify.verify import verify
 from qe.errors import Unable
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 from qe.proof.entry import Json
 
 ATTEMPTS = ((100, 30), (260, 90), (800, 300))
@@ -36,16 +33,8 @@ def inverse_certificate(found: Inverse) -> Certificate:
     if found.rotation:
         listed["rotation"] = [_triple(row) for row in found.rotation]
     listed["count"] = found.count
-    verdict = None
-    for bits, places in ATTEMPTS:
-        for payload in _payloads(found, bits, places):
-            certificate = Certificate(Kind("inverse"), {**listed, **payload})
-            verdict = verify(certificate)
-            if verdict.accepted:
-                return certificate
-    raise Unable(
-        f"no certificate was found: {verdict.reason if verdict is not None else 'the last joint is undetermined'}"
-    )
+    attempts = (payload for bits, places in ATTEMPTS for payload in _payloads(found, bits, places))
+    return accepted_certificate("inverse", ({**listed, **payload} for payload in attempts))
 
 
 def _payloads(found: Inverse, bits: int, places: int) -> Iterator[dict[str, Json]]:
@@ -59,16 +48,13 @@ def _payloads(found: Inverse, bits: int, places: int) -> Iterator[dict[str, Json
     if any(s.values[:3] == (None, None, None) for s in positions):
         yield from _over_marks(found, positions[0], bits, places)
         return
-    turns = (None,) if _is_still(arm) or arm.joints[2].motion is Motion.PRISMATIC else TURNS
+    moves = geometry_of(arm).moves_last and arm.joints[2].motion is not Motion.PRISMATIC
+    turns = TURNS if moves else (None,)
     for turn in turns:
         t = [_parameter(s, turn, bits) for s in positions], [_parameter(s, turn, bits) for s in found.solutions]
         if turn is None or all(abs(v) <= FAR for v in t[0]):
             written: Json = None if turn is None else [str(v) for v in turn]
             yield {"turn": written, "roots": list(_roots(*t, found.solutions, bits, places))}
-
-
-def _is_still(arm: Arm) -> bool:
-    return not geometry_of(arm).moves_last
 
 
 def _over_marks(found: Inverse, family: Solution, bits: int, places: int) -> Iterator[dict[str, Json]]:
@@ -143,4 +129,4 @@ def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:
 
 
 def _triple(numbers: Sequence[Any]) -> Json:
-    return [[[str(q), d] for d, q in sorted(square_roots(c).items()) if q] for c in numbers]
+    return [surd_json(c) for c in numbers]

@@ -18,11 +18,9 @@ from itertools import count, pairwise
 from bezier.arm.continuous import Arcs, ContinuousMotions, continuous_motions
 from bezier.arm.follow import ONE, ZERO, Branch, follow, joined, whole
 from bezier.arm.inverse import solve
-from bezier.arm.limit_places import Near, ends_of
-from bezier.arm.limited_motions import LimitedMotions
+from bezier.arm.limited_motions import Excess, LimitedMotions, excesses, turns_of
 from bezier.arm.model import Arm
-from bezier.arm.motion_limits import Excess, excesses, turns_of
-from bezier.arm.study import Study, study
+from bezier.arm.study import Near, Study, ends_of, study
 from bezier.arm.vertical import Label, VerticalArm, vertical_arm
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import same

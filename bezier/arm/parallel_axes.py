@@ -28,12 +28,11 @@ from functools import partial
 from itertools import pairwise
 from typing import Any
 
-from bezier.arm.choices import Arc, Choice, End, arcs_of, by_turns
+from bezier.arm.choices import Arc, Choice, End, Known, arcs_of, by_turns
 from bezier.arm.elimination import Quotient, quotient, weights
 from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse, product
 from bezier.arm.ratio import Ratio, reduced
 from bezier.arm.roots_of_squares import Rules, Scaled, Turn, fixed, turned
-from bezier.arm.value import Known
 from bezier.arm.wrist import Found, Joints, meeting
 from bezier.curves.scalar import dot, is_zero
 from qe.errors import InternalError, Unable

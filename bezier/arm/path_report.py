@@ -2,14 +2,184 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from bezier.arm import motions_report
+from bezier.arm.continuous import Arcs, ContinuousMotion, ContinuousMotions, Junction
 from bezier.arm.critical import Reason
 from bezier.arm.joint_path import JointPath, Run
-from bezier.arm.motions_report import place_to_json, short
-from bezier.arm.study import Special, Stretch, Study
-from bezier.curves.scalar import described
+from bezier.arm.limited_motions import Excess
+from bezier.arm.study import Near, Place, Special, Stretch, Study
+from bezier.curves.scalar import brief, decimal_text, described
+
+MOST_SHOWN = 16
+
+
+def _motions_json(found: JointPath) -> dict[str, Any]:
+    """``count``: of all continuous motions from start to goal, limits of the joints left aside, and
+    ``count_within_limits``: of those that keep them for all s; null where it is not decided (``undecided`` says why).
+
+    ``junctions``: the places where solutions meet or the axis is passed: ``before``, ``after``: the numbers of arcs,
+    ``through``: of the pairs of them with the same limit. ``listed``: for each motion a joint position in each interval
+    between such places, by its parameter (rad, mm), and where it is beyond limits."""
+    counts = {"count": found.count, "count_within_limits": found.allowed_count}
+    if found.motions is None or found.limited is None:
+        return {**counts, "undecided": found.undecided if None in counts.values() else ""}
+    motions, limited, names = found.motions, found.limited, list(found.curves)
+    return {
+        **counts,
+        "undecided": "",
+        "junctions": [
+            {
+                "curve": names[j.curve],
+                "s": described(j.s),
+                "before": len(motions.arcs[k].labels),
+                "after": len(motions.arcs[k + 1].labels),
+                "through": len(j.passes),
+            }
+            for k, j in enumerate(motions.junctions)
+        ],
+        "listed": [
+            {
+                "number": motion.number,
+                "positions": [
+                    {"curve": names[a.curve], "s": str(a.sample), "joints": list(_position(motion, k, a))}
+                    for k, a in enumerate(motions.arcs)
+                ],
+                "beyond_limits": excesses_to_json(found, limited.listed[motion.number].excesses),
+            }
+            for motion in motions.motions
+        ],
+    }
+
+
+def excesses_to_json(found: JointPath, excesses: Sequence[Excess]) -> list[dict[str, Any]]:
+    """Where a motion is beyond limits."""
+    names = list(found.curves)
+    return [
+        {
+            "curve": names[e.curve],
+            "joint": e.joint.name,
+            "limit": str(e.limit),
+            "from": place_to_json(e.low),
+            "to": place_to_json(e.high),
+        }
+        for e in excesses
+    ]
+
+
+def place_to_json(place: Place) -> dict[str, Any]:
+    """Where there is no exact number, rational ones around it."""
+    if isinstance(place, Near):
+        return {"between": [str(place.low), str(place.high)], "decimal": decimal_text(place.low)}
+    return dict(described(place))
+
+
+def number_in_words(found: JointPath) -> str:
+    """How many continuous joint motions there are from start to goal, and how many keep the limits."""
+    told = f"at least {_number(len(found.covering_runs))}" if found.count is None else _number(found.count)
+    if not found.arm.has_limits or found.count == 0:
+        return told
+    kept = found.allowed_count
+    return f"{told}, {f'at least {len(found.whole_runs)}' if kept is None else kept or 'none'} within the limits"
+
+
+def _motions_in_words(found: JointPath) -> list[str]:
+    """The same for people."""
+    return [*_numbers(found), *(f"  {line}" for line in excesses_in_words(found)), *_details(found)]
+
+
+def _numbers(found: JointPath) -> list[str]:
+    count, kept = found.count, found.allowed_count
+    boxes = f"boxes (which bound the velocities) hold {len(found.covering_runs)} of them"
+    if count is None:
+        told = f"at least {_number(len(found.covering_runs))} from start to goal, proved by boxes"
+        lines = [f"{told}; how many others there are is not decided: {found.undecided}"]
+    elif count == 0:
+        lines = ["no continuous joint motion from start to goal (proved)"]
+    else:
+        lines = [f"{_number(count)} from start to goal (proved: these are all); {boxes}"]
+    if found.arm.has_limits and count != 0:
+        if kept is None:
+            lines.append(f"  at least {len(found.whole_runs)} within the limits of the joints for all s")
+        else:
+            lines.append(f"  {kept or 'none'} of them within the limits of the joints for all s (decided exactly)")
+    return lines
+
+
+def _details(found: JointPath) -> list[str]:
+    if found.motions is None:
+        return _parts(found)
+    lines, names = list[str](), list(found.curves)
+    for k, junction in enumerate(found.motions.junctions):
+        where = f"{names[junction.curve]} s = {short(junction.s)}"
+        lines += [f"  at {where}: {text}" for text in _passage(found.motions, k, junction)]
+    shown = found.motions.motions[:MOST_SHOWN]
+    for motion in shown:
+        places = []
+        for k, arcs in enumerate(found.motions.arcs):
+            joints = ", ".join(f"{value:.6g}" for value in _position(motion, k, arcs))
+            places.append(f"({joints}) at {names[arcs.curve]} s = {short(arcs.sample)}")
+        lines.append(f"  motion {motion.number}: {', '.join(places)}")
+    more = found.motions.count - len(shown)
+    return [*lines, f"  and {more} more"] if more > 0 else lines
+
+
+def excesses_in_words(found: JointPath) -> list[str]:
+    """Where motions are beyond limits of the joints: those from start to goal, or, if these are not all known, what
+    boxes hold."""
+    names, known = list(found.curves), found.excesses if found.limited is None else found.limited.listed
+    return [f"motion {n}: {_excess(e, names)}" for n in known for e in found.excesses.get(n, ())]
+
+
+def _excess(found: Excess, names: Sequence[str]) -> str:
+    limits = found.joint.limits
+    sign = ">" if limits is not None and found.limit == limits[1] else "<"
+    where = f"{names[found.curve]} s in ({short(found.low)}, {short(found.high)})"
+    return f"{found.joint.name} {sign} {brief(found.limit)}, its limit, for {where}"
+
+
+def _parts(found: JointPath) -> list[str]:
+    """The runs that do not go from start to goal."""
+    names, lines = list(found.curves), []
+    for run in found.runs:
+        if run not in found.covering_runs:
+            ends = ((run.parts[0], run.parts[0][1].low), (run.parts[-1], run.parts[-1][1].high))
+            begin, end = (f"{names[k]} s = {float(s):.9g}" for (k, _), s in ends)
+            lines.append(f"  motion {run.number} from {begin} to {end} only")
+    return lines
+
+
+def _passage(motions: ContinuousMotions, k: int, junction: Junction) -> list[str]:
+    """What happens between two intervals, if anything does."""
+    before, after = motions.arcs[k].labels, motions.arcs[k + 1].labels
+    going = len({one for one, _ in junction.passes})
+    coming = len({other for _, other in junction.passes})
+    name = motions.arm.joints[0].name
+    if going < len(before) or coming < len(after):
+        why = f"{name} would have to jump" if junction.on_axis else "solutions meet there"
+        ends = f"{len(before) - going} of {len(before)} motions end and {len(after) - coming} of {len(after)} begin"
+        return [f"{ends} here (proved: {why})"]
+    if junction.on_axis:
+        return [f"all {len(before)} motions go on through the axis (proved: {name} has one limit on both sides)"]
+    if junction.meets and len(junction.passes) > len(before):
+        return [f"all {len(before)} motions go on (proved); where solutions meet, each can go on as either"]
+    return []
+
+
+def _position(motion: ContinuousMotion, k: int, arcs: Arcs) -> tuple[float, ...]:
+    found = arcs.solutions[arcs.labels.index(motion.labels[k])].angles
+    return tuple(value for value in found if value is not None)
+
+
+def _number(count: int) -> str:
+    return f"{count} continuous joint motion{'s' * (count != 1)}"
+
+
+def short(s: Place) -> str:
+    """A parameter for people: exactly if that is short."""
+    exact = None if isinstance(s, Near) else brief(s)
+    return exact if exact is not None and len(exact) <= 12 else f"{float(s):.12g}"
 
 
 def to_json(found: JointPath) -> dict[str, Any]:
@@ -21,7 +191,7 @@ def to_json(found: JointPath) -> dict[str, Any]:
         "curves": [
             {"name": name, **_study(studied)} for name, studied in zip(found.curves, found.studies, strict=True)
         ],
-        "motions": motions_report.to_json(found),
+        "motions": _motions_json(found),
         "runs": [_run(found, run) for run in found.runs],
     }
 
@@ -58,7 +228,7 @@ def _run(found: JointPath, run: Run) -> dict[str, Any]:
         "parts": [
             {"curve": names[k], "from": str(b.low), "to": str(b.high), "boxes": len(b.pieces)} for k, b in run.parts
         ],
-        "beyond_limits": motions_report.excesses_to_json(found, run.excesses),
+        "beyond_limits": excesses_to_json(found, run.excesses),
     }
 
 
@@ -78,7 +248,7 @@ def in_words(found: JointPath) -> list[str]:
             ]
         lines += [f"  at s = {short(p.s)}: {_special(p)}" for p in studied.specials if p.reasons]
         lines += [f"  at s = {short(s)}: {Reason.SINE.value} (nothing happens to the arm)" for s in studied.shared]
-    return lines + motions_report.in_words(found)
+    return lines + _motions_in_words(found)
 
 
 def _verdict(found: Study) -> str:

@@ -17,9 +17,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
-from bezier.arm.angles import STEP, Angle
-from bezier.arm.limits import MOST_RADIANS
-from bezier.arm.model import Arm, Convention, Joint, Motion, Row
+from bezier.arm.choices import MOST_RADIANS
+from bezier.arm.model import STEP, Angle, Arm, Convention, Joint, Motion, Row
 from bezier.input.files import read_text
 from bezier.input.numbers import shorten
 from qe.errors import InputError

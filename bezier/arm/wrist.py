@@ -19,14 +19,25 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from bezier.arm.angles import Angle, field_of
-from bezier.arm.choices import Arc, Choice, by_turns
+from bezier.arm.choices import Arc, Choice, Known, by_turns
 from bezier.arm.elimination import TURNS, M, Quotient, Reduction, T, quotient, weights
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve_at
-from bezier.arm.model import Arm, Chain, Convention, Matrix, Motion, Row, apply, inverse, motion, product
+from bezier.arm.model import (
+    Angle,
+    Arm,
+    Chain,
+    Convention,
+    Matrix,
+    Motion,
+    Row,
+    apply,
+    field_of,
+    inverse,
+    motion,
+    product,
+)
 from bezier.arm.ratio import Ratio
 from bezier.arm.roots_of_squares import Rules, Scaled, fixed, turned
-from bezier.arm.value import Known
 from bezier.curves.scalar import dot, is_zero, rational
 from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic

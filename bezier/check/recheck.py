@@ -16,7 +16,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
-from bezier.arm.motions_report import number_in_words
+from bezier.arm.path_report import number_in_words
 from bezier.check.agreement import same_data, same_rows
 from bezier.check.stated import stated_problem
 from bezier.input import stored

@@ -25,8 +25,7 @@ def certify_path(
 ) -> int:
     """Prove that ARM can follow the path for all s in [0, 1], or say exactly where it stops; follow all branches."""
     from bezier.arm.command import certify
-    from bezier.arm.reader import load_arm
-    from bezier.arm.route import load_route
+    from bezier.arm.reader import load_arm, load_route
 
     check_limits(timeout, memory)
     check_writable(certificate)

@@ -31,8 +31,7 @@ def joints(
     """Find the joint sequence of least change, prove joint velocities and accelerations; write data and a moving
     page."""
     from bezier.arm.exact_text import read_exact
-    from bezier.arm.reader import load_arm
-    from bezier.arm.route import load_route
+    from bezier.arm.reader import load_arm, load_route
     from bezier.planner.outputs import all_or_none
 
     check_limits(timeout, memory)

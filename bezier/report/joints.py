@@ -9,7 +9,7 @@ from bezier.arm import joint_plan as plans
 from bezier.arm.joint_plan import JointPlan
 from bezier.arm.model import Motion
 from bezier.arm.motion import JointMotion
-from bezier.arm.motions_report import excesses_in_words, number_in_words
+from bezier.arm.path_report import excesses_in_words, number_in_words
 from bezier.report import html
 from bezier.report.first import scene_box
 from bezier.report.html import Card, Page, Section, Text, toned

@@ -17,7 +17,7 @@ from bezier.arm.inverse import solve
 from bezier.arm.inverse_evidence import _parameter, _roots, inverse_certificate
 from bezier.arm.kinematics import position
 from bezier.arm.reader import load_arm, read_arm
-from bezier.arm.square_roots import square_roots
+from bezier.arm.roots_of_squares import square_roots
 from bezier.certify import square_roots as sr
 from bezier.certify.square_roots import ONE, Surd
 from qe.certify.verify import verify, verify_json

@@ -7,7 +7,7 @@ from math import cos, isclose, pi, sin
 
 import pytest
 
-from bezier.arm.angles import Angle, field_of, read_angle
+from bezier.arm.model import Angle, field_of, read_angle
 from bezier.input.numbers import NotANumber
 
 

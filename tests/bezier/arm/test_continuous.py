@@ -14,16 +14,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from bezier.arm.arm_json import arm_json
 from bezier.arm.command import certify
 from bezier.arm.continuous import ContinuousMotions, continuous_motions
-from bezier.arm.evidence import certificates
+from bezier.arm.evidence import arm_json, certificates, motions_certificate
 from bezier.arm.inverse import solve
 from bezier.arm.joint_path import joint_path
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.model import Arm
-from bezier.arm.motions_evidence import motions_certificate
-from bezier.arm.motions_report import in_words
+from bezier.arm.path_report import in_words
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.study import study
 from bezier.arm.vertical import vertical_arm

@@ -21,10 +21,9 @@ from bezier.arm.inverse import solve
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.kinematics import positions
-from bezier.arm.limit_places import ends_of
 from bezier.arm.model import Arm, Motion
 from bezier.arm.reader import load_arm
-from bezier.arm.study import study
+from bezier.arm.study import ends_of, study
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify

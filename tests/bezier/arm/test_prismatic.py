@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from bezier.arm.command import in_words, to_json
 from bezier.arm.elimination import TURNS, Geometry
 from bezier.arm.evidence import certificates
-from bezier.arm.inverse import NAMES, solve
+from bezier.arm.inverse import NAMES, confirm, solve
 from bezier.arm.joint_path import joint_path
 from bezier.arm.joint_plan import in_words as plan_in_words
 from bezier.arm.joint_plan import joint_plan
@@ -23,7 +23,6 @@ from bezier.arm.model import Arm, Motion
 from bezier.arm.ratio import variable
 from bezier.arm.reader import read_arm
 from bezier.arm.study import study
-from bezier.arm.substitute_back import confirm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify

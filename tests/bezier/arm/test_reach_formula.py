@@ -12,7 +12,7 @@ import qe
 from bezier.arm.inverse import solve
 from bezier.arm.kinematics import position
 from bezier.arm.model import Arm, Motion
-from bezier.arm.reach_formula import question, reachable_formula
+from bezier.arm.reachable import question, reachable_formula
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.robot import Robot
 from qe.errors import Unable
