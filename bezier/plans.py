@@ -305,14 +305,14 @@ class Method(Generic[P]):
     begin: Callable[[Problem, Clock], Begun]
     finish: Callable[[Begun, Clock], P]
     reason: Callable[[P], str]
-    summary_lines: Callable[[P], list[str]]
     json_entries: Callable[[P], dict[str, Any]]
-    files: Callable[[P], dict[str, str]]
     draw: Callable[[P, FilePath], Drawing]
-    hatted_names: bool
     story: Callable[[P, Drawing | None], Story]
     restore: Callable[[Problem, Certificate, Stated], Restored[P]]
-    questions: Callable[[Problem], Mapping[str, Formula]]
+    summary_lines: Callable[[P], list[str]] = lambda plan: []
+    files: Callable[[P], dict[str, str]] = lambda plan: {}
+    questions: Callable[[Problem], Mapping[str, Formula]] = lambda problem: {}
+    hatted_names: bool = False
 
     def make(self, problem: Problem, clock: Clock) -> P:
         """The plan."""

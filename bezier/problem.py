@@ -12,15 +12,12 @@ from typing import Any
 
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, same
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
-from bezier.input.files import read_text
 from bezier.input.numbers import NotANumber, describe, read_squared, shorten
-from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
-from bezier.input.toml_table import LARGEST, POINT, Table
+from bezier.input.task import SingleCurve, Via, read_single, stated_via
+from bezier.input.toml_table import LARGEST, POINT, Table, read_text
 from bezier.motion.motion import Timing, read_timing
-from bezier.obstacles.inside import Inside, inside
-from bezier.obstacles.obstacle import Obstacle
-from bezier.obstacles.reader import read_obstacles
-from bezier.obstacles.via import via_at_thirds, via_over
+from bezier.obstacles.obstacle import Inside, Obstacle, inside
+from bezier.obstacles.reader import read_obstacles, via_at_thirds, via_over
 from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
 
@@ -160,7 +157,7 @@ def load_problem(path: Path) -> Problem:
 
 
 def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, ...]) -> tuple[Vector, Vector]:
-    """The via points given, or those over the obstacles (``bezier.obstacles.via``); where no path exists, any."""
+    """The via points given, or those over the obstacles (``bezier.obstacles.reader``); where no path exists, any."""
     expected = "two points of 3 numbers"
     if "via" not in table.values and obstacles:
         if inside({"start": start, "goal": goal}, obstacles):

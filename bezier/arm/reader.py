@@ -28,9 +28,8 @@ from bezier.arm.choices import MOST_RADIANS
 from bezier.arm.model import EXPECTED, Angle, Arm, Convention, Joint, Motion, Row, read_angle
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, add, scale, subtract
-from bezier.input.files import read_text
 from bezier.input.numbers import NotANumber, describe, shorten
-from bezier.input.toml_table import Table
+from bezier.input.toml_table import Table, read_text
 from qe.errors import InputError
 
 MAX_ROWS = 24

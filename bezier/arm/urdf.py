@@ -19,8 +19,8 @@ from xml.etree import ElementTree
 
 from bezier.arm.choices import MOST_RADIANS
 from bezier.arm.model import STEP, Angle, Arm, Convention, Joint, Motion, Row
-from bezier.input.files import read_text
 from bezier.input.numbers import shorten
+from bezier.input.toml_table import read_text
 from qe.errors import InputError
 from qe.extras import lacking
 

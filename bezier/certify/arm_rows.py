@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from bezier.certify import square_roots as sr
-from bezier.certify.motions import STILL, Motion, Triple, back, together, turn
-from bezier.certify.square_roots import ZERO, Interval, Surd
+from bezier.certify.square_roots import STILL, ZERO, Interval, Motion, Surd, Triple, back, together, turn
 from qe.errors import Unable
 from qe.proof.entry import Entry
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from bezier.certify.bernstein import MAX_DEGREE, Vector, constant, product, read_points, restricted
+from bezier.certify.containment import MAX_DEGREE, Vector, constant, product, read_points, restricted
 from qe.certify.kinds import BroughtKind
 from qe.errors import CertificateRejected
 from qe.expert.arithmetic.numbers import read_field

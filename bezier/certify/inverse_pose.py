@@ -18,10 +18,9 @@ from collections.abc import Iterator, Sequence
 
 from bezier.certify.arm_rows import Chain
 from bezier.certify.families import Arcs, Position, bounded
-from bezier.certify.motions import Motion, Triple, back, dot, image, together
 from bezier.certify.nested_roots import Joint, Nested, Vector, angle, basis, nested, turns
 from bezier.certify.nested_roots import dot as inner
-from bezier.certify.square_roots import ONE, ZERO, Surd
+from bezier.certify.square_roots import ONE, ZERO, Motion, Surd, Triple, back, dot, image, together
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry

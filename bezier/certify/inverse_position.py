@@ -21,8 +21,7 @@ from itertools import combinations
 from bezier.certify.arm_rows import Chain, read_chain, read_circle, read_number, read_triple
 from bezier.certify.families import Listed, Position, read_listed
 from bezier.certify.inverse_pose import centre, parallel_axes, wrist
-from bezier.certify.motions import Motion, Triple, back, image, is_motion
-from bezier.certify.square_roots import ZERO
+from bezier.certify.square_roots import ZERO, Motion, Triple, back, image, is_motion
 from bezier.certify.three_joints import Positions, is_still
 from qe.certify.kinds import BroughtKind
 from qe.errors import Unable

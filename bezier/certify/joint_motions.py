@@ -32,8 +32,7 @@ from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import Chain, read_chain, read_number, read_surd
 from bezier.certify.branch import powers, read_curve
 from bezier.certify.constant_sign import constant_sign
-from bezier.certify.motions import Triple, back, dot
-from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
+from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, dot
 from qe.certify.kinds import BroughtKind
 from qe.errors import Unable
 from qe.options import Budget

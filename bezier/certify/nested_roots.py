@@ -14,8 +14,7 @@ from functools import cached_property
 from typing import Any
 
 from bezier.certify import square_roots as sr
-from bezier.certify.motions import Motion
-from bezier.certify.square_roots import ONE, Interval, Polynomial, Surd
+from bezier.certify.square_roots import ONE, Interval, Motion, Polynomial, Surd
 from qe.errors import Unable
 
 BITS = 400

@@ -20,9 +20,8 @@ from fractions import Fraction
 
 from bezier.certify import square_roots as sr
 from bezier.certify.families import Arcs, Position, not_negative
-from bezier.certify.motions import Motion, Triple, back, dot, image
 from bezier.certify.nested_roots import Joint, Nested, Place, angle, nested
-from bezier.certify.square_roots import ONE, ZERO, Interval, Polynomial, Surd
+from bezier.certify.square_roots import ONE, ZERO, Interval, Motion, Polynomial, Surd, Triple, back, dot, image
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry

@@ -17,8 +17,7 @@ from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
 from bezier.arm.path_report import number_in_words
-from bezier.check.agreement import same_data, same_rows
-from bezier.check.stated import stated_problem
+from bezier.check.agreement import same_data, same_rows, stated_problem
 from bezier.input import stored
 from bezier.obstacles import survey
 from bezier.planner import avoid

@@ -11,9 +11,9 @@ from markupsafe import Markup
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES
 from bezier.compare.planar import plane_coordinates
-from bezier.motion.pieces import pieces
+from bezier.motion.motion import pieces
 from bezier.motion.track import Track
-from bezier.pictures import labels, scene
+from bezier.pictures import plot, scene
 from bezier.pictures.mesh import Array
 from bezier.pictures.picture import GRID, INK, Chart, PathPicture, numbers, path_picture
 from bezier.pictures.plot import VIEWS, letter, new_figure, path_view, svg_text
@@ -99,7 +99,7 @@ def regions_of(found: Comparison) -> Any:
     axis.set_ylabel("across (mm)")
     axis.grid(color=GRID, linewidth=0.6)
     axis.set_axisbelow(True)
-    labels.place(axis, marks, np.concatenate(list(lines.values())), size=9)
+    plot.place(axis, marks, np.concatenate(list(lines.values())), size=9)
     figure.legend(loc="lower left", bbox_to_anchor=(0.08, 0.0), frameon=False, fontsize=10)
     return figure
 

@@ -10,7 +10,7 @@ from math import ceil, inf, isqrt, lcm
 from typing import Any
 
 from bezier.curves import bernstein as bs
-from bezier.curves.halving import Numbers, halves
+from bezier.curves.bernstein import Numbers, halves
 from bezier.curves.scalar import is_zero, rational
 from qe.errors import InputError, Unable
 

@@ -13,10 +13,28 @@ from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from enum import Enum
 from fractions import Fraction
+from pathlib import Path
 from typing import Any, TypeVar
 
 from bezier.input.numbers import NUMBER, Literal, NotANumber, describe, read, shorten
 from qe.errors import InputError
+
+MAX_BYTES = 1_000_000
+
+
+def read_text(path: Path) -> str:
+    """The text of a file of at most ``MAX_BYTES``. Raises ``InputError`` when it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)  # some files of devices never end
+        if len(data) > MAX_BYTES:
+            raise InputError(f"{path}: expected a problem of at most {MAX_BYTES} bytes, found more")
+        return data.decode("utf-8-sig")
+    except OSError as error:
+        raise InputError(f"{path}: expected a readable file, found: {error.strerror or error}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: expected UTF-8 text, found byte {data[error.start]:#04x} at {error.start}") from None
+
 
 DIMENSION = 3
 LARGEST = Fraction(10**50)
@@ -49,6 +67,11 @@ class Table:
             raise InputError(_syntax(str(error), source, len(lines))) from None
         except (ValueError, RecursionError) as error:
             raise InputError(f"{source}: expected a TOML file, found: {' '.join(str(error).split())}") from None
+
+    @staticmethod
+    def load(file: Path) -> Table:
+        """The table of a file. Raises ``InputError``."""
+        return Table.parse(read_text(file), str(file))
 
     def error(self, key: str, expected: str, found: str) -> InputError:
         """The one line about a key of this table."""

@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Any
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
 from bezier.interface.work import Work
-from bezier.motion.motion import Motion, Quality, motion_csv
-from bezier.motion.pieces import pieces
+from bezier.motion.motion import Motion, Quality, motion_csv, pieces
 from bezier.obstacles.survey import Finding
 from bezier.paths.path import Path
 from bezier.planner import outputs, words
-from bezier.planner.folder import write_folder
+from bezier.planner.command import write_folder
 from bezier.plans import Clock, Derived, Outcome, Plan
 from bezier.problem import Problem
 from qe import arguments

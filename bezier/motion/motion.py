@@ -7,22 +7,31 @@ In a problem file::
     duration = 50               # seconds; without it the least time that keeps the limits
     max_speed = 20              # mm/s, optional
     max_acceleration = 5        # mm/s^2, optional
+
+A path in time as one chain of Bézier curves: the form in which other programs take it.
+
+Without a motion the time is that of ``path.csv``: each curve takes its duration. With one it is in seconds, and the
+curves composed with the time law are polynomials again, between the breaks of the law and the passages from curve to
+curve. Coordinates and passages that are irrational are replaced by rational numbers next to them (``BITS``).
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
-from bezier.curves.enclosure import Enclosure
+from bezier.curves import bernstein as bs
+from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import Enclosure, bounds
 from bezier.curves.quality import curvature_enclosure, length_enclosure
 from bezier.curves.scalar import Vector, add, decimal_text, is_zero, scale
 from bezier.input.toml_table import Table
-from bezier.motion.timelaw import Extremes, Law, TimeLaw, extremes, least_duration
+from bezier.motion.timelaw import Extremes, Law, TimeLaw, composed, extremes, least_duration, stretches
 from bezier.paths.path import Path
 
 REL = Fraction(1, 10**6)
@@ -269,3 +278,56 @@ def json_entries(quality: Quality | None) -> dict[str, Any]:
     if quality.motion is not None and not quality.motion.keeps_limits:
         found |= {"reason": quality.motion.reason, "suggestion": quality.motion.suggestion}
     return found
+
+
+BITS = 96
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """The part of a motion from ``low`` to ``high``: ``curve``, its parameter proportional to time, on ``name``."""
+
+    name: str
+    low: Fraction
+    high: Fraction
+    curve: Bezier
+
+
+def pieces(path: Path, motion: Motion | None) -> tuple[Piece, ...]:
+    """The motion as pieces of one degree, in order, each beginning where and when the one before ends."""
+    curves = {name: Bezier(tuple(tuple(map(near, p)) for p in curve.points)) for name, curve in path.curves.items()}
+    found = tuple(_plain(path, curves) if motion is None else _timed(path, curves, motion))
+    degree = max(piece.curve.degree for piece in found)
+    return tuple(Piece(p.name, p.low, p.high, p.curve.elevate(degree)) for p in found)
+
+
+def near(value: Any) -> Fraction:
+    """The number if it is rational, else a rational one next to it."""
+    low, high = bounds(value, BITS)
+    return (low + high) / 2
+
+
+def _plain(path: Path, curves: dict[str, Bezier]) -> Iterator[Piece]:
+    begin = Fraction(0)
+    for name, curve in curves.items():
+        end = begin + path.duration(name)
+        yield Piece(name, begin, end, curve)
+        begin = end
+
+
+def _timed(path: Path, curves: dict[str, Bezier], motion: Motion) -> Iterator[Piece]:
+    law = TimeLaw.of(motion.timing.law, motion.timing.ramp)
+    certain = [stretch for stretch in stretches(path, law) if stretch.certain]
+    middles = [(a.high + b.low) / 2 for a, b in pairwise(certain)]
+    ends = [Fraction(0), *middles, Fraction(1)]
+    for stretch, (low, high) in zip(certain, pairwise(ends), strict=True):
+        curve, inside = curves[stretch.curve], (low, high - low)
+        rows = [bs.to_power(curve.coordinate(i)) for i in range(curve.dimension)]
+        forms = [bs.from_power(composed(composed(row, stretch.parameter), inside)) for row in rows]
+        yield Piece(stretch.curve, low * motion.duration, high * motion.duration, _curve(forms))
+
+
+def _curve(forms: list[bs.Coefficients]) -> Bezier:
+    """The curve with these coordinates, whose degrees may differ."""
+    degree = max(len(form) for form in forms) - 1
+    return Bezier(tuple(zip(*(bs.elevate(form, degree) for form in forms), strict=True)))

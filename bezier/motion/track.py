@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bezier.motion.pieces import Piece
+from bezier.motion.motion import Piece
 from qe.errors import InputError, Unable
 
 Array = NDArray[np.float64]

@@ -13,9 +13,9 @@ from functools import lru_cache
 from math import comb, lcm
 from typing import Any
 
+from bezier.curves.bernstein import Numbers
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import bounds
-from bezier.curves.halving import Numbers
 from bezier.obstacles.obstacle import Box, Constraint, Exponents
 from qe.errors import InputError
 

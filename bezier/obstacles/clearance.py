@@ -10,27 +10,22 @@ from passing close by.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
-from itertools import pairwise
 
 from bezier.curves import bernstein as bs
+from bezier.curves.bernstein import Numbers, exact, halves
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds
-from bezier.curves.halving import Numbers, exact, halves
-from bezier.curves.nonnegative import Interval, isolate, refine
+from bezier.curves.nonnegative import MAX_DENOMINATOR, WIDTH, Interval, events_of
 from bezier.curves.scalar import Vector, is_zero, sign
 from bezier.obstacles.along import Along
 from bezier.obstacles.obstacle import Box, Constraint, Obstacle, Piece
 
 SHORT = 8
 """After this many halvings roots are isolated."""
-PLACE_WIDTH = Fraction(1, 2**80)
-"""To what width the parameter of a contact is refined."""
-MAX_DENOMINATOR = 10**6
-"""Rational contact parameters up to this denominator are recognised as such."""
 
 
 class Argument(Enum):
@@ -150,97 +145,22 @@ class Search:
         """The first contact in a short interval, exactly: at its left end, at a root, or right after one of these."""
         constraints = [self.piece.constraints[i] for i, _ in part.open]
         forms = [exact(form) for _, form in part.open]
-        breaks = critical_values(forms)
-        for at, after in _with_next(breaks.intervals):
-            if all(c.holds(breaks.sign(f, at)) for c, f in zip(constraints, forms, strict=True)):
-                return _located(part, at, breaks.form, True)
-            if after is not None:
-                between = (at[1] + after[0]) / 2
-                if all(c.holds(bs.value(f, between)) for c, f in zip(constraints, forms, strict=True)):
-                    return _located(part, at, breaks.form, False)
+        events = events_of(forms)
+        for event, after in zip(events, [*events[1:], None], strict=True):
+            if all(c.holds(side) for c, side in zip(constraints, event.signs, strict=True)):
+                return _on_curve(part, event.t, True)
+            between = None if after is None else (event.t[1] + after.t[0]) / 2
+            if between is not None and all(
+                c.holds(bs.value(f, between)) for c, f in zip(constraints, forms, strict=True)
+            ):
+                return _on_curve(part, event.t, False)
         return None
 
 
-@dataclass(frozen=True, slots=True)
-class CriticalValues:
-    """All roots in [0, 1] of some polynomials, and the ends 0 and 1, as ascending disjoint intervals.
-
-    ``form``: a square-free polynomial with exactly one root in each interval that is not a single number.
-    """
-
-    form: bs.Coefficients
-    intervals: tuple[Interval, ...]
-
-    def sign(self, b: bs.Coefficients, at: Interval) -> int:
-        """The exact sign of one of the polynomials at the critical value in ``at``."""
-        if at[0] == at[1]:
-            return sign(bs.value(b, at[0]))
-        common = bs.from_power(bs.gcd(bs.to_power(self.form), bs.to_power(b)))
-        if sign(bs.value(common, at[0])) * sign(bs.value(common, at[1])) < 0:
-            return 0
-        low, high = at
-        while True:
-            signs = {sign(c) for c in bs.restrict(b, low, high)}
-            if len(signs) == 1:
-                return signs.pop()
-            low, high = refine(self.form, (low, high), (high - low) / 4)
-            if low == high:
-                return sign(bs.value(b, low))
-
-
-def critical_values(forms: Sequence[bs.Coefficients]) -> CriticalValues:
-    """The critical values of polynomials on [0, 1]; zero polynomials have none."""
-    product: bs.Coefficients = (Fraction(1),)
-    for form in forms:
-        power = bs.to_power(form)
-        if power:
-            product = bs.power_multiply(product, bs.divide(power, bs.gcd(product, power))[0])
-    product = _without_ends(product)
-    common = bs.gcd(product, bs.power_derivative(product)) if len(product) > 1 else (Fraction(1),)
-    square_free = bs.from_power(bs.divide(product, common)[0])
-    inner = [i for i in _apart(square_free, isolate(square_free)) if i[1] > 0 and i[0] < 1]
-    zero, one = Fraction(0), Fraction(1)
-    return CriticalValues(square_free, ((zero, zero), *inner, (one, one)))
-
-
-def _without_ends(power: bs.Coefficients) -> bs.Coefficients:
-    """Without the roots 0 and 1: next to them an isolating interval would never leave the end that it touches."""
-    while len(power) > 1 and is_zero(power[0]):
-        power = power[1:]
-    while len(power) > 1 and is_zero(sum(power, Fraction(0))):
-        power = bs.divide(power, (Fraction(1), Fraction(-1)))[0]
-    return power
-
-
-def _apart(b: bs.Coefficients, intervals: Sequence[Interval]) -> Iterator[Interval]:
-    """The intervals shrunk until they neither share ends with each other nor reach 0 or 1."""
-    taken = {Fraction(0), Fraction(1), *(i[0] for i in intervals if i[0] == i[1])}
-    ends = [Fraction(0), *(e for i in intervals for e in i), Fraction(1)]
-    shared = taken | {a for a, b in pairwise(ends) if a == b}
-    for low, high in intervals:
-        while low < high and (low in shared or high in shared):
-            low, high = refine(b, (low, high), (high - low) / 2)
-        yield low, high
-
-
-def _with_next(intervals: Sequence[Interval]) -> Iterator[tuple[Interval, Interval | None]]:
-    yield from zip(intervals, [*intervals[1:], None], strict=True)
-
-
-def _located(part: _Part, at: Interval, form: bs.Coefficients, attained: bool) -> Hit:
-    """A root on a part, refined and moved to the parameter of the whole curve."""
-    low, high = at if at[0] == at[1] else refine(form, at, PLACE_WIDTH)
-    return _recognised(part, low, high, form, attained)
-
-
-def _recognised(part: _Part, low: Fraction, high: Fraction, form: bs.Coefficients, attained: bool) -> Hit:
-    """The contact at the root in [low, high] of a form on a part; a simple rational root is recognised."""
-    if low < high:
-        guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)
-        if low <= guess <= high and is_zero(bs.value(form, guess)):
-            low = high = guess
+def _on_curve(part: _Part, t: Interval, attained: bool) -> Hit:
+    """A contact at the only critical value in ``t``, a parameter of a part, as one of the whole curve."""
     wide = part.high - part.low
-    return Hit((part.low + wide * low, part.low + wide * high), attained)
+    return Hit((part.low + wide * t[0], part.low + wide * t[1]), attained)
 
 
 def _crosses_up(form: Numbers) -> bool:
@@ -252,7 +172,7 @@ def _crossing(part: _Part, *, attained: bool) -> Hit:
     """The contact where the only open constraint crosses zero once."""
     form = piece = part.open[0][1]
     low, high = Fraction(0), Fraction(1)
-    while high - low > PLACE_WIDTH:
+    while high - low > WIDTH:
         middle = (low + high) / 2
         left, right = halves(piece)
         here = sign(right[0])
@@ -262,7 +182,10 @@ def _crossing(part: _Part, *, attained: bool) -> Hit:
             piece, high = left, middle
         else:
             piece, low = right, middle
-    return _recognised(part, low, high, exact(form), attained)
+    if low < high:
+        guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)
+        low, high = (guess, guess) if low <= guess <= high and is_zero(bs.value(exact(form), guess)) else (low, high)
+    return _on_curve(part, (low, high), attained)
 
 
 def _halved(part: _Part) -> list[_Part]:

@@ -7,6 +7,10 @@ is positive, as the paper has it.
 
 Signs of x(t) - a, b - x(t) and h - y(t) change only at their roots in t, and these are isolated: the answer holds
 for all t, and a stretch below the height is given by the roots at its ends.
+
+Does the path go through the origin O? The paper leaves O out of the reachable set, so it is worth a note.
+
+A curve goes through O where its three coordinates vanish together: at events at which all three signs are zero.
 """
 
 from __future__ import annotations
@@ -18,11 +22,10 @@ from itertools import pairwise
 from typing import Any
 
 from bezier.curves import bernstein as bs
+from bezier.curves.bernstein import exact
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
-from bezier.curves.events import Event, events_of
-from bezier.curves.halving import exact
-from bezier.curves.nonnegative import Interval
+from bezier.curves.nonnegative import Event, Interval, events_of
 from bezier.curves.scalar import brief, decimal_text, sign
 from bezier.obstacles.along import Along
 from bezier.obstacles.obstacle import Constraint
@@ -206,3 +209,25 @@ def to_json(found: Heights) -> dict[str, Any]:
 def _stated(end: End) -> dict[str, Any]:
     value = {"exact": str(end.t[0])} if end.t[0] == end.t[1] else Enclosure(*end.t).to_json()
     return {"t": value, "where": end.at, "included": end.included}
+
+
+START, END = (Fraction(0), Fraction(0)), (Fraction(1), Fraction(1))
+
+
+def through_origin(curve: Bezier) -> tuple[Interval, ...]:
+    """The parameters with P(t) = O, ascending, each isolated (equal ends: exactly)."""
+    rows = [curve.coordinate(i) for i in range(curve.dimension)]
+    if any({sign(c) for c in row} in ({1}, {-1}) for row in rows):
+        return ()
+    return tuple(event.t for event in events_of(rows) if not any(event.signs))
+
+
+def remarks(path: Path) -> tuple[str, ...]:
+    """A note for each place inside a curve where the path goes through O; given points in O have notes of their own."""
+    found = []
+    for name, curve in path.curves.items():
+        for low, high in through_origin(curve):
+            if (low, high) not in (START, END):
+                t = str(low) if low == high else f"about {float((low + high) / 2):.8g}"
+                found.append(f"the path goes through the origin O ({name} at t = {t}), which the paper excludes")
+    return tuple(found)

@@ -7,8 +7,8 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
+from bezier.obstacles.bodies import distance_at
 from bezier.obstacles.clearance import Contact
-from bezier.obstacles.distance import distance_at
 from bezier.obstacles.survey import Finding
 from bezier.pictures.mesh import sampled
 from bezier.pictures.obstacles import COLOURS as OBSTACLES

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from bezier.motion.motion import quality_of
-from bezier.paths import heights, origin
+from bezier.paths import heights
 from bezier.planner import radius_rule
 from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
@@ -97,7 +97,7 @@ def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan
         remarks += [] if plan.bound is None else [NEAR]
         if plan.path is not None:
             found = replace(found, heights=heights.heights_of(plan.problem.strip, plan.path))
-            remarks += origin.remarks(plan.path)
+            remarks += heights.remarks(plan.path)
     except Unable as error:
         if isinstance(error, BudgetExceeded):
             raise

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.scalar import decimal_text
-from bezier.motion.pieces import pieces
+from bezier.motion.motion import pieces
 from bezier.plans import Outcome, Plan
 from bezier.report import html
 from bezier.report.html import Card, Text

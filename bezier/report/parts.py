@@ -17,7 +17,7 @@ from bezier.methods.control.system import Combination, OnPoint, System
 from bezier.methods.control.terms import named_multipliers
 from bezier.paths.path import Path
 from bezier.plans import Derived, Plan
-from bezier.report import html, mathml, mathml_cells
+from bezier.report import html, mathml
 from bezier.report.html import Section, Text
 
 DIGITS = 8
@@ -278,4 +278,4 @@ def derivation_link(found: Derived, file: str) -> Markup:
 
 def cells(region: Any) -> list[Markup]:
     """The cells of the region, one line per variable."""
-    return [html.formula(Markup(line) for line in mathml_cells.cell(piece)) for piece in region.cells]
+    return [html.formula(Markup(line) for line in mathml.cell(piece)) for piece in region.cells]

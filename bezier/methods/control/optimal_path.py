@@ -11,17 +11,18 @@ import qe
 from bezier.curves.containment import Inside
 from bezier.curves.scalar import Vector
 from bezier.input.stored import numbers
-from bezier.methods.control.claims import (
+from bezier.methods.control.statements import Statement
+from bezier.methods.control.system import System
+from bezier.methods.control.terms import (
     check_bound_of,
     check_optimum_of,
     has_member,
     member,
+    named_multipliers,
     near_points,
     optimal_points,
+    proof_of,
 )
-from bezier.methods.control.statements import Statement
-from bezier.methods.control.system import System
-from bezier.methods.control.terms import named_multipliers, proof_of
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
 from bezier.plans import Begun, Clock, Outcome, Plan
 from bezier.problem import Problem

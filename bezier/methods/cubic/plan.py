@@ -21,8 +21,7 @@ from bezier.methods.control.optimal_path import (
 )
 from bezier.methods.control.system import System
 from bezier.methods.cubic import formula as cubic
-from bezier.paths.path import Path
-from bezier.paths.speed import Slowest, slowest_of
+from bezier.paths.path import Path, Slowest, slowest_of
 from bezier.plans import Begun, Clock
 from bezier.problem import Problem
 from qe.formula.syntax import Formula

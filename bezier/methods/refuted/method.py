@@ -7,12 +7,11 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 import qe
-from bezier.obstacles.inside import Inside
+from bezier.obstacles.obstacle import Inside
 from bezier.plans import Begun, Clock, Method, Outcome, Plan, Restored, Stated, Story
 from bezier.problem import Problem, ends_inside
 from bezier.report import html
 from bezier.report.html import Section
-from qe.formula.syntax import Formula
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
@@ -64,11 +63,6 @@ def reason(plan: RefutedPlan) -> str:
     return "; ".join(item.in_words() for item in plan.inside)
 
 
-def summary_lines(plan: RefutedPlan) -> list[str]:
-    """None beyond the reason."""
-    return []
-
-
 def json_entries(plan: RefutedPlan) -> dict[str, Any]:
     """The ends in obstacles, with their places."""
     found = [
@@ -76,11 +70,6 @@ def json_entries(plan: RefutedPlan) -> dict[str, Any]:
         for item in plan.inside
     ]
     return {"inside": found}
-
-
-def files(plan: RefutedPlan) -> dict[str, str]:
-    """None beyond those of every method."""
-    return {}
 
 
 def draw(plan: RefutedPlan, folder: FilePath) -> Drawing:
@@ -114,21 +103,12 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
     return Restored(plan, tuple(item.in_words() for item in plan.inside))
 
 
-def questions(problem: Problem) -> dict[str, Formula]:
-    """Nothing is asked of the engine."""
-    return {}
-
-
 REFUTED: Method[RefutedPlan] = Method(
     begin=begin,
     finish=finish,
     reason=reason,
-    summary_lines=summary_lines,
     json_entries=json_entries,
-    files=files,
     draw=draw,
-    hatted_names=False,
     story=story,
     restore=restore,
-    questions=questions,
 )

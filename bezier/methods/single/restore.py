@@ -16,8 +16,8 @@ from bezier.curves.containment import Leaves
 from bezier.curves.curve import Bezier
 from bezier.input import stored
 from bezier.input.task import Axis, Task, Values
-from bezier.methods.control.claims import member
 from bezier.methods.control.optimal_path import bundled
+from bezier.methods.control.terms import member
 from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import NoCurve, ProvedCurve, plain_program
 from bezier.methods.single.cuts import Cut, CutKind, Model

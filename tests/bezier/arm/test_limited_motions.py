@@ -132,7 +132,7 @@ def test_an_elbow_is_forbidden_on_one_side_of_a_tangent() -> None:
 
 def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path: Path) -> None:
     """Only the text of certify-path said it."""
-    from bezier.planner.joints import Request, joints
+    from bezier.planner.arm import joints
 
     curves = curves_of([(150, 20, 120), (170, 60, 150), (150, 90, 120)])
     free = joint_path(limited(E), curves)
@@ -152,11 +152,9 @@ def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path
     data = json.loads(certify(Channel(-1), arm, curves, json=True)[0])
     assert data["without_certificate"] == missing
     law = TimeLaw.of(Law.QUINTIC)
-    request = Request(
-        arm=arm, curves=curves, file="path.toml", folder=tmp_path, target=tmp_path, law=law, duration=F(50), samples=4
-    )
-    text, code = joints(Channel(-1), request)
-    assert code == 0 and all(f"none of motion {n}: a joint comes closer" in text for n in missing)
+    places = {"file": "path.toml", "folder": tmp_path, "target": tmp_path}
+    text, is_followed = joints(Channel(-1), arm, curves, law=law, duration=F(50), samples=4, **places)
+    assert is_followed and all(f"none of motion {n}: a joint comes closer" in text for n in missing)
     assert json.loads((tmp_path / "joints.json").read_text())["without_certificate"] == missing
 
 

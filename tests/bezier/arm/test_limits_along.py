@@ -236,22 +236,14 @@ def test_closeness_to_a_limit_is_decided_on_many_paths(part: int) -> None:
 
 def test_the_files_of_a_path_beyond_its_limits(tmp_path: Path) -> None:
     """A page and data are written, without certificates."""
-    from bezier.planner.joints import Request, joints
+    from bezier.planner.arm import joints
 
     curves = path(CYLINDER, (20, -300, 100), (20, -200, 700), (20, -300, 100)).curves
-    request = Request(
-        arm=CYLINDER,
-        curves=curves,
-        file="path.toml",
-        folder=tmp_path,
-        target=tmp_path,
-        law=TimeLaw.of(Law.QUINTIC),
-        duration=Fraction(50),
-        samples=4,
-    )
-    text, code = joints(None, request)  # type: ignore[arg-type]
+    wanted = {"law": TimeLaw.of(Law.QUINTIC), "duration": Fraction(50), "samples": 4}
+    places = {"file": "path.toml", "folder": tmp_path, "target": tmp_path}
+    text, is_followed = joints(None, CYLINDER, curves, **wanted, **places)  # type: ignore[arg-type]
     assert (
-        code == 3
+        not is_followed
         and "(none of motions held by boxes" in text
         and "lift &gt; 250" in (tmp_path / "joints.html").read_text()
     )

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier.certify.bernstein import constant, product, read_points, restricted, total
+from bezier.certify.containment import constant, product, read_points, restricted, total
 from qe.errors import CertificateRejected
 from qe.expert.arithmetic.residue import Residue, RootField, of_rationals
 from qe.proof.entry import Entry

@@ -9,9 +9,9 @@ import pytest
 
 import qe
 from bezier.compare import comparison
+from bezier.compare.command import render
 from bezier.compare.comparison import Comparison, _Parts, compare
 from bezier.compare.output import NOT_REACHED, notes, rows, table, to_json
-from bezier.compare.page import render
 from bezier.plans import Clock
 from bezier.problem import read_problem
 from qe.errors import BudgetExceeded, Unable

@@ -8,7 +8,7 @@ from math import comb
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier.curves.halving import exact, halves
+from bezier.curves.bernstein import exact, halves
 
 PLACES = [Fraction(k, 4) for k in range(5)]
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from bezier.obstacles.via import via_over
+from bezier.obstacles.reader import via_over
 from qe.errors import InputError
 from tests.bezier.bodies import at, ball
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import bezier
 import qe
 from bezier.check.recheck import recheck
-from bezier.planner.folder import write_folder
+from bezier.planner.command import write_folder
 from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
 from bezier.plans import Clock, Outcome
