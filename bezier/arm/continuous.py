@@ -12,7 +12,7 @@ r = σ √W and δ = ε √Q these limits are compared by
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -28,7 +28,6 @@ from bezier.curves.scalar import sign
 from qe.errors import InternalError
 from qe.exact.nearby import rational_between
 
-Note = Callable[[], None]
 MOST_LISTED = 64
 """Motions that are listed; all are counted."""
 
@@ -121,7 +120,7 @@ def _agree(one: Label, other: Label) -> bool:
     return all(0 in (a, b) or a == b for a, b in zip(one, other, strict=True))
 
 
-def continuous_motions(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None) -> ContinuousMotions | None:
+def continuous_motions(arm: Arm, curves: Mapping[str, Bezier]) -> ContinuousMotions | None:
     """All continuous motions along a path, or None for arms without such a plane.
 
     Raises ``Unable`` where a whole curve is on the axis or along a border, or where the second joint is free.
@@ -132,7 +131,6 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier], note: Note = lamb
     listed = [SignsAlong.of(plane, AlongCurve(arm, curve)) for curve in curves.values()]
     arcs, junctions = list[Arcs](), list[Junction]()
     for k, along in enumerate(listed):
-        note()
         places = along.places
         marks: list[Number] = [Fraction(0), *(s for s in places if 0 < s < 1), Fraction(1)]
         for i, (low, high) in enumerate(pairwise(marks)):
@@ -143,7 +141,6 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier], note: Note = lamb
                 junctions.append(_junction(before, (along, low), last, arcs[-1], s))
             else:
                 arcs.append(_arcs(along, k, low, high))
-            note()
     return ContinuousMotions(arm, tuple(listed), tuple(arcs), tuple(junctions))
 
 

@@ -9,7 +9,7 @@ s.
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -37,7 +37,6 @@ ROUNDING = 1e-12
 """Much more than what sums of a few numbers lose in floating point, relative to their sizes."""
 
 Box = tuple[tuple[Fraction, Fraction], ...]
-Note = Callable[[], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +97,6 @@ def follow(
     start: Sequence[float],
     at: Fraction,
     end: Fraction,
-    note: Note = lambda: None,
     before: tuple[Piece, Fraction] | None = None,
     stops: Sequence[Fraction] = (),
 ) -> tuple[Piece, ...]:
@@ -113,7 +111,6 @@ def follow(
     pieces: list[Piece] = []
     here, near, step = at, list(start), FIRST
     while here != end and step >= LEAST:
-        note()
         far = min(here + step, end) if forwards else max(here - step, end)
         low, high = (here, far) if forwards else (far, here)
         if step < NEAR and any(abs(here - stop) < 2 * NEAR for stop in stops):

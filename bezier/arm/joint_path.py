@@ -9,7 +9,7 @@ Runs are what boxes hold, with bounds of the velocities; how many continuous mot
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -25,8 +25,6 @@ from bezier.arm.vertical import Label, VerticalArm, vertical_arm
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import same
 from qe.errors import BudgetExceeded, InputError, Unable
-
-Note = Callable[[], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +130,7 @@ class JointPath:
         return frozenset(listed - {*self.excesses})
 
 
-def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None) -> JointPath:
+def joint_path(arm: Arm, curves: Mapping[str, Bezier]) -> JointPath:
     """Study a path (curves with rational control points in mm, each beginning where the last one ends) and follow its
     branches.
 
@@ -148,16 +146,16 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None
             raise InputError(f"path: {second} has to begin where {first} ends")
     motions, undecided = None, "its arm is of another shape"
     try:
-        motions = continuous_motions(arm, curves, note)
+        motions = continuous_motions(arm, curves)
     except BudgetExceeded:
         raise
     except Unable as error:
         undecided = str(error)
     also = [()] * len(listed) if motions is None else [signs.places for signs in motions.curves]
-    studies = tuple(study(arm, curve, note, places) for curve, places in zip(curves.values(), also, strict=True))
+    studies = tuple(study(arm, curve, places) for curve, places in zip(curves.values(), also, strict=True))
     branches: list[tuple[Branch, ...]] = []
     for found in studies:
-        branches.append(tuple(_branches(found, branches[-1] if branches else (), note)))
+        branches.append(tuple(_branches(found, branches[-1] if branches else ())))
     runs = tuple(_limited(arm, studies, run) for run in _runs(branches))
     limited = None
     if motions is not None:
@@ -168,7 +166,7 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None
     return JointPath(arm, dict(curves), studies, tuple(branches), runs, motions, limited, undecided)
 
 
-def _branches(found: Study, before: Sequence[Branch], note: Note) -> list[Branch]:
+def _branches(found: Study, before: Sequence[Branch]) -> list[Branch]:
     """All branches of a curve, each once: those that go on from the curve before, with the same angles and not only the
     same
     directions, and those through the other solutions at one parameter of every stretch."""
@@ -176,14 +174,13 @@ def _branches(found: Study, before: Sequence[Branch], note: Note) -> list[Branch
     stops = [p.s if isinstance(p.s, Fraction) else p.s.interval(40)[0] for p in found.specials if p.reasons]
     for last in before:
         if last.high == ONE:
-            pieces = follow(found.arm, found.curve, last.at(ONE), ZERO, ONE, note, (last.pieces[-1], ONE), stops)
+            pieces = follow(found.arm, found.curve, last.at(ONE), ZERO, ONE, (last.pieces[-1], ONE), stops)
             branches += [Branch(pieces)] if pieces else []
     for stretch in found.stretches:
         for solution in solve(found.arm, found.curve.point(stretch.sample)).solutions:
             if not any(b.contains(stretch.sample, solution) for b in branches):
                 branch = whole(found.arm, found.curve, solution, stretch.sample, (ZERO, ONE), stops)
                 branches += [branch] if branch is not None else []
-            note()
     return branches
 
 

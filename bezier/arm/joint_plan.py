@@ -6,7 +6,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate
@@ -22,7 +22,6 @@ from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import Unable
 
-Note = Callable[[], None]
 DECIMALS = 9
 
 
@@ -58,7 +57,6 @@ def joint_plan(
     law: TimeLaw,
     duration: Fraction,
     samples: int,
-    note: Note = lambda: None,
     parts: Mapping[str, Fraction] | None = None,
 ) -> JointPlan:
     """Plan the joints for a path (curves with rational control points, mm) run through in ``duration`` seconds.
@@ -67,7 +65,7 @@ def joint_plan(
     """
     sizes = [Fraction(1) if parts is None else parts[name] for name in curves]
     ends = tuple(total / sum(sizes) for total in accumulate(sizes))
-    path = joint_path(arm, curves, note)
+    path = joint_path(arm, curves)
     remarks: list[str] = []
     if path.is_stopped and (path.excesses or path.is_reachable):
         within = " within the limits of the joints" if path.excesses else ""
@@ -78,7 +76,7 @@ def joint_plan(
         return JointPlan(path, law, ends, duration, None, None, tuple(remarks))
     sequence = motion = None
     try:
-        sequence = joint_sequence(path, samples_of(ends, law, samples), note)
+        sequence = joint_sequence(path, samples_of(ends, law, samples))
         remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
         run = next((run for run in path.runs if run.number == sequence.run), None)
         if run is not None and not run.excesses:

@@ -8,7 +8,7 @@ free: there the angles of the neighbouring layers are offered.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -25,7 +25,6 @@ from bezier.motion.timelaw import TimeLaw
 from qe.errors import InputError, Unable
 from qe.extras import wanted
 
-Note = Callable[[], None]
 MOST_SAMPLES = 5_000
 UNIT = 1 << 32
 SLIDE = 100.0
@@ -94,10 +93,10 @@ def samples_of(ends: Sequence[Fraction], law: TimeLaw, count: int) -> list[Sampl
     return found
 
 
-def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lambda: None) -> JointSequence:
+def joint_sequence(found: JointPath, samples: Sequence[Sample]) -> JointSequence:
     """The sequence of least total change. Raises ``Unable`` where a sample has no joint position within the limits."""
     arm = found.arm
-    layers = list(_layers(found, samples, note))
+    layers = list(_layers(found, samples))
     with wanted():  # loading it takes longer than planning a path without an arm
         import networkx as nx
 
@@ -118,13 +117,12 @@ def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lam
     return JointSequence(tuple(samples), _unrolled(arm, stands, begin), change, run, switches)
 
 
-def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator[list[Stand]]:
+def _layers(found: JointPath, samples: Sequence[Sample]) -> Iterator[list[Stand]]:
     curves = list(found.curves.values())
     # where some motions pass a limit and others do not, a sequence that keeps the limits is wanted
     kept = found.kept_numbers if found.excesses else frozenset[int]()
     solved = []
     for sample in samples:
-        note()
         solved.append([s for s in solve(found.arm, curves[sample.curve].point(sample.s)).solutions if s.allowed])
     for k, (sample, solutions) in enumerate(zip(samples, solved, strict=True)):
         places = _places(found, sample)

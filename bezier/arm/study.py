@@ -34,8 +34,6 @@ from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.zeros_at_angle import zeros_at_angle
 
-Note = Callable[[], None]
-
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
@@ -83,32 +81,30 @@ class Study:
         return tuple(part for part in self.within if not part.count)
 
 
-def study(arm: Arm, curve: Bezier, note: Note = lambda: None, also: Iterable[Number] = ()) -> Study:
-    """Study a curve with rational control points (mm); ``note`` is called between steps and may raise to stop.
-    ``also``: parameters that no stretch of ``within`` contains, if joints have limits.
+def study(arm: Arm, curve: Bezier, also: Iterable[Number] = ()) -> Study:
+    """Study a curve with rational control points (mm). ``also``: parameters that no stretch of ``within`` contains, if
+    joints have limits.
 
     Raises ``Unable`` where the whole curve is special (on the axis, along a border) or the arm does not fit.
     """
     along = AlongCurve(arm, curve)
     critical = dict(along.critical())
-    note()
     specials = []
     ends = sorted({Fraction(0), Fraction(1), *critical})
     for s in ends:
         point = curve.point(s) if isinstance(s, Fraction) else ()
         found = solve(arm, point) if point else solve_at(arm, along.place(s), (), along.reduction)
         specials.append(Special(s, _told(critical.get(s, ()), found), found))
-        note()
-    stretches = tuple(_stretches(arm, curve, ends, lambda found: found.count, note))
+    stretches = tuple(_stretches(arm, curve, ends, lambda found: found.count))
     within = stretches
     if arm.has_limits:
         places = marks(along, {*critical, *also})
-        within = tuple(_stretches(arm, curve, places, lambda found: found.allowed_count, note))
+        within = tuple(_stretches(arm, curve, places, lambda found: found.allowed_count))
     return Study(arm, curve, stretches, within, tuple(specials), tuple(along.shared_sines()))
 
 
 def _stretches(
-    arm: Arm, curve: Bezier, ends: Sequence[Place], counted: Callable[[Inverse], int | None], note: Note
+    arm: Arm, curve: Bezier, ends: Sequence[Place], counted: Callable[[Inverse], int | None]
 ) -> Iterator[Stretch]:
     for low, high in pairwise(ends):
         sample = sample_between(low, high)
@@ -116,7 +112,6 @@ def _stretches(
         count = counted(solve(arm, curve.point(sample)))
         assert count is not None, "a point between the critical ones is not special"
         yield Stretch(low, high, count, sample)
-        note()
 
 
 def _told(reasons: Sequence[Reason], found: Inverse) -> tuple[Reason, ...]:

@@ -11,7 +11,7 @@ it stays (``bezier.certify.joint_limits``).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -28,9 +28,8 @@ from qe.exact.balls import ends, precision
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 
-MOST_ROWS, MOST_POINTS = 40, 60
+MOST_POINTS = 60
 SIGMA, DIRECTIONS = 0, 4
-Part = Callable[[Vector], Vector]
 Points = list[tuple[Fraction, ...]]
 
 
@@ -71,69 +70,6 @@ def check_branch(payload: dict[str, Json], budget: Budget | None = None) -> None
         _check_link(one, first, other, second, curves)
 
 
-class _Rows:
-    """The motions of the arm, with the joint values to be put in."""
-
-    def __init__(self, entry: Entry) -> None:
-        convention, rows = entry.fields("convention", "rows")
-        self.modified = convention.text() == "modified"
-        if not self.modified and convention.text() != "standard":
-            raise convention.fail("expected modified or standard")
-        self.rows = [self._row(row) for row in rows.items()]
-        joints = [joint for *_, joint in self.rows if joint]
-        if len(self.rows) > MOST_ROWS or len(joints) != 3:
-            raise rows.fail(f"expected at most {MOST_ROWS} rows, three of them with a joint")
-        with precision(duals.BITS):
-            self.chain = self._chain()
-
-    @staticmethod
-    def _row(entry: Entry) -> tuple[Fraction, tuple[Dual, Dual], Fraction, tuple[Dual, Dual], str]:
-        a, alpha, d, theta, joint = entry.fields("a", "alpha", "d", "theta", "joint")
-        kind = "" if joint.value is None else joint.text()
-        if kind not in ("", "revolute", "prismatic"):
-            raise joint.fail("expected null, revolute or prismatic")
-        return a.rational(), _angle(alpha), d.rational(), _angle(theta), kind
-
-    def _chain(self) -> list[Part | str]:
-        """Motions between two joints as one, and the kinds of the joints between them."""
-        chain, fixed = list[Part | str](), list[Part]()
-        for a, alpha, d, theta, kind in self.rows:
-            across: list[Part] = [duals.turn("x", alpha), duals.shift("x", duals.number(a, DIRECTIONS))]
-            along: list[Part] = [duals.turn("z", theta), duals.shift("z", duals.number(d, DIRECTIONS))]
-            fixed += across if self.modified else []
-            if kind:
-                chain += [duals.together(fixed, DIRECTIONS), kind]
-                fixed = []
-            fixed += along if self.modified else along + across[::-1]
-        return [*chain, duals.together(fixed, DIRECTIONS)]
-
-    def end_point(self, q: Vector) -> Vector:
-        """The end point for these joint values."""
-        values, motions = iter(q), list[Part]()
-        for part in self.chain:
-            if part == "revolute":
-                motions.append(duals.turn("z", next(values).sine_cosine()))
-            elif isinstance(part, str):
-                motions.append(duals.shift("z", next(values)))
-            else:
-                motions.append(part)
-        return duals.image(motions, duals.origin(DIRECTIONS))
-
-
-def _angle(entry: Entry) -> tuple[Dual, Dual]:
-    """An integer k for k pi / 12, or [cosine, sine]; its sine and cosine."""
-    if isinstance(entry.value, int) and not isinstance(entry.value, bool):
-        if abs(entry.value) > 24:
-            raise entry.fail("expected at most 24 twelfths of pi")
-        with precision(duals.BITS):
-            return duals.multiple_of_pi(entry.value, DIRECTIONS)
-    values = [item.rational() for item in entry.items()]
-    if len(values) != 2 or values[0] ** 2 + values[1] ** 2 != 1:
-        raise entry.fail("expected cosine and sine")
-    with precision(duals.BITS):
-        return duals.number(values[1], DIRECTIONS), duals.number(values[0], DIRECTIONS)
-
-
 def read_curve(entry: Entry) -> Points:
     """The control points of a curve in space."""
     points = [tuple(c.rational() for c in point.items()) for point in entry.items()]
@@ -160,9 +96,17 @@ class Tubes:
     """An arm along curves, and what is proved about pieces."""
 
     def __init__(self, arm: Entry, curves: Sequence[Points], limits: Sequence[Limits | None]) -> None:
-        self._rows = _Rows(arm)
+        chain = read_chain(arm)
+        if len(chain.turns) != 3:
+            raise arm.fields("convention", "rows")[1].fail("expected rows, three of them with a joint")
+        with precision(duals.BITS):
+            self._constants = [
+                ([[duals.root_ball(v.terms) for v in row] for row in rows], [duals.root_ball(v.terms) for v in shift])
+                for rows, shift in chain.constants
+            ]
+        self._turns = chain.turns
         self._coefficients = [[powers([p[i] for p in points]) for i in range(3)] for points in curves]
-        self._limits = KeptLimits(read_chain(arm), self._coefficients, limits)
+        self._limits = KeptLimits(chain, self._coefficients, limits)
 
     def image(self, piece: Piece) -> list[Fraction]:
         """Radii of a box around 0 that holds the image, which is proved to lie inside the piece's box."""
@@ -196,7 +140,15 @@ class Tubes:
         ]
         s = duals.number((piece.low + piece.high) / 2, DIRECTIONS) + step
         curve = self._coefficients[piece.curve]
-        return [a - _horner(c, s) for a, c in zip(self._rows.end_point(joints), curve, strict=True)]
+        return [a - _horner(c, s) for a, c in zip(self._end_point(joints), curve, strict=True)]
+
+    def _end_point(self, q: Vector) -> Vector:
+        """The end point for these joint values."""
+        point = [duals.number(Fraction(0), DIRECTIONS)] * 3
+        for k in reversed(range(4)):
+            point = duals.moved(self._constants[k], point)
+            point = duals.joint_moved(q[k - 1], self._turns[k - 1], point) if k else point
+        return point
 
     def _at_end(self, piece: Piece, radii: Sequence[Fraction], end: int) -> list[tuple[Fraction, Fraction]]:
         """Bounds of the joints at one end: for this σ alone, the image of what holds the solution holds it too."""

@@ -5,7 +5,7 @@ The checker's own: whoever makes the certificates uses products of matrices and 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from flint import arb, arb_mat, fmpq
@@ -44,8 +44,12 @@ def number(value: Fraction, directions: int) -> Dual:
 
 def root_sum(terms: Iterable[tuple[int, Fraction]], directions: int) -> Dual:
     """The sum of q √d over the pairs (d, q), a constant."""
-    value = sum((arb(d).sqrt() * ball(q) for d, q in terms), arb(0))
-    return Dual(value, (arb(0),) * directions)
+    return Dual(root_ball(terms), (arb(0),) * directions)
+
+
+def root_ball(terms: Iterable[tuple[int, Fraction]]) -> arb:
+    """The same as a ball alone."""
+    return sum((arb(d).sqrt() * ball(q) for d, q in terms), arb(0))
 
 
 def seed(value: arb, which: int, directions: int) -> Dual:
@@ -63,70 +67,25 @@ def around(radius: Fraction) -> arb:
     return arb(0, 1) * ball(radius)
 
 
-Angle = tuple[Dual, Dual]
-
-
-def multiple_of_pi(twelfths: int, directions: int) -> Angle:
-    """Sine and cosine of twelfths * pi / 12."""
-    angle = arb.pi() * twelfths / 12
-    flat = (arb(0),) * directions
-    return Dual(angle.sin(), flat), Dual(angle.cos(), flat)
-
-
 Vector = list[Dual]
 
 
-def origin(directions: int) -> Vector:
-    """The point 0."""
-    return [number(Fraction(0), directions) for _ in range(3)]
+def moved(motion: tuple[Sequence[Sequence[arb]], Sequence[arb]], point: Vector) -> Vector:
+    """The image of a point under a constant motion: rows of the rotation, and the shift."""
+    values, slopes = [p.value for p in point], list(zip(*(p.slope for p in point), strict=True))
+    return [
+        Dual(o + _inner(row, values), tuple(_inner(row, slope) for slope in slopes))
+        for row, o in zip(*motion, strict=True)
+    ]
 
 
-def image(motions: Sequence[Callable[[Vector], Vector]], point: Vector) -> Vector:
-    """The image of a point under all motions, the last one first."""
-    for motion in reversed(motions):
-        point = motion(point)
-    return point
-
-
-def together(motions: Sequence[Callable[[Vector], Vector]], directions: int) -> Callable[[Vector], Vector]:
-    """Several constant motions as one, from the images of the origin and of the unit points."""
-    start = image(motions, origin(directions))
-    units = [[number(Fraction(int(i == k)), directions) for i in range(3)] for k in range(3)]
-    columns = [[a - b for a, b in zip(image(motions, unit), start, strict=True)] for unit in units]
-
-    def moved(p: Vector) -> Vector:
-        found = []
-        for i in range(3):  # what the columns hold are constants
-            c = [column[i].value for column in columns]
-            value = start[i].value + c[0] * p[0].value + c[1] * p[1].value + c[2] * p[2].value
-            parts = zip(p[0].slope, p[1].slope, p[2].slope, strict=True)
-            found.append(Dual(value, tuple(c[0] * x + c[1] * y + c[2] * z for x, y, z in parts)))
-        return found
-
-    return moved
-
-
-def turn(axis: str, angle: Angle) -> Callable[[Vector], Vector]:
-    """The rotation about the x or the z axis."""
-    s, c = angle
-    first, second, _ = (1, 2, 0) if axis == "x" else (0, 1, 2)
-
-    def moved(p: Vector) -> Vector:
-        q = list(p)
-        q[first], q[second] = c * p[first] - s * p[second], s * p[first] + c * p[second]
-        return q
-
-    return moved
-
-
-def shift(axis: str, length: Dual) -> Callable[[Vector], Vector]:
-    """The translation along the x or the z axis."""
-    index = 0 if axis == "x" else 2
-
-    def moved(p: Vector) -> Vector:
-        return [v + length if i == index else v for i, v in enumerate(p)]
-
-    return moved
+def joint_moved(value: Dual, turns: bool, point: Vector) -> Vector:
+    """The image of a point under a joint that turns about the z axis, or slides along it."""
+    x, y, z = point
+    if not turns:
+        return [x, y, z + value]
+    s, c = value.sine_cosine()
+    return [c * x - s * y, s * x + c * y, z]
 
 
 def krawczyk(

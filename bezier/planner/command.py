@@ -54,10 +54,10 @@ def write_folder(
 
 def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:
     """The drawing with the chart of heights and distances to the obstacles."""
-    from bezier.pictures.plot_clearance import save_chart
+    from bezier.pictures import charts
 
-    charts = save_chart(made.findings, drawing.picture.obstacles, folder / CLEARANCE)
-    return replace(drawing, clearance=charts, files=(*drawing.files, CLEARANCE))
+    panels = charts.clearance(made.findings, drawing.picture.obstacles)
+    return replace(drawing, clearance=charts.saved(panels, folder / CLEARANCE), files=(*drawing.files, CLEARANCE))
 
 
 def plan(

@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 
 import bezier
 import qe
+from bezier.exports.formats import ppoly
 from bezier.exports.plane import polyline
-from bezier.exports.splines import ppoly
 from bezier.interface.work import Work
 from bezier.motion.motion import pieces, state
 from bezier.motion.track import Track

@@ -184,10 +184,10 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
     written = ("region.png", "path.png")
     if plan.path is None:
         return Drawing(picture, written, plot.views(picture))
-    from bezier.pictures import plot_motion
+    from bezier.pictures import charts
 
-    plot_motion.save(plan.path, folder / "motion.png")
-    return Drawing(picture, (*written, "motion.png"), plot.views(picture), plot_motion.charts(plan.path))
+    over_time = charts.saved(charts.motion(plan.path), folder / "motion.png")
+    return Drawing(picture, (*written, "motion.png"), plot.views(picture), over_time)
 
 
 def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[CubicPlan]:

@@ -283,7 +283,7 @@ def _cut(cut: Cut) -> dict[str, Any]:
 
 def draw(plan: SinglePlan, folder: FilePath) -> Drawing:
     """The path in its workspace, and the heights over x with [a, b] and h marked."""
-    from bezier.pictures import plot, plot_profile
+    from bezier.pictures import charts, plot
     from bezier.pictures.picture import Drawing, path_picture
 
     ends = {f"{NAME}0": plan.problem.start, f"{NAME}{plan.task.degree}": plan.problem.goal}
@@ -294,9 +294,8 @@ def draw(plan: SinglePlan, folder: FilePath) -> Drawing:
         curves["(4) as printed"] = plan.printed.curve
     elif plan.printed is not None and plan.printed.allowed:
         curves["allowed by (4), same sum"] = plan.printed.lowest
-    plot_profile.save(plan.task, curves, folder / "profile.png")
-    charts = plot_profile.charts(plan.task, curves)
-    return Drawing(picture, ("path.png", "profile.png"), plot.views(picture), charts)
+    heights = charts.saved(charts.profile(plan.task, curves), folder / "profile.png")
+    return Drawing(picture, ("path.png", "profile.png"), plot.views(picture), heights)
 
 
 def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[SinglePlan]:

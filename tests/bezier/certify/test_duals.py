@@ -31,31 +31,31 @@ def test_values_and_derivatives_of_sums_products_and_angles() -> None:
     assert floats(duals.number(Fraction(5, 2), 2)) == (2.5, 0, 0)
 
 
-@pytest.mark.parametrize("twelfths", [-6, 0, 4, 17])
-def test_multiples_of_a_twelfth_of_pi(twelfths: int) -> None:
-    sine, cosine = duals.multiple_of_pi(twelfths, 1)
-    angle = twelfths * math.pi / 12
-    assert floats(sine) == pytest.approx((math.sin(angle), 0), abs=1e-15)
-    assert floats(cosine) == pytest.approx((math.cos(angle), 0), abs=1e-15)
+def fixed(rows: list[list[int]], shift: list[int]) -> tuple[list[list[arb]], list[arb]]:
+    return [[arb(v) for v in row] for row in rows], [arb(v) for v in shift]
 
 
-def moved(motions: list[object], *point: int) -> list[float]:
-    found = duals.image(motions, [duals.number(Fraction(v), 1) for v in point])  # type: ignore[arg-type]
-    return [float(v.value) for v in found]
-
-
-QUARTER = duals.multiple_of_pi(6, 1)
+STILL = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+ABOUT_X = fixed([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 5])
 
 
 def test_motions_in_their_order() -> None:
-    up = duals.shift("z", duals.number(Fraction(5), 1))
-    assert moved([duals.turn("z", QUARTER)], 1, 2, 3) == pytest.approx([-2, 1, 3])
-    assert moved([duals.turn("x", QUARTER)], 1, 2, 3) == pytest.approx([1, -3, 2])
-    assert moved([duals.shift("x", duals.number(Fraction(5), 1))], 1, 2, 3) == pytest.approx([6, 2, 3])
-    assert moved([duals.turn("x", QUARTER), up], 1, 2, 3) == pytest.approx([1, -8, 2])  # the last one first
-    assert moved([up, duals.turn("x", QUARTER)], 1, 2, 3) == pytest.approx([1, -3, 7])
-    both = [duals.turn("x", QUARTER), up, duals.turn("z", QUARTER)]
-    assert moved([duals.together(both, 1)], 1, 2, 3) == pytest.approx(moved(both, 1, 2, 3))
+    point = [duals.number(Fraction(v), 1) for v in (1, 2, 3)]
+    turn = duals.seed(arb.pi() / 2, 0, 1)
+    turned = duals.joint_moved(turn, True, point)
+    assert [float(c.value) for c in turned] == pytest.approx([-2, 1, 3])
+    assert [float(c.slope[0]) for c in turned] == pytest.approx([-1, -2, 0])
+    slid = duals.joint_moved(duals.seed(arb(5), 0, 1), False, point)
+    assert [float(c.value) for c in slid] == [1, 2, 8] and [float(c.slope[0]) for c in slid] == [0, 0, 1]
+    assert [float(c.value) for c in duals.moved(ABOUT_X, point)] == [1, -3, 7]
+    assert [float(c.value) for c in duals.moved(fixed(STILL, [1, 0, 0]), slid)] == [2, 2, 8]
+    assert [float(c.slope[0]) for c in duals.moved(ABOUT_X, turned)] == pytest.approx([-1, 0, -2])
+
+
+def test_sums_of_square_roots() -> None:
+    terms = ((1, Fraction(1, 2)), (2, Fraction(-3)))
+    assert float(duals.root_sum(terms, 1).value) == pytest.approx(0.5 - 3 * 2**0.5)
+    assert duals.root_ball(()).contains(0)
 
 
 RADII = [Fraction(1, 4), Fraction(1, 4), Fraction(1, 2)]

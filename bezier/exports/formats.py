@@ -1,18 +1,91 @@
-"""ROS 2 ``trajectory_msgs`` as YAML, as ``ros2 topic pub`` takes it. Lengths in metres (REP 103), times in seconds."""
+"""A motion as numpy arrays (``.npz``), as SciPy's piecewise polynomials, and as ROS 2 ``trajectory_msgs`` in YAML, as
+``ros2 topic pub`` takes it (lengths in metres, REP 103; times in seconds).
+"""
 
 from __future__ import annotations
 
+import io
 import json
 from collections.abc import Sequence
 from fractions import Fraction
+from math import comb
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bezier.motion.track import Array, Track
 from qe.arguments import shown, wrong
-from qe.errors import InputError
+from qe.errors import InputError, Unable
+from qe.extras import lacking
 
-ROWS = 101
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline, PPoly
+
+
+def npz(track: Track, rows: int = 151) -> bytes:
+    """A file for ``numpy.load``, without pickles.
+
+    ``time`` (rows,), ``position``, ``velocity``, ``acceleration`` (rows, 3), and the motion itself as Bézier pieces:
+    ``breaks`` (n+1,) and ``control`` (n, d+1, 3).
+    """
+    time = np.linspace(0.0, track.end, rows)
+    file = io.BytesIO()
+    np.savez_compressed(
+        file,
+        time=time,
+        position=track.at(time),
+        velocity=track.derivative.at(time),
+        acceleration=track.derivative.derivative.at(time),
+        breaks=track.breaks,
+        control=track.control,
+    )
+    return file.getvalue()
+
+
+HIGH = 8
+"""The degree that powers over a whole piece keep to about 14 digits; twice of it over each half."""
+
+
+def bspline(track: Track) -> BSpline:
+    """Degree d with d-fold inner knots: its coefficients are the control points, those at the joins once.
+
+    A Bézier chain is a B-spline with knots of this multiplicity (Farin, "Curves and Surfaces for CAGD", chapter 8).
+    """
+    try:
+        from scipy.interpolate import BSpline
+    except ImportError as error:
+        raise lacking(error) or error from None
+    degree = track.control.shape[1] - 1
+    knots = np.concatenate([track.breaks[:1], np.repeat(track.breaks, degree), track.breaks[-1:]])
+    points = np.concatenate([track.control[0, :1], track.control[:, 1:].reshape(-1, 3)])
+    return BSpline(knots, points, degree, extrapolate=False)
+
+
+def ppoly(track: Track) -> PPoly:
+    """The same by powers of the time since the last break; long polynomials get breaks between, as high powers over
+    a long time cancel each other in floating point. Raises ``Unable`` where floating point has none of them."""
+    try:
+        from scipy.interpolate import PPoly
+    except ImportError as error:
+        raise lacking(error) or error from None
+    parts = 1
+    while track.control.shape[1] - 1 > HIGH * parts:
+        track, parts = track.halved(), 2 * parts
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            powers = _powers(track)
+    except FloatingPointError:
+        raise Unable("powers of times so long or short are outside floating point; to_bspline has none") from None
+    return PPoly(powers, track.breaks, extrapolate=False)
+
+
+def _powers(track: Track) -> Array:
+    """(d+1, n, 3), the highest power first: the coefficient of u^k is C(d, k) times the k-th difference."""
+    degree, length = track.control.shape[1] - 1, np.diff(track.breaks)[:, None]
+    rows = [comb(degree, k) * np.diff(track.control, n=k, axis=1)[:, 0] / length**k for k in range(degree + 1)]
+    return np.array(rows[::-1])
+
+
 NANO = 10**9
 LONGEST = 2**31
 """Seconds; a duration has 32 bits for them."""
@@ -22,7 +95,7 @@ UPRIGHT = "{x: 0.0, y: 0.0, z: 0.0, w: 1.0}"
 
 
 def ros_trajectory(
-    track: Track, *, frame: str = "base_link", joints: Sequence[str] | None = None, rows: int = ROWS
+    track: Track, *, frame: str = "base_link", joints: Sequence[str] | None = None, rows: int = 101
 ) -> str:
     """The motion at ``rows`` equally spaced times.
 
