@@ -22,7 +22,7 @@ from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import Unable
 
-DECIMALS = 9
+DECIMALS, FRAMES = 9, 150
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,12 +160,12 @@ def _bounds(value: Extreme) -> list[float]:
     return [float(f"{float(value.low):.6g}"), float(f"{float(value.high) * (1 + 1e-5):.6g}")]
 
 
-def animation(plan: JointPlan, frames: int = 150) -> str:
+def animation(plan: JointPlan) -> str:
     """What the moving picture needs, as JSON text: frames with the points of the arm (mm) and its angles, and the
     path."""
     assert plan.sequence is not None, "only plans with a sequence move"
     arm, sequence = plan.path.arm, plan.sequence
-    step = max(1, len(sequence.angles) // frames)
+    step = max(1, len(sequence.angles) // FRAMES)
     chosen = sorted({*range(0, len(sequence.angles), step), len(sequence.angles) - 1})
     curves = plan.path.curves.values()
     trace = [[round(float(c), 2) for c in curve.point(Fraction(k, 40))] for curve in curves for k in range(41)]

@@ -84,7 +84,7 @@ def _results(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Sect
 
 
 def _beside(found: Iterable[Row], *, numbers: Sequence[int] = ()) -> Markup:
-    return html.table(("", *TITLES.values()), ((row.label, *row.cells) for row in found), numbers=numbers)
+    return html.table(("", *TITLES.values()), found, numbers=numbers)
 
 
 def _regions(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:

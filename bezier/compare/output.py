@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 from bezier.compare.comparison import METHODS, PAPER, Comparison, PlanarRegion, Side
@@ -20,53 +20,49 @@ DIGITS = 8
 NOT_REACHED = "not reached"
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One line of the comparison; ``cells`` in the order of ``METHODS``."""
-
-    label: str
-    cells: tuple[str, str]
+Row = tuple[str, str, str]
+"""One line of the comparison: its label, and cells in the order of ``METHODS``."""
 
 
 def rows(found: Comparison) -> list[Row]:
     """What both methods give, side by side."""
-    sides = [found.sides[method] for method in METHODS]
+    first, second = (found.sides[method] for method in METHODS)
+
+    def both(label: str, text: Callable[[Side], str]) -> Row:
+        return label, text(first), text(second)
+
     return [
-        Row("result", _both(sides, _result)),
-        Row("objective, mm²", _both(sides, lambda s: "" if s.plan.objective is None else brief(s.plan.objective))),
-        Row("active conditions", _both(sides, lambda s: ", ".join(s.plan.active) or "none")),
-        Row("joins, proved", _both(sides, _joins)),
-        Row("whole path in the workspace", _both(sides, _inside)),
-        Row("length, mm", _both(sides, lambda s: bracket(s.length))),
-        Row("largest curvature, 1/mm", _both(sides, lambda s: bracket(s.curvature))),
-        Row("certificates", _both(sides, lambda s: "accepted" if s.plan.certified else "not all accepted")),
-        Row(
-            "region in space",
-            (f"volume of Q1 {bracket(found.volume) or NOT_REACHED}", "pairs (Q1, Q2) in six dimensions"),
-        ),
-        Row("area of Q1 in the plane, mm²", (_area(found.planar.polygon), _area(found.planar.cubic))),
-        Row("the same, whole curves (8*)", (_area(found.planar.whole), "")),
-        Row("quantifier elimination", _both(sides, lambda s: duration(s.plan.seconds["elimination"]))),
-        Row("  the paper reports", (PAPER[METHODS[0]], PAPER[METHODS[1]])),
-        Row("whole plan", _both(sides, lambda s: duration(sum(s.plan.seconds.values())))),
+        both("result", lambda s: why_not(s.plan) or RESULTS[s.plan.outcome]),
+        both("objective, mm²", lambda s: "" if s.plan.objective is None else brief(s.plan.objective)),
+        both("active conditions", lambda s: ", ".join(s.plan.active) or "none"),
+        both("joins, proved", lambda s: "" if s.plan.path is None else s.plan.path.smoothness.name),
+        both("whole path in the workspace", _inside),
+        both("length, mm", lambda s: bracket(s.length)),
+        both("largest curvature, 1/mm", lambda s: bracket(s.curvature)),
+        both("certificates", lambda s: "accepted" if s.plan.certified else "not all accepted"),
+        ("region in space", f"volume of Q1 {bracket(found.volume) or NOT_REACHED}", "pairs (Q1, Q2) in six dimensions"),
+        ("area of Q1 in the plane, mm²", _area(found.planar.polygon), _area(found.planar.cubic)),
+        ("the same, whole curves (8*)", _area(found.planar.whole), ""),
+        both("quantifier elimination", lambda s: duration(s.plan.seconds["elimination"])),
+        ("  the paper reports", PAPER[METHODS[0]], PAPER[METHODS[1]]),
+        both("whole plan", lambda s: duration(sum(s.plan.seconds.values()))),
     ]
 
 
 def step_rows(found: Comparison) -> list[Row]:
     """The time of every step of both plans."""
-    seconds = [found.sides[method].plan.seconds for method in METHODS]
-    names = dict.fromkeys(name for times in seconds for name in times)
-    first, second = ({name: duration(s) for name, s in times.items()} for times in seconds)
-    return [Row(name, (first.get(name, ""), second.get(name, ""))) for name in names]
+    first, second = ({n: duration(s) for n, s in found.sides[m].plan.seconds.items()} for m in METHODS)
+    return [(name, first.get(name, ""), second.get(name, "")) for name in first | second]
 
 
 def notes(found: Comparison) -> list[str]:
     """What the table cannot say."""
-    planar = found.planar
+    planar, (whole, polygon) = found.planar, (found.planar.whole.area, found.planar.polygon.area)
+    is_larger = bool(whole and polygon and polygon.high is not None and whole.low > polygon.high)
     said = {True: "the engine proved that", False: "the engine REFUTED that", None: "it was not decided whether"}
     lines = [
         f"{said[planar.contained]} every Q1 of (8) in the plane is one of (8*): bounding the control points is enough"
-        " to bound the curves" + (", and more than is needed" if _is_larger(planar.whole, planar.polygon) else "")
+        " to bound the curves" + (", and more than is needed" if is_larger else "")
     ]
     if found.existence.truth:
         lines.append(f"existence theorem of (7), found by the engine: it always has the solution {_told(found)}")
@@ -79,29 +75,6 @@ def notes(found: Comparison) -> list[str]:
 def _told(found: Comparison) -> str:
     trivial = ", ".join(f"{name} = {value}" for name, value in trivial_witness().items())
     return "Q1 = Q0, Q2 = R0" if found.existence.witness == trivial else found.existence.witness
-
-
-def _is_larger(one: PlanarRegion, other: PlanarRegion) -> bool:
-    """Whether the area of ``one`` is certainly larger than that of ``other``."""
-    return (
-        one.area is not None
-        and other.area is not None
-        and other.area.high is not None
-        and one.area.low > other.area.high
-    )
-
-
-def _both(sides: list[Side], text: Any) -> tuple[str, str]:
-    first, second = (text(side) for side in sides)
-    return first, second
-
-
-def _result(side: Side) -> str:
-    return why_not(side.plan) or RESULTS[side.plan.outcome]
-
-
-def _joins(side: Side) -> str:
-    return "" if side.plan.path is None else side.plan.path.smoothness.name
 
 
 def _inside(side: Side) -> str:
@@ -142,10 +115,10 @@ def table(found: Comparison) -> str:
     for heading in ("", *TITLES.values()):
         drawn.add_column(heading, overflow="fold")
     for row in rows(found):
-        drawn.add_row(*(Text(text) for text in (row.label, *row.cells)))
+        drawn.add_row(*(Text(text) for text in row))
     drawn.add_section()
     for row in step_rows(found):
-        drawn.add_row(*(Text(text) for text in (f"step: {row.label}", *row.cells)))
+        drawn.add_row(*(Text(text) for text in (f"step: {row[0]}", *row[1:])))
     console = Console(file=io.StringIO(), width=110, color_system=None)
     console.print(drawn)
     for name, seconds in found.seconds.items():

@@ -68,7 +68,7 @@ class Along:
         if found is None:
             axis = next(i for i, e in enumerate(exponents) if e)
             lower = tuple(e - (i == axis) for i, e in enumerate(exponents))
-            found = _convolved(self._monomial((lower[0], lower[1], lower[2])), self.coordinates[axis])
+            found = _convolved(self._monomial(lower), self.coordinates[axis])
             self._monomials[exponents] = found
         return found
 

@@ -17,7 +17,7 @@ from fractions import Fraction
 from math import lcm
 from typing import Any
 
-from bezier.curves.scalar import Vector, dot, exactly, sign, subtract
+from bezier.curves.scalar import Terms, Vector, dot, exactly, sign, subtract, terms_product, terms_scaled, terms_sum
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.polyhedron import Facet, Point, Polytope
 from qe.exact.ring import Ring
@@ -25,7 +25,7 @@ from qe.formula.build import atom, conj
 from qe.formula.syntax import Formula, Relation
 from qe.proof.certificate import Certificate
 
-Exponents = tuple[int, int, int]
+Exponents = tuple[int, ...]
 Box = tuple[Point, Point]
 ZERO, ONE = Fraction(0), Fraction(1)
 
@@ -147,43 +147,22 @@ def ring(centre: Sequence[Fraction], height: Fraction, radius: Fraction, margin:
     With R^2 = x^2 + y^2 about the centre, (R - radius)^2 + (z - height)^2 <= margin^2 means A <= 2 radius R for
     A = R^2 + (z - height)^2 + radius^2 - margin^2: A <= 0, which needs margin >= radius, or A^2 <= 4 radius^2 R^2.
     """
-    across = _add(_square((ONE, ZERO, ZERO), -centre[0]), _square((ZERO, ONE, ZERO), -centre[1]))
-    a = _add(across, _square((ZERO, ZERO, ONE), -height), {(0, 0, 0): radius * radius - margin * margin})
-    scaled = {e: 4 * radius * radius * c for e, c in across.items()}
-    torus = Constraint.of(_add(scaled, {e: -c for e, c in _product(a, a).items()}))
-    return [torus, Constraint.of({e: -c for e, c in a.items()})] if margin >= radius else [torus]
+    across = terms_sum(_square((ONE, ZERO, ZERO), -centre[0]), _square((ZERO, ONE, ZERO), -centre[1]))
+    a = terms_sum(across, _square((ZERO, ZERO, ONE), -height), {(0, 0, 0): radius * radius - margin * margin})
+    torus = Constraint.of(terms_sum(terms_scaled(4 * radius * radius, across), terms_scaled(-1, terms_product(a, a))))
+    return [torus, Constraint.of(terms_scaled(-1, a))] if margin >= radius else [torus]
 
 
 def _less_square(rows: Sequence[tuple[Sequence[Fraction], Fraction]], bound: Fraction) -> Constraint:
     """sum of (row . p + constant)^2 <= bound."""
-    total = _add(*(_square(row, constant) for row, constant in rows))
-    return Constraint.of(_add({(0, 0, 0): bound}, {e: -c for e, c in total.items()}))
-
-
-Terms = dict[Exponents, Fraction]
+    total = terms_sum(*(_square(row, constant) for row, constant in rows))
+    return Constraint.of(terms_sum({(0, 0, 0): bound}, terms_scaled(-1, total)))
 
 
 def _square(row: Sequence[Fraction], constant: Fraction) -> Terms:
     a, b, c = row
     form: Terms = {(0, 0, 0): constant, (1, 0, 0): a, (0, 1, 0): b, (0, 0, 1): c}
-    return _product(form, form)
-
-
-def _product(a: Terms, b: Terms) -> Terms:
-    found: Terms = {}
-    for (i, j, k), x in a.items():
-        for (l, m, n), y in b.items():
-            key = (i + l, j + m, k + n)
-            found[key] = found.get(key, ZERO) + x * y
-    return found
-
-
-def _add(*parts: Mapping[Exponents, Fraction]) -> Terms:
-    found: Terms = {}
-    for part in parts:
-        for key, value in part.items():
-            found[key] = found.get(key, ZERO) + value
-    return found
+    return terms_product(form, form)
 
 
 # --- bodies as pieces -------------------------------------------------------------------------------

@@ -181,7 +181,7 @@ class _Circle:
         return np.asarray(self.centre + np.cos(a) * self.u + np.sin(a) * self.v)
 
 
-def _edges(shapes: Sequence[Shape], scale: float, count: int = 720) -> tuple[Array, ...]:
+def _edges(shapes: Sequence[Shape], scale: float) -> tuple[Array, ...]:
     """The parts of the circles in which two boundary surfaces meet that bound the region."""
     found: list[Array] = []
     for i, first in enumerate(shapes):
@@ -190,7 +190,7 @@ def _edges(shapes: Sequence[Shape], scale: float, count: int = 720) -> tuple[Arr
             if circle is None:
                 continue
             others = [s for s in shapes if s is not first and s is not second]
-            found += [circle.at(angles) for angles in _runs(circle, others, -1e-9 * scale, count)]
+            found += [circle.at(angles) for angles in _runs(circle, others, -1e-9 * scale)]
     return tuple(found)
 
 
@@ -217,8 +217,9 @@ def _meeting(a: Shape, b: Shape) -> _Circle | None:
     return _Circle(centre + along * normal, u, np.cross(normal, u))
 
 
-def _runs(circle: _Circle, others: Sequence[Shape], tolerance: float, count: int) -> list[Array]:
+def _runs(circle: _Circle, others: Sequence[Shape], tolerance: float) -> list[Array]:
     """Ascending angles of each maximal arc on which all other conditions hold; the ends found by bisection."""
+    count = 720
 
     def inside(angles: Array) -> NDArray[np.bool_]:
         good = np.ones(len(angles), dtype=bool)

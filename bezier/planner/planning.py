@@ -55,7 +55,8 @@ def finish_plan(begun: Begun, clock: Clock, *, proofs: bool = False) -> Plan:
 def _completed(plan: Plan, watch: Clock, proofs: bool) -> Plan:
     """The plan with what is decided about every path."""
     with watch.step("radius and heights"):
-        plan = _with_findings(plan, watch)
+        made = plan
+        plan = with_findings(made, lambda solvable: radius_rule.radius_rule(made.problem, solvable, watch.remaining))
     with watch.step("quality"):
         plan = with_quality(plan)
     if plan.problem.arm is not None:
@@ -80,13 +81,9 @@ def _telling(watch: Clock) -> Iterator[None]:
         raise BudgetExceeded(f"{error}; known so far: {known}", limit=limit) from None
 
 
-def _with_findings(plan: Plan, clock: Clock) -> Plan:
-    """The plan with what the radius forces, the height condition, and a note where the path goes through the origin."""
-    return with_findings(plan, lambda solvable: radius_rule.radius_rule(plan.problem, solvable, clock.remaining))
-
-
 def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan:
-    """The same, with what ``rule`` says of the radius, which is asked whether the problem has a solution."""
+    """The plan with what the radius forces (``rule`` is given whether the problem has a solution), the height
+    condition, and a note where the path goes through the origin."""
     found, remarks = plan, []
     try:
         solvable = plan.outcome is not Outcome.INFEASIBLE

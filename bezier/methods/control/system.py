@@ -18,31 +18,13 @@ from typing import Any
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, add, dot, exactly, scale, sign, subtract
 from bezier.curves.workspace import Ball, Condition, HalfSpace
-from bezier.methods.control.statements import (
-    Bracketed,
-    Name,
-    Power,
-    Product,
-    Statement,
-    Sum,
-    Term,
-    at_least,
-    at_most,
-    combined,
-    difference,
-    equal,
-    every,
-    exists,
-    names,
-    number,
-    squares,
-)
+from bezier.methods.control import statements as st
 from qe.errors import InternalError
 
 AXES = "xyz"
 Combination = tuple[tuple[Fraction, str], ...]
 """sum of coefficient * point."""
-At = Callable[[str, int], Term]
+At = Callable[[str, int], st.Term]
 """Coordinate i of a point."""
 
 
@@ -101,24 +83,24 @@ class Shape:
         """Any control point in terms of the given and the free ones."""
         return self.follows.get(point, ((Fraction(1), point),))
 
-    def symbolic(self) -> Statement:
+    def symbolic(self) -> st.Statement:
         """The formula with the given points and r left as parameters ``q0x``, ..., ``r``."""
-        radius = Name("r")
-        norms = [at_most(squares(names(coordinates(point))), Power(radius, 2)) for point in self.inner]
-        joins = self.joins(lambda point, i: Name(coordinates(point)[i]))
-        return self.closed([at_least(radius, number(0)), *joins, *norms])
+        radius = st.Name("r")
+        norms = [st.at_most(st.squares(st.names(coordinates(point))), st.Power(radius, 2)) for point in self.inner]
+        joins = self.joins(lambda point, i: st.Name(coordinates(point)[i]))
+        return self.closed([st.at_least(radius, st.number(0)), *joins, *norms])
 
-    def joins(self, at: At) -> list[Statement]:
+    def joins(self, at: At) -> list[st.Statement]:
         """The joins: each coordinate of each dependent point; ``at`` gives a coordinate of another point."""
         return [
-            equal(Name(variable), _combination(terms, i, at))
+            st.equal(st.Name(variable), _combination(terms, i, at))
             for point, terms in self.follows.items()
             for i, variable in enumerate(coordinates(point))
         ]
 
-    def closed(self, parts: Sequence[Statement]) -> Statement:
+    def closed(self, parts: Sequence[st.Statement]) -> st.Statement:
         """The conjunction of the parts with the dependent points existentially quantified."""
-        return exists(self.quantified, every(*parts))
+        return st.exists(self.quantified, st.every(*parts))
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,39 +113,39 @@ class System:
 
     # --- formulas ----------------------------------------------------------------------------------
 
-    def statement(self) -> Statement:
+    def statement(self) -> st.Statement:
         """The problem's formula: joins and conditions, the dependent points quantified."""
         return self.shape.closed([*self.joins(), *(statement for _, statement in self.labelled())])
 
-    def labelled(self) -> list[tuple[str, Statement]]:
+    def labelled(self) -> list[tuple[str, st.Statement]]:
         """Each condition on its control point, under its label."""
-        return [(item.label, stated(item.condition, names(coordinates(item.point)))) for item in self.conditions]
+        return [(item.label, stated(item.condition, st.names(coordinates(item.point)))) for item in self.conditions]
 
-    def in_free_points(self) -> Statement:
+    def in_free_points(self) -> st.Statement:
         """The conditions with the dependent points put in terms of the free ones."""
-        return every(*(stated(item.condition, self._in_free(item.point)) for item in self.conditions))
+        return st.every(*(stated(item.condition, self._in_free(item.point)) for item in self.conditions))
 
-    def joins(self) -> list[Statement]:
+    def joins(self) -> list[st.Statement]:
         """One equation for each coordinate of each dependent point, in the order of ``Shape.quantified``."""
         return self.shape.joins(self._at)
 
-    def coordinate(self, point: str, i: int) -> Term:
+    def coordinate(self, point: str, i: int) -> st.Term:
         """Coordinate ``i`` of an inner control point in the free coordinates."""
         return self._in_free(point)[i]
 
-    def objective(self) -> Term:
+    def objective(self) -> st.Term:
         """The paper's objective in the free coordinates."""
         pairs = pairwise(self.shape.route)
-        return squares(difference(self._at(b, i), self._at(a, i)) for a, b in pairs for i in range(3))
+        return st.squares(st.difference(self._at(b, i), self._at(a, i)) for a, b in pairs for i in range(3))
 
-    def _at(self, point: str, i: int) -> Term:
+    def _at(self, point: str, i: int) -> st.Term:
         """A coordinate: a number for a given point, a variable otherwise."""
-        return number(exactly(self.given[point][i])) if point in self.given else Name(coordinates(point)[i])
+        return st.number(exactly(self.given[point][i])) if point in self.given else st.Name(coordinates(point)[i])
 
-    def _in_free(self, point: str) -> list[Term]:
+    def _in_free(self, point: str) -> list[st.Term]:
         terms = self.shape.combination(point)
         found = [_combination(terms, i, self._at) for i in range(3)]
-        return found if point in self.shape.free else [Bracketed(term) for term in found]
+        return found if point in self.shape.free else [st.Bracketed(term) for term in found]
 
     # --- exact numbers ---------------------------------------------------------------------------
 
@@ -213,21 +195,25 @@ class System:
         return tuple(found)
 
 
-def _combination(terms: Combination, i: int, at: At) -> Term:
+def _combination(terms: Combination, i: int, at: At) -> st.Term:
     """Coordinate i of a combination."""
-    return combined((coefficient, at(point, i)) for coefficient, point in terms)
+    return st.combined((coefficient, at(point, i)) for coefficient, point in terms)
 
 
-def stated(condition: Condition, point: Sequence[Term]) -> Statement:
+def stated(condition: Condition, point: Sequence[st.Term]) -> st.Statement:
     """The condition about a point with these coordinates."""
     if isinstance(condition, Ball):
-        away = [difference(c, number(exactly(o))) if o else c for c, o in zip(point, condition.centre, strict=True)]
-        return at_most(squares(away), number(exactly(condition.radius_squared)))
+        away = [
+            st.difference(c, st.number(exactly(o))) if o else c for c, o in zip(point, condition.centre, strict=True)
+        ]
+        return st.at_most(st.squares(away), st.number(exactly(condition.radius_squared)))
     if isinstance(condition, HalfSpace):
         parts = [
-            c if n == 1 else Product((number(exactly(n)), c)) for n, c in zip(condition.normal, point, strict=True) if n
+            c if n == 1 else st.Product((st.number(exactly(n)), c))
+            for n, c in zip(condition.normal, point, strict=True)
+            if n
         ]
-        return at_least(parts[0] if len(parts) == 1 else Sum(tuple(parts)), number(exactly(-condition.offset)))
+        return st.at_least(parts[0] if len(parts) == 1 else st.Sum(tuple(parts)), st.number(exactly(-condition.offset)))
     raise InternalError(f"no atom for the condition {condition.name}")
 
 

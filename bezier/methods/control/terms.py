@@ -12,18 +12,13 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from bezier.curves.scalar import Vector, exactly, sign
+from bezier.curves.scalar import Terms, Vector, exactly, sign, terms_product, terms_scaled, terms_sum
 from bezier.curves.workspace import Ball, HalfSpace
 from bezier.input.stored import DIMENSION, numbers
 from bezier.methods.control.system import OnPoint, System
 from qe.convex.near_optimum import GAP
 from qe.errors import CertificateRejected, InternalError
 from qe.proof.certificate import Certificate, Kind
-
-Terms = dict[tuple[int, ...], Fraction]
-"""Coefficient by exponents of the free coordinates, in the order of ``Shape.variables``."""
-Linear = tuple[Fraction, tuple[Fraction, ...]]
-"""A constant and the coefficients of the free coordinates."""
 
 
 def terms_of(listed: Sequence[Any]) -> Terms:
@@ -33,79 +28,38 @@ def terms_of(listed: Sequence[Any]) -> Terms:
 
 def objective_terms(system: System) -> Terms:
     """The objective: the sum of |b - a|^2 along the route."""
-    squares = []
-    for a, b in pairwise(system.shape.route):
-        for i in range(3):
-            squares.append(_squared(_minus(_coordinate(system, b, i), _coordinate(system, a, i))))
-    return _total(squares)
+    route = pairwise(system.shape.route)
+    steps = [
+        terms_sum(coordinate_terms(system, b, i), terms_scaled(-1, coordinate_terms(system, a, i)))
+        for a, b in route
+        for i in range(3)
+    ]
+    return terms_sum(*(terms_product(step, step) for step in steps))
 
 
 def condition_terms(system: System, item: OnPoint) -> Terms:
     """The polynomial p with p <= 0 exactly on the condition."""
-    condition = item.condition
-    at = [_coordinate(system, item.point, i) for i in range(3)]
+    condition, one = item.condition, _origin(system)
+    at = [coordinate_terms(system, item.point, i) for i in range(3)]
     if isinstance(condition, Ball):
-        squares = [_squared((c - exactly(o), w)) for (c, w), o in zip(at, condition.centre, strict=True)]
-        return _total([*squares, _affine((-condition.radius_squared, _zeros(system)))])
+        away = [terms_sum(c, {one: -exactly(o)}) for c, o in zip(at, condition.centre, strict=True)]
+        return terms_sum(*(terms_product(c, c) for c in away), {one: -condition.radius_squared})
     if isinstance(condition, HalfSpace):
-        parts = [_affine((-n * c, tuple(-n * k for k in w))) for n, (c, w) in zip(condition.normal, at, strict=True)]
-        return _total([*parts, _affine((-condition.offset, _zeros(system)))])
+        parts = (terms_scaled(-exactly(n), c) for n, c in zip(condition.normal, at, strict=True))
+        return terms_sum(*parts, {one: -condition.offset})
     raise InternalError(f"no polynomial for the condition {condition.name}")
 
 
 def coordinate_terms(system: System, point: str, i: int) -> Terms:
-    """Coordinate i of a control point as a polynomial in the free coordinates."""
-    return _total([_affine(_coordinate(system, point, i))])
-
-
-def _coordinate(system: System, point: str, i: int) -> Linear:
-    """Coordinate i of a control point as a linear function of the free coordinates."""
-    constant, weights = Fraction(0), list(_zeros(system))
+    """Coordinate i of a control point as a polynomial in the free coordinates, in the order of ``Shape.variables``."""
+    free, parts = system.shape.free, list[Terms]()
     for coefficient, name in system.shape.combination(point):
-        if name in system.shape.free:
-            weights[3 * system.shape.free.index(name) + i] += coefficient
+        if name in free:
+            place = 3 * free.index(name) + i
+            parts.append({tuple(int(k == place) for k in range(3 * len(free))): coefficient})
         else:
-            constant += coefficient * exactly(system.given[name][i])
-    return constant, tuple(weights)
-
-
-def _zeros(system: System) -> tuple[Fraction, ...]:
-    return (Fraction(0),) * len(system.shape.variables)
-
-
-def _minus(a: Linear, b: Linear) -> Linear:
-    return a[0] - b[0], tuple(x - y for x, y in zip(a[1], b[1], strict=True))
-
-
-def _affine(form: Linear) -> Terms:
-    constant, weights = form
-    size = len(weights)
-    return {_power(size): constant} | {_power(size, k): w for k, w in enumerate(weights)}
-
-
-def _squared(form: Linear) -> Terms:
-    constant, weights = form
-    size = len(weights)
-    found: Terms = {_power(size): constant * constant}
-    for k, w in enumerate(weights):
-        if w:
-            found |= {_power(size, k): 2 * constant * w, _power(size, k, k): w * w}
-            found |= {_power(size, k, m): 2 * w * weights[m] for m in range(k + 1, size)}
-    return found
-
-
-def _power(size: int, *variables: int) -> tuple[int, ...]:
-    """The exponents of a product of variables."""
-    return tuple(variables.count(k) for k in range(size))
-
-
-def _total(parts: Iterable[Mapping[tuple[int, ...], Fraction]]) -> Terms:
-    """The sum, without zero coefficients."""
-    found: Terms = {}
-    for part in parts:
-        for exponents, coefficient in part.items():
-            found[exponents] = found.get(exponents, Fraction(0)) + coefficient
-    return {e: c for e, c in found.items() if c}
+            parts.append({_origin(system): coefficient * exactly(system.given[name][i])})
+    return terms_sum(*parts)
 
 
 def multiple_of(a: Terms, b: Terms) -> Fraction | None:
@@ -142,7 +96,7 @@ def reduced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
         for i, value in fixed.items():
             coefficient = coefficient * value ** exponents[i]
         parts.append({left: coefficient})
-    return _total(parts)
+    return terms_sum(*parts)
 
 
 def proof_of(certificate: Certificate) -> Any:

@@ -11,20 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import qe
-from bezier.methods.control.statements import (
-    Implies,
-    Name,
-    Power,
-    Statement,
-    at_least,
-    at_most,
-    every,
-    exists,
-    for_all,
-    names,
-    number,
-    squares,
-)
+from bezier.methods.control import statements as st
 from bezier.methods.control.system import coordinates
 from bezier.methods.cubic import formula as cubic
 
@@ -44,13 +31,13 @@ class Existence:
     answer: Any = field(default=None, compare=False, repr=False)
 
 
-def question() -> Statement:
+def question() -> st.Statement:
     """For all Q0, R0, r with |Q0|, |R0| <= r there are Q1, Q2 that satisfy formula (7) as printed."""
-    shape, radius = cubic.shape(), Name("r")
+    shape, radius = cubic.shape(), st.Name("r")
     parameters = [name for point in GIVEN for name in coordinates(point)]
-    inside = [at_most(squares(names(coordinates(point))), Power(radius, 2)) for point in GIVEN]
-    given = every(*inside, at_least(radius, number(0)))
-    return for_all([*parameters, "r"], Implies(given, exists(shape.variables, shape.symbolic())))
+    inside = [st.at_most(st.squares(st.names(coordinates(point))), st.Power(radius, 2)) for point in GIVEN]
+    given = st.every(*inside, st.at_least(radius, st.number(0)))
+    return st.for_all([*parameters, "r"], st.Implies(given, st.exists(shape.variables, shape.symbolic())))
 
 
 def sentence() -> str:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.curves.scalar import Vector, rational, sign
+from bezier.curves.scalar import Terms, Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.stored import numbers
 from bezier.methods.control.optimal_path import (
@@ -27,7 +27,6 @@ from bezier.methods.control.optimal_path import (
 )
 from bezier.methods.control.system import System
 from bezier.methods.control.terms import (
-    Terms,
     check_optimum_of,
     condition_terms,
     coordinate_terms,
