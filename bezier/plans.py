@@ -176,9 +176,9 @@ class Plan:
     @property
     def not_certified(self) -> tuple[str, ...]:
         """The entries of the summary that no certificate covers and ``bezier check`` cannot find again."""
-        found = ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
+        result = ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
         has_radius = self.radius_rule is not None and self.radius_rule.larger is not None
-        return (*found, "radius_rule.larger_radius") if has_radius else found
+        return (*result, "radius_rule.larger_radius") if has_radius else result
 
     @property
     def derivation_pages(self) -> dict[str, str]:
@@ -242,10 +242,10 @@ class Clock:
         """Seconds left, or None without a limit."""
         if self.limit is None:
             return None
-        left = self.limit - (time.perf_counter() - self.start)
-        if left <= 0:
+        seconds = self.limit - (time.perf_counter() - self.start)
+        if seconds <= 0:
             raise BudgetExceeded(f"time limit of {self.limit:g} s reached before: {name}")
-        return left
+        return seconds
 
 
 @dataclass(frozen=True, slots=True)

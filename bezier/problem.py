@@ -187,7 +187,7 @@ def _radius(table: Table, raw: object) -> Fraction:
 
 def _half_spaces(table: Table, method: PlanMethod) -> tuple[PointCondition, ...]:
     """``[[half_space]]``: normal . p >= offset for the control points named."""
-    found = []
+    result = []
     for i, entry in enumerate(table.tables("half_space")):
         if method not in INNER:
             raise table.error("half_space", "no such key with this method", "a table")
@@ -196,21 +196,21 @@ def _half_spaces(table: Table, method: PlanMethod) -> tuple[PointCondition, ...]
         if all(map(is_zero, normal)):
             raise entry.error("normal", f"{POINT}, not all zero", "the zero vector")
         points = entry.words("points", INNER[method], "control points")
-        found.append(PointCondition(HalfSpace(normal, -offset, f"half_space[{i}]"), points))
-    return tuple(found)
+        result.append(PointCondition(HalfSpace(normal, -offset, f"half_space[{i}]"), points))
+    return tuple(result)
 
 
 def _above(table: Table, method: PlanMethod, obstacles: tuple[Obstacle, ...]) -> tuple[PointCondition, ...]:
     """``above`` of an obstacle: the control points named lie at the height of its top or higher."""
-    found = []
+    result = []
     for entry, obstacle in zip(table.tables("obstacle"), obstacles, strict=True):
         if "above" in entry.values:
             if obstacle.top is None:
                 raise entry.error("above", "this key for an obstacle with a top", "one without")
             points = entry.words("above", INNER.get(method, ()), "control points")
             up = (Fraction(0), Fraction(0), Fraction(1))
-            found.append(PointCondition(HalfSpace(up, -obstacle.top, f"above {obstacle.name}"), points))
-    return tuple(found)
+            result.append(PointCondition(HalfSpace(up, -obstacle.top, f"above {obstacle.name}"), points))
+    return tuple(result)
 
 
 def _for_cubic(table: Table, method: PlanMethod, key: str, default: Fraction) -> Fraction:
@@ -272,7 +272,7 @@ def _notes(points: Mapping[str, Vector], via: tuple[Vector, Vector]) -> tuple[st
 
 def to_json(problem: Problem) -> dict[str, Any]:
     """The problem in exact numbers, with the keys of the TOML file, the radius by its square."""
-    found: dict[str, Any] = {
+    data: dict[str, Any] = {
         "method": problem.method.value,
         "workspace": problem.workspace.kind.value,
         "radius_squared": str(problem.workspace.radius_squared),
@@ -280,11 +280,11 @@ def to_json(problem: Problem) -> dict[str, Any]:
         "goal": _texts(problem.goal),
     }
     if problem.single is None or not problem.single.states_via:
-        found["via"] = [_texts(p) for p in problem.via]
+        data["via"] = [_texts(p) for p in problem.via]
     if problem.single is not None:
-        found["single"] = dict(problem.single.stated)
+        data["single"] = dict(problem.single.stated)
     if problem.half_spaces:
-        found["half_space"] = [
+        data["half_space"] = [
             {
                 "normal": _texts(item.half_space.normal),
                 "offset": str(-item.half_space.offset),
@@ -293,16 +293,16 @@ def to_json(problem: Problem) -> dict[str, Any]:
             for item in problem.half_spaces
         ]
     if problem.obstacles:
-        found["obstacle"] = [dict(item.stated) for item in problem.obstacles]
+        data["obstacle"] = [dict(item.stated) for item in problem.obstacles]
     if problem.timing is not None:
-        found["timing"] = problem.timing.to_json()
+        data["timing"] = problem.timing.to_json()
     if problem.arm is not None:
-        found["arm"] = problem.arm
+        data["arm"] = problem.arm
     if problem.ratio != 1:
-        found["ratio"] = str(problem.ratio)
+        data["ratio"] = str(problem.ratio)
     if problem.join_speed:
-        found["join_speed"] = str(problem.join_speed)
-    return found
+        data["join_speed"] = str(problem.join_speed)
+    return data
 
 
 def from_json(stored: Mapping[str, Any], source: str) -> Problem:

@@ -190,14 +190,14 @@ def arcs_of(marks: Sequence[End | None], at: Sequence[bool], after: Sequence[boo
     ``after`` does; None for the whole circle, if marks there are."""
     if all(after):
         return None
-    found, n = list[Arc](), len(marks)
+    result, n = list[Arc](), len(marks)
     for i in range(n):
         if at[i] and not after[i - 1]:
             j = i
             while after[j % n]:
                 j += 1
-            found.append((marks[i], marks[j % n]))
-    return tuple(found)
+            result.append((marks[i], marks[j % n]))
+    return tuple(result)
 
 
 def not_negative(

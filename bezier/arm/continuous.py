@@ -84,13 +84,13 @@ class ContinuousMotions:
     @cached_property
     def _onward(self) -> list[dict[Label, int]]:
         """For each interval: in how many ways each arc goes on to the goal."""
-        found = [dict.fromkeys(self.arcs[-1].labels, 1)]
+        result = [dict.fromkeys(self.arcs[-1].labels, 1)]
         for arcs, junction in zip(self.arcs[-2::-1], self.junctions[::-1], strict=True):
-            after = found[-1]
-            found.append(
+            after = result[-1]
+            result.append(
                 {one: sum(n for other, n in after.items() if (one, other) in junction.passes) for one in arcs.labels}
             )
-        return found[::-1]
+        return result[::-1]
 
     @cached_property
     def motions(self) -> tuple[ContinuousMotion, ...]:
@@ -146,11 +146,11 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier]) -> ContinuousMoti
 
 def _arcs(along: SignsAlong, curve: int, low: Number, high: Number) -> Arcs:
     sample = rational_between(low, high)
-    found = solve(along.along.arm, along.along.curve.point(sample)).solutions
-    labels = tuple(along.plane.label(solution) for solution in found)
+    result = solve(along.along.arm, along.along.curve.point(sample)).solutions
+    labels = tuple(along.plane.label(solution) for solution in result)
     if len(set(labels)) != len(labels) or set(labels) != along.labels(sample):
         raise InternalError("the solutions of an arm contradict the signs that tell them apart")
-    return Arcs(curve, low, high, sample, labels, found)
+    return Arcs(curve, low, high, sample, labels, result)
 
 
 def _junction(

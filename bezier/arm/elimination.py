@@ -155,8 +155,8 @@ class Geometry:
         t, one = Ratio(ring.var(T), 1, field), constant(ring, 1, field)
         norm, factors = weights(t, one, turn) if self.turns[2] else (one, (one, t))
         v = [sum((w * f[i] for w, f in zip(factors, self.v, strict=True)), one * 0) for i in range(3)]
-        left = _Left(self, norm, v, target, Ratio(ring.var(M), 1, field))
-        equation, square, image, second, kappa = left.second_turns() if self.turns[1] else left.second_slides()
+        work = _Left(self, norm, v, target, Ratio(ring.var(M), 1, field))
+        equation, square, image, second, kappa = work.second_turns() if self.turns[1] else work.second_slides()
         q = [dot(row, image) + norm * o for row, o in zip(self.turn, self.shift, strict=True)]
         x, y, z = target
         axis = x * x + y * y
@@ -165,7 +165,7 @@ class Geometry:
             bottom = axis * norm
             first = (quotient(x * q[0] + y * q[1], bottom), quotient(y * q[0] - x * q[1], bottom))
         last = tuple(quotient(w, norm) for w in factors[1:])
-        degree = (4 if square is None and left.is_quadratic else 2) if self.turns[2] else None
+        degree = (4 if square is None and work.is_quadratic else 2) if self.turns[2] else None
         shoulder = (axis - dot(self.shift[:2], self.shift[:2]), z - self.shift[2]) if all(self.turns[:2]) else ()
         return Reduction(
             ring=ring,
@@ -216,8 +216,8 @@ class _Left:
     def distance(self) -> Ratio:
         """norm (|p'|² - |o|² - |v|²)."""
         shift = self.geometry.shift
-        found: Ratio = self.norm * (dot(self.target, self.target) - dot(shift, shift)) - self.v_squared
-        return found
+        result: Ratio = self.norm * (dot(self.target, self.target) - dot(shift, shift)) - self.v_squared
+        return result
 
     def linear(self) -> tuple[Ratio, Ratio]:
         """What the two equations ask of u (with v_z) or of d (with v): ``rows`` times M(q2) v."""

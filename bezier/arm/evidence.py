@@ -108,20 +108,20 @@ PRECISIONS = (128, 512, 2048)
 Coefficients = list[FieldElement]
 
 
-def motions_certificate(found: ContinuousMotions) -> Certificate:
+def motions_certificate(motions: ContinuousMotions) -> Certificate:
     """The certificate that these are all continuous motions, accepted by the checker. Raises ``Unable`` where there is
     none."""
-    factors = [[(s, _factor(signs, s)) for s in signs.places] for signs in found.curves]
+    factors = [[(s, _factor(signs, s)) for s in signs.places] for signs in motions.curves]
 
     def payloads() -> Iterator[dict[str, Json]]:
         for bits in ATTEMPTS:
             yield {
-                "arm": arm_json(found.arm),
-                "curves": [curve_json(signs.along.curve) for signs in found.curves],
+                "arm": arm_json(motions.arm),
+                "curves": [curve_json(signs.along.curve) for signs in motions.curves],
                 "places": [[_place(s, factor, bits) for s, factor in places] for places in factors],
-                "solutions": [len(arcs.labels) for arcs in found.arcs],
-                "through": [len(junction.passes) for junction in found.junctions],
-                "motions": found.count,
+                "solutions": [len(arcs.labels) for arcs in motions.arcs],
+                "through": [len(junction.passes) for junction in motions.junctions],
+                "motions": motions.count,
             }
 
     return accepted_certificate("motions", payloads())
@@ -157,12 +157,12 @@ def _factor(signs: SignsAlong, s: Number) -> Json:
     norm = None if quality is None else quality.norm.top
     if norm is not None and not signs.has_no_square(s) and _is_apparent(here, norm.derivative(S)):
         return None
-    found = [field.rational(c) for c in s.minimal_polynomial]
+    result = [field.rational(c) for c in s.minimal_polynomial]
     for p in (signs.square, norm, None if quality is None else quality.even.top):
         while p and here.sign(p) == 0:
-            found = _common_factor(found, _coefficients(p, field))
+            result = _common_factor(result, _coefficients(p, field))
             p = p.derivative(S)
-    return _written(found)
+    return _written(result)
 
 
 def _is_apparent(here: Point, p: Poly) -> bool:
@@ -209,11 +209,11 @@ ALL = "all continuous joint motions"
 Labelled = list[tuple[str, Certificate]]
 
 
-def certificates(found: JointPath) -> Labelled:
+def certificates(path: JointPath) -> Labelled:
     """Labelled certificates: of every run that keeps the limits of the joints, unless a joint comes closer to one than
     boxes tell; and of all continuous motions, limits left aside, where their number is decided by signs."""
-    of_runs = ((_label(found, run), partial(_branch_certificate, found, run)) for run in found.runs if not run.excesses)
-    of_all = [] if found.motions is None else [(ALL, partial(motions_certificate, found.motions))]
+    of_runs = ((_label(path, run), partial(_branch_certificate, path, run)) for run in path.runs if not run.excesses)
+    of_all = [] if path.motions is None else [(ALL, partial(motions_certificate, path.motions))]
     listed = Labelled()
     for label, made in (*of_runs, *of_all):
         try:
@@ -225,41 +225,41 @@ def certificates(found: JointPath) -> Labelled:
     return listed
 
 
-def without_certificate(found: JointPath, listed: Labelled) -> dict[str, str]:
+def without_certificate(path: JointPath, listed: Labelled) -> dict[str, str]:
     """The motions, by their numbers, that keep the limits of the joints without a certificate of that, and why."""
     labels = {label for label, _ in listed}
-    runs = {run.number: run for run in found.runs if not run.excesses}
+    runs = {run.number: run for run in path.runs if not run.excesses}
     close = "a joint comes closer to a limit than boxes tell"
-    missing = {n: close for n, run in runs.items() if _label(found, run) not in labels}
-    if found.arm.has_limits:
+    missing = {n: close for n, run in runs.items() if _label(path, run) not in labels}
+    if path.arm.has_limits:
         boxless = "it goes where boxes do not: that it keeps the limits is decided, and not certified"
-        missing |= dict.fromkeys(sorted(found.kept_numbers - {*runs}), boxless)
+        missing |= dict.fromkeys(sorted(path.kept_numbers - {*runs}), boxless)
     return {str(n): why for n, why in missing.items()}
 
 
-def in_words(found: JointPath, listed: Labelled, verdict: Verdict) -> list[str]:
+def in_words(path: JointPath, listed: Labelled, verdict: Verdict) -> list[str]:
     """What certificates there are, whether they are accepted, and what they claim and do not claim."""
     of_all = [label for label, _ in listed if label == ALL]
-    limits = (", within the limits", ", limits left aside") if found.arm.has_limits else ("", "")
-    told = f"{len(listed) - len(of_all) or 'none'} of motions held by boxes{limits[0]}; "
-    told += f"one of the number of all motions{limits[1]}" if of_all else "none of the number of motions"
+    limits = (", within the limits", ", limits left aside") if path.arm.has_limits else ("", "")
+    text = f"{len(listed) - len(of_all) or 'none'} of motions held by boxes{limits[0]}; "
+    text += f"one of the number of all motions{limits[1]}" if of_all else "none of the number of motions"
     state = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
-    lines = [f"certificates of the joint motions: {f'{state} ({told})' if listed else 'none'}"]
-    return lines + [f"  none of motion {n}: {why}" for n, why in without_certificate(found, listed).items()]
+    lines = [f"certificates of the joint motions: {f'{state} ({text})' if listed else 'none'}"]
+    return lines + [f"  none of motion {n}: {why}" for n, why in without_certificate(path, listed).items()]
 
 
-def _label(found: JointPath, run: Run) -> str:
-    return f"motion {run.number}" + (", the whole path" if run.covers(len(found.curves)) else "")
+def _label(path: JointPath, run: Run) -> str:
+    return f"motion {run.number}" + (", the whole path" if run.covers(len(path.curves)) else "")
 
 
-def _branch_certificate(found: JointPath, run: Run) -> Certificate:
-    curves = list(found.curves.values())
+def _branch_certificate(path: JointPath, run: Run) -> Certificate:
+    curves = list(path.curves.values())
     used = sorted({k for k, _ in run.parts})
-    pieces: list[Json] = [_piece(k - used[0], p) for k, p in limited_pieces(found.arm, curves, run.parts, run.turns)]
+    pieces: list[Json] = [_piece(k - used[0], p) for k, p in limited_pieces(path.arm, curves, run.parts, run.turns)]
     payload: dict[str, Json] = {
-        "arm": arm_json(found.arm),
+        "arm": arm_json(path.arm),
         "curves": [curve_json(curves[k]) for k in used],
-        "limits": [None if j.limits is None else [str(v) for v in j.limits] for j in found.arm.joints],
+        "limits": [None if j.limits is None else [str(v) for v in j.limits] for j in path.arm.joints],
         "pieces": pieces,
     }
     return Certificate(Kind("branch"), payload)

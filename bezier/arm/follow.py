@@ -169,13 +169,13 @@ def _inside(box: Box, piece: Piece, s: Fraction) -> bool:
 
 def _turned(solution: Solution, near: Sequence[float]) -> Box:
     """The box of the solution, by full turns next to these joint values."""
-    found = []
+    result = []
     for value, other in zip(solution.values, near, strict=True):
         assert value is not None, "a branch is followed where no angle is free"
         turns = 0 if value.pair is None else round((other - float(value)) / 6.283185307179586)
         low, high = pi_ends(96) if turns >= 0 else pi_ends(96)[::-1]
-        found.append((value.ends[0] + 2 * turns * low, value.ends[1] + 2 * turns * high))
-    return tuple(found)
+        result.append((value.ends[0] + 2 * turns * low, value.ends[1] + 2 * turns * high))
+    return tuple(result)
 
 
 def _gap(value: Value, other: float) -> float:

@@ -101,18 +101,18 @@ class Inverse:
         return sum(s.allowed for s in self.solutions)
 
 
-def separated(found: Inverse) -> Inverse:
+def separated(answer: Inverse) -> Inverse:
     """The same with balls so narrow that no two solutions share those of all joints, as far as ``MOST_BITS`` go.
 
     Different solutions differ in the cosine, the sine or the length of a joint. Families stay as they are.
     """
-    solutions, bits = found.solutions, BITS
-    while bits < MOST_BITS and not found.free and any(a.may_be(b) for a, b in combinations(solutions, 2)):
+    solutions, bits = answer.solutions, BITS
+    while bits < MOST_BITS and not answer.free and any(a.may_be(b) for a, b in combinations(solutions, 2)):
         bits *= 2
         solutions = tuple(
             replace(one, values=tuple(one.refined(k, bits) for k in range(len(one.values)))) for one in solutions
         )
-    return replace(found, solutions=solutions)
+    return replace(answer, solutions=solutions)
 
 
 def solve(arm: Arm, point: Sequence[Any]) -> Inverse:
@@ -139,8 +139,8 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
     if not geometry_of(arm).moves_last:
         place = Evaluation(here.extend(RealAlgebraic.rational(Fraction(0))))
         reached = place.point.sign(first.equation) == 0
-        found = list(_at_root(arm, place, first, on_axis, False, is_still=True)) if reached else []
-        return _listed(arm, numbers, found, (*cases, *(f"{arm.joints[2].name} does not move the point",) * reached))
+        result = list(_at_root(arm, place, first, on_axis, False, is_still=True)) if reached else []
+        return _listed(arm, numbers, result, (*cases, *(f"{arm.joints[2].name} does not move the point",) * reached))
     for k in range(len(TURNS)):
         reduction = reductions(k)
         roots = roots_above(here, t, reduction.equation)
@@ -153,22 +153,22 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
                 return _listed(arm, numbers, [_family(arm, values, reduction, on_axis)], cases)
         elif _misses(here, reduction.equation, reduction.degree, t):
             continue  # the angle that t misses may be a solution: another φ tells
-        found = [
+        result = [
             solution
             for root, multiple in zip(roots, multiple_roots(roots), strict=True)
             for solution in _at_root(arm, values.extend(root), reduction, on_axis, multiple)
         ]
-        if any(s.multiple for s in found) and not on_axis:
+        if any(s.multiple for s in result) and not on_axis:
             cases = (*cases, "two solutions meet: the arm is singular here")
-        return _listed(arm, numbers, found, cases)
+        return _listed(arm, numbers, result, cases)
     raise InternalError("an equation of degree four has more than four roots")
 
 
-def _listed(arm: Arm, numbers: tuple[Any, ...], found: list[Solution], cases: tuple[str, ...]) -> Inverse:
-    found.sort(key=lambda s: [v for v in s.angles if v is not None])
+def _listed(arm: Arm, numbers: tuple[Any, ...], solutions: list[Solution], cases: tuple[str, ...]) -> Inverse:
+    solutions.sort(key=lambda s: [v for v in s.angles if v is not None])
     names = tuple(joint.name for joint in arm.joints)
-    open_ones = {name for s in found for name, v in zip(names, s.values, strict=True) if v is None}
-    return Inverse(arm, numbers, tuple(found), tuple(n for n in names if n in open_ones), cases)
+    open_ones = {name for s in solutions for name, v in zip(names, s.values, strict=True) if v is None}
+    return Inverse(arm, numbers, tuple(solutions), tuple(n for n in names if n in open_ones), cases)
 
 
 def _misses(here: Point, p: Poly | None, degree: int | None, t: int) -> bool:
@@ -337,24 +337,24 @@ def _general_position(arm: Arm) -> list[_Coordinate]:
         j.name: (variables[2 * k], variables[2 * k + 1]) if j.motion is Motion.REVOLUTE else variables[2 * k]
         for k, j in enumerate(arm.joints)
     }
-    found = []
+    result = []
     for value in position(arm, values):
         ratio = value if isinstance(value, Ratio) else variables[0] * 0 + value
         terms = _Coordinate(ratio.top.collected(range(1, ring.size)).items())
         terms.bottom = ratio.bottom
-        found.append(terms)
-    return found
+        result.append(terms)
+    return result
 
 
 def _without_m(p: Poly, reduction: Reduction, field: NumberField) -> tuple[Poly, ...]:
     """The coefficients of 1 and m after m² was replaced."""
     if reduction.square is None:
         return (p,)
-    found = list(p.coefficients(p.ring.index[M]))
-    while len(found) > 2:
-        lead = found.pop()
-        found[-2] = reduced(found[-2] + lead * reduction.square, field)
-    return tuple(found)
+    result = list(p.coefficients(p.ring.index[M]))
+    while len(result) > 2:
+        lead = result.pop()
+        result[-2] = reduced(result[-2] + lead * reduction.square, field)
+    return tuple(result)
 
 
 def leaves_remainder(p: Poly, divisor: Sequence[Poly], field: NumberField) -> bool:

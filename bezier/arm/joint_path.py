@@ -118,9 +118,9 @@ class JointPath:
     @cached_property
     def excesses(self) -> dict[int, tuple[Excess, ...]]:
         """Where motions and runs are beyond limits, by their numbers."""
-        found = {run.number: run.excesses for run in self.runs}
-        found |= {} if self.limited is None else {n: kept.excesses for n, kept in self.limited.listed.items()}
-        return {n: found[n] for n in sorted(found) if found[n]}
+        result = {run.number: run.excesses for run in self.runs}
+        result |= {} if self.limited is None else {n: kept.excesses for n, kept in self.limited.listed.items()}
+        return {n: result[n] for n in sorted(result) if result[n]}
 
     @cached_property
     def kept_numbers(self) -> frozenset[int]:
@@ -154,32 +154,32 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier]) -> JointPath:
     also = [()] * len(listed) if motions is None else [signs.places for signs in motions.curves]
     studies = tuple(study(arm, curve, places) for curve, places in zip(curves.values(), also, strict=True))
     branches: list[tuple[Branch, ...]] = []
-    for found in studies:
-        branches.append(tuple(_branches(found, branches[-1] if branches else ())))
+    for result in studies:
+        branches.append(tuple(_branches(result, branches[-1] if branches else ())))
     runs = tuple(_limited(arm, studies, run) for run in _runs(branches))
     limited = None
     if motions is not None:
         runs, undecided = tuple(_numbered(runs, motions, len(listed))), ""
         limited = LimitedMotions.of(motions, studies)
-    for k, found in enumerate(studies):
-        _check_joined(found, k, runs, None if motions is None else vertical_arm(arm))
+    for k, result in enumerate(studies):
+        _check_joined(result, k, runs, None if motions is None else vertical_arm(arm))
     return JointPath(arm, dict(curves), studies, tuple(branches), runs, motions, limited, undecided)
 
 
-def _branches(found: Study, before: Sequence[Branch]) -> list[Branch]:
+def _branches(studied: Study, before: Sequence[Branch]) -> list[Branch]:
     """All branches of a curve, each once: those that go on from the curve before, with the same angles and not only the
     same
     directions, and those through the other solutions at one parameter of every stretch."""
     branches: list[Branch] = []
-    stops = [p.s if isinstance(p.s, Fraction) else p.s.interval(40)[0] for p in found.specials if p.reasons]
+    stops = [p.s if isinstance(p.s, Fraction) else p.s.interval(40)[0] for p in studied.specials if p.reasons]
     for last in before:
         if last.high == ONE:
-            pieces = follow(found.arm, found.curve, last.at(ONE), ZERO, ONE, (last.pieces[-1], ONE), stops)
+            pieces = follow(studied.arm, studied.curve, last.at(ONE), ZERO, ONE, (last.pieces[-1], ONE), stops)
             branches += [Branch(pieces)] if pieces else []
-    for stretch in found.stretches:
-        for solution in solve(found.arm, found.curve.point(stretch.sample)).solutions:
+    for stretch in studied.stretches:
+        for solution in solve(studied.arm, studied.curve.point(stretch.sample)).solutions:
             if not any(b.contains(stretch.sample, solution) for b in branches):
-                branch = whole(found.arm, found.curve, solution, stretch.sample, (ZERO, ONE), stops)
+                branch = whole(studied.arm, studied.curve, solution, stretch.sample, (ZERO, ONE), stops)
                 branches += [branch] if branch is not None else []
     return branches
 
@@ -229,15 +229,15 @@ def _limited(arm: Arm, studies: Sequence[Study], run: Run) -> Run:
     return replace(run, turns=turns, excesses=excesses(arm, studies, run.parts, turns))
 
 
-def _check_joined(found: Study, curve: int, runs: Sequence[Run], plane: VerticalArm | None) -> None:
+def _check_joined(studied: Study, curve: int, runs: Sequence[Run], plane: VerticalArm | None) -> None:
     """Where enclosures of several places are one, a motion through them has to show that there is a solution within
     the limits in between, too: one of the runs, or of the arcs of an arm with a plane, which do not end at such places.
     Raises ``Unable``."""
-    for one, other in pairwise(found.within):
+    for one, other in pairwise(studied.within):
         if isinstance(one.high, Near) and one.high.is_joined and one.count and other.count:
             low, high = ends_of(one.high)
             if plane is not None:
-                ends = (solve(found.arm, found.curve.point(part.sample)).solutions for part in (one, other))
+                ends = (solve(studied.arm, studied.curve.point(part.sample)).solutions for part in (one, other))
                 before, after = ({plane.label(x) for x in solutions if x.allowed} for solutions in ends)
                 shown = bool(before & after)
             else:

@@ -131,7 +131,7 @@ def to_csv(plan: JointPlan) -> str:
 
 def to_json(plan: JointPlan) -> dict[str, Any]:
     """``joints.json``: the study of the path, the sequence, and what is proved about the motion."""
-    found: dict[str, Any] = {
+    data: dict[str, Any] = {
         **path_report.to_json(plan.path),
         "duration": str(plan.duration),
         "proved": plan.is_proved,
@@ -145,9 +145,9 @@ def to_json(plan: JointPlan) -> dict[str, Any]:
     }
     if plan.sequence is not None:
         header, rows = table(plan)
-        found["columns"] = header
-        found["rows"] = [[None if v != v else round(v, DECIMALS) for v in row] for row in rows]
-    return found
+        data["columns"] = header
+        data["rows"] = [[None if v != v else round(v, DECIMALS) for v in row] for row in rows]
+    return data
 
 
 def _extremes(motion: JointMotion) -> dict[str, Any]:

@@ -70,7 +70,7 @@ def _motions(arm: Arm, q: Floats) -> list[Floats]:
     """One 4 x 4 matrix for each joint and each row of ``q``; shape of each (N, 4, 4)."""
     import numpy as np
 
-    found = []
+    result = []
     for k, joint in enumerate(arm.joints):
         m = np.zeros((len(q), 4, 4))
         m[:, range(4), range(4)] = 1.0
@@ -79,8 +79,8 @@ def _motions(arm: Arm, q: Floats) -> list[Floats]:
             m[:, 0, 0], m[:, 0, 1], m[:, 1, 0], m[:, 1, 1] = c, -s, s, c
         else:
             m[:, 2, 3] = q[:, k]
-        found.append(m)
-    return found
+        result.append(m)
+    return result
 
 
 def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
@@ -88,12 +88,12 @@ def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
     import numpy as np
 
     try:
-        found = np.atleast_2d(np.asarray(q, dtype=float))
+        result = np.atleast_2d(np.asarray(q, dtype=float))
     except (TypeError, ValueError):
         raise InputError("joint positions: numbers, rad or mm, expected") from None
-    if found.ndim != 2 or found.shape[1] != len(arm.joints):
-        raise InputError(f"joint positions: rows of {len(arm.joints)} numbers expected, shape {found.shape} found")
-    return found
+    if result.ndim != 2 or result.shape[1] != len(arm.joints):
+        raise InputError(f"joint positions: rows of {len(arm.joints)} numbers expected, shape {result.shape} found")
+    return result
 
 
 def positions(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
@@ -134,14 +134,14 @@ def skeleton(arm: Arm, q: Sequence[float]) -> list[list[float]]:
     import numpy as np
 
     motions = iter(_motions(arm, np.atleast_2d(np.asarray(q, dtype=float))))
-    whole, found = np.eye(4), [[0.0, 0.0, 0.0]]
+    whole, result = np.eye(4), [[0.0, 0.0, 0.0]]
     for row, (before, after) in zip(arm.rows, _row_constants(arm), strict=True):
         whole = whole @ before
         if row.joint is not None:
             whole = whole @ next(motions)[0]
         whole = whole @ after
-        found.append([float(v) for v in whole[:3, 3]])
-    return found
+        result.append([float(v) for v in whole[:3, 3]])
+    return result
 
 
 @lru_cache(maxsize=64)

@@ -48,14 +48,14 @@ class Excess:
 
 def turns_of(arm: Arm, parts: Parts) -> tuple[int, ...]:
     """For each joint, by how many full turns its whole motion is best moved to lie between its limits."""
-    found = []
+    result = []
     for k, joint in enumerate(arm.joints):
         if joint.limits is None or joint.motion is Motion.PRISMATIC:
-            found.append(0)
+            result.append(0)
             continue
         values = [v[k] for _, branch in parts for p in branch.pieces for v in (p.near(p.low), p.near(p.high))]
-        found.append(round((float(sum(joint.limits)) - max(values) - min(values)) / 2 / tau))
-    return tuple(found)
+        result.append(round((float(sum(joint.limits)) - max(values) - min(values)) / 2 / tau))
+    return tuple(result)
 
 
 def excesses(arm: Arm, studies: Sequence[Study], parts: Parts, turns: Sequence[int]) -> tuple[Excess, ...]:
@@ -68,14 +68,16 @@ Judged = tuple[int, Place, Place, list[tuple[Joint, Fraction]]]
 
 def joined(judged: Iterable[Judged]) -> tuple[Excess, ...]:
     """Of the limits that are broken in stretches (curve, low, high) one after another; neighbours as one."""
-    found = list[Excess]()
+    result = list[Excess]()
     for curve, low, high, broken in judged:
         for joint, limit in broken:
-            before = next((e for e in found if (e.curve, e.joint, e.limit, e.high) == (curve, joint, limit, low)), None)
+            before = next(
+                (e for e in result if (e.curve, e.joint, e.limit, e.high) == (curve, joint, limit, low)), None
+            )
             if before is not None:
-                found.remove(before)
-            found.append(Excess(curve, joint, limit, low if before is None else before.low, high))
-    return tuple(found)
+                result.remove(before)
+            result.append(Excess(curve, joint, limit, low if before is None else before.low, high))
+    return tuple(result)
 
 
 def _judged(arm: Arm, studies: Sequence[Study], parts: Parts, turns: Sequence[int]) -> Iterator[Judged]:
@@ -192,8 +194,8 @@ def _parts(motions: ContinuousMotions, studies: Sequence[Study]) -> Iterator[Par
         here = [k for k, a in enumerate(motions.arcs) if a.curve == curve]
         for stretch in study.within:
             (arcs,) = (k for k in here if motions.arcs[k].low < stretch.sample < motions.arcs[k].high)
-            found = solve(motions.arm, study.curve.point(stretch.sample)).solutions
-            yield Part(curve, arcs, stretch, {plane.label(x): _readings(motions.arm, x) for x in found})
+            result = solve(motions.arm, study.curve.point(stretch.sample)).solutions
+            yield Part(curve, arcs, stretch, {plane.label(x): _readings(motions.arm, x) for x in result})
 
 
 def _count(motions: ContinuousMotions, parts: Sequence[Part]) -> int:
@@ -247,11 +249,11 @@ def _broken(
 
 
 def _readings(arm: Arm, solution: Solution) -> tuple[Reading, ...]:
-    found = []
+    result = []
     for joint, known, value in zip(arm.joints, solution.quotients, solution.values, strict=True):
         assert known is not None and value is not None, "between special parameters every joint is determined"
-        found.append(_reading(joint, solution, known, float(value)))
-    return tuple(found)
+        result.append(_reading(joint, solution, known, float(value)))
+    return tuple(result)
 
 
 def _reading(joint: Joint, solution: Solution, known: Known, value: float) -> Reading:

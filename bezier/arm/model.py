@@ -136,8 +136,8 @@ def _cosine(twelfths: int, field: NumberField) -> Any:
 
 def root_in(field: NumberField, square: int) -> Any:
     """sqrt 2, sqrt 3 or sqrt 6 in a field that ``field_of`` found, None where it is not there."""
-    found = _root(2, field) * _root(3, field) if square == 6 else _root(square, field)
-    return None if found == 0 else found
+    result = _root(2, field) * _root(3, field) if square == 6 else _root(square, field)
+    return None if result == 0 else result
 
 
 def _root(square: int, field: NumberField) -> Any:

@@ -214,29 +214,29 @@ def _times(m: arb_mat, v: Sequence[arb]) -> list[arb]:
 def _inverse(m: arb_mat) -> arb_mat | None:
     """The middle of an inverse: any matrix will do for the test."""
     try:
-        found = m.inv()
+        result = m.inv()
     except ZeroDivisionError:
         return None
-    return arb_mat([[found[i, j].mid() for j in range(3)] for i in range(3)])
+    return arb_mat([[result[i, j].mid() for j in range(3)] for i in range(3)])
 
 
 def _solved(m: arb_mat, v: Sequence[arb]) -> list[arb] | None:
     try:
-        found = m.solve(arb_mat([[x] for x in v]))
+        result = m.solve(arb_mat([[x] for x in v]))
     except ZeroDivisionError:
         return None
-    return [found[i, 0] for i in range(3)]
+    return [result[i, 0] for i in range(3)]
 
 
 def _values(curve: Sequence[Sequence[Fraction]], s: arb) -> list[arb]:
     """The polynomials at a ball, by Horner's rule around its middle (second order in its radius)."""
-    found = []
+    result = []
     for coefficients in curve:
         total = arb(0)
         for c in reversed(coefficients):
             total = total * s + _ball(c)
-        found.append(total)
-    return found
+        result.append(total)
+    return result
 
 
 def _derived(coefficients: Sequence[Fraction]) -> list[Fraction]:

@@ -273,9 +273,9 @@ class Search:
         near = fixed(inverse(constants[1]), rules) @ turn1.inverse() @ based
         backs = fixed(inverse(constants[5]), rules), fifth.motion.inverse(), fixed(inverse(constants[4]), rules)
         far = backs[0] @ backs[1] @ backs[2]
-        found = near @ turn6.inverse() @ backs[0] @ backs[1] @ backs[2]
+        result = near @ turn6.inverse() @ backs[0] @ backs[1] @ backs[2]
         parallel = _Parallel(below.top, partial(self._elbow_over_last, near, far), rules.ring.index[ROOTS[2]])
-        joints, size_of_plane, square = self._three(found)
+        joints, size_of_plane, square = self._three(result)
         after: tuple[Stage, ...] = ((ROOTS[1], fifth.square.top, parallel), (ROOTS[2], square, None))
         pairs = {**(known or {}), 4: fifth.pair, 5: turn6.pair, **joints}
         return _Tower((*stages, *after), pairs, size_of_plane)
@@ -306,20 +306,20 @@ class Search:
         one = k * 0 + 1
         return one * dot(g, o3), one * (g[1] * o3[0] - g[0] * o3[1]), k, squared
 
-    def _three(self, found: Scaled) -> tuple[dict[int, tuple[Quotient, ...]], Poly, Poly]:
+    def _three(self, motion: Scaled) -> tuple[dict[int, tuple[Quotient, ...]], Poly, Poly]:
         """The three parallel joints with Π = ``found``, the square of the length of its shift, and m3²."""
         rules, first = self.rules, self.shape.first
         second, third = self.shape.chain.constants[first + 1 : first + 3]
-        across = [found.rows[i][3] for i in range(2)]
+        across = [motion.rows[i][3] for i in range(2)]
         size = rules.tidy(dot(across, across))
-        elbow = rules.turn(*self._elbow(size, rules.tidy(found.scale * found.scale)), ROOTS[2])
+        elbow = rules.turn(*self._elbow(size, rules.tidy(motion.scale * motion.scale)), ROOTS[2])
         assert elbow is not None, "no two neighbours of the parallel axes coincide"
         inner = fixed(second, rules) @ elbow.motion @ fixed(third, rules)
         f = [inner.rows[i][3] for i in range(2)]  # its length is that of Π's shift, but for the scales
-        cosine = rules.tidy(dot(f, across) * found.scale)
-        sine = rules.tidy((f[0] * across[1] - f[1] * across[0]) * found.scale)
+        cosine = rules.tidy(dot(f, across) * motion.scale)
+        sine = rules.tidy((f[0] * across[1] - f[1] * across[0]) * motion.scale)
         turn2 = turned((cosine, sine), rules.tidy(size * inner.scale))
-        turn4 = (turn2 @ inner.rotation).inverse() @ found.rotation
+        turn4 = (turn2 @ inner.rotation).inverse() @ motion.rotation
         return {first: turn2.pair, first + 1: elbow.pair, first + 2: turn4.pair}, size.top, elbow.square.top
 
     def _leaves(self, here: Evaluation, stages: Sequence[Stage]) -> Iterator[tuple[Evaluation, bool]]:
@@ -360,12 +360,12 @@ def _height(pair: Sequence[Matrix]) -> tuple[Any, Any]:
     return second[2][3] + second[2][2] * third[2][3], second[2][2] * third[2][2]
 
 
-def _out_of_plane(found: Scaled, pair: Sequence[Matrix]) -> Iterator[Any]:
+def _out_of_plane(motion: Scaled, pair: Sequence[Matrix]) -> Iterator[Any]:
     """What has to vanish for a motion of the plane."""
     height, side = _height(pair)
-    yield from (found.rows[2][0], found.rows[2][1])
-    yield found.rows[2][2] - found.scale * side
-    yield found.rows[2][3] - found.scale * height
+    yield from (motion.rows[2][0], motion.rows[2][1])
+    yield motion.rows[2][2] - motion.scale * side
+    yield motion.rows[2][3] - motion.scale * height
 
 
 def _marks(place: Point, var: int, polynomials: Sequence[Poly]) -> list[RealAlgebraic]:

@@ -15,17 +15,17 @@ from bezier.curves.scalar import brief, decimal_text, described
 MOST_SHOWN = 16
 
 
-def _motions_json(found: JointPath) -> dict[str, Any]:
+def _motions_json(path: JointPath) -> dict[str, Any]:
     """``count``: of all continuous motions from start to goal, limits of the joints left aside, and
     ``count_within_limits``: of those that keep them for all s; null where it is not decided (``undecided`` says why).
 
     ``junctions``: the places where solutions meet or the axis is passed: ``before``, ``after``: the numbers of arcs,
     ``through``: of the pairs of them with the same limit. ``listed``: for each motion a joint position in each interval
     between such places, by its parameter (rad, mm), and where it is beyond limits."""
-    counts = {"count": found.count, "count_within_limits": found.allowed_count}
-    if found.motions is None or found.limited is None:
-        return {**counts, "undecided": found.undecided if None in counts.values() else ""}
-    motions, limited, names = found.motions, found.limited, list(found.curves)
+    counts = {"count": path.count, "count_within_limits": path.allowed_count}
+    if path.motions is None or path.limited is None:
+        return {**counts, "undecided": path.undecided if None in counts.values() else ""}
+    motions, limited, names = path.motions, path.limited, list(path.curves)
     return {
         **counts,
         "undecided": "",
@@ -46,16 +46,16 @@ def _motions_json(found: JointPath) -> dict[str, Any]:
                     {"curve": names[a.curve], "s": str(a.sample), "joints": list(_position(motion, k, a))}
                     for k, a in enumerate(motions.arcs)
                 ],
-                "beyond_limits": excesses_to_json(found, limited.listed[motion.number].excesses),
+                "beyond_limits": excesses_to_json(path, limited.listed[motion.number].excesses),
             }
             for motion in motions.motions
         ],
     }
 
 
-def excesses_to_json(found: JointPath, excesses: Sequence[Excess]) -> list[dict[str, Any]]:
+def excesses_to_json(path: JointPath, excesses: Sequence[Excess]) -> list[dict[str, Any]]:
     """Where a motion is beyond limits."""
-    names = list(found.curves)
+    names = list(path.curves)
     return [
         {
             "curve": names[e.curve],
@@ -75,75 +75,75 @@ def place_to_json(place: Place) -> dict[str, Any]:
     return dict(described(place))
 
 
-def number_in_words(found: JointPath) -> str:
+def number_in_words(path: JointPath) -> str:
     """How many continuous joint motions there are from start to goal, and how many keep the limits."""
-    told = f"at least {_number(len(found.covering_runs))}" if found.count is None else _number(found.count)
-    if not found.arm.has_limits or found.count == 0:
-        return told
-    kept = found.allowed_count
-    return f"{told}, {f'at least {len(found.whole_runs)}' if kept is None else kept or 'none'} within the limits"
+    text = f"at least {_number(len(path.covering_runs))}" if path.count is None else _number(path.count)
+    if not path.arm.has_limits or path.count == 0:
+        return text
+    kept = path.allowed_count
+    return f"{text}, {f'at least {len(path.whole_runs)}' if kept is None else kept or 'none'} within the limits"
 
 
-def _motions_in_words(found: JointPath) -> list[str]:
+def _motions_in_words(path: JointPath) -> list[str]:
     """The same for people."""
-    return [*_numbers(found), *(f"  {line}" for line in excesses_in_words(found)), *_details(found)]
+    return [*_numbers(path), *(f"  {line}" for line in excesses_in_words(path)), *_details(path)]
 
 
-def _numbers(found: JointPath) -> list[str]:
-    count, kept = found.count, found.allowed_count
-    boxes = f"boxes (which bound the velocities) hold {len(found.covering_runs)} of them"
+def _numbers(path: JointPath) -> list[str]:
+    count, kept = path.count, path.allowed_count
+    boxes = f"boxes (which bound the velocities) hold {len(path.covering_runs)} of them"
     if count is None:
-        told = f"at least {_number(len(found.covering_runs))} from start to goal, proved by boxes"
-        lines = [f"{told}; how many others there are is not decided: {found.undecided}"]
+        text = f"at least {_number(len(path.covering_runs))} from start to goal, proved by boxes"
+        lines = [f"{text}; how many others there are is not decided: {path.undecided}"]
     elif count == 0:
         lines = ["no continuous joint motion from start to goal (proved)"]
     else:
         lines = [f"{_number(count)} from start to goal (proved: these are all); {boxes}"]
-    if found.arm.has_limits and count != 0:
+    if path.arm.has_limits and count != 0:
         if kept is None:
-            lines.append(f"  at least {len(found.whole_runs)} within the limits of the joints for all s")
+            lines.append(f"  at least {len(path.whole_runs)} within the limits of the joints for all s")
         else:
             lines.append(f"  {kept or 'none'} of them within the limits of the joints for all s (decided exactly)")
     return lines
 
 
-def _details(found: JointPath) -> list[str]:
-    if found.motions is None:
-        return _parts(found)
-    lines, names = list[str](), list(found.curves)
-    for k, junction in enumerate(found.motions.junctions):
+def _details(path: JointPath) -> list[str]:
+    if path.motions is None:
+        return _parts(path)
+    lines, names = list[str](), list(path.curves)
+    for k, junction in enumerate(path.motions.junctions):
         where = f"{names[junction.curve]} s = {short(junction.s)}"
-        lines += [f"  at {where}: {text}" for text in _passage(found.motions, k, junction)]
-    shown = found.motions.motions[:MOST_SHOWN]
+        lines += [f"  at {where}: {text}" for text in _passage(path.motions, k, junction)]
+    shown = path.motions.motions[:MOST_SHOWN]
     for motion in shown:
         places = []
-        for k, arcs in enumerate(found.motions.arcs):
+        for k, arcs in enumerate(path.motions.arcs):
             joints = ", ".join(f"{value:.6g}" for value in _position(motion, k, arcs))
             places.append(f"({joints}) at {names[arcs.curve]} s = {short(arcs.sample)}")
         lines.append(f"  motion {motion.number}: {', '.join(places)}")
-    more = found.motions.count - len(shown)
+    more = path.motions.count - len(shown)
     return [*lines, f"  and {more} more"] if more > 0 else lines
 
 
-def excesses_in_words(found: JointPath) -> list[str]:
+def excesses_in_words(path: JointPath) -> list[str]:
     """Where motions are beyond limits of the joints: those from start to goal, or, if these are not all known, what
     boxes hold."""
-    names, known = list(found.curves), found.excesses if found.limited is None else found.limited.listed
-    return [f"motion {n}: {_excess(e, names)}" for n in known for e in found.excesses.get(n, ())]
+    names, known = list(path.curves), path.excesses if path.limited is None else path.limited.listed
+    return [f"motion {n}: {_excess(e, names)}" for n in known for e in path.excesses.get(n, ())]
 
 
-def _excess(found: Excess, names: Sequence[str]) -> str:
-    limits = found.joint.limits
-    sign = ">" if limits is not None and found.limit == limits[1] else "<"
-    where = f"{names[found.curve]} s in ({short(found.low)}, {short(found.high)})"
-    return f"{found.joint.name} {sign} {brief(found.limit)}, its limit, for {where}"
+def _excess(excess: Excess, names: Sequence[str]) -> str:
+    limits = excess.joint.limits
+    sign = ">" if limits is not None and excess.limit == limits[1] else "<"
+    where = f"{names[excess.curve]} s in ({short(excess.low)}, {short(excess.high)})"
+    return f"{excess.joint.name} {sign} {brief(excess.limit)}, its limit, for {where}"
 
 
-def _parts(found: JointPath) -> list[str]:
+def _parts(path: JointPath) -> list[str]:
     """The runs that do not go from start to goal."""
-    names, lines = list(found.curves), []
-    for run in found.runs:
-        if run not in found.covering_runs:
+    names, lines = list(path.curves), []
+    for run in path.runs:
+        if run not in path.covering_runs:
             ends = ((run.parts[0], run.parts[0][1].low), (run.parts[-1], run.parts[-1][1].high))
             begin, end = (f"{names[k]} s = {float(s):.9g}" for (k, _), s in ends)
             lines.append(f"  motion {run.number} from {begin} to {end} only")
@@ -168,8 +168,8 @@ def _passage(motions: ContinuousMotions, k: int, junction: Junction) -> list[str
 
 
 def _position(motion: ContinuousMotion, k: int, arcs: Arcs) -> tuple[float, ...]:
-    found = arcs.solutions[arcs.labels.index(motion.labels[k])].angles
-    return tuple(value for value in found if value is not None)
+    result = arcs.solutions[arcs.labels.index(motion.labels[k])].angles
+    return tuple(value for value in result if value is not None)
 
 
 def _number(count: int) -> str:
@@ -182,25 +182,23 @@ def short(s: Place) -> str:
     return exact if exact is not None and len(exact) <= 12 else f"{float(s):.12g}"
 
 
-def to_json(found: JointPath) -> dict[str, Any]:
+def to_json(path: JointPath) -> dict[str, Any]:
     """The path as JSON data: parameters exactly and as decimals, an entry for each curve, the continuous motions, and
     the runs."""
     return {
-        "arm": found.arm.name,
-        "reachable": found.is_reachable,
-        "curves": [
-            {"name": name, **_study(studied)} for name, studied in zip(found.curves, found.studies, strict=True)
-        ],
-        "motions": _motions_json(found),
-        "runs": [_run(found, run) for run in found.runs],
+        "arm": path.arm.name,
+        "reachable": path.is_reachable,
+        "curves": [{"name": name, **_study(studied)} for name, studied in zip(path.curves, path.studies, strict=True)],
+        "motions": _motions_json(path),
+        "runs": [_run(path, run) for run in path.runs],
     }
 
 
-def _study(found: Study) -> dict[str, Any]:
+def _study(studied: Study) -> dict[str, Any]:
     return {
-        "reachable": found.is_reachable,
-        "intervals": [_stretch(p) for p in found.stretches],
-        "within_limits": [_stretch(p) for p in found.within],
+        "reachable": studied.is_reachable,
+        "intervals": [_stretch(p) for p in studied.stretches],
+        "within_limits": [_stretch(p) for p in studied.within],
         "special": [
             {
                 "s": described(p.s),
@@ -208,11 +206,11 @@ def _study(found: Study) -> dict[str, Any]:
                 "free": list(p.inverse.free),
                 "what": [reason.value for reason in p.reasons],
             }
-            for p in found.specials
+            for p in studied.specials
             if p.reasons or p.s in (0, 1)
         ],
-        "shared_sine": [described(s) for s in found.shared],
-        "stops": [place_to_json(p.low) for p in found.gaps],
+        "shared_sine": [described(s) for s in studied.shared],
+        "stops": [place_to_json(p.low) for p in studied.gaps],
     }
 
 
@@ -220,22 +218,22 @@ def _stretch(part: Stretch) -> dict[str, Any]:
     return {"from": place_to_json(part.low), "to": place_to_json(part.high), "solutions": part.count}
 
 
-def _run(found: JointPath, run: Run) -> dict[str, Any]:
-    names = list(found.curves)
+def _run(path: JointPath, run: Run) -> dict[str, Any]:
+    names = list(path.curves)
     return {
         "number": run.number,
         "whole": run.covers(len(names)),
         "parts": [
             {"curve": names[k], "from": str(b.low), "to": str(b.high), "boxes": len(b.pieces)} for k, b in run.parts
         ],
-        "beyond_limits": excesses_to_json(found, run.excesses),
+        "beyond_limits": excesses_to_json(path, run.excesses),
     }
 
 
-def in_words(found: JointPath) -> list[str]:
+def in_words(path: JointPath) -> list[str]:
     """The same for people."""
-    lines = [found.arm.name]
-    for name, studied in zip(found.curves, found.studies, strict=True):
+    lines = [path.arm.name]
+    for name, studied in zip(path.curves, path.studies, strict=True):
         lines.append(f"{name}: " + _verdict(studied))
         lines += [
             f"  {p.count} solution{'s' * (p.count != 1)} for every s in ({short(p.low)}, {short(p.high)})"
@@ -248,14 +246,14 @@ def in_words(found: JointPath) -> list[str]:
             ]
         lines += [f"  at s = {short(p.s)}: {_special(p)}" for p in studied.specials if p.reasons]
         lines += [f"  at s = {short(s)}: {Reason.SINE.value} (nothing happens to the arm)" for s in studied.shared]
-    return lines + _motions_in_words(found)
+    return lines + _motions_in_words(path)
 
 
-def _verdict(found: Study) -> str:
-    limited = " within the limits of the joints" if found.within != found.stretches else ""
-    if found.is_reachable:
+def _verdict(studied: Study) -> str:
+    limited = " within the limits of the joints" if studied.within != studied.stretches else ""
+    if studied.is_reachable:
         return f"every point can be reached{limited} (proved for all s in [0, 1])"
-    first = found.gaps[0] if found.gaps else None
+    first = studied.gaps[0] if studied.gaps else None
     return f"NOT reachable{limited}" + ("" if first is None else f" from s = {short(first.low)} on")
 
 

@@ -114,11 +114,11 @@ def reachable_formula(arm: Arm, *, timeout: float | None = SECONDS, check: bool 
 
     Raises ``Unable`` in one line where the elimination does not end in ``timeout`` seconds, or is beyond its methods.
     """
-    found = qe.eliminate(question(arm), timeout=timeout, check=check)
-    if found.formula is None:
-        reason = found.reason or found.status.value
+    result = qe.eliminate(question(arm), timeout=timeout, check=check)
+    if result.formula is None:
+        reason = result.reason or result.status.value
         raise Unable(f"the reachable set of {arm.name} is not found by elimination: {reason}")
-    return found
+    return result
 
 
 def question(arm: Arm) -> Formula:
@@ -130,9 +130,9 @@ def question(arm: Arm) -> Formula:
     conditions = [*_generator(arm, ring)]
     q = chain.constants[1]
     for k, (joint, after) in enumerate(zip(joints[1:], chain.constants[2:], strict=True), start=1):
-        own = [variable(ring, name, arm.field) for name in _names(k, joint)]
-        conditions += _within(joint, own)
-        q = product(product(q, motion(joint, tuple(own) if len(own) == 2 else own[0])), after)
+        values = [variable(ring, name, arm.field) for name in _names(k, joint)]
+        conditions += _within(joint, values)
+        q = product(product(q, motion(joint, tuple(values) if len(values) == 2 else values[0])), after)
     zero = constant(ring, 0, arm.field)
     tip = [zero + v for v in apply(q, (Fraction(0),) * 3)]
     p = [zero + v for v in apply(inverse(chain.constants[0]), [variable(ring, name, arm.field) for name in PLACE])]
@@ -150,14 +150,14 @@ def _names(k: int, joint: Joint) -> tuple[str, ...]:
     return (f"c{k + 1}", f"s{k + 1}") if joint.motion is Motion.REVOLUTE else (f"d{k + 1}",)
 
 
-def _within(joint: Joint, own: list[Ratio]) -> Iterator[Formula]:
+def _within(joint: Joint, values: list[Ratio]) -> Iterator[Formula]:
     """What the values of a joint satisfy; a ``Ratio`` has a positive denominator."""
     if joint.motion is Motion.REVOLUTE:
-        c, s = own
+        c, s = values
         yield atom((c * c + s * s - 1).top, Relation.EQ)
     elif joint.limits is not None:
-        yield atom((own[0] - joint.limits[0]).top, Relation.GE)
-        yield atom((own[0] - joint.limits[1]).top, Relation.LE)
+        yield atom((values[0] - joint.limits[0]).top, Relation.GE)
+        yield atom((values[0] - joint.limits[1]).top, Relation.LE)
 
 
 def _generator(arm: Arm, ring: Ring) -> Iterator[Formula]:

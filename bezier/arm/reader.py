@@ -143,19 +143,19 @@ def read_route(text: str, source: str = "<path>") -> dict[str, Bezier]:
     entries = table.tables("curve")
     if not entries:
         raise table.error("curve", "tables [[curve]]", "none")
-    found: dict[str, Bezier] = {}
+    result: dict[str, Bezier] = {}
     for i, entry in enumerate(entries):
         entry.only(("points", "name", "spline"))
         name = entry.values.get("name", f"curve {i + 1}")
-        if not isinstance(name, str) or not name or name in found:
+        if not isinstance(name, str) or not name or name in result:
             raise entry.error("name", "a name of its own for each curve", describe(name))
         points = _points(entry)
         is_spline = entry.values.get("spline", False)
         if not isinstance(is_spline, bool):
             raise entry.error("spline", "true or false", describe(is_spline))
         spans = natural_spline(points) if is_spline else [Bezier.of(points)]
-        found |= {name if len(spans) == 1 else f"{name}, span {k}": c for k, c in enumerate(spans, start=1)}
-    return found
+        result |= {name if len(spans) == 1 else f"{name}, span {k}": c for k, c in enumerate(spans, start=1)}
+    return result
 
 
 def _points(entry: Table) -> list[Vector]:

@@ -189,13 +189,13 @@ def _sum_of_roots(value: RealAlgebraic) -> Terms | None:
 
 
 def _lowered(p: Poly, place: int, square: Poly) -> Poly:
-    found = list(p.coefficients(place))
-    if len(found) <= 2:
+    result = list(p.coefficients(place))
+    if len(result) <= 2:
         return p
-    while len(found) > 2:
-        lead = found.pop()
-        found[-2] = found[-2] + lead * square
-    return found[0] + found[1] * p.ring.gen(place)
+    while len(result) > 2:
+        lead = result.pop()
+        result[-2] = result[-2] + lead * square
+    return result[0] + result[1] * p.ring.gen(place)
 
 
 def _constant(value: Ratio, field: NumberField) -> Any:
@@ -236,15 +236,15 @@ def square_roots(value: Any) -> Terms:
         raise refused
     mean = Fraction(-a.minimal_polynomial[-2], a.degree * a.minimal_polynomial[-1])
     parts = [a - mean] if a.degree == 2 else [(a + b) * Fraction(1, 2) - mean for b in conjugates if b != a]
-    found = {1: mean}
+    result = {1: mean}
     for x in parts:
         square = rational(x * x)
         if square is None:
             raise refused
         if square:
             d, q = _root(square)
-            found[d] = found.get(d, Fraction(0)) + (q if x > 0 else -q)
-    return {d: q for d, q in found.items() if q}
+            result[d] = result.get(d, Fraction(0)) + (q if x > 0 else -q)
+    return {d: q for d, q in result.items() if q}
 
 
 def _root(square: Fraction) -> tuple[int, Fraction]:

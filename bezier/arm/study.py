@@ -93,13 +93,13 @@ def study(arm: Arm, curve: Bezier, also: Iterable[Number] = ()) -> Study:
     ends = sorted({Fraction(0), Fraction(1), *critical})
     for s in ends:
         point = curve.point(s) if isinstance(s, Fraction) else ()
-        found = solve(arm, point) if point else solve_at(arm, along.place(s), (), along.reduction)
-        specials.append(Special(s, _told(critical.get(s, ()), found), found))
-    stretches = tuple(_stretches(arm, curve, ends, lambda found: found.count))
+        value = solve(arm, point) if point else solve_at(arm, along.place(s), (), along.reduction)
+        specials.append(Special(s, _told(critical.get(s, ()), value), value))
+    stretches = tuple(_stretches(arm, curve, ends, lambda value: value.count))
     within = stretches
     if arm.has_limits:
         places = marks(along, {*critical, *also})
-        within = tuple(_stretches(arm, curve, places, lambda found: found.allowed_count))
+        within = tuple(_stretches(arm, curve, places, lambda value: value.allowed_count))
     return Study(arm, curve, stretches, within, tuple(specials), tuple(along.shared_sines()))
 
 
@@ -114,9 +114,9 @@ def _stretches(
         yield Stretch(low, high, count, sample)
 
 
-def _told(reasons: Sequence[Reason], found: Inverse) -> tuple[Reason, ...]:
+def _told(reasons: Sequence[Reason], answer: Inverse) -> tuple[Reason, ...]:
     """The reasons that concern real solutions: complex ones may meet as well."""
-    merging = any(s.multiple for s in found.solutions)
+    merging = any(s.multiple for s in answer.solutions)
     return tuple(r for r in reasons if r is not Reason.MERGE or merging)
 
 
@@ -181,9 +181,9 @@ def marks(along: AlongCurve, critical: Iterable[Number]) -> tuple[Place, ...]:
                 exact.update(along.zeros(content))
                 enclosures.append(partial(_enclosed_zeros, along, rest, limit))
     for bits in BITS:
-        found = [(near.low, near.high, near, k) for k, f in enumerate(enclosures) for near in f(bits)]
+        result = [(near.low, near.high, near, k) for k, f in enumerate(enclosures) for near in f(bits)]
         known = [(*ends_of(s, bits), s, -1) for s in exact | {ZERO, ONE}]
-        groups = _groups([*found, *known])
+        groups = _groups([*result, *known])
         if all(len(group) == 1 for group in groups):
             break
     return tuple(_joined(group) for group in groups)
@@ -226,8 +226,8 @@ def _relation(along: AlongCurve, joint: int) -> Poly:
     turns = [j.motion is Motion.REVOLUTE for j in arm.joints]
     motion = turned(t, m, zero, one) if turns[joint] else slid(t, zero, one)
     held = Held.of([lifted(c) for c in arm.chain.constants], turns, joint, motion)
-    for found, needs in held.relations(along.point):
-        if not any(_on_circle(need) for need in needs) and (p := _on_circle(found)):
+    for result, needs in held.relations(along.point):
+        if not any(_on_circle(need) for need in needs) and (p := _on_circle(result)):
             return p
     raise Unable(f"the limits of {arm.joints[joint].name} do not show along the curve")
 
@@ -247,10 +247,10 @@ def _held_at(p: Poly, value: tuple[Fraction | int, ...]) -> Poly:
     t, m = (p.ring.index[name] for name in (T, M))
     turns = len(value) == 2
     while True:
-        found = p.at_rational(t, value[0])
-        found = found.at_rational(m, value[1]) if turns else found
-        if found:
-            return found
+        result = p.at_rational(t, value[0])
+        result = result.at_rational(m, value[1]) if turns else result
+        if result:
+            return result
         # (cos)' = -sin, (sin)' = cos
         p = p.ring.gen(t) * p.derivative(m) - p.ring.gen(m) * p.derivative(t) if turns else p.derivative(t)
 

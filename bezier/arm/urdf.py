@@ -47,8 +47,8 @@ def load_urdf(name: str) -> Arm:
     try:
         import yourdfpy
     except ImportError as error:
-        if (told := lacking(error)) is not None:
-            raise told from None
+        if (missing := lacking(error)) is not None:
+            raise missing from None
         raise
     try:
         with warnings.catch_warnings():  # about numbers that are none, which are told below
@@ -90,15 +90,15 @@ def _path(file: str, joints: list[Any], tip: str) -> list[Any]:
         raise InputError(
             f"{file}: a tree with the ends {shorten(', '.join(ends))}: one of them expected, as {file}#LINK"
         )
-    link, found = tip or ends[0], list[Any]()
+    link, result = tip or ends[0], list[Any]()
     if link not in above:
         raise InputError(f"{file}: a link below a joint expected, {shorten(link)} found")
-    while link in above and len(found) <= len(joints):
-        found.append(above[link])
+    while link in above and len(result) <= len(joints):
+        result.append(above[link])
         link = above[link].parent
     if link in above:
         raise InputError(f"{file}: a tree of links expected, a circle found")
-    return found[::-1]
+    return result[::-1]
 
 
 def _rows(file: str, joint: Any) -> Iterator[Row]:
@@ -155,8 +155,8 @@ def _origin(matrix: Floats | None, where: str) -> tuple[tuple[Fraction, ...], tu
     # an angle of exactly ±pi/2 about y is all that asin cannot tell well: it is compared as a matrix
     given = [value for row in entries[:3] for value in row[:3]]
     if any(abs(a - b) > CLOSE for a, b in zip(given, _turned(turns), strict=True)):
-        told = ", ".join(f"{v:.6g}" for v in (roll, pitch, yaw))
-        raise InputError(f"{where}: angles that are multiples of pi/{STEP} expected, roll, pitch, yaw = {told} found")
+        angles = ", ".join(f"{v:.6g}" for v in (roll, pitch, yaw))
+        raise InputError(f"{where}: angles that are multiples of pi/{STEP} expected, roll, pitch, yaw = {angles} found")
     return shift, turns
 
 

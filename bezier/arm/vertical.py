@@ -87,8 +87,8 @@ class VerticalArm:
     def square(self, target: tuple[Ratio, Ratio, Ratio]) -> Ratio:
         """W for a point in the frame of the first joint."""
         x, y, _ = target
-        found: Ratio = x * x + y * y - self.offset * self.offset
-        return found
+        result: Ratio = x * x + y * y - self.offset * self.offset
+        return result
 
     def distance(self, target: tuple[Ratio, Ratio, Ratio]) -> Split:
         """D, the square of the distance of (r, z) from the centre."""
@@ -180,8 +180,8 @@ def vertical_arm(arm: Arm) -> VerticalArm | None:
     moves = [dot(f[1], f[1])] + ([dot(f[0][:2], f[0][:2])] if all(geometry.turns) else [])
     if not is_plane or not is_zero(normal[2]) or any(is_zero(size) for size in moves):
         return None
-    found = VerticalArm(geometry, normal, dot(normal, base), (0, 0))
-    return VerticalArm(geometry, normal, found.offset, found.in_plane(centre))
+    result = VerticalArm(geometry, normal, dot(normal, base), (0, 0))
+    return VerticalArm(geometry, normal, result.offset, result.in_plane(centre))
 
 
 def _column(turn: Any) -> Vector:

@@ -103,9 +103,9 @@ def _first(arm: Arm, height: Fraction) -> Arm:
     return Arm(arm.name, arm.convention, (*arm.rows[: moving[3]], Row(a, alpha, height, turn)))
 
 
-def centre_at(wrist: Wrist, found: Inverse) -> tuple[Any, ...]:
+def centre_at(wrist: Wrist, answer: Inverse) -> tuple[Any, ...]:
     """Where the centre of the wrist is at a pose, exactly."""
-    pose: Matrix = tuple((*row, c) for row, c in zip(found.rotation, found.point, strict=True))
+    pose: Matrix = tuple((*row, c) for row, c in zip(answer.rotation, answer.point, strict=True))
     return apply(product(pose, inverse(wrist.chain.constants[6])), (ZERO, ZERO, wrist.height))
 
 
@@ -227,7 +227,7 @@ class _Turned:
             moved = motion(self.wrist.chain.joints[k], values if len(values) > 1 else values[0])
             whole = product(product(whole, moved), constant)
         pairs = [pair for rows in zip(whole, self.wanted, strict=True) for pair in zip(*rows, strict=True)]
-        if any(abs(found - wanted) > CLOSE * (1 + abs(wanted)) for found, wanted in pairs):
+        if any(abs(result - wanted) > CLOSE * (1 + abs(wanted)) for result, wanted in pairs):
             raise InternalError("the solutions at a pose contradict the forward kinematics")
 
 

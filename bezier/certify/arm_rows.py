@@ -106,10 +106,10 @@ def read_number(entry: Entry) -> Fraction:
 
 def read_triple(entry: Entry) -> Triple:
     """Three numbers, each a list of [q, d]: the sum of q √d, d squarefree."""
-    found = tuple(read_surd(c) for c in entry.items())
-    if len(found) != 3:
+    result = tuple(read_surd(c) for c in entry.items())
+    if len(result) != 3:
         raise entry.fail("expected three numbers")
-    return found
+    return result
 
 
 def read_surd(entry: Entry) -> Surd:

@@ -36,11 +36,11 @@ def _bernstein(p: Polynomial, low: Fraction, high: Fraction) -> list[Surd]:
         moved = sr.add(sr.times(moved, step), [c])
     n = len(p) - 1
     moved = moved + [sr.ZERO] * (n + 1 - len(moved))
-    found = []
+    result = []
     for k in range(n + 1):
         pairs = [(d, q * Fraction(comb(k, j), comb(n, j))) for j in range(k + 1) for d, q in moved[j].terms]
-        found.append(Surd.of(pairs))
-    return found
+        result.append(Surd.of(pairs))
+    return result
 
 
 def _enclosed(values: list[Surd], bits: int) -> Ends:

@@ -85,21 +85,21 @@ def not_negative(p: Polynomial, third: Sequence[Polynomial], norm: Polynomial, m
     after = [sr.at(p, high).sign() > 0 for _, high in between]
     if all(after):
         return None
-    found, n = list[Arc](), len(ends)
+    result, n = list[Arc](), len(ends)
     for i in range(n):
         if not after[i - 1]:
             j = next(j for j in range(i, i + n) if not after[j % n])
-            found.append((ends[i], ends[j % n]))
-    return tuple(found)
+            result.append((ends[i], ends[j % n]))
+    return tuple(result)
 
 
 def read_interval(entry: Entry, last: Interval | None) -> Interval:
     """[low, high], above the last one."""
     low, high = _pair(entry)
-    found = read_number(low), read_number(high)
-    if not found[0] < found[1] or (last is not None and found[0] <= last[1]):
+    result = read_number(low), read_number(high)
+    if not result[0] < result[1] or (last is not None and result[0] <= last[1]):
         raise entry.fail("expected intervals in ascending order")
-    return found
+    return result
 
 
 # --- what a certificate lists --------------------------------------------------------------------------------------
@@ -135,13 +135,13 @@ def _holds(box: Box | None, joint: Joint | None) -> bool:
 def _same(listed: tuple[tuple[Box, Box], ...] | None, arcs: Arcs) -> bool:
     if listed is None or arcs is None:
         return listed is None and arcs is None
-    left = list(listed)
+    rest = list(listed)
     for low, high in arcs:
-        found = next((ends for ends in left if _holds(ends[0], low) and _holds(ends[1], high)), None)
+        found = next((ends for ends in rest if _holds(ends[0], low) and _holds(ends[1], high)), None)
         if found is None or (found[0] == found[1]) != (low is high):
             return False
-        left.remove(found)
-    return not left
+        rest.remove(found)
+    return not rest
 
 
 def read_listed(entry: Entry, turning: tuple[bool, ...]) -> Listed:
@@ -150,17 +150,17 @@ def read_listed(entry: Entry, turning: tuple[bool, ...]) -> Listed:
     if not isinstance(entry.value, dict):
         return Listed(_boxes(entry, turning), {})
     box, chosen = entry.fields("box", "chosen")
-    found: dict[int, tuple[tuple[Box, Box], ...] | None] = {}
+    result: dict[int, tuple[tuple[Box, Box], ...] | None] = {}
     for item in chosen.items():
         number, arcs = _pair(item)
         k = number.integer(0)
-        if k >= len(turning) or k in found:
+        if k >= len(turning) or k in result:
             raise number.fail("expected the number of a joint, each once")
-        found[k] = None if arcs.value is None else _arcs(arcs, turning[k])
+        result[k] = None if arcs.value is None else _arcs(arcs, turning[k])
     boxes = _boxes(box, turning)
-    if not found or any(boxes[k] is not None for k in found):
+    if not result or any(boxes[k] is not None for k in result):
         raise chosen.fail("expected joints that are free")
-    return Listed(boxes, found)
+    return Listed(boxes, result)
 
 
 def _boxes(entry: Entry, turning: tuple[bool, ...]) -> tuple[Box | None, ...]:
@@ -172,14 +172,14 @@ def _boxes(entry: Entry, turning: tuple[bool, ...]) -> tuple[Box | None, ...]:
 
 def _arcs(entry: Entry, turning: bool) -> tuple[tuple[Box, Box], ...]:
     """The ends of arcs, in boxes that do not meet, so that it is clear which of them is where."""
-    found = list[tuple[Box, Box]]()
+    result = list[tuple[Box, Box]]()
     for arc in entry.items():
         low, high = (read_joint(end, turning) for end in _pair(arc))
-        found.append((low, high))
-    apart = [box for low, high in found for box in ([low] if low == high else [low, high])]
-    if any(_meet(a, b) for a, b in combinations(apart, 2)):
+        result.append((low, high))
+    disjoint = [box for low, high in result for box in ([low] if low == high else [low, high])]
+    if any(_meet(a, b) for a, b in combinations(disjoint, 2)):
         raise entry.fail("two ends are not told apart")
-    return tuple(found)
+    return tuple(result)
 
 
 def _meet(a: Box, b: Box) -> bool:

@@ -65,9 +65,9 @@ def _with_slide(chain: Chain, pose: Motion) -> Iterator[Position]:
     length = sign * (based[1][2] - _height(merged[1:3])[0])
     lowered = based[0], (*based[1][:2], based[1][2] - sign * length)
     slid = Joint(nested(length), None, nested(ONE))
-    for found in _in_plane(merged[1:3], lowered):
-        joints = [*found.joints[:k], slid, *found.joints[k:]]
-        yield Position(joints, {j + (j >= k): arcs for j, arcs in found.chosen.items()})
+    for result in _in_plane(merged[1:3], lowered):
+        joints = [*result.joints[:k], slid, *result.joints[k:]]
+        yield Position(joints, {j + (j >= k): arcs for j, arcs in result.chosen.items()})
 
 
 def _are_parallel(pair: Sequence[Motion]) -> bool:

@@ -70,15 +70,15 @@ class _Along:
 
 def read_limits(entry: Entry, joints: int) -> list[Limits | None]:
     """For each joint null, or its least and its greatest value."""
-    found = list[Limits | None]()
+    result = list[Limits | None]()
     for item in entry.items():
         ends = None if item.value is None else tuple(v.rational() for v in item.items())
         if ends is not None and (len(ends) != 2 or ends[0] >= ends[1]):
             raise item.fail("expected null, or a least value below a greatest one")
-        found.append(None if ends is None else (ends[0], ends[1]))
-    if len(found) != joints:
+        result.append(None if ends is None else (ends[0], ends[1]))
+    if len(result) != joints:
         raise entry.fail(f"expected limits of {joints} joints")
-    return found
+    return result
 
 
 class KeptLimits:

@@ -205,13 +205,13 @@ def _target(chain: Chain, points: list[tuple[Fraction, ...]]) -> list[Polynomial
     """The curve in the frame of the first joint."""
     rows, shift = back(chain.constants[0])
     curve = [sr.trimmed([Surd.rational(c) for c in powers([p[i] for p in points])]) for i in range(3)]
-    found = list[Polynomial]()
+    result = list[Polynomial]()
     for row, o in zip(rows, shift, strict=True):
         total = sr.trimmed([o])
         for factor, part in zip(row, curve, strict=True):
             total = sr.add(total, sr.scaled(part, factor))
-        found.append(total)
-    return found
+        result.append(total)
+    return result
 
 
 def _cut(along: _Along, listed: Entry, budget: Budget) -> tuple[list[_Between], list[Fraction]]:

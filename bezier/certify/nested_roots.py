@@ -100,10 +100,10 @@ class Nested:
     terms: dict[frozenset[Root], Number]
 
     def __add__(self, other: Nested) -> Nested:
-        found = dict(self.terms)
+        result = dict(self.terms)
         for key, number in other.terms.items():
-            found[key] = found[key] + number if key in found else number
-        return Nested({key: number for key, number in found.items() if number})
+            result[key] = result[key] + number if key in result else number
+        return Nested({key: number for key, number in result.items() if number})
 
     def __neg__(self) -> Nested:
         return Nested({key: -number for key, number in self.terms.items()})

@@ -30,10 +30,10 @@ class Surd:
     @staticmethod
     def of(pairs: Iterable[tuple[int, Fraction]]) -> Surd:
         """The sum of q √d over the pairs (d, q)."""
-        found: dict[int, Fraction] = {}
+        result: dict[int, Fraction] = {}
         for d, q in pairs:
-            found[d] = found.get(d, Fraction(0)) + q
-        return Surd(tuple(sorted((d, q) for d, q in found.items() if q)))
+            result[d] = result.get(d, Fraction(0)) + q
+        return Surd(tuple(sorted((d, q) for d, q in result.items() if q)))
 
     @staticmethod
     def rational(value: Fraction | int) -> Surd:
@@ -50,12 +50,12 @@ class Surd:
         return Surd(tuple((d, -q) for d, q in self.terms))
 
     def __mul__(self, other: Surd) -> Surd:
-        found = []
+        result = []
         for d, q in self.terms:
             for e, r in other.terms:
                 g = gcd(d, e)
-                found.append((d // g * (e // g), q * r * g))
-        return Surd.of(found)
+                result.append((d // g * (e // g), q * r * g))
+        return Surd.of(result)
 
     def __bool__(self) -> bool:
         return bool(self.terms)
@@ -114,10 +114,10 @@ def _prime(d: int) -> int:
 
 def trimmed(p: Sequence[Surd]) -> Polynomial:
     """Without leading zeros."""
-    found = list(p)
-    while found and not found[-1]:
-        found.pop()
-    return found
+    result = list(p)
+    while result and not result[-1]:
+        result.pop()
+    return result
 
 
 def add(p: Polynomial, q: Polynomial) -> Polynomial:
@@ -128,11 +128,11 @@ def add(p: Polynomial, q: Polynomial) -> Polynomial:
 
 def times(p: Polynomial, q: Polynomial) -> Polynomial:
     """p q."""
-    found = [ZERO] * max(0, len(p) + len(q) - 1)
+    result = [ZERO] * max(0, len(p) + len(q) - 1)
     for i, a in enumerate(p):
         for j, b in enumerate(q):
-            found[i + j] = found[i + j] + a * b
-    return trimmed(found)
+            result[i + j] = result[i + j] + a * b
+    return trimmed(result)
 
 
 def scaled(p: Polynomial, c: Surd) -> Polynomial:

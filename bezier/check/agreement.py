@@ -69,20 +69,20 @@ def _told(value: Any) -> str:
     return repr(shorten(value, SHOWN)) if isinstance(value, str) else str(value)
 
 
-def stated_problem(found: Mapping[str, Any], file: str) -> Problem:
+def stated_problem(stated: Mapping[str, Any], file: str) -> Problem:
     """The problem that a table read from a file states."""
     try:
-        return from_json(found, "problem")
+        return from_json(stated, "problem")
     except InputError as error:
         raise CertificateRejected(file, str(error)) from None
 
 
-def stored_path(found: Mapping[str, Any]) -> tuple[Problem, dict[str, Bezier]]:
+def stored_path(stated: Mapping[str, Any]) -> tuple[Problem, dict[str, Bezier]]:
     """The problem and the curves in the table of a ``path.json``."""
-    points = control_points(found)
+    points = control_points(stated)
     curves = {}
-    for name, row in entry(found, "curves", dict, "path.json: ").items():
+    for name, row in entry(stated, "curves", dict, "path.json: ").items():
         if not isinstance(row, list) or not row or not all(isinstance(p, str) and p in points for p in row):
             raise CertificateRejected(f"path.json: curves.{name}", "expected names of control points")
         curves[name] = Bezier.of([points[p] for p in row])
-    return stated_problem(entry(found, "problem", dict, "path.json: "), "path.json"), curves
+    return stated_problem(entry(stated, "problem", dict, "path.json: "), "path.json"), curves

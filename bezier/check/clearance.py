@@ -87,31 +87,31 @@ def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], M
 
 def _curves(table: Table) -> dict[str, Bezier]:
     """``[[curve]]``: points, and optionally name."""
-    found: dict[str, Bezier] = {}
+    result: dict[str, Bezier] = {}
     for i, entry in enumerate(table.tables("curve")):
         entry.only(("name", "points"))
         name = entry.values.get("name", f"curve {i + 1}")
-        if not isinstance(name, str) or name in found:
+        if not isinstance(name, str) or name in result:
             raise entry.error("name", "a name of its own for each curve", describe(name))
         raw = entry.required("points", "control points")
         if not isinstance(raw, list) or not 1 <= len(raw) <= MAX_CONTROL_POINTS:
             raise entry.error("points", f"1 to {MAX_CONTROL_POINTS} control points", describe(raw))
-        found[name] = Bezier.of([entry.as_point(f"points[{k}]", p) for k, p in enumerate(raw)])
-    return found
+        result[name] = Bezier.of([entry.as_point(f"points[{k}]", p) for k, p in enumerate(raw)])
+    return result
 
 
 def _as_json(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
-    told: dict[str, Any] = {
+    data: dict[str, Any] = {
         "status": "solved",
         "clear": not survey.contacts(findings),
         "findings": [survey.to_json(finding) for finding in findings],
         "certificates": "none" if verdict is None else "accepted" if verdict.accepted else "rejected",
     }
-    return json.dumps(told, indent=1, ensure_ascii=False)
+    return json.dumps(data, indent=1, ensure_ascii=False)
 
 
 def _in_words(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
-    met = survey.contacts(findings)
-    last = f"{len(met)} of {len(findings)} pairs meet" if met else f"all {len(findings)} pairs are clear"
+    contacts = survey.contacts(findings)
+    last = f"{len(contacts)} of {len(findings)} pairs meet" if contacts else f"all {len(findings)} pairs are clear"
     accepted = "none" if verdict is None else "accepted" if verdict.accepted else "REJECTED"
     return "\n".join([*map(survey.in_words, findings), f"{last}; certificates: {accepted}"])

@@ -65,15 +65,15 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
 
 def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[Plan, tuple[str, ...]]:
     """The plan that the certificates and the stated path prove, and what was checked for that."""
-    found = _of_certificate(lambda: method_for(problem).restore(problem, certificate, stated))
-    plan: Plan = found.plan
+    result = _of_certificate(lambda: method_for(problem).restore(problem, certificate, stated))
+    plan: Plan = result.plan
     if problem.obstacles:
         plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
     larger = stated_radius(stated.summary)
     plan = with_findings(plan, lambda solvable: stated_rule(problem, solvable, larger))
     moving = with_joints(with_quality(plan))
     whole = _of_certificate(lambda: with_stated(moving, certificate))
-    return whole, (*found.lines, *_derived(whole))
+    return whole, (*result.lines, *_derived(whole))
 
 
 def _of_certificate(work: Callable[[], T]) -> T:
@@ -202,10 +202,10 @@ def _check_times(seconds: Mapping[str, Any]) -> None:
 
 def _seconds(value: Any, place: str) -> Fraction:
     text = str(value) if type(value) is int and abs(value) < 10**12 else value
-    found = stored.rational(text, place)
-    if not isinstance(value, int | str) or "/" in str(value) or found < 0:
+    result = stored.rational(text, place)
+    if not isinstance(value, int | str) or "/" in str(value) or result < 0:
         raise CertificateRejected(place, "expected a number of seconds")
-    return found
+    return result
 
 
 # --- for people ----------------------------------------------------------------------------------------------------

@@ -34,30 +34,30 @@ REPORTED = (
 )
 
 
-def render(found: Comparison, drawings: Mapping[str, Sequence[Chart]], first: Markup | None = None) -> str:
+def render(comparison: Comparison, drawings: Mapping[str, Sequence[Chart]], first: Markup | None = None) -> str:
     """The page; ``drawings``: of the paths and the regions; ``first``: both paths in space; none of them is needed."""
-    file = FilePath(found.problem.source).name
+    file = FilePath(comparison.problem.source).name
     page = Page(
         title=f"{file.removesuffix('.toml').replace('_', ' ')}: quadratic and cubic curves side by side",
         lead="three quadratic curves with C¹ joins, formula (8), and three cubic curves with C² joins, formula (7)",
-        cards=_cards(found),
+        cards=_cards(comparison),
         first=first,
         sections=[
-            _results(found, drawings),
-            _regions(found, drawings),
-            *_derivations(found),
-            _problem(found),
-            _timings(found),
+            _results(comparison, drawings),
+            _regions(comparison, drawings),
+            *_derivations(comparison),
+            _problem(comparison),
+            _timings(comparison),
         ],
         footer=f"{PAPER}, section 4.2. Made by bezier-qe {html.package_version()} from {file}.",
     )
     return html.document(page)
 
 
-def _cards(found: Comparison) -> list[Card]:
+def _cards(comparison: Comparison) -> list[Card]:
     cards = []
     for method in METHODS:
-        side = found.sides[method]
+        side = comparison.sides[method]
         good = side.plan.outcome.is_success
         facts = [f"eliminated in {duration(side.plan.seconds['elimination'])}"]
         if side.length is not None and side.curvature is not None:
@@ -66,48 +66,52 @@ def _cards(found: Comparison) -> list[Card]:
         cards.append(
             Card(f"{method.value} curves", "path found" if good else "no path", html.tone(good), "; ".join(facts))
         )
-    drawing = sum(found.seconds.get(name, 0.0) for name in DRAWING)
-    solving = sum(found.seconds.values()) - drawing
+    drawing = sum(comparison.seconds.get(name, 0.0) for name in DRAWING)
+    solving = sum(comparison.seconds.values()) - drawing
     cards.append(
         Card("computed in", f"{duration(solving)} solving", note=f"{duration(drawing)} drawing" if drawing else "")
     )
     return cards
 
 
-def _results(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:
+def _results(comparison: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:
     content = html.joined(
         html.figures(drawings.get("paths", ()), wide=True),
-        _beside(rows(found)),
+        _beside(rows(comparison)),
         html.note("Lengths, curvatures, areas and volumes are enclosures: the number lies between the two ends."),
     )
     return Section("results", "Side by side", content)
 
 
-def _beside(found: Iterable[Row], *, numbers: Sequence[int] = ()) -> Markup:
-    return html.table(("", *TITLES.values()), found, numbers=numbers)
+def _beside(rows_: Iterable[Row], *, numbers: Sequence[int] = ()) -> Markup:
+    return html.table(("", *TITLES.values()), rows_, numbers=numbers)
 
 
-def _regions(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:
+def _regions(comparison: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:
     content = [html.paragraph(PLANE), html.figures(drawings.get("regions", ()), wide=True)]
-    content += [html.paragraph(f"{line[0].upper()}{line[1:]}.") for line in notes(found)]
-    for name, item in found.planar.named.items():
+    content += [html.paragraph(f"{line[0].upper()}{line[1:]}.") for line in notes(comparison)]
+    for name, item in comparison.planar.named.items():
         if item.region:
             cells = [piece.brief() for piece in item.region.cells]
             count = f"{name}: cylindrical description, {len(cells)} cell{'s' * (len(cells) != 1)}"
             content.append(html.folded(count, html.pre("\n".join(cells))))
-    for name, item in found.planar.named.items():
+    for name, item in comparison.planar.named.items():
         content.append(html.folded(f"{name} as handed to the engine", html.pre(item.formula)))
-    theorem = html.pre(found.existence.sentence)
+    theorem = html.pre(comparison.existence.sentence)
     content.append(html.folded("the existence theorem as handed to the engine", theorem))
     return Section("regions", "Where Q1 may be", html.joined(*content), "regions")
 
 
-def _derivations(found: Comparison) -> list[Section]:
+def _derivations(comparison: Comparison) -> list[Section]:
     """The eliminations whose every step was checked, with links to their pages."""
-    if not found.derivations:
+    if not comparison.derivations:
         return []
-    rows: list[tuple[Text, Text]] = [(derivation_title(name), _link(found, name)) for name in found.derivations]
-    rows += [(f"{name[0].upper()}{name[1:]}", f"not every step checked: {why}") for name, why in found.unproved.items()]
+    rows: list[tuple[Text, Text]] = [
+        (derivation_title(name), _link(comparison, name)) for name in comparison.derivations
+    ]
+    rows += [
+        (f"{name[0].upper()}{name[1:]}", f"not every step checked: {why}") for name, why in comparison.unproved.items()
+    ]
     said = "The certificates of both plans and of these derivations are in compare_certificate.json."
     content = html.table(("decided by the engine", "how"), rows) + html.note(said)
     return [Section("certified", "What was certified", content, short="certificates")]
@@ -118,21 +122,21 @@ def derivation_title(name: str) -> str:
     return f"The elimination of {name}" if "formula" in name else f"{name[0].upper()}{name[1:]}"
 
 
-def _link(found: Comparison, name: str) -> Markup:
-    return parts.derivation_link(found.derivations[name], found.derivation_pages[name])
+def _link(comparison: Comparison, name: str) -> Markup:
+    return parts.derivation_link(comparison.derivations[name], comparison.derivation_pages[name])
 
 
-def _problem(found: Comparison) -> Section:
-    given = parts.given(found.problem.named_points, NAMES)
-    radius = f"{float(found.problem.workspace.radius_squared) ** 0.5:.8g}"
-    said = html.paragraph(f"Radius r = {radius} mm (exactly {found.problem.workspace.radius_text}).")
+def _problem(comparison: Comparison) -> Section:
+    given = parts.given(comparison.problem.named_points, NAMES)
+    radius = f"{float(comparison.problem.workspace.radius_squared) ** 0.5:.8g}"
+    said = html.paragraph(f"Radius r = {radius} mm (exactly {comparison.problem.workspace.radius_text}).")
     return Section("problem", "The problem", given + said)
 
 
-def _timings(found: Comparison) -> Section:
-    common = [(name, duration(seconds)) for name, seconds in found.seconds.items()]
+def _timings(comparison: Comparison) -> Section:
+    common = [(name, duration(seconds)) for name, seconds in comparison.seconds.items()]
     content = html.joined(
-        _beside(step_rows(found), numbers=(1, 2)),
+        _beside(step_rows(comparison), numbers=(1, 2)),
         html.table(("common step", "time"), common, numbers=(1,)),
         html.note(REPORTED),
     )
@@ -154,35 +158,35 @@ def run(
 ) -> str:
     """The comparison, with its files in ``folder`` (whose place will be ``target``) if there is one; what to print."""
     clock = Clock(limit=timeout, listener=channel.event, note=channel.fact)
-    found = compare(problem, clock, proofs=folder is not None)
+    result = compare(problem, clock, proofs=folder is not None)
     files, last = [], ""
     if folder is not None and target is not None:
-        files = _write(found, folder, target, plots=plots)
+        files = _write(result, folder, target, plots=plots)
         last = f"\n{len(files)} files in {target}: open {target / PAGE}"
-    return json.dumps(to_json(found, files), indent=1, ensure_ascii=False) if as_json else table(found) + last
+    return json.dumps(to_json(result, files), indent=1, ensure_ascii=False) if as_json else table(result) + last
 
 
-def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool) -> list[str]:
+def _write(comparison: Comparison, folder: FilePath, target: FilePath, *, plots: bool) -> list[str]:
     """All files into ``folder``; the places where they will be."""
     names, drawings, first = [PAGE, DATA], {}, None
     if plots:
         start = perf_counter()
         from bezier.compare import pictures as plot_compare
 
-        regions = plot_compare.regions_of(found)
-        names += plot_compare.save(found, folder, regions)
-        drawings, first = plot_compare.charts(found, regions), plot_compare.first(found)
-        found = replace(found, seconds={**found.seconds, DRAWING[0]: perf_counter() - start})
-    files_of = found.derivation_pages
+        regions = plot_compare.regions_of(comparison)
+        names += plot_compare.save(comparison, folder, regions)
+        drawings, first = plot_compare.charts(comparison, regions), plot_compare.first(comparison)
+        comparison = replace(comparison, seconds={**comparison.seconds, DRAWING[0]: perf_counter() - start})
+    files_of = comparison.derivation_pages
     pages = {
         files_of[name]: derivations.page(name, item, COMPARED, derivation_title(name))
-        for name, item in found.derivations.items()
+        for name, item in comparison.derivations.items()
     }
-    texts = {COMPARED: found.certificate.to_json(), **pages}
+    texts = {COMPARED: comparison.certificate.to_json(), **pages}
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
     files = [str(target / name) for name in sorted([*names, *texts])]
-    (folder / PAGE).write_text(render(found, drawings, first), encoding="utf-8")
-    text = json.dumps(to_json(found, files), indent=1, ensure_ascii=False)
+    (folder / PAGE).write_text(render(comparison, drawings, first), encoding="utf-8")
+    text = json.dumps(to_json(comparison, files), indent=1, ensure_ascii=False)
     (folder / DATA).write_text(text + "\n", encoding="utf-8")
     return files

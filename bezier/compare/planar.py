@@ -75,8 +75,8 @@ def plane_coordinates(point: str) -> tuple[str, str]:
 
 def region_of(condition: st.Statement, *, timeout: float | None = None) -> qe.Region:
     """The region of a formula about Q1 in the plane. Raises ``Unable`` at the limit, which is hard."""
-    found = run(lambda channel: qe.region(condition.formula, progress=channel.event).to_json(), timeout=timeout)
-    return qe.Region.from_json(found)
+    result = run(lambda channel: qe.region(condition.formula, progress=channel.event).to_json(), timeout=timeout)
+    return qe.Region.from_json(result)
 
 
 def _along(arrow: Vector) -> Vector:

@@ -134,7 +134,7 @@ def implications(problem: Problem, plane: Plane, *, timeout: float | None = None
     """The engine's answers to whether the control polygons bound the curves, up to the first false one, by name."""
     budget = Budget(timeout)
     order = ("t", *plane_coordinates(POINT))
-    found: dict[str, Any] = {}
+    data: dict[str, Any] = {}
     for name, family in families(problem, plane).items():
         for c in problem.workspace.conditions:
             inside = st.Implies(st.every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))
@@ -144,10 +144,10 @@ def implications(problem: Problem, plane: Plane, *, timeout: float | None = None
             if answer.truth is None:
                 budget.check("whole curves")
                 raise Unable(answer.reason or "it was not decided")
-            found[f"the control points of {name} bound it ({c.name})"] = answer
+            data[f"the control points of {name} bound it ({c.name})"] = answer
             if not answer.truth:
-                return found
-    return found
+                return data
+    return data
 
 
 def curve_inside(curve: Bezier, conditions: Sequence[Condition], *, timeout: float | None = None) -> bool:

@@ -103,8 +103,8 @@ def multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     m, n = len(a) - 1, len(b) - 1
     one, other = _whole(a), _whole(b)
     if one is not None and other is not None:
-        left = [comb(m, i) * x for i, x in enumerate(one[0])]
-        sums = _convolved(left, [comb(n, j) * y for j, y in enumerate(other[0])])
+        scaled = [comb(m, i) * x for i, x in enumerate(one[0])]
+        sums = _convolved(scaled, [comb(n, j) * y for j, y in enumerate(other[0])])
         return tuple(Fraction(s, comb(m + n, k) * one[1] * other[1]) for k, s in enumerate(sums))
     out: list[Any] = [Fraction(0)] * (m + n + 1)
     for i, x in enumerate(a):

@@ -52,13 +52,13 @@ def _breaks(curve: Bezier, inside: Inside) -> list[Fraction] | None:
         return sorted({end for box in inside.proof.boxes for end in box})
     margin = inside.condition.margin_along(curve)
     touches = {low for low, high in inside.touches if low == high}
-    found = [Fraction(0)]
+    result = [Fraction(0)]
     for low, high in pairwise(sorted({Fraction(0), Fraction(1), *touches})):
         ends = _bisected(bs.restrict(margin, low, high), low, high, 0)
         if ends is None:
             return None
-        found += ends
-    return found
+        result += ends
+    return result
 
 
 def _bisected(b: bs.Coefficients, low: Fraction, high: Fraction, depth: int) -> list[Fraction] | None:
@@ -108,8 +108,8 @@ def dyadic_interval(theta: Any, bits: int) -> tuple[Fraction, Fraction]:
 
 def _size(value: Fraction) -> int:
     """The e with 2^e <= |value| < 2^(e + 1)."""
-    found = value.numerator.bit_length() - value.denominator.bit_length()
-    return found if abs(value) >= Fraction(2) ** found else found - 1
+    result = value.numerator.bit_length() - value.denominator.bit_length()
+    return result if abs(value) >= Fraction(2) ** result else result - 1
 
 
 def _coefficients(value: Any) -> list[str]:

@@ -159,7 +159,7 @@ def isolate(b: Sequence[Any]) -> list[Interval]:
 
 def isolate_simple(b: bs.Coefficients) -> list[Interval]:
     """``isolate`` for a polynomial whose roots in (0, 1) are simple and which does not vanish at 0."""
-    found: list[Interval] = []
+    result: list[Interval] = []
     todo = [(b, Fraction(0), Fraction(1))]
     while todo:
         part, low, high = todo.pop()
@@ -167,14 +167,14 @@ def isolate_simple(b: bs.Coefficients) -> list[Interval]:
         if changes == 0:
             continue
         if changes == 1 and sign(part[0]) and sign(part[-1]):
-            found.append((low, high))
+            result.append((low, high))
             continue
         middle = (low + high) / 2
         left, right = bs.split(part)
         if is_zero(right[0]):
-            found.append((middle, middle))
+            result.append((middle, middle))
         todo += [(left, low, middle), (right, middle, high)]
-    return sorted(found)
+    return sorted(result)
 
 
 def _keeps_sign(b: bs.Coefficients, depth: int) -> bool:
@@ -222,16 +222,16 @@ def _refined(power: Sequence[Any], low: Fraction, high: Fraction, width: Fractio
     """The same for a polynomial over Q on an interval that is mapped to [0, 1]: signs at k/2^n, by integers alone."""
     common = lcm(*(c.denominator for c in power))
     numbers = [c.numerator * (common // c.denominator) for c in reversed(power)]
-    left, depth, wide = 0, 0, high - low
+    place, depth, wide = 0, 0, high - low
     below = sign(numbers[-1]) if numbers else 0
     while wide > width * (1 << depth):
-        left, depth = 2 * left, depth + 1
-        here = _sign_at_dyadic(numbers, left + 1, depth)
+        place, depth = 2 * place, depth + 1
+        here = _sign_at_dyadic(numbers, place + 1, depth)
         if here == 0:
-            middle = low + wide * Fraction(left + 1, 1 << depth)
+            middle = low + wide * Fraction(place + 1, 1 << depth)
             return middle, middle
-        left += here == below
-    return low + wide * Fraction(left, 1 << depth), low + wide * Fraction(left + 1, 1 << depth)
+        place += here == below
+    return low + wide * Fraction(place, 1 << depth), low + wide * Fraction(place + 1, 1 << depth)
 
 
 def _sign_at_dyadic(numbers: Sequence[int], at: int, depth: int) -> int:
@@ -263,14 +263,14 @@ def events_of(forms: Sequence[bs.Coefficients]) -> tuple[Event, ...]:
 
     Between two neighbouring events no polynomial changes its sign. Zero polynomials have no roots here.
     """
-    found = [(-1, Event((t, t), tuple(sign(bs.value(f, t)) for f in forms))) for t in (ZERO, ONE)]
+    result = [(-1, Event((t, t), tuple(sign(bs.value(f, t)) for f in forms))) for t in (ZERO, ONE)]
     simple = [_simple(form) for form in forms]
     for i, form in enumerate(simple):
         for interval in isolate_simple(form):
             event = _located(i, interval, simple, forms)
             if not any(event.signs[j] == 0 and len(simple[j]) > 1 for j in range(i)):  # else it is listed with j
-                found.append((i, event))
-    return tuple(_apart(found, simple))
+                result.append((i, event))
+    return tuple(_apart(result, simple))
 
 
 def _simple(form: bs.Coefficients) -> bs.Coefficients:
@@ -321,13 +321,13 @@ def _sign_at(root_of: bs.Coefficients, t: Interval, form: bs.Coefficients) -> tu
     """The sign of a polynomial at the root of another one in ``t``, and ``t`` as far as it was refined."""
     if t[0] == t[1]:
         return sign(bs.value(form, t[0])), t
-    asked = False
+    has_divisor = False
     while True:
         signs = {sign(c) for c in bs.restrict(form, *t)}
         if len(signs) == 1:
             return signs.pop(), t
-        if not asked:
-            asked = True
+        if not has_divisor:
+            has_divisor = True
             common = bs.from_power(bs.gcd(bs.to_power(root_of), bs.trim(bs.to_power(form))))
             if sign(bs.value(common, t[0])) * sign(bs.value(common, t[1])) < 0:
                 return 0, t
@@ -336,12 +336,12 @@ def _sign_at(root_of: bs.Coefficients, t: Interval, form: bs.Coefficients) -> tu
             return sign(bs.value(form, t[0])), t
 
 
-def _apart(found: Sequence[tuple[int, Event]], simple: Sequence[bs.Coefficients]) -> list[Event]:
+def _apart(value: Sequence[tuple[int, Event]], simple: Sequence[bs.Coefficients]) -> list[Event]:
     """The events, all different, each with its polynomial's index: refined until they are in order, with gaps between.
 
     Also next to the ends 0 and 1, which are no roots of the simple polynomials.
     """
-    events = list(found)
+    events = list(value)
     moved = True
     while moved:
         moved = False

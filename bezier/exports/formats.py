@@ -113,9 +113,9 @@ def ros_trajectory(
     lines = ["header:", "  stamp: {sec: 0, nanosec: 0}", f"  frame_id: {_quoted(frame)}"]
     lines += [f"joint_names: [{', '.join(map(_quoted, names))}]", "points:"]
     times = np.minimum(np.linspace(0.0, track.end, rows), track.end)
-    found = (track.at(times), track.derivative.at(times), track.derivative.derivative.at(times))
+    result = (track.at(times), track.derivative.at(times), track.derivative.derivative.at(times))
     for k, tick in enumerate(ticks):
-        place, velocity, acceleration = (vectors[k] / 1000 for vectors in found)
+        place, velocity, acceleration = (vectors[k] / 1000 for vectors in result)
         lines += _free(place, velocity, acceleration) if joints is None else _gantry(place, velocity, acceleration)
         lines.append(f"  time_from_start: {{sec: {tick // NANO}, nanosec: {tick % NANO}}}")
     return "\n".join(lines) + "\n"

@@ -54,10 +54,10 @@ class Task:
     q: int
 
     def __post_init__(self) -> None:
-        found = index_pair(self.degree, self.x_ends, self.interval)
-        if (self.p, self.q) != found:
+        result = index_pair(self.degree, self.x_ends, self.interval)
+        if (self.p, self.q) != result:
             raise InputError(
-                f"p = {self.p} and q = {self.q} where the interval gives p = {found[0]} and q = {found[1]}"
+                f"p = {self.p} and q = {self.q} where the interval gives p = {result[0]} and q = {result[1]}"
             )
         if not self.raised or any(axis.height is not None and axis.height <= 0 for axis in self.axes):
             raise InputError("no positive height for y or z")
@@ -164,9 +164,9 @@ class SingleCurve:
 
 def single_table(table: Table) -> Table:
     """The table [single], empty when it is missing. Raises ``InputError`` for unknown keys."""
-    found = table.inner("single")
-    found.only(KEYS)
-    return found
+    result = table.inner("single")
+    result.only(KEYS)
+    return result
 
 
 def stated_via(table: Table, start: Vector, goal: Vector) -> Via | None:
@@ -201,20 +201,20 @@ def read_single(table: Table, start: Vector, via: Via, goal: Vector) -> SingleCu
     stated_degree = _whole(single, "degree", USUAL_DEGREE)
     try:
         degree = stated_degree if "degree" in single.values else least_degree(ends, interval, USUAL_DEGREE)
-        found = task(degree, ends, interval, axes)
+        result = task(degree, ends, interval, axes)
     except InputError as error:
         key = "degree" if "degree" in single.values else "a" if states_via else "via"
         raise (single if key != "via" else table).error(
             key, "an interval, a degree and heights that fit together", str(error)
         ) from None
-    for key, value in (("p", found.p), ("q", found.q)):
+    for key, value in (("p", result.p), ("q", result.q)):
         if key in single.values and _whole(single, key, value) != value:
             raise single.error(key, f"{value}, which follows from a and b", str(single.number(key)))
-    stated = {"degree": str(degree), "p": str(found.p), "q": str(found.q)}
+    stated = {"degree": str(degree), "p": str(result.p), "q": str(result.q)}
     if states_via:
         stated |= {"a": str(interval[0]), "b": str(interval[1])}
-        stated |= {f"height_{axis.name}": str(axis.height) for axis in found.raised}
-    return SingleCurve(found, stated)
+        stated |= {f"height_{axis.name}": str(axis.height) for axis in result.raised}
+    return SingleCurve(result, stated)
 
 
 def _axis(single: Table, i: int, start: Vector, goal: Vector) -> Axis:

@@ -52,31 +52,31 @@ class Timing:
 
     def to_json(self) -> dict[str, str]:
         """The table of the problem file."""
-        found = {"law": self.law.value, **{key: str(value) for key, value in self.limits.items()}}
+        result = {"law": self.law.value, **{key: str(value) for key, value in self.limits.items()}}
         if self.law is Law.TRAPEZOID:
-            found["ramp"] = str(self.ramp)
+            result["ramp"] = str(self.ramp)
         if self.duration is not None:
-            found["duration"] = str(self.duration)
-        return found
+            result["duration"] = str(self.duration)
+        return result
 
 
 def read_timing(table: Table) -> Timing | None:
     """The table [timing], None when there is none. Raises ``InputError`` naming the key."""
     if "timing" not in table.values:
         return None
-    own = table.inner("timing")
-    raw = own.values
-    own.only(("law", "ramp", "duration", *LIMITS))
-    law = own.choice("law", Law, Law.QUINTIC)
+    section = table.inner("timing")
+    raw = section.values
+    section.only(("law", "ramp", "duration", *LIMITS))
+    law = section.choice("law", Law, Law.QUINTIC)
     if "ramp" in raw and law is not Law.TRAPEZOID:
-        raise own.error("ramp", 'this key with law = "trapezoid" only', f'law = "{law.value}"')
-    ramp = own.positive("ramp", QUARTER)
+        raise section.error("ramp", 'this key with law = "trapezoid" only', f'law = "{law.value}"')
+    ramp = section.positive("ramp", QUARTER)
     if ramp > Fraction(1, 2):
-        raise own.error("ramp", "at most 1/2", str(ramp))
-    duration = own.positive("duration") if "duration" in raw else None
-    limits = {key: own.positive(key) for key in LIMITS if key in raw}
+        raise section.error("ramp", "at most 1/2", str(ramp))
+    duration = section.positive("duration") if "duration" in raw else None
+    limits = {key: section.positive(key) for key in LIMITS if key in raw}
     if duration is None and not limits:
-        raise own.error("duration", "a duration, max_speed or max_acceleration", "none of them")
+        raise section.error("duration", "a duration, max_speed or max_acceleration", "none of them")
     return Timing(law, ramp, duration, limits)
 
 
@@ -105,16 +105,16 @@ class Motion:
     @property
     def enough(self) -> Fraction:
         """A duration with which the same motion is proved to keep all limits."""
-        t, found = self.duration, self.extremes
-        return least_duration(Extremes(_times(found.speed, t), _times(found.acceleration, t * t)), self.timing.limits)
+        t, result = self.duration, self.extremes
+        return least_duration(Extremes(_times(result.speed, t), _times(result.acceleration, t * t)), self.timing.limits)
 
     @property
     def reason(self) -> str:
         """Which limits are not kept, in words; empty when all are."""
-        told = {False: "is EXCEEDED", None: "is closer than the enclosure can tell"}
+        words = {False: "is EXCEEDED", None: "is closer than the enclosure can tell"}
         units = {"max_speed": "mm/s", "max_acceleration": "mm/s^2"}
         broken = [(key, kept) for key, kept in self.kept.items() if kept is not True]
-        parts = [f"{key} = {self.timing.limits[key]} {units[key]} {told[kept]}" for key, kept in broken]
+        parts = [f"{key} = {self.timing.limits[key]} {units[key]} {words[kept]}" for key, kept in broken]
         return f"in {self.duration} s the motion does not keep its limits: {', '.join(parts)}" if parts else ""
 
     @property
@@ -209,7 +209,7 @@ def state(path: Path, motion: Motion, tau: Fraction) -> tuple[str, Fraction, tup
 
 def motion_json(motion: Motion) -> str:
     """``motion.json``: law, duration, rigorous extremes, and whether the limits are kept at all times."""
-    told = {
+    data = {
         "law": motion.timing.law.value,
         "duration": {"exact": str(motion.duration), "decimal": decimal_text(motion.duration)},
         "largest_speed": motion.extremes.speed.to_json(),
@@ -218,7 +218,7 @@ def motion_json(motion: Motion) -> str:
         "kept": motion.kept,
         "units": {"time": "s", "length": "mm"},
     }
-    return json.dumps(told, indent=1) + "\n"
+    return json.dumps(data, indent=1) + "\n"
 
 
 def files(path: Path | None, quality: Quality | None) -> dict[str, str]:
@@ -267,17 +267,17 @@ def json_entries(quality: Quality | None) -> dict[str, Any]:
     """The entries of the JSON summary about quality and motion."""
     if quality is None:
         return {}
-    told: dict[str, Any] = {
+    entries: dict[str, Any] = {
         "length": quality.length.to_json(),
         "lengths": {name: value.to_json() for name, value in quality.lengths.items()},
         "largest_curvatures": {n: None if v is None else v.to_json() for n, v in quality.curvatures.items()},
     }
     if quality.motion is not None:
-        told["motion"] = json.loads(motion_json(quality.motion))
-    found: dict[str, Any] = {"quality": told}
+        entries["motion"] = json.loads(motion_json(quality.motion))
+    data: dict[str, Any] = {"quality": entries}
     if quality.motion is not None and not quality.motion.keeps_limits:
-        found |= {"reason": quality.motion.reason, "suggestion": quality.motion.suggestion}
-    return found
+        data |= {"reason": quality.motion.reason, "suggestion": quality.motion.suggestion}
+    return data
 
 
 BITS = 96
@@ -296,9 +296,9 @@ class Piece:
 def pieces(path: Path, motion: Motion | None) -> tuple[Piece, ...]:
     """The motion as pieces of one degree, in order, each beginning where and when the one before ends."""
     curves = {name: Bezier(tuple(tuple(map(near, p)) for p in curve.points)) for name, curve in path.curves.items()}
-    found = tuple(_plain(path, curves) if motion is None else _timed(path, curves, motion))
-    degree = max(piece.curve.degree for piece in found)
-    return tuple(Piece(p.name, p.low, p.high, p.curve.elevate(degree)) for p in found)
+    result = tuple(_plain(path, curves) if motion is None else _timed(path, curves, motion))
+    degree = max(piece.curve.degree for piece in result)
+    return tuple(Piece(p.name, p.low, p.high, p.curve.elevate(degree)) for p in result)
 
 
 def near(value: Any) -> Fraction:

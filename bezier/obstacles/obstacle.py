@@ -213,8 +213,8 @@ def _cylinder(body: Cylinder) -> list[Piece]:
     up, down = (ZERO, ZERO, ONE), (ZERO, ZERO, -ONE)
 
     def between(extra: Fraction) -> list[Constraint]:
-        found = [] if body.top is None else [half_space(up, body.top + extra)]
-        return found if body.bottom is None else [*found, half_space(down, extra - body.bottom)]
+        result = [] if body.top is None else [half_space(up, body.top + extra)]
+        return result if body.bottom is None else [*result, half_space(down, extra - body.bottom)]
 
     pieces = [Piece((vertical_tube(centre, body.tube_radius + m), *between(ZERO)), body.box)]
     rims = [h for h in (body.bottom, body.top) if h is not None]
@@ -266,15 +266,15 @@ class Inside:
 
 def inside(points: Mapping[str, Vector], obstacles: Sequence[Obstacle]) -> tuple[Inside, ...]:
     """Every point with every obstacle that it belongs to, exactly; touching a closed obstacle is belonging to it."""
-    found = []
+    result = []
     for name, point in points.items():
         place = tuple(map(exactly, point))
         for obstacle in obstacles:
             held = (all(c.holds(c.value(place)) for c in piece.constraints) for piece in obstacle.pieces)
             number = next((k for k, holds in enumerate(held) if holds), None)
             if number is not None:
-                found.append(Inside(name, place, obstacle, number))
-    return tuple(found)
+                result.append(Inside(name, place, obstacle, number))
+    return tuple(result)
 
 
 def _formula(constraint: Constraint) -> Formula:

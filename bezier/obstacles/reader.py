@@ -136,17 +136,17 @@ def _pieces(formula: Formula) -> list[Constraints]:
         case Atom():
             return _of_atom(formula)
         case Or(args):
-            found = [piece for arg in args for piece in _pieces(arg)]
+            result = [piece for arg in args for piece in _pieces(arg)]
         case And(args):
-            found = [()]
+            result = [()]
             for arg in args:
-                pairs = itertools.product(found, _pieces(arg))
-                found = list(dict.fromkeys(tuple(dict.fromkeys((*a, *b))) for a, b in pairs))
-                _check_number(found)
+                pairs = itertools.product(result, _pieces(arg))
+                result = list(dict.fromkeys(tuple(dict.fromkeys((*a, *b))) for a, b in pairs))
+                _check_number(result)
         case _:
             raise InputError("root expressions cannot be part of an obstacle")
-    _check_number(found)
-    return found
+    _check_number(result)
+    return result
 
 
 def _check_number(pieces: list[Constraints]) -> None:
@@ -169,12 +169,12 @@ def _of_atom(atom: Atom) -> list[Constraints]:
 
 def _terms(atom: Atom) -> dict[Exponents, Fraction]:
     names = atom.poly.ring.names
-    found: dict[Exponents, Fraction] = {}
+    result: dict[Exponents, Fraction] = {}
     for exponents, coefficient in atom.poly.terms():
         powers = dict(zip(names, exponents, strict=True))
         key = powers.get("x", 0), powers.get("y", 0), powers.get("z", 0)
-        found[key] = found.get(key, Fraction(0)) + coefficient
-    return found
+        result[key] = result.get(key, Fraction(0)) + coefficient
+    return result
 
 
 COMMON = ("kind", "name", "margin", "above")
@@ -187,12 +187,12 @@ def read_obstacles(table: Table) -> tuple[Obstacle, ...]:
     entries = table.tables("obstacle")
     if len(entries) > MAX_OBSTACLES:
         raise table.error("obstacle", f"at most {MAX_OBSTACLES} obstacles", str(len(entries)))
-    found = [_obstacle(entry, i) for i, entry in enumerate(entries)]
-    names = [item.name for item in found]
+    result = [_obstacle(entry, i) for i, entry in enumerate(entries)]
+    names = [item.name for item in result]
     for i, name in enumerate(names):
         if name in names[:i]:
             raise entries[i].error("name", "a name of its own for each obstacle", f'"{name}" again')
-    return tuple(found)
+    return tuple(result)
 
 
 def _obstacle(table: Table, index: int) -> Obstacle:
@@ -305,13 +305,13 @@ def _rows(table: Table, key: str, size: int, what: str) -> list[Point]:
         raise table.error(key, what, describe(raw))
     if len(raw) > MAX_PARTS:
         raise table.error(key, f"at most {MAX_PARTS} entries", str(len(raw)))
-    found = []
+    result = []
     for i, row in enumerate(raw):
         try:
-            found.append(tuple(read(entry) for entry in row))
+            result.append(tuple(read(entry) for entry in row))
         except NotANumber as error:
             raise table.error(f"{key}[{i}]", f"{size} exact numbers", str(error)) from None
-    return found
+    return result
 
 
 Reader = Callable[[Table, Fraction], Body] | None

@@ -45,11 +45,11 @@ def contact_certificate(curve: Bezier, obstacle: Obstacle, contact: Contact) -> 
     low, high = contact.t
     after = max(low - JUST_BEFORE, Fraction(0)) if contact.is_exact else low
     place = curve.point(high)
-    met = [k for k, piece in enumerate(obstacle.pieces) if all(c.holds(c.value(place)) for c in piece.constraints)]
-    pieces = _pieces(curve, obstacle, after) if met else None
+    hit = [k for k, piece in enumerate(obstacle.pieces) if all(c.holds(c.value(place)) for c in piece.constraints)]
+    pieces = _pieces(curve, obstacle, after) if hit else None
     if pieces is None:
         return None
-    where: dict[str, Any] = {"after": str(after), "t": str(high), "piece": met[0]}
+    where: dict[str, Any] = {"after": str(after), "t": str(high), "piece": hit[0]}
     return Certificate(Kind("clearance"), {**curve_payload(curve), "pieces": pieces, "contact": where})
 
 
@@ -58,13 +58,13 @@ def _pieces(curve: Bezier, obstacle: Obstacle, until: Fraction) -> list[Any] | N
     if max(c.degree for piece in obstacle.pieces for c in piece.constraints) * curve.degree > MAX_DEGREE:
         return None
     along = Along(curve.segment(Fraction(0), until)) if until else None
-    found = []
+    result = []
     for piece in obstacle.pieces:
         spans = [] if along is None else _cover(along, piece, until)
         if spans is None:
             return None
-        found.append({"constraints": [_constraint(c) for c in piece.constraints], "spans": spans})
-    return found
+        result.append({"constraints": [_constraint(c) for c in piece.constraints], "spans": spans})
+    return result
 
 
 def _cover(along: Along, piece: Piece, until: Fraction) -> list[list[Any]] | None:
@@ -105,13 +105,13 @@ def survey(
     curves: Mapping[str, Bezier], obstacles: Sequence[Obstacle], *, distances: bool = True
 ) -> tuple[Finding, ...]:
     """Every curve against every obstacle, exactly."""
-    found = []
+    result = []
     for name, curve in curves.items():
         along = Along(curve)
         for obstacle in obstacles:
             outcome = examine(along, obstacle)
-            found.append(Finding(name, curve, obstacle, outcome, _distance(curve, obstacle, outcome, distances)))
-    return tuple(found)
+            result.append(Finding(name, curve, obstacle, outcome, _distance(curve, obstacle, outcome, distances)))
+    return tuple(result)
 
 
 def _distance(curve: Bezier, obstacle: Obstacle, outcome: Outcome, wanted: bool) -> Enclosure | None:
@@ -133,7 +133,7 @@ def contacts(findings: Iterable[Finding]) -> tuple[Finding, ...]:
 
 def certificates(findings: Iterable[Finding]) -> list[tuple[str, Certificate]]:
     """A labelled certificate for each clearance and each first contact that has one."""
-    found = []
+    result = []
     for finding in findings:
         curve, obstacle, outcome = finding.curve, finding.obstacle, finding.outcome
         certificate = (
@@ -143,8 +143,8 @@ def certificates(findings: Iterable[Finding]) -> list[tuple[str, Certificate]]:
         )
         if certificate is not None:
             verb = "clear of" if finding.is_clear else "meets"
-            found.append((f"{finding.name} {verb} {obstacle.name}", certificate))
-    return found
+            result.append((f"{finding.name} {verb} {obstacle.name}", certificate))
+    return result
 
 
 def in_words(finding: Finding) -> str:
@@ -173,12 +173,12 @@ def place(contact: Contact) -> str:
 def to_json(finding: Finding) -> dict[str, Any]:
     """A finding with exact numbers."""
     outcome = finding.outcome
-    found: dict[str, Any] = {"curve": finding.name, "obstacle": finding.obstacle.name, "clear": finding.is_clear}
-    found["distance"] = finding.distance.to_json() if finding.distance else None
+    data: dict[str, Any] = {"curve": finding.name, "obstacle": finding.obstacle.name, "clear": finding.is_clear}
+    data["distance"] = finding.distance.to_json() if finding.distance else None
     if isinstance(outcome, Clear):
-        return {**found, "argument": outcome.argument.value}
+        return {**data, "argument": outcome.argument.value}
     return {
-        **found,
+        **data,
         "first_contact": {
             "t": [str(end) for end in outcome.t],
             "decimal": f"{float(sum(outcome.t) / 2):.12g}",

@@ -93,12 +93,12 @@ def heights_of(strip: Strip | None, path: Path) -> Heights:
     """Decide the height condition on every curve of a path. Complete: it holds, or all stretches below are found."""
     if strip is None:
         return Heights(None, ())
-    found = []
+    result = []
     for name, curve in path.curves.items():
         along = Along(curve)
         for axis in strip.heights:
-            found += _below(name, along, strip, axis)
-    return Heights(strip, tuple(found))
+            result += _below(name, along, strip, axis)
+    return Heights(strip, tuple(result))
 
 
 def _below(name: str, along: Along, strip: Strip, axis: str) -> list[Below]:
@@ -160,16 +160,16 @@ def _sample(curve: Bezier, axis: str, first: Interval, last: Interval) -> tuple[
 # --- for people and machines ----------------------------------------------------------------------------
 
 
-def summary_lines(found: Heights) -> list[str]:
+def summary_lines(heights: Heights) -> list[str]:
     """One line for the whole path, and one for each stretch below."""
-    if found.strip is None:
+    if heights.strip is None:
         return []
-    strip = found.strip
-    asked = " and ".join(f"{axis} >= {brief(height)}" for axis, height in strip.heights.items())
-    where = f"{asked} wherever {brief(strip.low)} <= x <= {brief(strip.high)}"
-    if found.hold:
+    strip = heights.strip
+    bounds = " and ".join(f"{axis} >= {brief(height)}" for axis, height in strip.heights.items())
+    where = f"{bounds} wherever {brief(strip.low)} <= x <= {brief(strip.high)}"
+    if heights.hold:
         return [f"heights: {where}: holds on all curves, for all t"]
-    return [f"heights: {where}: DOES NOT HOLD", *(in_words(item) for item in found.below)]
+    return [f"heights: {where}: DOES NOT HOLD", *(in_words(item) for item in heights.below)]
 
 
 def in_words(item: Below) -> str:
@@ -187,21 +187,21 @@ def _parameter(t: Interval) -> str:
     return f"about {float((t[0] + t[1]) / 2):.8g}"
 
 
-def to_json(found: Heights) -> dict[str, Any]:
+def to_json(heights: Heights) -> dict[str, Any]:
     """The condition, whether it holds, and every stretch below with the roots at its ends, enclosed."""
-    if found.strip is None:
+    if heights.strip is None:
         return {"condition": None, "holds": True, "below": []}
-    strip = found.strip
+    strip = heights.strip
     return {
         "condition": {
             "from_x": str(strip.low),
             "to_x": str(strip.high),
             "at_least": {axis: str(height) for axis, height in strip.heights.items()},
         },
-        "holds": found.hold,
+        "holds": heights.hold,
         "below": [
             {"curve": item.curve, "axis": item.axis, "from": _stated(item.begin), "to": _stated(item.end)}
-            for item in found.below
+            for item in heights.below
         ],
     }
 
@@ -224,10 +224,10 @@ def through_origin(curve: Bezier) -> tuple[Interval, ...]:
 
 def remarks(path: Path) -> tuple[str, ...]:
     """A note for each place inside a curve where the path goes through O; given points in O have notes of their own."""
-    found = []
+    result = []
     for name, curve in path.curves.items():
         for low, high in through_origin(curve):
             if (low, high) not in (START, END):
                 t = str(low) if low == high else f"about {float((low + high) / 2):.8g}"
-                found.append(f"the path goes through the origin O ({name} at t = {t}), which the paper excludes")
-    return tuple(found)
+                result.append(f"the path goes through the origin O ({name} at t = {t}), which the paper excludes")
+    return tuple(result)

@@ -103,23 +103,23 @@ def prove(curves: Mapping[str, Bezier], conditions: tuple[Condition, ...]) -> tu
 
 def speed_at_joins(path: Path) -> dict[str, Vector]:
     """The common velocity at each join that is at least C1, by the name of the join."""
-    found: dict[str, Any] = {}
+    data: dict[str, Any] = {}
     for item in path.joins:
         if item.join.smoothness >= Smoothness.C1:
             slope = path.curves[item.second].derivative(1, Fraction(0))
-            found[f"{item.first}-{item.second}"] = scale(1 / path.duration(item.second), slope)
-    return found
+            data[f"{item.first}-{item.second}"] = scale(1 / path.duration(item.second), slope)
+    return data
 
 
 def path_certificates(path: Path) -> list[tuple[str, Certificate]]:
     """A labelled certificate for each containment proof that has this form."""
-    found = []
+    result = []
     for proof in path.proofs:
         if isinstance(proof.outcome, Inside):
             certificate = containment(path.curves[proof.curve], proof.outcome)
             if certificate is not None:
-                found.append((f"{proof.curve} in {proof.condition.name}", certificate))
-    return found
+                result.append((f"{proof.curve} in {proof.condition.name}", certificate))
+    return result
 
 
 REL = Fraction(1, 10**6)

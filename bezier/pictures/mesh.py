@@ -90,11 +90,11 @@ def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh |
 
 def _normals(shapes: Sequence[Shape], owner: Indices, middles: Array) -> Array:
     """The outward unit normals of the surfaces to which the faces belong: a thin triangle's own one tells little."""
-    found = np.zeros_like(middles)
+    result = np.zeros_like(middles)
     for k, (kind, vector, _number) in enumerate(shapes):
         mine = owner == k
-        found[mine] = middles[mine] - vector if kind == "ball" else -vector
-    return np.asarray(found / (np.linalg.norm(found, axis=1, keepdims=True) + 1e-30))
+        result[mine] = middles[mine] - vector if kind == "ball" else -vector
+    return np.asarray(result / (np.linalg.norm(result, axis=1, keepdims=True) + 1e-30))
 
 
 def _cast(shapes: Sequence[Shape], centre: Array, directions: Array) -> Array:
@@ -183,15 +183,15 @@ class _Circle:
 
 def _edges(shapes: Sequence[Shape], scale: float) -> tuple[Array, ...]:
     """The parts of the circles in which two boundary surfaces meet that bound the region."""
-    found: list[Array] = []
+    result: list[Array] = []
     for i, first in enumerate(shapes):
         for second in shapes[i + 1 :]:
             circle = _meeting(first, second)
             if circle is None:
                 continue
             others = [s for s in shapes if s is not first and s is not second]
-            found += [circle.at(angles) for angles in _runs(circle, others, -1e-9 * scale)]
-    return tuple(found)
+            result += [circle.at(angles) for angles in _runs(circle, others, -1e-9 * scale)]
+    return tuple(result)
 
 
 def _meeting(a: Shape, b: Shape) -> _Circle | None:

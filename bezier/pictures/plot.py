@@ -149,13 +149,13 @@ def save_path(picture: PathPicture, path: Path) -> None:
 
 def views(picture: PathPicture) -> tuple[Chart, ...]:
     """The three coordinate views for the page."""
-    found = []
+    result = []
     for title, i, j in VIEWS:
         figure = new_figure(4.4, 3.7)
         path_view(figure.add_axes((0.16, 0.14, 0.81, 0.77)), picture, title, i, j)
         letter(figure, picture.hatted_names)
-        found.append((svg_text(figure), f"{title} ({AXES[i]}{AXES[j]}): {WORDS[title]}"))
-    return tuple(found)
+        result.append((svg_text(figure), f"{title} ({AXES[i]}{AXES[j]}): {WORDS[title]}"))
+    return tuple(result)
 
 
 VARIABLES = {INK: "ink", PALE: "pale", GRID: "grid", SHADE: "shade", FLOOR: "floor", "#ffffff": "paper"}
@@ -170,7 +170,7 @@ def svg_text(figure: Any) -> str:
     FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     named = {**VARIABLES, **{colour: letter.lower() for letter, colour in COLOURS.items()}}
-    text = re.sub("|".join(named), lambda found: f"var(--{named[found[0]]})", text[text.index("<svg") :])
+    text = re.sub("|".join(named), lambda value: f"var(--{named[value[0]]})", text[text.index("<svg") :])
     return re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
 
 
@@ -288,8 +288,8 @@ def _name_in_space(axis: Any, picture: PathPicture) -> None:
 def _along(polygon: Array) -> Array:
     """Points on the sides of a polygon."""
     share = np.linspace(0.0, 1.0, 9)[:, None, None]
-    found: Array = (polygon[:-1] * (1 - share) + polygon[1:] * share).reshape(-1, polygon.shape[1])
-    return found
+    result: Array = (polygon[:-1] * (1 - share) + polygon[1:] * share).reshape(-1, polygon.shape[1])
+    return result
 
 
 def _region_view(axis: Any, region: RegionPicture, title: str, i: int, j: int) -> None:

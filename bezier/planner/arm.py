@@ -64,8 +64,8 @@ def _within_reach(problem: Problem, arm: Arm) -> Problem:
     points = {"start": problem.start, "via[0]": problem.via[0], "via[1]": problem.via[1], "goal": problem.goal}
     for name, point in points.items():
         if not solve(arm, point).allowed_count:
-            told = ", ".join(map(str, point))
-            raise InputError(f"{name}: a point that {arm.name} reaches expected, found ({told})")
+            text = ", ".join(map(str, point))
+            raise InputError(f"{name}: a point that {arm.name} reaches expected, found ({text})")
     if not problem.radius_is_auto:
         return problem
     a, c, radius = reachable_set(arm).numbers
@@ -83,17 +83,17 @@ def with_joints(plan: Plan) -> Plan:
     law = TimeLaw.of(Law.QUINTIC) if timing is None else TimeLaw.of(timing.law, timing.ramp)
     duration = USUAL_DURATION if motion is None else motion.duration
     try:
-        found = joint_plan(load_arm(plan.problem.arm), curves, law, duration, SAMPLES, parts=parts)
+        result = joint_plan(load_arm(plan.problem.arm), curves, law, duration, SAMPLES, parts=parts)
     except Unable as error:
         if isinstance(error, BudgetExceeded):
             raise
         return replace(plan, remarks=(*plan.remarks, f"the joints are not planned: {error}"))
     outcome = plan.outcome
-    if outcome.is_success and not found.is_followed:
+    if outcome.is_success and not result.is_followed:
         outcome = Outcome.OUT_OF_REACH
-    elif outcome.is_success and found.motion is not None and not found.motion.keeps_limits:
+    elif outcome.is_success and result.motion is not None and not result.motion.keeps_limits:
         outcome = Outcome.TOO_FAST
-    return replace(plan, joints=found, outcome=outcome)
+    return replace(plan, joints=result, outcome=outcome)
 
 
 def rounded(curve: Bezier) -> Bezier:
@@ -117,8 +117,8 @@ def files(plan: Plan) -> dict[str, str]:
 
 
 @lru_cache(maxsize=2)
-def _texts(found: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
-    written = _Written.of(found, lambda accepted: {"rounded": is_rounded})
+def _texts(plan: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
+    written = _Written.of(plan, lambda accepted: {"rounded": is_rounded})
     if written.listed and not written.verdict.accepted:
         raise CertificateRejected(f"{FILES[2]}: {written.verdict.step}", written.verdict.reason)
     return tuple(written.texts.items())
@@ -134,16 +134,16 @@ class _Written:
     verdict: Verdict
 
     @staticmethod
-    def of(found: JointPlan, more: Callable[[bool], Mapping[str, Any]]) -> _Written:
+    def of(plan: JointPlan, more: Callable[[bool], Mapping[str, Any]]) -> _Written:
         table, summary, certificate = FILES
-        listed = certificates(found.path)
+        listed = certificates(plan.path)
         bundle = Certificate.bundle(listed)
         verdict = verify(bundle)
-        data = {**plans.to_json(found), **more(verdict.accepted)}
-        data["without_certificate"] = without_certificate(found.path, listed)
+        data = {**plans.to_json(plan), **more(verdict.accepted)}
+        data["without_certificate"] = without_certificate(plan.path, listed)
         texts = {summary: json.dumps(data, indent=1, ensure_ascii=False) + "\n", certificate: bundle.to_json()}
-        if found.sequence is not None:
-            texts[table] = plans.to_csv(found)
+        if plan.sequence is not None:
+            texts[table] = plans.to_csv(plan)
         return _Written(texts, data, listed, verdict)
 
 
@@ -151,14 +151,14 @@ def json_entries(plan: Plan) -> dict[str, Any]:
     """What the summary says of the joints."""
     if plan.joints is None:
         return {}
-    found = plan.joints
+    result = plan.joints
     return {
         "joints": {
-            "arm": found.path.arm.name,
-            "reachable": found.path.is_reachable,
-            "continuous_motions": found.path.allowed_count,
-            "run": None if found.sequence is None else found.sequence.run,
-            "limits": {} if found.motion is None else found.motion.kept,
+            "arm": result.path.arm.name,
+            "reachable": result.path.is_reachable,
+            "continuous_motions": result.path.allowed_count,
+            "run": None if result.sequence is None else result.sequence.run,
+            "limits": {} if result.motion is None else result.motion.kept,
             "rounded": is_rounded(plan),
         }
     }

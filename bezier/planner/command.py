@@ -46,10 +46,10 @@ def write_folder(
         for name, text in pages.items():
             (folder / name).write_text(text, encoding="utf-8")
     files = sorted([*files, *pages, REPORT, SUMMARY])
-    told = summary(made, [str(target / name) for name in files], time.perf_counter() - clock.start)
-    text = json.dumps(told, indent=1, ensure_ascii=False)
+    entries = summary(made, [str(target / name) for name in files], time.perf_counter() - clock.start)
+    text = json.dumps(entries, indent=1, ensure_ascii=False)
     (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
-    return files, told
+    return files, entries
 
 
 def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:

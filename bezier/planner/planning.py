@@ -84,22 +84,22 @@ def _telling(watch: Clock) -> Iterator[None]:
 def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan:
     """The plan with what the radius forces (``rule`` is given whether the problem has a solution), the height
     condition, and a note where the path goes through the origin."""
-    found, remarks = plan, []
+    result, remarks = plan, []
     try:
         solvable = plan.outcome is not Outcome.INFEASIBLE
         forced = None if ends_inside(plan.problem) else rule(solvable)
         if forced is not None:
-            found = replace(found, radius_rule=forced)
+            result = replace(result, radius_rule=forced)
             remarks += [forced.in_words()] if solvable else []  # else it is part of the reason
         remarks += [] if plan.bound is None else [NEAR]
         if plan.path is not None:
-            found = replace(found, heights=heights.heights_of(plan.problem.strip, plan.path))
+            result = replace(result, heights=heights.heights_of(plan.problem.strip, plan.path))
             remarks += heights.remarks(plan.path)
     except Unable as error:
         if isinstance(error, BudgetExceeded):
             raise
         remarks.append(f"what the radius forces and the heights are not all decided: {error}")
-    return replace(found, remarks=(*found.remarks, *remarks))
+    return replace(result, remarks=(*result.remarks, *remarks))
 
 
 def with_quality(plan: Plan) -> Plan:

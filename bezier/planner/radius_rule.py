@@ -72,15 +72,15 @@ def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) 
     forced = on_sphere(problem)
     if not forced:
         return None
-    asked, answers = questions(problem), {}
-    for name, statement in asked.items():
+    statements, answers = questions(problem), {}
+    for name, statement in statements.items():
         answers[name] = qe.eliminate(statement.formula, timeout=remaining())
         if answers[name].truth is False:
             raise InternalError("the engine refutes that a via point on the sphere forces its neighbour")
         if answers[name].truth is None:
             raise Unable("the engine did not decide what the radius forces")
-    told = tuple(map(str, asked.values()))
-    return RadiusRule(problem.method, forced, told, solvable, larger_radius(problem, remaining), answers)
+    sentences = tuple(map(str, statements.values()))
+    return RadiusRule(problem.method, forced, sentences, solvable, larger_radius(problem, remaining), answers)
 
 
 def questions(problem: Problem) -> dict[str, st.Statement]:
@@ -120,9 +120,9 @@ def _short_decimal(low: Fraction, high: Fraction) -> Fraction:
     """The least number in [low, high], low > 0, with as few decimal places (or as many final zeros) as possible."""
     power = Fraction(10) ** len(str(int(high)))
     while True:
-        found = ceil(low / power) * power
-        if found <= high:
-            return found
+        result = ceil(low / power) * power
+        if result <= high:
+            return result
         power /= 10
 
 

@@ -57,8 +57,8 @@ def document(page: Page) -> str:
     contents = [page.first or "", *(section.content for section in page.sections)]
     scripts = ["print.js", *(["scene.js"] if any("data-scene" in content for content in contents) else [])]
     script = Markup("".join(map(_shipped, scripts)))
-    found: str = _template().render(page=page, style=Markup(_shipped("style.css")), script=script)
-    return found
+    result: str = _template().render(page=page, style=Markup(_shipped("style.css")), script=script)
+    return result
 
 
 @lru_cache(maxsize=1)

@@ -49,11 +49,11 @@ def path(plan: Plan, drawing: Drawing | None) -> Section | None:
     content: list[Text] = [html.table(head, map(_proof, plan.path.proofs))]
     if plan.path.joins:
         content += [html.heading("Joins"), _joins(plan.path)]
-    found = heights.summary_lines(plan.heights) if plan.heights else []
-    if found and plan.heights is not None:
-        said = found[0].replace("heights: ", "").replace(">=", "≥").replace("<=", "≤")
+    result = heights.summary_lines(plan.heights) if plan.heights else []
+    if result and plan.heights is not None:
+        said = result[0].replace("heights: ", "").replace(">=", "≥").replace("<=", "≤")
         content += [html.heading("The heights to keep"), html.paragraph(f"{said}.", html.tone(plan.heights.hold))]
-        content.append(html.bullets(f"{line}." for line in found[1:]))
+        content.append(html.bullets(f"{line}." for line in result[1:]))
     content.append(html.figures(drawing.views if drawing else ()))
     return Section("path", "The whole path stays in the workspace", html.joined(*content), short="path")
 
@@ -70,11 +70,11 @@ def curve_name(name: str) -> Text:
     return shown(mathml.name(name) + "<mo>(</mo><mi>t</mi><mo>)</mo>")
 
 
-def _joins(found: Path) -> Text:
-    speeds, rows = speed_at_joins(found), []
-    for item in found.joins:
-        at = found.curves[item.second].points[0]
-        label = next(name for name in ("Q0", "R0") if found.points[name] == at)
+def _joins(whole_path: Path) -> Text:
+    speeds, rows = speed_at_joins(whole_path), []
+    for item in whole_path.joins:
+        at = whole_path.curves[item.second].points[0]
+        label = next(name for name in ("Q0", "R0") if whole_path.points[name] == at)
         velocity, jump = speeds.get(f"{item.first}-{item.second}"), item.join.jumps[2]
         stops = "" if item.join.same_direction else ", but it stops there"
         rows.append(
@@ -125,11 +125,11 @@ def _attempt(item: Attempt) -> tuple[Text, ...]:
 
 def certificates(plan: Plan, claims: Mapping[str, str]) -> Section:
     """What was checked by whom; ``claims``: what each certificate of the method says."""
-    told = {**CLAIMS, **claims}
+    words = {**CLAIMS, **claims}
     rows: list[tuple[Text, Text, Text]] = []
     for name, verdict in plan.checks.items():
         result = "accepted" if verdict.accepted else f"rejected at {verdict.step}: {verdict.reason}"
-        rows.append((told.get(name, name), CHECKER, toned(result, verdict.accepted)))
+        rows.append((words.get(name, name), CHECKER, toned(result, verdict.accepted)))
     for name in plan.derivations:
         link = derivation_link(plan.derivations[name], plan.derivation_pages[name])
         said = html.joined(f"The elimination of {name}:", link)
@@ -185,10 +185,10 @@ def between(value: Enclosure) -> str:
 
 
 def _motion(motion: Motion) -> list[Text]:
-    found = motion.extremes
+    collected = motion.extremes
     values = {
-        "max_speed": ("speed", "mm/s", found.speed),
-        "max_acceleration": ("acceleration", "mm/s²", found.acceleration),
+        "max_speed": ("speed", "mm/s", collected.speed),
+        "max_acceleration": ("acceleration", "mm/s²", collected.acceleration),
     }
     said = {True: "kept at all times", False: "EXCEEDED", None: "not decided"}
     rows = []
@@ -270,10 +270,10 @@ def page_of(plan: Plan, method: Method[Any], drawing: Drawing | None) -> Page:
 
 def _lead(plan: Plan, kind: str) -> str:
     """What was asked and found, in a sentence."""
-    found = "" if plan.outcome is Outcome.INFEASIBLE else f"{kind} "
+    result = "" if plan.outcome is Outcome.INFEASIBLE else f"{kind} "
     ends = " to ".join(parts.decimal_point(p, 5) for p in (plan.problem.start, plan.problem.goal))
     obstacles = len(plan.problem.obstacles)
     around = f" around {obstacles} obstacle{'s' * (obstacles > 1)}" if obstacles else ""
     where = "half ball" if plan.problem.workspace.kind.value == "hemisphere" else "ball"
     radius = f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g}"
-    return f"{found}from {ends}{around}, in the {where} of radius {radius} mm".strip()
+    return f"{result}from {ends}{around}, in the {where} of radius {radius} mm".strip()

@@ -126,10 +126,10 @@ def _condition(item: OnPoint) -> str:
     return f"{point}<mo>∈</mo><mtext>{escape(condition.name)}</mtext>"
 
 
-def contradiction(system: System, found: Any, reason: str, *more: Text) -> Section:
+def contradiction(system: System, value: Any, reason: str, *more: Text) -> Section:
     """Why there is no path, with the multipliers that prove it."""
     content = [html.paragraph(html.strong(f"{reason[0].upper()}{reason[1:]}.")), *more]
-    proof = multipliers(system, found)
+    proof = multipliers(system, value)
     if proof:
         content += [html.heading("The proof"), html.paragraph(CONTRADICTION), proof]
     return Section("none", "Why there is no path", html.joined(*content))
@@ -153,7 +153,7 @@ def multipliers(system: System, optimum: Any, what: str = "condition") -> Markup
     return html.table((what, "multiplier"), rows)
 
 
-def optimum(plan: Plan, system: System, found: Any, title: Text, free_minimum: str) -> Section | None:
+def optimum(plan: Plan, system: System, value: Any, title: Text, free_minimum: str) -> Section | None:
     """The best free control points and those that follow; ``free_minimum`` describes the unconstrained minimum."""
     if plan.path is None:
         return None
@@ -168,7 +168,7 @@ def optimum(plan: Plan, system: System, found: Any, title: Text, free_minimum: s
         least(plan),
         control_points(plan.path),
         html.paragraph(active),
-        multipliers(system, found, "active condition"),
+        multipliers(system, value, "active condition"),
         html.note(field_text(plan.path)) if field_text(plan.path) else None,
     )
     return Section("best", title, html.joined(*content), short="optimum")
@@ -268,9 +268,9 @@ def derived(plan: Plan, name: str) -> Markup | None:
     return html.paragraph(html.joined("How it was found:", link))
 
 
-def derivation_link(found: Derived, file: str) -> Markup:
+def derivation_link(item: Derived, file: str) -> Markup:
     """A link to the page with the derivation of an answer."""
-    count = len(found.rules)
+    count = len(item.rules)
     few = ("no step was needed, checked", "1 step, with its theorem, checked")
     words = few[count] if count < len(few) else f"{count} steps, each with its theorem, all checked"
     return Markup('<a href="{}">{}</a>').format(file, words)

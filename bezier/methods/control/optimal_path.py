@@ -126,17 +126,17 @@ class SystemPlan(Plan):
     optimum: Any
 
 
-def drawn(problem: Problem, system: System, found: Certified) -> dict[str, Any]:
+def drawn(problem: Problem, system: System, certified: Certified) -> dict[str, Any]:
     """What follows from the optimum of a system, as fields of its plan: the path through it, if there is one, the
     labels of the active conditions (near an optimum: of those that bound it) and the value of the objective."""
-    points, near = found.points, found.bound is not None
-    close = [label for label, _ in named_multipliers(system, found)] if near else []
+    points, near = certified.points, certified.bound is not None
+    close = [label for label, _ in named_multipliers(system, certified)] if near else []
     return {
         "problem": problem,
         "system": system,
         "formula": str(system.statement()),
         "outcome": Outcome.INFEASIBLE if points is None else Outcome.NEAR_OPTIMAL if near else Outcome.SOLVED,
-        "bound": found.bound,
+        "bound": certified.bound,
         "path": None if points is None else path_through(problem, system, points),
         "active": tuple(close) if near else () if points is None else system.active(points),
         "objective": None if points is None else system.objective_at(points),
@@ -161,14 +161,14 @@ def begun(problem: Problem, system: System, clock: Clock) -> Begun:
     clock.learn("optimum", optimum.status.value)
     with clock.step("curves and proofs"):
         fields = drawn(problem, system, found_optimum(system, optimum.certificate))
-    found = Drawn(system, answer, optimum, fields)
-    return Begun(problem=problem, outcome=fields["outcome"], path=fields["path"], found=found, seconds=clock.seconds)
+    result = Drawn(system, answer, optimum, fields)
+    return Begun(problem=problem, outcome=fields["outcome"], path=fields["path"], found=result, seconds=clock.seconds)
 
 
-def restored(fields: Mapping[str, Any], found: Certified, members: Members) -> dict[str, Any]:
+def restored(fields: Mapping[str, Any], certified: Certified, members: Members) -> dict[str, Any]:
     """All fields of the plan that certificates prove: nothing was asked of the engine, and the time is not known."""
     certificate = bundled(members, fields["path"])
-    return {**fields, "optimum": found, "certificate": certificate, "answer": None, "checks": {}, "seconds": {}}
+    return {**fields, "optimum": certified, "certificate": certificate, "answer": None, "checks": {}, "seconds": {}}
 
 
 def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
@@ -184,12 +184,12 @@ def durations(problem: Problem) -> dict[str, Fraction]:
 
 def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, ...]:
     """A condition on all inner points of a curve holds on the whole curve if its ends satisfy it too."""
-    found: list[Proof] = []
+    result: list[Proof] = []
     for item in problem.point_conditions:
         for name, listed in system.shape.curves.items():
             if set(listed) & set(system.shape.inner) <= set(item.points):
-                found += prove({name: path.curves[name]}, (item.half_space,))
-    return tuple(proof for proof in found if isinstance(proof.outcome, Inside))
+                result += prove({name: path.curves[name]}, (item.half_space,))
+    return tuple(proof for proof in result if isinstance(proof.outcome, Inside))
 
 
 def body_of(statement: Statement, order: tuple[str, ...]) -> Formula:

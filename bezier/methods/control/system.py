@@ -144,8 +144,8 @@ class System:
 
     def _in_free(self, point: str) -> list[st.Term]:
         terms = self.shape.combination(point)
-        found = [_combination(terms, i, self._at) for i in range(3)]
-        return found if point in self.shape.free else [st.Bracketed(term) for term in found]
+        result = [_combination(terms, i, self._at) for i in range(3)]
+        return result if point in self.shape.free else [st.Bracketed(term) for term in result]
 
     # --- exact numbers ---------------------------------------------------------------------------
 
@@ -185,14 +185,14 @@ class System:
         A point w X + a lies in B(c, r) iff X lies in B((c - a)/w, r/|w|), and in {n.p + k >= 0} iff
         w n.X + (n.a + k) >= 0. Conditions that do not depend on the point are left out.
         """
-        found = []
+        result = []
         for item in self.conditions:
             terms = self.shape.combination(item.point)
             weight = sum((c for c, name in terms if name == free), Fraction(0))
             if weight:
                 rest = _combined([(c, name) for c, name in terms if name != free], points)
-                found.append(_moved(item, weight, rest))
-        return tuple(found)
+                result.append(_moved(item, weight, rest))
+        return tuple(result)
 
 
 def _combination(terms: Combination, i: int, at: At) -> st.Term:

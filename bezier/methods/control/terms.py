@@ -78,24 +78,24 @@ def fixed_values(constraints: Sequence[Mapping[str, Any]]) -> dict[int, Fraction
 
 def fixed_by(constraints: Iterable[tuple[Terms, str]]) -> dict[int, Fraction]:
     """``fixed_values`` for polynomials with their relations to zero."""
-    found = {}
+    result = {}
     for terms, relation in constraints:
         if relation == "=" and all(sum(exponents) <= 1 for exponents in terms):
             used = [exponents for exponents in terms if any(exponents)]
             if len(used) == 1:
                 constant = terms.get((0,) * len(used[0]), Fraction(0))
-                found[used[0].index(1)] = -constant / terms[used[0]]
-    return found
+                result[used[0].index(1)] = -constant / terms[used[0]]
+    return result
 
 
 def reduced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
     """The polynomial with fixed variables replaced by their values."""
     parts = []
     for exponents, coefficient in terms.items():
-        left = tuple(0 if i in fixed else k for i, k in enumerate(exponents))
+        kept = tuple(0 if i in fixed else k for i, k in enumerate(exponents))
         for i, value in fixed.items():
             coefficient = coefficient * value ** exponents[i]
-        parts.append({left: coefficient})
+        parts.append({kept: coefficient})
     return terms_sum(*parts)
 
 
@@ -114,14 +114,14 @@ def named_multipliers(system: System, optimum: Any) -> list[tuple[str, Any]]:
     known = [(item.label, condition_terms(system, item)) for item in system.conditions]
     stated = proof_of(optimum.certificate)["problem"]["constraints"][: len(optimum.multipliers)]
     fixed = fixed_values(stated)
-    found = []
+    result = []
     for constraint, value in zip(stated, optimum.multipliers, strict=True):
         if sign(value):
             terms, at = terms_of(constraint["terms"]), {} if constraint["relation"] == "=" else fixed
             matches = ((label, multiple_of(reduced(terms, at), reduced(other, at))) for label, other in known)
             label, ratio = next(((name, c) for name, c in matches if c is not None), ("another condition", Fraction(1)))
-            found.append((label, ratio * value))
-    return found
+            result.append((label, ratio * value))
+    return result
 
 
 def member(certificate: Certificate, label: str, kind: Kind) -> Any:
@@ -180,7 +180,7 @@ def check_bound_of(system: System, payload: Mapping[str, Any], label: str) -> No
     """The certificate shows that the objective of the system has no value below some number under its conditions."""
     *conditions, last = payload["problem"]["constraints"]
     terms, goal = _last(system, payload), objective_terms(system)
-    slopes = [{e: c for e, c in found.items() if any(e)} for found in (terms, goal)]
+    slopes = [{e: c for e, c in result.items() if any(e)} for result in (terms, goal)]
     if payload["status"] != "infeasible" or last["relation"] != "<" or slopes[0] != slopes[1]:
         raise CertificateRejected(f"{label}: problem.constraints", "the last one is no bound of the objective")
     weaker = {**payload, "problem": {**payload["problem"], "constraints": conditions}}

@@ -53,10 +53,10 @@ def trivial_witness() -> dict[str, str]:
 
 def existence(*, timeout: float | None = None) -> Existence:
     """Ask the engine."""
-    asked = question()
-    answer = qe.eliminate(asked.formula, timeout=timeout)
+    statement = question()
+    answer = qe.eliminate(statement.formula, timeout=timeout)
     told = next((line for line in answer.stats.get("plan", ()) if line.startswith(WITNESS)), "")
-    return Existence(str(asked), answer.truth, told.removeprefix(WITNESS), answer)
+    return Existence(str(statement), answer.truth, told.removeprefix(WITNESS), answer)
 
 
 WITNESS = "witness in the parameters: "

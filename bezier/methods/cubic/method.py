@@ -40,10 +40,10 @@ def story(plan: CubicPlan, drawing: Drawing | None) -> Story:
     further = len(plan.system.conditions) - len(plan.system.shape.inner)
     counts = "18 variables, 12 of them quantified, 12 equations, 6 norm conditions"
     more = f", {further} further conditions" if further else ""
-    asked = parts.asked(plan, FORMULA, parts.question(plan, plan.system), counts + more)
+    formulas = parts.asked(plan, FORMULA, parts.question(plan, plan.system), counts + more)
     title = Markup("The best {} and {}").format(names["Q1"], names["Q2"])
     sections = (
-        Section("question", "The question", _intro(plan) + asked),
+        Section("question", "The question", _intro(plan) + formulas),
         _region(drawing),
         parts.optimum(plan, plan.system, plan.optimum, title, INTERIOR),
         _stops(plan, drawing) if solved else None,
@@ -117,16 +117,16 @@ def _stops(plan: CubicPlan, drawing: Drawing | None) -> Section:
     return Section("stops", "Does it ever stop?", html.joined(*content), "stops")
 
 
-def _speeds(found: Mapping[str, Slowest]) -> Markup:
-    rows = [(curve_name(name), toned(speed_text(slow), not slow.stops)) for name, slow in found.items()]
+def _speeds(value: Mapping[str, Slowest]) -> Markup:
+    rows = [(curve_name(name), toned(speed_text(slow), not slow.stops)) for name, slow in value.items()]
     return html.table(("curve", "least speed"), rows)
 
 
 def _cusp(plan: CubicPlan) -> Section:
     """The choice Q1 = Q0, Q2 = R0 with this problem's numbers."""
-    found = plan.trivial
-    if found.violated:
-        allowed = f"Here further conditions forbid it: {', '.join(map(parts.on_point, found.violated))}."
+    result = plan.trivial
+    if result.violated:
+        allowed = f"Here further conditions forbid it: {', '.join(map(parts.on_point, result.violated))}."
     elif plan.radius_rule is not None:
         allowed = f"Here it satisfies every condition, and in part it is forced: {plan.radius_rule.in_words()}."
     else:
@@ -138,13 +138,13 @@ def _cusp(plan: CubicPlan) -> Section:
         " and the second one leaves in the direction of {R0} again. Value and both derivatives agree, and yet the path"
         " turns round: a cusp."
     ).format(**parts.names())
-    points = [(shown(mathml.name(name)), parts.point(found.path.points[name])) for name in plan.system.shape.inner]
+    points = [(shown(mathml.name(name)), parts.point(result.path.points[name])) for name in plan.system.shape.inner]
     content = (
         html.paragraph(said),
         html.paragraph(html.strong(allowed)),
         html.table(("control point", "in the trivial choice"), points),
-        html.note(f"Joins: {parts.SMOOTHNESS[found.path.smoothness]}."),
-        _speeds(found.slowest),
+        html.note(f"Joins: {parts.SMOOTHNESS[result.path.smoothness]}."),
+        _speeds(result.slowest),
     )
     return Section("cusp", "Why the objective matters: the cusp", html.joined(*content), "cusp")
 

@@ -59,19 +59,19 @@ def begin(problem: Problem, clock: Clock) -> Begun:
 
 def finish(given: Begun, clock: Clock) -> CubicPlan:
     """The plan with formula (7)."""
-    found: Drawn = given.found
+    result: Drawn = given.found
     with clock.step("speed"):
-        fields = {**found.fields, **_speeds(given.problem, found.system, given.path)}
+        fields = {**result.fields, **_speeds(given.problem, result.system, given.path)}
     with clock.step("verification"):
-        certificate, checks = verified(_members(found.system, found.optimum.certificate), given.path)
+        certificate, checks = verified(_members(result.system, result.optimum.certificate), given.path)
     return CubicPlan(
         **fields,
-        answer=found.answer,
-        optimum=found.optimum,
+        answer=result.answer,
+        optimum=result.optimum,
         certificate=certificate,
         checks=checks,
         seconds=clock.seconds,
-        eliminations={FORMULA: found.answer},
+        eliminations={FORMULA: result.answer},
     )
 
 
@@ -100,15 +100,15 @@ def _speeds(problem: Problem, system: System, path: Path | None) -> dict[str, An
 
 
 def _remarks(problem: Problem) -> tuple[str, ...]:
-    found = []
+    result = []
     if problem.ratio != 1:
-        found.append(f"the outer curves take {problem.ratio} of the time of the middle one")
+        result.append(f"the outer curves take {problem.ratio} of the time of the middle one")
     if problem.join_speed:
-        found.append(
+        result.append(
             f"a speed of at least {problem.join_speed} mm per unit of time at both joins is required, in the form of a"
             " speed in the direction from Q0 to R0"
         )
-    return tuple(found)
+    return tuple(result)
 
 
 def _trivial(problem: Problem, system: System) -> Trivial:

@@ -42,8 +42,8 @@ def as_conditions(formula: Formula, variables: Sequence[str]) -> tuple[Condition
     """The conditions whose intersection the formula describes (up to strictness), or None."""
     if isinstance(formula, Constant):
         return () if formula.value else None
-    found = [_condition(part, variables) for part in conjuncts(formula)]
-    return None if any(c is None for c in found) else tuple(c for c in found if c is not None)
+    result = [_condition(part, variables) for part in conjuncts(formula)]
+    return None if any(c is None for c in result) else tuple(c for c in result if c is not None)
 
 
 def _condition(part: Formula, variables: Sequence[str]) -> Condition | None:
@@ -85,10 +85,10 @@ def story(plan: QuadraticPlan, drawing: Drawing | None) -> Story:
         "Formula (8) of the paper: which {Q1} leave room for {P1} and {R1} such that both joins are C¹ and all three"
         " control points stay in the workspace?"
     ).format(**names)
-    asked = parts.asked(plan, FORMULA, parts.question(plan, plan.system), counts + more)
+    formulas = parts.asked(plan, FORMULA, parts.question(plan, plan.system), counts + more)
     title, free = Markup("The best {}").format(names["Q1"]), "the unconstrained minimum, the midpoint of the via points"
     sections = (
-        Section("question", "The question", html.paragraph(intro) + asked),
+        Section("question", "The question", html.paragraph(intro) + formulas),
         _region(plan, drawing),
         parts.optimum(plan, plan.system, plan.optimum, title, free),
         _table(plan, drawing),
@@ -202,13 +202,13 @@ def _infeasibility(plan: QuadraticPlan) -> Section:
 
 def _table(plan: QuadraticPlan, drawing: Drawing | None) -> Section:
     """The hemisphere question."""
-    found, names = plan.gap, parts.names()
+    result, names = plan.gap, parts.names()
     content: list[Text] = [
         html.paragraph(
             "The printed formula keeps the control points in the ball, not in the hemisphere: it has no condition on z."
         )
     ]
-    if found.example is None:
+    if result.example is None:
         said = (
             "For this problem it makes no difference: no allowed control point lies below the table"
             " (decided by elimination)."
@@ -219,7 +219,7 @@ def _table(plan: QuadraticPlan, drawing: Drawing | None) -> Section:
         said = f"For this problem that matters: with r = {radius}, it allows control points below the table."
         rows = [
             (shown(mathml.name(name)), toned(parts.point(p), False if float(p[2]) < 0 else None), norm(p))
-            for name, p in found.example.items()
+            for name, p in result.example.items()
         ]
         content += [
             html.paragraph(html.strong(said)),
@@ -284,10 +284,10 @@ def summary_lines(plan: QuadraticPlan) -> list[str]:
 def json_entries(plan: QuadraticPlan) -> dict[str, Any]:
     """The entries of the JSON summary that only this method has."""
     dips = any(isinstance(proof.outcome, Leaves) for proof in plan.gap.chosen)
-    found: dict[str, Any] = {"leaves_hemisphere": {"allowed": plan.gap.can_leave, "chosen": dips}}
+    data: dict[str, Any] = {"leaves_hemisphere": {"allowed": plan.gap.can_leave, "chosen": dips}}
     if plan.path is None:
-        found["suggestion"] = 'method = "cubic"'
-    return found
+        data["suggestion"] = 'method = "cubic"'
+    return data
 
 
 def files(plan: QuadraticPlan) -> dict[str, str]:

@@ -98,8 +98,8 @@ def begin(problem: Problem, clock: Clock) -> Begun:
 
 def finish(given: Begun, clock: Clock) -> QuadraticPlan:
     """The plan with formula (8)."""
-    found: Drawn = given.found
-    problem, system, answer, optimum = given.problem, found.system, found.answer, found.optimum
+    result: Drawn = given.found
+    problem, system, answer, optimum = given.problem, result.system, result.answer, result.optimum
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else "not empty")
@@ -111,7 +111,7 @@ def finish(given: Begun, clock: Clock) -> QuadraticPlan:
         members = certificates(system, region, optimum, gap)
         certificate, checks = verified(members, given.path)
     return QuadraticPlan(
-        **found.fields,
+        **result.fields,
         region=region,
         gap=gap,
         balls=quadratic.three_balls(problem),
@@ -126,15 +126,15 @@ def finish(given: Begun, clock: Clock) -> QuadraticPlan:
 
 def questions(problem: Problem) -> dict[str, Formula]:
     """What is asked of the engine about a problem."""
-    asked = {FORMULA: quadratic.system(problem).statement(), TABLE: quadratic.leaving(problem)}
-    asked[CORRECTED] = quadratic.corrected(problem).statement()
-    return {name: statement.formula for name, statement in asked.items()}
+    statements = {FORMULA: quadratic.system(problem).statement(), TABLE: quadratic.leaving(problem)}
+    statements[CORRECTED] = quadratic.corrected(problem).statement()
+    return {name: statement.formula for name, statement in statements.items()}
 
 
 def certificates(system: System, region: qe.Region, optimum: Any, gap: Gap) -> Members:
     """The labelled certificates of a plan, those of its path left out."""
-    found = [elimination(system), (REGION, region.certificate)]
-    return [*found, *optimum_members(optimum.certificate), *gap.certificates]
+    result = [elimination(system), (REGION, region.certificate)]
+    return [*result, *optimum_members(optimum.certificate), *gap.certificates]
 
 
 def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
@@ -142,24 +142,24 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
 
     ``region``: the problem's own region, which is the corrected one for a hemisphere.
     """
-    asked = answered(qe.eliminate(quadratic.leaving(problem).formula, timeout=clock.remaining()))
+    leaves = answered(qe.eliminate(quadratic.leaving(problem).formula, timeout=clock.remaining()))
     floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
     chosen = prove(path.curves, (floor,)) if path else ()
-    if asked.truth is False:
-        return Gap(None, None, chosen, tuple(above_certificates(problem, clock)), {TABLE: asked})
-    if asked.truth is not True or asked.witness is None:
+    if leaves.truth is False:
+        return Gap(None, None, chosen, tuple(above_certificates(problem, clock)), {TABLE: leaves})
+    if leaves.truth is not True or leaves.witness is None:
         raise InternalError("the hemisphere question got neither a witness nor a refutation")
     printed = quadratic.printed(problem)
-    points = printed.points([tuple(asked.witness.get(name, Fraction(0)) for name in quadratic.FREE)])
+    points = printed.points([tuple(leaves.witness.get(name, Fraction(0)) for name in quadratic.FREE)])
     example = {name: points[name] for name in quadratic.SHAPE.inner}
     if printed.violated(points) or all(sign(point[2]) >= 0 for point in example.values()):
         raise InternalError("the engine's example does not show what it should")
-    shown = ((BELOW, example_certificate(problem, example, asked.certificate)),)
+    shown = ((BELOW, example_certificate(problem, example, leaves.certificate)),)
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
-        return Gap(example, region, chosen, shown, {TABLE: asked})
+        return Gap(example, region, chosen, shown, {TABLE: leaves})
     answer = answered(qe.eliminate(quadratic.corrected(problem).statement().formula, timeout=clock.remaining()))
     smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
-    return Gap(example, smaller, chosen, shown, {TABLE: asked, CORRECTED: answer})
+    return Gap(example, smaller, chosen, shown, {TABLE: leaves, CORRECTED: answer})
 
 
 def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe.Certificate]]:
@@ -180,7 +180,7 @@ def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe
 
 
 def example_certificate(
-    problem: Problem, example: Mapping[str, Vector], found: qe.Certificate | None
+    problem: Problem, example: Mapping[str, Vector], certificate: qe.Certificate | None
 ) -> qe.Certificate:
     """The witness that the printed formula allows the example. ``found``: the engine's own, for irrational examples."""
     values = [rational(c) for name in EXAMPLE_ORDER for c in example[name]]
@@ -188,9 +188,9 @@ def example_certificate(
     if len(known) == len(values):
         order = quadratic.FREE + quadratic.QUANTIFIED
         return qe.Certificate.witness(body_of(quadratic.leaving(problem), order), order, known)
-    if found is None:
+    if certificate is None:
         raise InternalError("an irrational example without a certificate")
-    return found
+    return certificate
 
 
 def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
@@ -284,15 +284,15 @@ def _restored_gap(problem: Problem, certificate: Certificate, path: Path | None)
         payload: Any = member(certificate, BELOW, Kind.WITNESS)
         _check_example(problem, payload)
         return Gap({}, None, chosen, ((BELOW, Certificate(Kind.WITNESS, payload)),))
-    printed, found = quadratic.printed(problem), []
+    printed, result = quadratic.printed(problem), []
     for point in quadratic.SHAPE.inner:
         label = above_label(point)
         payload = member(certificate, label, Kind.OPTIMUM)
         check_optimum_of(printed, payload, label, coordinate_terms(printed, point, 2))
         if payload["status"] == "optimal" and sign(numbers([payload["value"]], payload["field"], label)[0]) < 0:
             raise CertificateRejected(f"{label}: value", "the control point can lie below the table")
-        found.append((label, Certificate(Kind.OPTIMUM, payload)))
-    return Gap(None, None, chosen, tuple(found))
+        result.append((label, Certificate(Kind.OPTIMUM, payload)))
+    return Gap(None, None, chosen, tuple(result))
 
 
 def _check_example(problem: Problem, payload: dict[str, Any]) -> None:

@@ -42,7 +42,7 @@ def finish(given: Begun, clock: Clock) -> RefutedPlan:
 
 def _plan(problem: Problem) -> RefutedPlan:
     """What follows from the problem alone."""
-    found = ends_inside(problem)
+    result = ends_inside(problem)
     return RefutedPlan(
         problem=problem,
         outcome=Outcome.INFEASIBLE,
@@ -51,10 +51,10 @@ def _plan(problem: Problem) -> RefutedPlan:
         objective=None,
         path=None,
         active=(),
-        certificate=Certificate.bundle((item.label, item.certificate()) for item in found),
+        certificate=Certificate.bundle((item.label, item.certificate()) for item in result),
         checks={},
         seconds={},
-        inside=found,
+        inside=result,
     )
 
 
@@ -65,11 +65,11 @@ def reason(plan: RefutedPlan) -> str:
 
 def json_entries(plan: RefutedPlan) -> dict[str, Any]:
     """The ends in obstacles, with their places."""
-    found = [
+    result = [
         {"point": item.name, "obstacle": item.obstacle.name, "place": list(map(str, item.place))}
         for item in plan.inside
     ]
-    return {"inside": found}
+    return {"inside": result}
 
 
 def draw(plan: RefutedPlan, folder: FilePath) -> Drawing:

@@ -175,13 +175,13 @@ class Model:
 
     def initial(self) -> list[Cut]:
         """Cuts to begin with: heights at the ends of [t_a, t_b], the sphere where P is on it or beyond it."""
-        found = [Cut(CutKind.HEIGHT, t, axis.name) for axis in self.task.raised for t in self.task.times]
+        result = [Cut(CutKind.HEIGHT, t, axis.name) for axis in self.task.raised for t in self.task.times]
         kinds = (Cut(CutKind.START, ZERO), Cut(CutKind.GOAL, ONE))
-        found += [cut for cut, there in zip(kinds, self.touches, strict=False) if there]
+        result += [cut for cut, there in zip(kinds, self.touches, strict=False) if there]
         for t, place in zip(self.task.times, self.via, strict=True):
             if sign(self.workspace.ball.margin(place)) < 0:
-                found.append(Cut(CutKind.BALL, t, plane=place))
-        return found
+                result.append(Cut(CutKind.BALL, t, plane=place))
+        return result
 
     def height_margin(self, path: Bezier, axis: Axis) -> bs.Coefficients:
         """S on [t_a, t_b] in Bernstein form of degree n-2, times a positive constant."""
@@ -205,13 +205,13 @@ class Model:
         """Cuts that exclude this curve; none exactly when the whole curve satisfies all conditions (and (4))."""
         path = curve(self.task, values)
         t_a, t_b = self.task.times
-        found = []
+        result = []
         for axis in self.task.raised:
             for u in violated(self.height_margin(path, axis)):
-                found.append(Cut(CutKind.HEIGHT, t_a + u * (t_b - t_a), axis.name))
+                result.append(Cut(CutKind.HEIGHT, t_a + u * (t_b - t_a), axis.name))
         for t in violated(self.ball_margin(path)):
-            found.append(self.ball_cut(path, t))
-        return found
+            result.append(self.ball_cut(path, t))
+        return result
 
     def ball_cut(self, path: Bezier, t: Fraction) -> Cut:
         """A cut at t that excludes the curve, which is outside there: its plane touches the sphere nearly."""
@@ -261,14 +261,14 @@ def violated(b: bs.Coefficients) -> list[Fraction]:
     """
     numbers = [float(c) for c in b]
     floor = -NOISE * max(map(abs, numbers), default=0.0)
-    found = []
+    result = []
     for k in range(GRID + 1):
         here = bs.value(numbers, k / GRID)
         if here < floor and all(here <= bs.value(numbers, j / GRID) for j in (k - 1, k + 1) if 0 <= j <= GRID):
             around = range(max(0, (k - 1) * GRID), min(GRID * GRID, (k + 1) * GRID) + 1)
             best = min(around, key=lambda j: float(bs.value(numbers, j / GRID**2)))
-            found.append(Fraction(best, GRID * GRID))
-    proved = [t for t in found if sign(bs.value(b, t)) < 0]
+            result.append(Fraction(best, GRID * GRID))
+    proved = [t for t in result if sign(bs.value(b, t)) < 0]
     if proved:
         return proved
     outcome = decide(b)

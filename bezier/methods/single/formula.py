@@ -91,16 +91,16 @@ def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> li
         _time(given, symbol.value) if symbol in symbols else _number(t)
         for symbol, t in zip((Symbol.A, Symbol.B), given.times, strict=True)
     ]
-    found: list[st.Statement] = [st.equal(_at(points, t), height) for t in times]
+    result: list[st.Statement] = [st.equal(_at(points, t), height) for t in times]
     bounds = [start] * given.p + [height] * (given.q - given.p) + [goal] * (given.degree - 1 - given.q)
-    found += [st.at_least(point, bound) for point, bound in zip(points[1:-1], bounds, strict=True)]
+    result += [st.at_least(point, bound) for point, bound in zip(points[1:-1], bounds, strict=True)]
     xs = [_number(x) for x in given.abscissae]
     a, b = st.names((Symbol.A.value, Symbol.B.value))
     if Symbol.A in symbols:
-        found += [st.below(xs[given.p], a), st.at_most(a, xs[given.p + 1])]
+        result += [st.below(xs[given.p], a), st.at_most(a, xs[given.p + 1])]
     if Symbol.B in symbols:
-        found += [st.at_most(xs[given.q], b), st.below(b, xs[given.q + 1])]
-    return found
+        result += [st.at_most(xs[given.q], b), st.below(b, xs[given.q + 1])]
+    return result
 
 
 def _number(value: Fraction) -> st.Term:

@@ -34,9 +34,9 @@ def story(plan: SinglePlan, drawing: Drawing | None) -> Story:
     given = plan.task
     lines = [shown(line) for axis in given.raised for line in _question(given, axis)]
     counts = "linear equations and bounds for each coordinate; v stands for the sum"
-    asked = parts.asked(plan, SUMS, lines, counts)
+    formulas = parts.asked(plan, SUMS, lines, counts)
     sections = (
-        Section("question", "The question", _intro(given) + asked),
+        Section("question", "The question", _intro(given) + formulas),
         _programs(plan),
         _open(plan, drawing),
         _proved_curve(plan),
@@ -214,20 +214,20 @@ def _proved_curve(plan: SinglePlan) -> Section | None:
 
 def _claims(plan: SinglePlan) -> dict[str, str]:
     """What each certificate of the method says."""
-    found = {
+    result = {
         of_axis(item.axis.name): f"Problem (4) for {item.axis.name}: the sum is the least possible one"
         if isinstance(item.outcome, LinearOptimum)
         else f"Problem (4) for {item.axis.name} contradicts itself"
         for item in plan.chosen
     }
-    found |= {
+    result |= {
         lowest_label(item.axis.name): f"Another curve has the same least sum of problem (4) for {item.axis.name}"
         for item in plan.chosen
     }
-    found |= {above_label(name): f"The curve is not below h in {name} from t_a to t_b" for name in plan.above}
+    result |= {above_label(name): f"The curve is not below h in {name} from t_a to t_b" for name in plan.above}
     proved = isinstance(plan.closed, ProvedCurve)
-    found[CLOSED] = "No curve has a smaller sum than the bound" if proved else "No curve of this degree exists"
-    return found
+    result[CLOSED] = "No curve has a smaller sum than the bound" if proved else "No curve of this degree exists"
+    return result
 
 
 def summary_lines(plan: SinglePlan) -> list[str]:
@@ -244,7 +244,7 @@ def summary_lines(plan: SinglePlan) -> list[str]:
 def json_entries(plan: SinglePlan) -> dict[str, Any]:
     """The entries of the JSON summary that only this method has."""
     given, closed = plan.task, plan.closed
-    found: dict[str, Any] = {
+    data: dict[str, Any] = {
         "degree": given.degree,
         "p": given.p,
         "q": given.q,
@@ -259,18 +259,18 @@ def json_entries(plan: SinglePlan) -> dict[str, Any]:
         "cuts": [_cut(cut) for cut in closed.cuts] if closed is not None else [],
     }
     if plan.printed is not None:
-        found["dips"] = [_dip(dip) for dip in plan.printed.dips]
-        found["dips_allowed"] = [_dip(dip) for dip in plan.printed.allowed]
-        found["leaves"] = [proof.condition.name for proof in plan.printed.leaving]
+        data["dips"] = [_dip(dip) for dip in plan.printed.dips]
+        data["dips_allowed"] = [_dip(dip) for dip in plan.printed.allowed]
+        data["leaves"] = [proof.condition.name for proof in plan.printed.leaving]
     if isinstance(closed, ProvedCurve):
-        found["closed"] = {
+        data["closed"] = {
             "sum": described(closed.value),
             "bound": described(closed.bound),
             "cuts": len(closed.cuts),
             "rounds": closed.rounds,
             "attainable": plan.attainable,
         }
-    return found
+    return data
 
 
 def _dip(dip: Dip) -> dict[str, str]:

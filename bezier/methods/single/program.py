@@ -114,12 +114,12 @@ class Dip:
 
 def dips(given: Task, path: Bezier) -> tuple[Dip, ...]:
     """One proved dip for each raised axis that has any: complete, by ``bezier.curves.nonnegative``."""
-    found = []
+    result = []
     low, high = given.times
     for axis in given.raised:
         height = Fraction(axis.height or 0)
         margin = bs.restrict(path.coordinate(1 + given.axes.index(axis)), low, high)
         outcome = decide([c - height for c in margin])
         if isinstance(outcome, Negative):
-            found.append(Dip(axis, low + outcome.t * (high - low), outcome.value + height))
-    return tuple(found)
+            result.append(Dip(axis, low + outcome.t * (high - low), outcome.value + height))
+    return tuple(result)
