@@ -16,7 +16,7 @@ from bezier.input.numbers import NotANumber, describe, read_squared, shorten
 from bezier.input.task import SingleCurve, Via, read_single, stated_via
 from bezier.input.toml_table import LARGEST, POINT, Table, read_text
 from bezier.motion.motion import Timing, read_timing
-from bezier.obstacles.obstacle import Inside, Obstacle, inside
+from bezier.obstacles.obstacle import Obstacle, PointInside, inside
 from bezier.obstacles.reader import read_obstacles, via_at_thirds, via_over
 from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
@@ -97,7 +97,7 @@ class Problem:
         return Strip(low, high, kept) if kept else None
 
 
-def ends_inside(problem: Problem) -> tuple[Inside, ...]:
+def ends_inside(problem: Problem) -> tuple[PointInside, ...]:
     """The start and the goal with the obstacles that they lie in: then no path exists."""
     return inside({"start": problem.start, "goal": problem.goal}, problem.obstacles)
 

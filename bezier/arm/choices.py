@@ -13,7 +13,7 @@ from fractions import Fraction
 from math import ceil, floor, pi
 
 from bezier.arm.elimination import TURNS, Quotient
-from bezier.arm.model import Joint, Motion
+from bezier.arm.model import Joint, JointKind
 from qe.errors import InternalError, Unable
 from qe.exact.point_values import Ball, Evaluation, angle, pi_ends, roots_above, signs_around
 from qe.exact.ring import Poly
@@ -86,7 +86,7 @@ def allowed(joint: Joint, here: Evaluation, known: Known) -> bool:
     if joint.limits is None:
         return True
     least, most = joint.limits
-    if joint.motion is Motion.PRISMATIC:
+    if joint.motion is JointKind.PRISMATIC:
         return length_side(here, known[0], least) >= 0 >= length_side(here, known[0], most)
     if most - least >= 7:  # more than a full turn
         return True
@@ -125,7 +125,7 @@ def length_side(here: Evaluation, length: Quotient, limit: Fraction) -> int:
 
 
 @dataclass(frozen=True, eq=False)
-class End:
+class RangeEnd:
     """An exact value of a joint at which a range ends."""
 
     place: Evaluation
@@ -136,7 +136,7 @@ class End:
         return value_of(self.place, self.known, bits)
 
 
-Arc = tuple[End | None, End | None]
+Arc = tuple[RangeEnd | None, RangeEnd | None]
 """All angles from one on the way round to the other, or all lengths between two; both ends belong to it, and may be
 one. None: there is no end on this side."""
 
@@ -148,14 +148,14 @@ class Choice:
 
     joint: int
     arcs: tuple[Arc, ...] | None = None
-    zeros: tuple[End, ...] = ()
+    zeros: tuple[RangeEnd, ...] = ()
 
     def backwards(self, count: int) -> Choice:
         """The same of an arm of so many joints that is read from the hand to the base: all turn the other way."""
         joint = count - 1 - self.joint
         if self.arcs is None:
             return Choice(joint)
-        ends = {e: End(e.place, backwards(e.known)) for arc in self.arcs for e in arc if e is not None}
+        ends = {e: RangeEnd(e.place, backwards(e.known)) for arc in self.arcs for e in arc if e is not None}
         return Choice(joint, tuple((ends[b], ends[a]) for a, b in self.arcs if a and b))
 
 
@@ -170,7 +170,7 @@ class Edge:
     """Where a range of values between the limits of a joint ends: at ``end``, full turns added, or at a ``limit``;
     nowhere where both are None."""
 
-    end: End | None = None
+    end: RangeEnd | None = None
     turns: int = 0
     limit: Fraction | None = None
 
@@ -185,7 +185,7 @@ class Edge:
 Span = tuple[Edge, Edge]
 
 
-def arcs_of(marks: Sequence[End | None], at: Sequence[bool], after: Sequence[bool]) -> tuple[Arc, ...] | None:
+def arcs_of(marks: Sequence[RangeEnd | None], at: Sequence[bool], after: Sequence[bool]) -> tuple[Arc, ...] | None:
     """The closed set of angles that has marks, the way round, where ``at`` says so, and what lies after one, where
     ``after`` does; None for the whole circle, if marks there are."""
     if all(after):
@@ -201,7 +201,7 @@ def arcs_of(marks: Sequence[End | None], at: Sequence[bool], after: Sequence[boo
 
 
 def not_negative(
-    here: Evaluation, p: Poly, var: int, known: Known, motion: Motion = Motion.REVOLUTE
+    here: Evaluation, p: Poly, var: int, known: Known, motion: JointKind = JointKind.REVOLUTE
 ) -> tuple[Arc, ...] | None:
     """The values ``known`` of a joint, in the variable ``var`` next after the place, at which p is not negative. The
     angle that t misses must be no zero of p, unless it vanishes everywhere."""
@@ -209,8 +209,8 @@ def not_negative(
     if roots is None:
         return None
     signs = [s > 0 for s in signs_around(here.point, var, p, roots)]
-    ends = [End(here.extend(root), known) for root in roots]
-    if motion is Motion.PRISMATIC:
+    ends = [RangeEnd(here.extend(root), known) for root in roots]
+    if motion is JointKind.PRISMATIC:
         if not roots:
             return None if signs[0] else ()
         return arcs_of([None, *ends, None], [signs[0], *[True] * len(ends), signs[-1]], [*signs, False])
@@ -221,9 +221,9 @@ def not_negative(
     return arcs_of(ends, [True] * len(ends), signs[1:])
 
 
-def zeros(here: Evaluation, p: Poly, var: int, known: Known) -> tuple[End, ...]:
+def zeros(here: Evaluation, p: Poly, var: int, known: Known) -> tuple[RangeEnd, ...]:
     """The values of a joint at which p vanishes; none where it vanishes everywhere."""
-    return tuple(End(here.extend(root), known) for root in roots_above(here.point, var, p) or ())
+    return tuple(RangeEnd(here.extend(root), known) for root in roots_above(here.point, var, p) or ())
 
 
 def by_turns(
@@ -242,7 +242,7 @@ def by_turns(
 
 def spans(joint: Joint, choice: Choice) -> tuple[Span, ...]:
     """The values of the joint between its limits, ascending and disjoint."""
-    if joint.motion is Motion.PRISMATIC:
+    if joint.motion is JointKind.PRISMATIC:
         return tuple(_lengths(joint, choice))
     return tuple(_angles(joint, choice))
 
@@ -262,7 +262,7 @@ def _lengths(joint: Joint, choice: Choice) -> Iterator[Span]:
         yield ends[0], ends[1]
 
 
-def _length(end: End | None, limit: Fraction, infinite: int) -> int:
+def _length(end: RangeEnd | None, limit: Fraction, infinite: int) -> int:
     return infinite if end is None else length_side(end.place, end.known[0], limit)
 
 
@@ -287,11 +287,11 @@ def _angles(joint: Joint, choice: Choice) -> Iterator[Span]:
             )
 
 
-def _side(end: End, turns: int, limit: Fraction) -> int:
+def _side(end: RangeEnd, turns: int, limit: Fraction) -> int:
     return side(end.place, end.known, turns, limit)
 
 
-def _is_before(one: End, other: End) -> bool:
+def _is_before(one: RangeEnd, other: RangeEnd) -> bool:
     """Whether the first of two different angles in (-pi, pi] is the smaller one; they are the same only as objects."""
     bits = BITS
     while one is not other:

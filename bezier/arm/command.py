@@ -14,7 +14,7 @@ from bezier.arm.evidence import certificates, without_certificate
 from bezier.arm.inverse import MOST_BITS, Inverse, Solution, separated, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
-from bezier.arm.model import Arm, Joint, Motion
+from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.pose import rotation_of, solve_pose
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
@@ -165,7 +165,7 @@ def in_words(answer: Inverse) -> list[str]:
 def _positions(arm: Arm, solution: Solution, further: int) -> str:
     """The joints of one solution, with so many further decimal places."""
     parts = [
-        f"{joint.name} follows" if value is None else f"{joint.name} = {_told(value, further)}"
+        f"{joint.name} follows" if value is None else f"{joint.name} = {_value_text(value, further)}"
         for joint, value in zip(arm.joints, solution.values, strict=True)
     ]
     for choice in solution.choices:
@@ -189,7 +189,7 @@ def _range(joint: Joint, choice: Choice) -> str:
         return "free, but not between its limits"
     if listed == [(Edge(), Edge())]:
         return "free"
-    unit = "mm" if joint.motion is Motion.PRISMATIC else "rad"
+    unit = "mm" if joint.motion is JointKind.PRISMATIC else "rad"
     texts = [_between(*(edge.value for edge in ends)) for ends in listed]
     return f"free {' and '.join(texts)} {unit}" + (" (its limits)" if choice.arcs is None else "")
 
@@ -202,7 +202,7 @@ def _between(low: float | None, high: float | None) -> str:
     return f"from {low:.9f} to {high:.9f}"
 
 
-def _told(value: Value, further: int) -> str:
+def _value_text(value: Value, further: int) -> str:
     if value.pair is None:
         return f"{value.fixed(9 + further)} mm"
     return f"{value.fixed(12 + further)} ({degrees(float(value)):.4f}°)"

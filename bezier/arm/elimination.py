@@ -27,7 +27,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from bezier.arm.model import Arm, Motion, apply, inverse
+from bezier.arm.model import Arm, JointKind, apply, inverse
 from bezier.arm.ratio import Ratio, constant
 from bezier.curves.scalar import dot, is_zero
 from qe.errors import Unable
@@ -114,7 +114,7 @@ class Geometry:
             return tuple(a - b for a, b in zip(apply(second, vector), origin, strict=True))
 
         v: tuple[Vector, ...]
-        if chain.joints[2].motion is Motion.REVOLUTE:
+        if chain.joints[2].motion is JointKind.REVOLUTE:
             v = (apply(second, (zero, zero, e[2])), direction((e[0], e[1], zero)), direction((-e[1], e[0], zero)))
         else:
             v = (apply(second, e), direction((zero, zero, zero + 1)))
@@ -131,7 +131,7 @@ class Geometry:
     @cached_property
     def turns(self) -> tuple[bool, ...]:
         """Which joints turn."""
-        return tuple(joint.motion is Motion.REVOLUTE for joint in self.arm.joints)
+        return tuple(joint.motion is JointKind.REVOLUTE for joint in self.arm.joints)
 
     @cached_property
     def moves_last(self) -> bool:

@@ -14,7 +14,7 @@ from bezier.arm.critical import Number, S
 from bezier.arm.follow import SPARE, Branch, chain_of, curve_powers
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Angle, Arm
-from bezier.arm.motion_chain import Piece
+from bezier.arm.motion_chain import ProvedPiece
 from bezier.arm.roots_of_squares import square_roots
 from bezier.arm.vertical import SignsAlong
 from bezier.certify import branch as checked
@@ -61,7 +61,7 @@ ROUNDING = 1e-14
 
 def limited_pieces(
     arm: Arm, curves: Sequence[Bezier], parts: Sequence[tuple[int, Branch]], turns: Sequence[int]
-) -> Iterator[tuple[int, Piece]]:
+) -> Iterator[tuple[int, ProvedPiece]]:
     """Pieces with the index of their curve, ``turns`` full turns added. Raises ``Unable`` where a joint comes closer to
     a limit than boxes can tell."""
     if not arm.has_limits:
@@ -87,16 +87,16 @@ def limited_pieces(
             open_ones += [half for half in halves if half is not None]
 
 
-def _turned(piece: Piece, turns: Sequence[int]) -> Piece:
+def _turned(piece: ProvedPiece, turns: Sequence[int]) -> ProvedPiece:
     """Moved by full turns, rounded: the boxes have room for that."""
     centre = tuple(c + tau * k for c, k in zip(piece.centre, turns, strict=True))
     inner = tuple(r + ROUNDING * abs(k) for r, k in zip(piece.inner, turns, strict=True))
     return replace(piece, centre=centre, inner=inner)
 
 
-def _keeps(tubes: checked.Tubes, curve: int, piece: Piece) -> bool:
+def _keeps(tubes: checked.Tubes, curve: int, piece: ProvedPiece) -> bool:
     centre, slope, radius = (tuple(map(Fraction, values)) for values in (piece.centre, piece.slope, piece.radius))
-    given = checked.Piece(curve, piece.low, piece.high, centre, slope, radius, Entry(None, "piece"))
+    given = checked.Tube(curve, piece.low, piece.high, centre, slope, radius, Entry(None, "piece"))
     return tubes.unlimited(given, [SPARE * Fraction(r) for r in piece.inner]) is None
 
 
@@ -265,7 +265,7 @@ def _branch_certificate(path: JointPath, run: Run) -> Certificate:
     return Certificate(Kind("branch"), payload)
 
 
-def _piece(curve: int, piece: Piece) -> Json:
+def _piece(curve: int, piece: ProvedPiece) -> Json:
     triples = {"centre": piece.centre, "slope": piece.slope, "radius": piece.radius}
     numbers: dict[str, Json] = {key: [str(Fraction(v)) for v in values] for key, values in triples.items()}
     return {"curve": curve, "low": str(piece.low), "high": str(piece.high), **numbers}

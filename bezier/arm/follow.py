@@ -19,8 +19,8 @@ from bezier.arm.choices import Value
 from bezier.arm.critical import powers
 from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
-from bezier.arm.model import Arm, Motion
-from bezier.arm.motion_chain import MotionChain, Piece
+from bezier.arm.model import Arm, JointKind
+from bezier.arm.motion_chain import MotionChain, ProvedPiece
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
 from qe.exact.point_values import pi_ends
@@ -43,7 +43,7 @@ Box = tuple[tuple[Fraction, Fraction], ...]
 class Branch:
     """Linked pieces over [low, high] within [0, 1], in ascending order."""
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[ProvedPiece, ...]
 
     @property
     def low(self) -> Fraction:
@@ -55,7 +55,7 @@ class Branch:
         """The greatest parameter."""
         return self.pieces[-1].high
 
-    def piece(self, s: Fraction) -> Piece:
+    def piece(self, s: Fraction) -> ProvedPiece:
         """A piece that contains s."""
         return self.pieces[bisect_left(self.pieces, s, key=attrgetter("high"))]
 
@@ -83,7 +83,7 @@ class Branch:
 @lru_cache(maxsize=64)
 def chain_of(arm: Arm) -> MotionChain:
     """The arm in ball arithmetic."""
-    return MotionChain(arm.chain.constants, [j.motion is Motion.REVOLUTE for j in arm.joints])
+    return MotionChain(arm.chain.constants, [j.motion is JointKind.REVOLUTE for j in arm.joints])
 
 
 def curve_powers(curve: Bezier) -> list[list[Fraction]]:
@@ -97,9 +97,9 @@ def follow(
     start: Sequence[float],
     at: Fraction,
     end: Fraction,
-    before: tuple[Piece, Fraction] | None = None,
+    before: tuple[ProvedPiece, Fraction] | None = None,
     stops: Sequence[Fraction] = (),
-) -> tuple[Piece, ...]:
+) -> tuple[ProvedPiece, ...]:
     """Pieces from ``at`` towards ``end`` as far as they can be proved, in ascending order of s.
 
     ``start``: joint values near the solution at ``at``. They end before ``end`` where the arm becomes singular.
@@ -108,7 +108,7 @@ def follow(
     """
     chain, coefficients = chain_of(arm), curve_powers(curve)
     forwards = end > at
-    pieces: list[Piece] = []
+    pieces: list[ProvedPiece] = []
     here, near, step = at, list(start), FIRST
     while here != end and step >= LEAST:
         far = min(here + step, end) if forwards else max(here - step, end)
@@ -144,13 +144,13 @@ def whole(
     return Branch(pieces) if pieces and Branch(pieces).contains(at, solution) else None
 
 
-def joined(one: Piece, other: Piece) -> bool:
+def joined(one: ProvedPiece, other: ProvedPiece) -> bool:
     """Whether the solution at the end of one curve is the one at the beginning of the next (which begins where that
     ends)."""
     return _same(one, ONE, other, ZERO)
 
 
-def _same(one: Piece, s: Fraction, other: Piece, t: Fraction) -> bool:
+def _same(one: ProvedPiece, s: Fraction, other: ProvedPiece, t: Fraction) -> bool:
     """Whether the solutions at s and at t, over the same point, are one: the inner box of one lies in the other box."""
     gaps = [abs(a - b) for a, b in zip(one.at(s), other.at(t), strict=True)]
     return any(
@@ -159,7 +159,7 @@ def _same(one: Piece, s: Fraction, other: Piece, t: Fraction) -> bool:
     )
 
 
-def _inside(box: Box, piece: Piece, s: Fraction) -> bool:
+def _inside(box: Box, piece: ProvedPiece, s: Fraction) -> bool:
     middle = piece.at(s)
     return all(
         m - Fraction(r) <= low and high <= m + Fraction(r)

@@ -18,7 +18,7 @@ from typing import Any
 from bezier.arm.choices import BITS, Choice, Known, Value, allowed, not_negative, spans, value_of, zeros
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Quotient, Reduction, T
 from bezier.arm.kinematics import position
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.ratio import Ratio, reduced, variable
 from bezier.curves.scalar import rational
 from qe.errors import InputError, InternalError
@@ -334,7 +334,7 @@ def _general_position(arm: Arm) -> list[_Coordinate]:
     ring = Ring.of(("w", *names))
     variables = [Ratio(ring.var(name), 1, arm.field) for name in names]
     values: dict[str, Any] = {
-        j.name: (variables[2 * k], variables[2 * k + 1]) if j.motion is Motion.REVOLUTE else variables[2 * k]
+        j.name: (variables[2 * k], variables[2 * k + 1]) if j.motion is JointKind.REVOLUTE else variables[2 * k]
         for k, j in enumerate(arm.joints)
     }
     result = []

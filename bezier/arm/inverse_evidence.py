@@ -10,7 +10,7 @@ from bezier.arm.choices import Choice, Value
 from bezier.arm.elimination import TURNS
 from bezier.arm.evidence import accepted_certificate, arm_json, surd_json
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve
-from bezier.arm.model import Motion
+from bezier.arm.model import JointKind
 from bezier.arm.wrist import centre_at, wrist_of
 from qe.errors import Unable
 from qe.proof.certificate import Certificate
@@ -48,7 +48,7 @@ def _payloads(answer: Inverse, bits: int, places: int) -> Iterator[dict[str, Jso
     if any(s.values[:3] == (None, None, None) for s in positions):
         yield from _over_marks(answer, positions[0], bits, places)
         return
-    moves = geometry_of(arm).moves_last and arm.joints[2].motion is not Motion.PRISMATIC
+    moves = geometry_of(arm).moves_last and arm.joints[2].motion is not JointKind.PRISMATIC
     turns = TURNS if moves else (None,)
     for turn in turns:
         t = [_parameter(s, turn, bits) for s in positions], [_parameter(s, turn, bits) for s in answer.solutions]

@@ -15,7 +15,7 @@ from typing import Any
 from bezier.arm import path_report
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.kinematics import jacobians, positions, skeleton
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.motion import Extreme, JointMotion, joint_motion
 from bezier.arm.sequence import JointSequence, joint_sequence, samples_of
 from bezier.curves.curve import Bezier
@@ -172,7 +172,7 @@ def animation(plan: JointPlan) -> str:
     return json.dumps(
         {
             "names": [joint.name for joint in arm.joints],
-            "turns": [joint.motion is Motion.REVOLUTE for joint in arm.joints],
+            "turns": [joint.motion is JointKind.REVOLUTE for joint in arm.joints],
             "moving": [row.joint is not None for row in arm.rows],
             "path": trace,
             "duration": float(plan.duration),
@@ -198,7 +198,7 @@ def in_words(plan: JointPlan) -> list[str]:
         lines.append(f"sequence of {size} joint positions: {change:.6g} rad in all, {kept}")
     if plan.motion is not None:
         for joint, v, a in zip(plan.motion.joints, plan.motion.speeds, plan.motion.accelerations, strict=True):
-            unit = "rad" if joint.motion is Motion.REVOLUTE else "mm"
+            unit = "rad" if joint.motion is JointKind.REVOLUTE else "mm"
             speed, push = f"{float(v.high):.4g} {unit}/s", f"{float(a.high):.4g} {unit}/s^2"
             lines.append(f"  {joint.name}: at most {speed} and {push} at all times (proved)")
         words = {True: "kept (proved)", False: "EXCEEDED", None: "closer than the bounds can tell"}

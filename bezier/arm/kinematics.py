@@ -8,7 +8,7 @@ from functools import lru_cache
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from bezier.arm.model import Arm, Matrix, Motion, apply, motion, product
+from bezier.arm.model import Arm, JointKind, Matrix, apply, motion, product
 from qe.errors import InputError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def pose(arm: Arm, values: Mapping[str, Any]) -> Matrix:
         if joint.name not in values:
             raise InputError(f"values: a value for the joint {joint.name} expected")
         value = values[joint.name]
-        turns = joint.motion is Motion.REVOLUTE
+        turns = joint.motion is JointKind.REVOLUTE
         parts = value if turns and isinstance(value, list | tuple) else [value]
         if len(parts) != 1 + turns or any(isinstance(part, str | bool | float | list | tuple) for part in parts):
             what = "cosine and sine" if turns else "a length"
@@ -74,7 +74,7 @@ def _motions(arm: Arm, q: Floats) -> list[Floats]:
     for k, joint in enumerate(arm.joints):
         m = np.zeros((len(q), 4, 4))
         m[:, range(4), range(4)] = 1.0
-        if joint.motion is Motion.REVOLUTE:
+        if joint.motion is JointKind.REVOLUTE:
             c, s = np.cos(q[:, k]), np.sin(q[:, k])
             m[:, 0, 0], m[:, 0, 1], m[:, 1, 0], m[:, 1, 1] = c, -s, s, c
         else:
@@ -123,7 +123,7 @@ def jacobians(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
         whole = whole @ m @ constant
     tip = whole[:, :3, 3]
     columns = [
-        np.cross(z, tip - o) if joint.motion is Motion.REVOLUTE else z
+        np.cross(z, tip - o) if joint.motion is JointKind.REVOLUTE else z
         for (z, o), joint in zip(axes, arm.joints, strict=True)
     ]
     return np.stack(columns, axis=2)

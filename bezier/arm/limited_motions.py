@@ -26,7 +26,7 @@ from bezier.arm.choices import Known, full_turns, length_side, side
 from bezier.arm.continuous import ContinuousMotion, ContinuousMotions
 from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
-from bezier.arm.model import Arm, Joint, Motion
+from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.study import Place, Stretch, Study, is_wide, sample_between
 from bezier.arm.vertical import Label, vertical_arm
 from qe.errors import InternalError, Unable
@@ -50,7 +50,7 @@ def turns_of(arm: Arm, parts: Parts) -> tuple[int, ...]:
     """For each joint, by how many full turns its whole motion is best moved to lie between its limits."""
     result = []
     for k, joint in enumerate(arm.joints):
-        if joint.limits is None or joint.motion is Motion.PRISMATIC:
+        if joint.limits is None or joint.motion is JointKind.PRISMATIC:
             result.append(0)
             continue
         values = [v[k] for _, branch in parts for p in branch.pieces for v in (p.near(p.low), p.near(p.high))]
@@ -101,7 +101,7 @@ def _broken_at(
         assert known is not None and value is not None, "a branch determines every joint"
         around = more if value.pair is None else round((close - float(value)) / tau) + more
         for limit, wanted in zip(joint.limits or (), (1, -1), strict=False):
-            if joint.motion is Motion.PRISMATIC:
+            if joint.motion is JointKind.PRISMATIC:
                 here = length_side(solution.place, known[0], limit)
             else:
                 here = side(solution.place, known, around, limit)
@@ -230,7 +230,7 @@ def _kept(arm: Arm, parts: Sequence[Part], motion: ContinuousMotion) -> Kept:
     ]
     begin = [
         None
-        if joint.limits is None or joint.motion is Motion.PRISMATIC
+        if joint.limits is None or joint.motion is JointKind.PRISMATIC
         else float(sum(joint.limits)) / 2
         if r.sector is None
         else r.value + tau * k
@@ -260,7 +260,7 @@ def _reading(joint: Joint, solution: Solution, known: Known, value: float) -> Re
     if joint.limits is None:
         return Reading(0, 0, None, value)
     (low, high), here = joint.limits, solution.place
-    if joint.motion is Motion.PRISMATIC:
+    if joint.motion is JointKind.PRISMATIC:
         is_below, is_above = length_side(here, known[0], low) < 0, length_side(here, known[0], high) > 0
         return Reading(int(is_below), -int(is_above), None, value)
     listed = full_turns(joint.limits)

@@ -163,7 +163,7 @@ class Convention(Enum):
     STANDARD = "standard"
 
 
-class Motion(Enum):
+class JointKind(Enum):
     """What a joint does: turn about, or slide along, the z axis of its frame."""
 
     REVOLUTE = "revolute"
@@ -176,7 +176,7 @@ class Joint:
     one."""
 
     name: str
-    motion: Motion
+    motion: JointKind
     limits: tuple[Fraction, Fraction] | None = None
     max_velocity: Fraction | None = None
     max_acceleration: Fraction | None = None
@@ -258,7 +258,7 @@ class Arm:
 
 def motion(joint: Joint, value: Any) -> Matrix:
     """The motion of a joint: ``value`` is (cosine, sine) of a revolute one, the length of a prismatic one."""
-    return turn_z(value) if joint.motion is Motion.REVOLUTE else translation((ZERO, ZERO, value))
+    return turn_z(value) if joint.motion is JointKind.REVOLUTE else translation((ZERO, ZERO, value))
 
 
 def turn_z(pair: Pair) -> Matrix:

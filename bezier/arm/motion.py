@@ -15,7 +15,7 @@ from math import ceil, isqrt
 
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Joint
-from bezier.arm.motion_chain import Piece
+from bezier.arm.motion_chain import ProvedPiece
 from bezier.curves import bernstein as bs
 from bezier.motion.timelaw import TICK, TimeLaw
 from qe.errors import Unable
@@ -101,7 +101,7 @@ def joint_motion(path: JointPath, run: Run, law: TimeLaw, duration: Fraction, en
     return JointMotion(path.arm.joints, duration, speeds, pushes)
 
 
-def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[Piece, Range, Range]]:
+def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[ProvedPiece, Range, Range]]:
     """Every piece with the ranges of ds/dτ and d²s/dτ² (s the parameter of its curve) while it is run through."""
     known = (ZERO, ZERO)
     for k, branch in run.parts:

@@ -33,7 +33,7 @@ Range = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class ProvedPiece:
     """For every s in [low, high] there is exactly one joint position within ``radius`` of centre + slope (s - middle).
 
     It lies within ``inner`` of it. ``velocity`` and ``acceleration``: bounds of its first and second derivative by s.
@@ -121,7 +121,7 @@ class MotionChain:
 
     def piece(
         self, curve: Sequence[Sequence[Fraction]], low: Fraction, high: Fraction, start: Sequence[float]
-    ) -> Piece | None:
+    ) -> ProvedPiece | None:
         """A proved piece over [low, high] near ``start`` (a solution about the middle), or None where the test fails.
 
         ``curve``: the coefficients of 1, s, s², … of each coordinate of p(s) (mm).
@@ -135,7 +135,7 @@ class MotionChain:
 
     def _tested(
         self, curve: Sequence[Sequence[Fraction]], low: Fraction, high: Fraction, centre: list[float]
-    ) -> Piece | None:
+    ) -> ProvedPiece | None:
         middle, half = _ball((low + high) / 2), _ball((high - low) / 2)
         sigma = arb(0, 1) * half
         first = [_derived(c) for c in curve]
@@ -165,7 +165,7 @@ class MotionChain:
         if rates is None:
             return None
         velocity, acceleration = rates
-        return Piece(
+        return ProvedPiece(
             low,
             high,
             tuple(centre),

@@ -28,9 +28,9 @@ from functools import partial
 from itertools import pairwise
 from typing import Any
 
-from bezier.arm.choices import Arc, Choice, End, Known, arcs_of, by_turns
+from bezier.arm.choices import Arc, Choice, Known, RangeEnd, arcs_of, by_turns
 from bezier.arm.elimination import Quotient, quotient, weights
-from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse, product
+from bezier.arm.model import Arm, Chain, JointKind, Matrix, apply, inverse, product
 from bezier.arm.ratio import Ratio, reduced
 from bezier.arm.roots_of_squares import Rules, Scaled, Turn, fixed, turned
 from bezier.arm.wrist import Found, Joints, meeting
@@ -47,7 +47,7 @@ ZERO = Fraction(0)
 
 
 @dataclass(frozen=True)
-class Shape:
+class ParallelShape:
     """Which of the arms above: ``chain`` read in the direction of the derivation; ``first``: the place of the first of
     the three parallel axes, 0 (three joints) or 1 (six joints). ``slide``: the place and the direction, seen from the
     base, of a joint that slides along three parallel axes; it is left out of the chain."""
@@ -58,7 +58,7 @@ class Shape:
     slide: tuple[int, tuple[Any, ...]] | None = None
 
 
-def shape_of(arm: Arm) -> Shape:
+def shape_of(arm: Arm) -> ParallelShape:
     """Raises ``Unable`` for an arm that the derivation does not fit."""
     chain = arm.chain
     needed = (
@@ -66,22 +66,22 @@ def shape_of(arm: Arm) -> Shape:
         " neighbouring axes that meet after one before"
     )
     refused = Unable(f"inverse kinematics at a pose needs {needed}; {arm.name} is none")
-    sliding = [k for k, joint in enumerate(chain.joints) if joint.motion is Motion.PRISMATIC]
+    sliding = [k for k, joint in enumerate(chain.joints) if joint.motion is JointKind.PRISMATIC]
     if len(chain.joints) == 4 and len(sliding) == 1 and (shape := _with_slide(chain, sliding[0])) is not None:
         return shape
     if sliding:
         raise refused
     if len(chain.joints) == 3 and _are_parallel(chain, 0):
-        return Shape(chain, False, 0)
+        return ParallelShape(chain, False, 0)
     if len(chain.joints) == 6:
         backwards = Chain(tuple(inverse(m) for m in reversed(chain.constants)), chain.joints[::-1])
         for one, is_reversed in ((chain, False), (backwards, True)):
             if _are_parallel(one, 1) and _meet(one) is not None:
-                return Shape(one, is_reversed, 1)
+                return ParallelShape(one, is_reversed, 1)
     raise refused
 
 
-def _with_slide(chain: Chain, k: int) -> Shape | None:
+def _with_slide(chain: Chain, k: int) -> ParallelShape | None:
     """Three parallel joints and one that slides along them, as in a SCARA arm: its length moves nothing else."""
     between = chain.constants[1:4]
     if any(not is_zero(m[i][2]) for m in between for i in range(2)):
@@ -90,7 +90,7 @@ def _with_slide(chain: Chain, k: int) -> Shape | None:
     for m in between[:k]:
         axis = product(axis, m)
     rest = Chain((*chain.constants[:k], merged, *chain.constants[k + 2 :]), (*chain.joints[:k], *chain.joints[k + 1 :]))
-    return Shape(rest, False, 0, (k, tuple(row[2] for row in axis))) if _are_parallel(rest, 0) else None
+    return ParallelShape(rest, False, 0, (k, tuple(row[2] for row in axis))) if _are_parallel(rest, 0) else None
 
 
 def _are_parallel(chain: Chain, first: int) -> bool:
@@ -137,10 +137,10 @@ class _Tower:
 
 
 @dataclass(frozen=True, eq=False)
-class Search:
+class PoseSearch:
     """The solutions at one pose, root by root of the tower."""
 
-    shape: Shape
+    shape: ParallelShape
     rules: Rules
     pose: Scaled
 
@@ -191,7 +191,7 @@ class Search:
         sign = sum((a * b for a, b in zip(axis, z, strict=True)), ZERO)
         length = along * sign
         rows = tuple((*row[:3], rules.tidy(row[3] - length * c)) for row, c in zip(self.pose.rows, axis, strict=True))
-        rest = Search(replace(self.shape, slide=None), rules, Scaled(rows, self.pose.scale, rules))
+        rest = PoseSearch(replace(self.shape, slide=None), rules, Scaled(rows, self.pose.scale, rules))
         slid = (quotient(length, rules.number(1)),)
         for here, joints, multiple, choices in rest.solutions(place):
             moved: Joints = {j + (j >= k): known for j, known in joints.items()}
@@ -215,8 +215,8 @@ class Search:
         gaps = [RealAlgebraic.rational(rational_between(*pair)) for pair in pairwise([None, *marks, None])]
         behind = self._after_first(turned((-one, one * 0), one), one)
         origin = Evaluation(place.extend(RealAlgebraic.rational(ZERO)))
-        ends = [End(origin, (quotient(-one, one), quotient(one * 0, one)))]
-        ends += [End(Evaluation(place.extend(value)), known) for value in marks]
+        ends = [RangeEnd(origin, (quotient(-one, one), quotient(one * 0, one)))]
+        ends += [RangeEnd(Evaluation(place.extend(value)), known) for value in marks]
         at = [holds(behind.stages, RealAlgebraic.rational(ZERO)), *(holds(around.stages, value) for value in marks)]
         after = [holds(around.stages, value) for value in gaps]
         return arcs_of(ends, at, after)

@@ -9,7 +9,7 @@ from typing import Any
 from bezier.arm.choices import Choice, backwards
 from bezier.arm.inverse import Inverse, Solution, exact_number, listed, solution_of
 from bezier.arm.model import Arm, Matrix, inverse
-from bezier.arm.parallel_axes import ROOTS, Search, shape_of
+from bezier.arm.parallel_axes import ROOTS, PoseSearch, shape_of
 from bezier.arm.roots_of_squares import Rules, fixed
 from bezier.arm.wrist import ROOTS as WRIST_ROOTS
 from bezier.arm.wrist import Joints, solve_wrist, wrist_of
@@ -69,7 +69,7 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
         solutions = [_solution(arm, *leaf) for leaf in solve_wrist(wrist, rules, place, pose)]
     else:
         wanted = fixed(pose, rules) if not shape.is_reversed else fixed(inverse(pose), rules)
-        leaves = Search(shape, rules, wanted).solutions(place)
+        leaves = PoseSearch(shape, rules, wanted).solutions(place)
         solutions = [_solution(arm, *leaf, is_reversed=shape.is_reversed) for leaf in leaves]
     result = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]

@@ -32,7 +32,7 @@ from typing import Any
 import qe
 from bezier.arm.elimination import Geometry
 from bezier.arm.inverse import geometry_of
-from bezier.arm.model import Arm, Joint, Motion, apply, inverse, motion, product
+from bezier.arm.model import Arm, Joint, JointKind, apply, inverse, motion, product
 from bezier.arm.ratio import Ratio, constant, variable
 from bezier.curves.scalar import dot, is_zero, sign
 from qe.errors import Unable
@@ -136,7 +136,7 @@ def question(arm: Arm) -> Formula:
     zero = constant(ring, 0, arm.field)
     tip = [zero + v for v in apply(q, (Fraction(0),) * 3)]
     p = [zero + v for v in apply(inverse(chain.constants[0]), [variable(ring, name, arm.field) for name in PLACE])]
-    if joints[0].motion is Motion.REVOLUTE:
+    if joints[0].motion is JointKind.REVOLUTE:
         squares = [v[0] * v[0] + v[1] * v[1] for v in (tip, p)]
         pairs = [(tip[2], p[2]), (squares[0], squares[1])]
     else:
@@ -147,12 +147,12 @@ def question(arm: Arm) -> Formula:
 
 
 def _names(k: int, joint: Joint) -> tuple[str, ...]:
-    return (f"c{k + 1}", f"s{k + 1}") if joint.motion is Motion.REVOLUTE else (f"d{k + 1}",)
+    return (f"c{k + 1}", f"s{k + 1}") if joint.motion is JointKind.REVOLUTE else (f"d{k + 1}",)
 
 
 def _within(joint: Joint, values: list[Ratio]) -> Iterator[Formula]:
     """What the values of a joint satisfy; a ``Ratio`` has a positive denominator."""
-    if joint.motion is Motion.REVOLUTE:
+    if joint.motion is JointKind.REVOLUTE:
         c, s = values
         yield atom((c * c + s * s - 1).top, Relation.EQ)
     elif joint.limits is not None:

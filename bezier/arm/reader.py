@@ -25,7 +25,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from bezier.arm.choices import MOST_RADIANS
-from bezier.arm.model import EXPECTED, Angle, Arm, Convention, Joint, Motion, Row, read_angle
+from bezier.arm.model import EXPECTED, Angle, Arm, Convention, Joint, JointKind, Row, read_angle
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, add, scale, subtract
 from bezier.input.numbers import NotANumber, describe, shorten
@@ -94,7 +94,7 @@ def _row(entry: Table) -> Row:
 
 
 def _joint(entry: Table) -> Joint:
-    kind = entry.choice("kind", Motion, Motion.REVOLUTE)
+    kind = entry.choice("kind", JointKind, JointKind.REVOLUTE)
     name = entry.values["joint"]
     if not isinstance(name, str) or not name.isidentifier():
         raise entry.error("joint", "a name such as theta1", describe(name))
@@ -106,7 +106,7 @@ def _joint(entry: Table) -> Joint:
         raise entry.error("limits", "the least and the greatest value", describe(raw))
     inner = Table({f"limits[{i}]": value for i, value in enumerate(raw)}, entry.source, entry.lines, entry.prefix)
     low, high = (inner.number(f"limits[{i}]") for i in range(2))
-    if kind is Motion.REVOLUTE and max(abs(low), abs(high)) > MOST_RADIANS:
+    if kind is JointKind.REVOLUTE and max(abs(low), abs(high)) > MOST_RADIANS:
         expected = f"rad, at most {MOST_RADIANS} (four full turns)"
         raise entry.error("limits", expected, f"{low} and {high}, which may be degrees")
     if low >= high:

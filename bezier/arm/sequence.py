@@ -20,7 +20,7 @@ from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.joint_path import JointPath
 from bezier.arm.kinematics import wrapped
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import InputError, Unable
 from qe.extras import wanted
@@ -185,12 +185,14 @@ def _runs(
 
 def _steps(arm: Arm, a: Sequence[float], b: Sequence[float]) -> list[float]:
     """From a to b, the shorter way round where a joint turns."""
-    return [wrapped(y - x) if j.motion is Motion.REVOLUTE else y - x for x, y, j in zip(a, b, arm.joints, strict=True)]
+    return [
+        wrapped(y - x) if j.motion is JointKind.REVOLUTE else y - x for x, y, j in zip(a, b, arm.joints, strict=True)
+    ]
 
 
 def _distance(arm: Arm, a: Sequence[float], b: Sequence[float]) -> float:
     parts = zip(_steps(arm, a, b), arm.joints, strict=True)
-    return sum(abs(step) if joint.motion is Motion.REVOLUTE else abs(step) / SLIDE for step, joint in parts)
+    return sum(abs(step) if joint.motion is JointKind.REVOLUTE else abs(step) / SLIDE for step, joint in parts)
 
 
 def _between_limits(path: JointPath, stand: Stand, sample: Sample, number: int | None) -> tuple[float, ...]:
@@ -204,7 +206,7 @@ def _between_limits(path: JointPath, stand: Stand, sample: Sample, number: int |
         return stand.angles
     near = zip(stand.angles, branch.at(sample.s), run.turns, path.arm.joints, strict=True)
     return tuple(
-        angle + tau * (round((close - angle) / tau) + turns) if joint.motion is Motion.REVOLUTE else angle
+        angle + tau * (round((close - angle) / tau) + turns) if joint.motion is JointKind.REVOLUTE else angle
         for angle, close, turns, joint in near
     )
 

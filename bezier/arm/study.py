@@ -25,7 +25,7 @@ from itertools import pairwise
 from bezier.arm.critical import AlongCurve, Number, Reason, S
 from bezier.arm.elimination import M, T
 from bezier.arm.inverse import Inverse, solve, solve_at
-from bezier.arm.model import Arm, Joint, Motion
+from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.ratio import Ratio, constant, variable
 from bezier.certify.held_joint import Held, Rigid, slid, turned
 from bezier.curves.curve import Bezier
@@ -93,13 +93,13 @@ def study(arm: Arm, curve: Bezier, also: Iterable[Number] = ()) -> Study:
     ends = sorted({Fraction(0), Fraction(1), *critical})
     for s in ends:
         point = curve.point(s) if isinstance(s, Fraction) else ()
-        value = solve(arm, point) if point else solve_at(arm, along.place(s), (), along.reduction)
-        specials.append(Special(s, _told(critical.get(s, ()), value), value))
-    stretches = tuple(_stretches(arm, curve, ends, lambda value: value.count))
+        answer = solve(arm, point) if point else solve_at(arm, along.place(s), (), along.reduction)
+        specials.append(Special(s, _real_reasons(critical.get(s, ()), answer), answer))
+    stretches = tuple(_stretches(arm, curve, ends, lambda answer: answer.count))
     within = stretches
     if arm.has_limits:
         places = marks(along, {*critical, *also})
-        within = tuple(_stretches(arm, curve, places, lambda value: value.allowed_count))
+        within = tuple(_stretches(arm, curve, places, lambda answer: answer.allowed_count))
     return Study(arm, curve, stretches, within, tuple(specials), tuple(along.shared_sines()))
 
 
@@ -114,7 +114,7 @@ def _stretches(
         yield Stretch(low, high, count, sample)
 
 
-def _told(reasons: Sequence[Reason], answer: Inverse) -> tuple[Reason, ...]:
+def _real_reasons(reasons: Sequence[Reason], answer: Inverse) -> tuple[Reason, ...]:
     """The reasons that concern real solutions: complex ones may meet as well."""
     merging = any(s.multiple for s in answer.solutions)
     return tuple(r for r in reasons if r is not Reason.MERGE or merging)
@@ -150,7 +150,7 @@ def is_wide(joint: Joint) -> bool:
 
 
 def _turns(joint: Joint) -> bool:
-    return joint.motion is Motion.REVOLUTE
+    return joint.motion is JointKind.REVOLUTE
 
 
 def ends_of(place: Place, bits: int = 64) -> tuple[Fraction, Fraction]:
@@ -174,7 +174,7 @@ def marks(along: AlongCurve, critical: Iterable[Number]) -> tuple[Place, ...]:
                 exact.update(along.zeros(_held_at(relation, quarter)))
         for limit in joint.limits or ():
             assert relation is not None, "a joint with limits has a relation"
-            if joint.motion is Motion.PRISMATIC or limit == 0:
+            if joint.motion is JointKind.PRISMATIC or limit == 0:
                 exact.update(along.zeros(_held_at(relation, QUARTERS[0] if limit == 0 and _turns(joint) else (limit,))))
             else:
                 content, rest = _parted(relation)
@@ -223,7 +223,7 @@ def _relation(along: AlongCurve, joint: int) -> Poly:
         rows = [[constant(ring, v, arm.field) for v in row] for row in matrix]
         return [row[:3] for row in rows], [row[3] for row in rows]
 
-    turns = [j.motion is Motion.REVOLUTE for j in arm.joints]
+    turns = [j.motion is JointKind.REVOLUTE for j in arm.joints]
     motion = turned(t, m, zero, one) if turns[joint] else slid(t, zero, one)
     held = Held.of([lifted(c) for c in arm.chain.constants], turns, joint, motion)
     for result, needs in held.relations(along.point):

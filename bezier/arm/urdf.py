@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
 from bezier.arm.choices import MOST_RADIANS
-from bezier.arm.model import STEP, Angle, Arm, Convention, Joint, Motion, Row
+from bezier.arm.model import STEP, Angle, Arm, Convention, Joint, JointKind, Row
 from bezier.input.numbers import shorten
 from bezier.input.toml_table import read_text
 from qe.errors import InputError
@@ -37,7 +37,7 @@ CLOSE = 1e-3
 DIGITS = 9
 TO_MM = 1000
 QUARTER = STEP // 2
-MOVING = {"revolute": Motion.REVOLUTE, "continuous": Motion.REVOLUTE, "prismatic": Motion.PRISMATIC}
+MOVING = {"revolute": JointKind.REVOLUTE, "continuous": JointKind.REVOLUTE, "prismatic": JointKind.PRISMATIC}
 
 
 def load_urdf(name: str) -> Arm:
@@ -168,14 +168,14 @@ def _turned(twelfths: tuple[int, ...]) -> list[float]:
 
 def _joint(joint: Any, where: str) -> Joint:
     motion = MOVING[joint.type]
-    factor = 1 if motion is Motion.REVOLUTE else TO_MM
+    factor = 1 if motion is JointKind.REVOLUTE else TO_MM
     limit, limits, velocity = joint.limit, None, None
     if limit is not None:
         if joint.type != "continuous" and limit.lower is not None and limit.upper is not None:
             low, high = (_exact(float(v), where) * factor for v in (limit.lower, limit.upper))
             if low > high:
                 raise InputError(f"{where}: a lower limit below the upper one expected, {low} and {high} found")
-            if motion is Motion.REVOLUTE and max(-low, high) > MOST_RADIANS:
+            if motion is JointKind.REVOLUTE and max(-low, high) > MOST_RADIANS:
                 raise InputError(f"{where}: limits in rad expected, {float(low):g} and {float(high):g} found")
             limits = (low, high) if low < high else None
         velocity = _exact(float(limit.velocity), where) * factor if limit.velocity else None

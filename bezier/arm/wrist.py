@@ -27,8 +27,8 @@ from bezier.arm.model import (
     Arm,
     Chain,
     Convention,
+    JointKind,
     Matrix,
-    Motion,
     Row,
     apply,
     field_of,
@@ -71,7 +71,7 @@ def wrist_of(arm: Arm) -> Wrist | None:
     """The wrist, or None: joints before it may slide. Raises ``Unable`` where its centre has no rational height, which
     no model here has."""
     chain = arm.chain
-    if len(chain.joints) != 6 or any(j.motion is not Motion.REVOLUTE for j in chain.joints[3:]):
+    if len(chain.joints) != 6 or any(j.motion is not JointKind.REVOLUTE for j in chain.joints[3:]):
         return None
     between, beyond = meeting(chain.constants[4]), meeting(chain.constants[5])
     if between is None or beyond is None or not is_zero(between[0] - beyond[1]):
@@ -183,7 +183,7 @@ class _Turned:
         constants, kinds = self.wrist.chain.constants, self.wrist.chain.joints
         before = fixed(constants[0], rules).rotation
         for k, (known, constant) in enumerate(zip(self.position.quotients, constants[1:4], strict=True)):
-            if kinds[k].motion is Motion.REVOLUTE:
+            if kinds[k].motion is JointKind.REVOLUTE:
                 before = before @ (turns[k] if known is None else self._turn(known))
             before = before @ fixed(constant, rules).rotation
         return before.inverse() @ self.based.rotation

@@ -16,19 +16,19 @@ Box = tuple[Interval, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class ArmChain:
     """``constants``: what lies before, between and after the joints; ``turns``: which joints turn (others slide)."""
 
     constants: tuple[Motion, ...]
     turns: tuple[bool, ...]
 
     @property
-    def reversed(self) -> Chain:
+    def reversed(self) -> ArmChain:
         """Read from the hand to the base: every joint goes the other way."""
-        return Chain(tuple(back(m) for m in self.constants[::-1]), self.turns[::-1])
+        return ArmChain(tuple(back(m) for m in self.constants[::-1]), self.turns[::-1])
 
 
-def read_chain(entry: Entry) -> Chain:
+def read_chain(entry: Entry) -> ArmChain:
     """The rows of an arm (Craig, section 3.5)."""
     convention, rows = entry.fields("convention", "rows")
     modified = convention.text() == "modified"
@@ -51,7 +51,7 @@ def read_chain(entry: Entry) -> Chain:
             turns.append(joint.text() == "revolute")
             open_part = STILL
         open_part = together(open_part, after)
-    return Chain((*constants, open_part), tuple(turns))
+    return ArmChain((*constants, open_part), tuple(turns))
 
 
 def _angle(entry: Entry) -> tuple[Surd, Surd]:

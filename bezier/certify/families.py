@@ -14,12 +14,12 @@ from itertools import combinations
 
 from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import Box, read_joint, read_number
-from bezier.certify.nested_roots import Joint, Nested, Place, nested, turns
+from bezier.certify.nested_roots import JointValue, Nested, Place, nested, turns
 from bezier.certify.square_roots import ONE, Interval, Polynomial
 from qe.options import Budget
 from qe.proof.entry import Entry
 
-Arc = tuple[Joint, Joint]
+Arc = tuple[JointValue, JointValue]
 """All angles from one on the way round to the other, both included; one angle where they are the same object."""
 Arcs = tuple[Arc, ...] | None
 """None: the whole circle."""
@@ -30,7 +30,7 @@ class Position:
     """What the joints are, None where one is free; ``chosen``: the joints that can be chosen, independently of each
     other, and exactly which of their values the others can follow."""
 
-    joints: Sequence[Joint | None]
+    joints: Sequence[JointValue | None]
     chosen: dict[int, Arcs] = field(default_factory=dict)
 
     @property
@@ -45,8 +45,8 @@ class Position:
         return Position([None if j is None else _opposite(j) for j in self.joints[::-1]], chosen)
 
 
-def _opposite(joint: Joint) -> Joint:
-    return Joint(joint.c, None if joint.s is None else -joint.s, joint.w)
+def _opposite(joint: JointValue) -> JointValue:
+    return JointValue(joint.c, None if joint.s is None else -joint.s, joint.w)
 
 
 def bounded(a: Nested, b: Nested, c: Nested, square: Nested) -> Arcs:
@@ -81,7 +81,7 @@ def not_negative(p: Polynomial, third: Sequence[Polynomial], norm: Polynomial, m
     if not between:
         return None if p[0].sign() > 0 else ()
     places = [Place.of(p, x) for x in between]
-    ends = [Joint(*(nested(place.value(v)) for v in (*third, norm))) for place in places]
+    ends = [JointValue(*(nested(place.value(v)) for v in (*third, norm))) for place in places]
     after = [sr.at(p, high).sign() > 0 for _, high in between]
     if all(after):
         return None
@@ -125,7 +125,7 @@ class Listed:
         return all(_meet(a, b) for a, b in pairs if a is not None and b is not None)
 
 
-def _holds(box: Box | None, joint: Joint | None) -> bool:
+def _holds(box: Box | None, joint: JointValue | None) -> bool:
     if box is None or joint is None:
         return box is None and joint is None
     ends = joint.intervals()

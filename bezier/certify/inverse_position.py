@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from bezier.certify.arm_rows import Chain, read_chain, read_circle, read_number, read_triple
+from bezier.certify.arm_rows import ArmChain, read_chain, read_circle, read_number, read_triple
 from bezier.certify.families import Listed, Position, read_listed
 from bezier.certify.inverse_pose import centre, parallel_axes, wrist
 from bezier.certify.square_roots import ZERO, Motion, Triple, back, image, is_motion
@@ -67,7 +67,7 @@ def _pose(rotation: Entry, place: Triple) -> Motion:
     return pose
 
 
-def _positions(chain: Chain, place: Triple, pose: Motion | None, turn: Entry) -> Positions:
+def _positions(chain: ArmChain, place: Triple, pose: Motion | None, turn: Entry) -> Positions:
     """Of the first three joints, which bring the end point or the centre of the wrist to its place."""
     constants = chain.constants
     if pose is None:
@@ -86,7 +86,9 @@ def _positions(chain: Chain, place: Triple, pose: Motion | None, turn: Entry) ->
     return Positions.of(constants[:3], chain.turns[:3], end, place, read_circle(turn) if counts else None, turn)
 
 
-def _over_roots(chain: Chain, pose: Motion | None, positions: Positions, roots: Entry, budget: Budget) -> list[Listed]:
+def _over_roots(
+    chain: ArmChain, pose: Motion | None, positions: Positions, roots: Entry, budget: Budget
+) -> list[Listed]:
     result, last, total = list[Listed](), None, 0
     for entry in roots.items():
         budget.check()
@@ -105,13 +107,13 @@ def _over_roots(chain: Chain, pose: Motion | None, positions: Positions, roots: 
     return result
 
 
-def _matched(value: Sequence[Position], chain: Chain, solutions: Entry) -> list[Listed]:
+def _matched(positions: Sequence[Position], chain: ArmChain, solutions: Entry) -> list[Listed]:
     """What is listed, if each holds one of the positions, or families."""
     listed = [read_listed(entry, chain.turns) for entry in solutions.items()]
-    if len(value) != len(listed):
+    if len(positions) != len(listed):
         raise solutions.fail("not the number of solutions")
     rest = list(listed)
-    for position in value:
+    for position in positions:
         held = next((one for one in rest if one.holds(position)), None)
         if held is None:
             raise solutions.fail("a solution is not proved to lie in a box of its own")

@@ -29,7 +29,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from bezier.certify import square_roots as sr
-from bezier.certify.arm_rows import Chain, read_chain, read_number, read_surd
+from bezier.certify.arm_rows import ArmChain, read_chain, read_number, read_surd
 from bezier.certify.branch import powers, read_curve
 from bezier.certify.constant_sign import constant_sign
 from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, dot
@@ -59,7 +59,7 @@ class _Plane:
     may_fold: bool
 
     @staticmethod
-    def of(chain: Chain, entry: Entry) -> _Plane:
+    def of(chain: ArmChain, entry: Entry) -> _Plane:
         if len(chain.turns) != 3 or not chain.turns[0]:
             raise entry.fail("expected three joints, the first of which turns")
         (first, o), (second, b), (_, tip) = chain.constants[1:]
@@ -201,7 +201,7 @@ def check_motions(payload: dict[str, Json], budget: Budget | None = None) -> Non
         raise motions.fail("not the number of continuous motions")
 
 
-def _target(chain: Chain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
+def _target(chain: ArmChain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
     """The curve in the frame of the first joint."""
     rows, shift = back(chain.constants[0])
     curve = [sr.trimmed([Surd.rational(c) for c in powers([p[i] for p in points])]) for i in range(3)]

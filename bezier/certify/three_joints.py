@@ -20,7 +20,7 @@ from fractions import Fraction
 
 from bezier.certify import square_roots as sr
 from bezier.certify.families import Arcs, Position, not_negative
-from bezier.certify.nested_roots import Joint, Nested, Place, angle, nested
+from bezier.certify.nested_roots import JointValue, Nested, Place, angle, nested
 from bezier.certify.square_roots import ONE, ZERO, Interval, Motion, Polynomial, Surd, Triple, back, dot, image
 from qe.errors import Unable
 from qe.options import Budget
@@ -66,7 +66,7 @@ class Positions:
         target = image(back(constants[0]), place)
         stands = is_still(turns, e)
         norm, third, v = _last(constants[2], e, phi, stands)
-        parts = _Parts(constants[1], target, norm, v)
+        parts = _Equations(constants[1], target, norm, v)
         equation, full, square, moved, second = (
             parts.second_turns(turns[0]) if turns[1] else parts.second_slides(turns[0])
         )
@@ -137,13 +137,13 @@ class Positions:
             for row, o in zip(rows, shift, strict=True)
         ]
         one, goal = at([ONE]), [at(sr.trimmed([c])) for c in self.target]
-        first = angle(q, goal, (norm2, one)) if self.turns[0] else Joint(norm2 * goal[2] - q[2], None, norm2)
+        first = angle(q, goal, (norm2, one)) if self.turns[0] else JointValue(norm2 * goal[2] - q[2], None, norm2)
         part, factor = self.second
-        second = angle(v, moved, (norm, norm2)) if self.turns[1] else Joint(at(part) + m.by(factor), None, norm2)
+        second = angle(v, moved, (norm, norm2)) if self.turns[1] else JointValue(at(part) + m.by(factor), None, norm2)
         third = None
         if self.third is not None:
             c, *sine = (at(p) for p in self.third)
-            third = Joint(c, sine[0] if sine else None, norm)
+            third = JointValue(c, sine[0] if sine else None, norm)
         joints = [first, second, third]
         return Position(joints, {k: None for k in range(3) if joints[k] is None})
 
@@ -198,7 +198,7 @@ Found = tuple[Polynomial, int, Polynomial | None, tuple[Linear, Linear, Linear],
 
 
 @dataclass(frozen=True, slots=True)
-class _Parts:
+class _Equations:
     """``second``: A1; v over norm."""
 
     second: Motion

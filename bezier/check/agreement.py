@@ -32,7 +32,7 @@ def same_data(file: str, stated: Any, expected: Any, place: str = "") -> None:
         if len(stated) != len(expected):
             _reject(file, place, f"expected {len(expected)} entries, found {len(stated)}")
     elif type(stated) is not type(expected) or stated != expected:
-        _reject(file, place, f"expected {_told(expected)}, found {_told(stated)}")
+        _reject(file, place, f"expected {_shown(expected)}, found {_shown(stated)}")
 
 
 def same_rows(file: str, stated: str, expected: str) -> None:
@@ -46,15 +46,15 @@ def same_rows(file: str, stated: str, expected: str) -> None:
         cells = zip_longest(names, one.split(","), other.split(","))
         for name, mine, right in cells if not other.startswith("#") else ():
             if mine != right:
-                _reject(file, f"line {number}, {name}", f"expected {_told(right)}, found {_told(mine)}")
-        _reject(file, f"line {number}", f"expected {_told(other)}, found {_told(one)}")
+                _reject(file, f"line {number}, {name}", f"expected {_shown(right)}, found {_shown(mine)}")
+        _reject(file, f"line {number}", f"expected {_shown(other)}, found {_shown(one)}")
 
 
 def _reject(file: str, place: str, reason: str) -> Never:
     raise CertificateRejected(f"{file}: {place}" if place else file, reason)
 
 
-def _told(value: Any) -> str:
+def _shown(value: Any) -> str:
     match value:
         case None:
             return "nothing"

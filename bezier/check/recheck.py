@@ -60,7 +60,7 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     channel.event(Event("files", 0, None))
     _check_files(plan, folder)
     _check_summary(plan, stated.summary, folder)
-    return [f"{CERTIFICATE}: accepted", *lines, *_told(plan)]
+    return [f"{CERTIFICATE}: accepted", *lines, *_path_lines(plan)]
 
 
 def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[Plan, tuple[str, ...]]:
@@ -211,7 +211,7 @@ def _seconds(value: Any, place: str) -> Fraction:
 # --- for people ----------------------------------------------------------------------------------------------------
 
 
-def _told(plan: Plan) -> list[str]:
+def _path_lines(plan: Plan) -> list[str]:
     """What the checks of the path showed."""
     if plan.path is None:
         inside = "by any method" if ends_inside(plan.problem) else ""

@@ -77,14 +77,14 @@ def _cards(comparison: Comparison) -> list[Card]:
 def _results(comparison: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:
     content = html.joined(
         html.figures(drawings.get("paths", ()), wide=True),
-        _beside(rows(comparison)),
+        _side_by_side(rows(comparison)),
         html.note("Lengths, curvatures, areas and volumes are enclosures: the number lies between the two ends."),
     )
     return Section("results", "Side by side", content)
 
 
-def _beside(rows_: Iterable[Row], *, numbers: Sequence[int] = ()) -> Markup:
-    return html.table(("", *TITLES.values()), rows_, numbers=numbers)
+def _side_by_side(lines: Iterable[Row], *, numbers: Sequence[int] = ()) -> Markup:
+    return html.table(("", *TITLES.values()), lines, numbers=numbers)
 
 
 def _regions(comparison: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:
@@ -136,7 +136,7 @@ def _problem(comparison: Comparison) -> Section:
 def _timings(comparison: Comparison) -> Section:
     common = [(name, duration(seconds)) for name, seconds in comparison.seconds.items()]
     content = html.joined(
-        _beside(step_rows(comparison), numbers=(1, 2)),
+        _side_by_side(step_rows(comparison), numbers=(1, 2)),
         html.table(("common step", "time"), common, numbers=(1,)),
         html.note(REPORTED),
     )

@@ -183,7 +183,7 @@ def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fals
         # the slowest last: what the limit ends is then only that
         eliminations |= {f"the planar region of {n}": r.answer for n, r in planar.named.items() if r.answer is not None}
         result = parts.take(
-            "derivations", 1, lambda left: derivations.proved(eliminations, Clock(limit=left)), PROOF_SECONDS
+            "derivations", 1, lambda limit: derivations.proved(eliminations, Clock(limit=limit)), PROOF_SECONDS
         )
     known, unproved = result or ({}, {})
     return Comparison(problem, sides, planar, volume, theorem, dict(watch.seconds), parts.unfinished, known, unproved)

@@ -69,14 +69,16 @@ def notes(comparison: Comparison) -> list[str]:
         " to bound the curves" + (", and more than is needed" if is_larger else "")
     ]
     if comparison.existence.truth:
-        lines.append(f"existence theorem of (7), found by the engine: it always has the solution {_told(comparison)}")
+        lines.append(
+            f"existence theorem of (7), found by the engine: it always has the solution {_witness_text(comparison)}"
+        )
         lines.append("with that choice the path stops and turns round at both joins; the objective rules it out")
     lines += [f"planar region of {name}: {r.reason}" for name, r in planar.named.items() if r.region and r.reason]
     lines += [f"{name}: not finished, {reason}" for name, reason in comparison.unfinished.items()]
     return lines
 
 
-def _told(comparison: Comparison) -> str:
+def _witness_text(comparison: Comparison) -> str:
     trivial = ", ".join(f"{name} = {value}" for name, value in trivial_witness().items())
     return "Q1 = Q0, Q2 = R0" if comparison.existence.witness == trivial else comparison.existence.witness
 

@@ -270,7 +270,7 @@ def events_of(forms: Sequence[bs.Coefficients]) -> tuple[Event, ...]:
             event = _located(i, interval, simple, forms)
             if not any(event.signs[j] == 0 and len(simple[j]) > 1 for j in range(i)):  # else it is listed with j
                 result.append((i, event))
-    return tuple(_apart(result, simple))
+    return tuple(_disjoint(result, simple))
 
 
 def _simple(form: bs.Coefficients) -> bs.Coefficients:
@@ -336,12 +336,12 @@ def _sign_at(root_of: bs.Coefficients, t: Interval, form: bs.Coefficients) -> tu
             return sign(bs.value(form, t[0])), t
 
 
-def _apart(value: Sequence[tuple[int, Event]], simple: Sequence[bs.Coefficients]) -> list[Event]:
+def _disjoint(listed: Sequence[tuple[int, Event]], simple: Sequence[bs.Coefficients]) -> list[Event]:
     """The events, all different, each with its polynomial's index: refined until they are in order, with gaps between.
 
     Also next to the ends 0 and 1, which are no roots of the simple polynomials.
     """
-    events = list(value)
+    events = list(listed)
     moved = True
     while moved:
         moved = False

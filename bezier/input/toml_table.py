@@ -73,12 +73,12 @@ class Table:
         """The table of a file. Raises ``InputError``."""
         return Table.parse(read_text(file), str(file))
 
-    def error(self, key: str, expected: str, value: str) -> InputError:
+    def error(self, key: str, expected: str, given: str) -> InputError:
         """The one line about a key of this table."""
         place = self.prefix + key
         line = _line_of(place, self.lines)
         return InputError(
-            f"{self.source}{line}: {self._named(place)}: expected {expected}, found {shorten(value, 160)}"
+            f"{self.source}{line}: {self._named(place)}: expected {expected}, found {shorten(given, 160)}"
         )
 
     def _named(self, place: str) -> str:

@@ -284,7 +284,7 @@ BITS = 96
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class TimedCurve:
     """The part of a motion from ``low`` to ``high``: ``curve``, its parameter proportional to time, on ``name``."""
 
     name: str
@@ -293,12 +293,12 @@ class Piece:
     curve: Bezier
 
 
-def pieces(path: Path, motion: Motion | None) -> tuple[Piece, ...]:
+def pieces(path: Path, motion: Motion | None) -> tuple[TimedCurve, ...]:
     """The motion as pieces of one degree, in order, each beginning where and when the one before ends."""
     curves = {name: Bezier(tuple(tuple(map(near, p)) for p in curve.points)) for name, curve in path.curves.items()}
     result = tuple(_plain(path, curves) if motion is None else _timed(path, curves, motion))
     degree = max(piece.curve.degree for piece in result)
-    return tuple(Piece(p.name, p.low, p.high, p.curve.elevate(degree)) for p in result)
+    return tuple(TimedCurve(p.name, p.low, p.high, p.curve.elevate(degree)) for p in result)
 
 
 def near(value: Any) -> Fraction:
@@ -307,15 +307,15 @@ def near(value: Any) -> Fraction:
     return (low + high) / 2
 
 
-def _plain(path: Path, curves: dict[str, Bezier]) -> Iterator[Piece]:
+def _plain(path: Path, curves: dict[str, Bezier]) -> Iterator[TimedCurve]:
     begin = Fraction(0)
     for name, curve in curves.items():
         end = begin + path.duration(name)
-        yield Piece(name, begin, end, curve)
+        yield TimedCurve(name, begin, end, curve)
         begin = end
 
 
-def _timed(path: Path, curves: dict[str, Bezier], motion: Motion) -> Iterator[Piece]:
+def _timed(path: Path, curves: dict[str, Bezier], motion: Motion) -> Iterator[TimedCurve]:
     law = TimeLaw.of(motion.timing.law, motion.timing.ramp)
     certain = [stretch for stretch in stretches(path, law) if stretch.certain]
     middles = [(a.high + b.low) / 2 for a, b in pairwise(certain)]
@@ -324,7 +324,7 @@ def _timed(path: Path, curves: dict[str, Bezier], motion: Motion) -> Iterator[Pi
         curve, inside = curves[stretch.curve], (low, high - low)
         rows = [bs.to_power(curve.coordinate(i)) for i in range(curve.dimension)]
         forms = [bs.from_power(composed(composed(row, stretch.parameter), inside)) for row in rows]
-        yield Piece(stretch.curve, low * motion.duration, high * motion.duration, _curve(forms))
+        yield TimedCurve(stretch.curve, low * motion.duration, high * motion.duration, _curve(forms))
 
 
 def _curve(forms: list[bs.Coefficients]) -> Bezier:

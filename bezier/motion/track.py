@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bezier.motion.motion import Piece
+from bezier.motion.motion import TimedCurve
 from qe.errors import InputError, Unable
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ class Track:
     control: Array
 
     @staticmethod
-    def of(pieces: Sequence[Piece]) -> Track:
+    def of(pieces: Sequence[TimedCurve]) -> Track:
         """Each number rounded once. Raises ``Unable`` where floating point cannot tell two times apart."""
         try:
             breaks = [float(pieces[0].low), *(float(piece.high) for piece in pieces)]

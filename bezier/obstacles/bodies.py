@@ -127,7 +127,7 @@ ZERO = Fraction(0)
 
 
 @dataclass(order=True, slots=True)
-class _Part:
+class _CurvePart:
     """A part of the curve: ``low`` is a lower bound of its distance from the core, ``high`` the distance of a point."""
 
     low: Fraction
@@ -160,16 +160,16 @@ def distance_enclosure(curve: Bezier, body: Body, rel: Fraction = REL) -> Enclos
     raise Unable("the least distance between the curve and the obstacle was not enclosed within the limit")
 
 
-def _part(curve: Bezier, body: Body, known: Fraction) -> _Part:
+def _part(curve: Bezier, body: Body, known: Fraction) -> _CurvePart:
     """Both bounds for a part; ``known``: a lower bound from a longer part."""
     middle = curve.point(Fraction(1, 2))
     at: Point = tuple(exactly(c) for c in middle)
     away = subtract(at, body.nearest(at))
     square = Fraction(dot(away, away))
-    return _Part(max(known, _apart(curve, body, away, square)), root_above(square, BITS), curve)
+    return _CurvePart(max(known, _plane_bound(curve, body, away, square)), root_above(square, BITS), curve)
 
 
-def _apart(curve: Bezier, body: Body, away: Point, square: Fraction) -> Fraction:
+def _plane_bound(curve: Bezier, body: Body, away: Point, square: Fraction) -> Fraction:
     """The lower bound by the plane across ``away``, 0 where there is none."""
     support = body.support(away)
     if not square or support is None:

@@ -28,7 +28,7 @@ SHORT = 8
 """After this many halvings roots are isolated."""
 
 
-class Argument(Enum):
+class ClearanceArgument(Enum):
     """Which argument proved a curve clear; ``value`` is for people. Each includes the ones before it."""
 
     BOXES = "bounding boxes apart"
@@ -50,7 +50,7 @@ class Span:
 class Clear:
     """The curve never meets the obstacle. ``spans``: for each piece the proof, None where boxes already show it."""
 
-    argument: Argument
+    argument: ClearanceArgument
     spans: tuple[tuple[Span, ...] | None, ...]
 
 
@@ -99,7 +99,7 @@ class Hit:
 
 
 @dataclass(slots=True)
-class Search:
+class ContactSearch:
     """One curve against one piece, from left to right up to the first contact.
 
     ``roots_after``: so many halvings come before roots are isolated; ``spans``: the proof so far.
@@ -132,14 +132,14 @@ class Search:
         return None
 
     def _still_open(self, part: _Part) -> tuple[list[tuple[int, Numbers]], int | None]:
-        left_over = []
+        undecided = []
         for i, form in part.open:
             signs = [sign(c) for c in form]
             if max(signs) < 0 or (max(signs) == 0 and self.piece.constraints[i].strict):
                 return [], i
             if min(signs) < 0 or (min(signs) == 0 and self.piece.constraints[i].strict):
-                left_over.append((i, form))
-        return left_over, None
+                undecided.append((i, form))
+        return undecided, None
 
     def _by_roots(self, part: _Part) -> Hit | None:
         """The first contact in a short interval, exactly: at its left end, at a root, or right after one of these."""
@@ -199,15 +199,15 @@ def _halved(part: _Part) -> list[_Part]:
 def examine(curve: Bezier | Along, obstacle: Obstacle) -> Outcome:
     """Prove the whole curve clear of the obstacle, or find the first contact. Complete."""
     along = curve if isinstance(curve, Along) else Along(curve)
-    if _boxes_apart(along.box, obstacle.box):
-        return Clear(Argument.BOXES, (None,) * len(obstacle.pieces))
+    if _are_disjoint(along.box, obstacle.box):
+        return Clear(ClearanceArgument.BOXES, (None,) * len(obstacle.pieces))
     first: Hit | None = None
     spans: list[tuple[Span, ...] | None] = []
     for k, piece in enumerate(obstacle.pieces):
-        if _boxes_apart(along.box, piece.box):
+        if _are_disjoint(along.box, piece.box):
             spans.append(None)
             continue
-        search = Search(piece)
+        search = ContactSearch(piece)
         hit = search.run([along.form(c) for c in piece.constraints])
         spans.append(tuple(search.spans))
         if hit is not None:
@@ -218,16 +218,16 @@ def examine(curve: Bezier | Along, obstacle: Obstacle) -> Outcome:
     return _contact(along, obstacle, first)
 
 
-def _argument(spans: Sequence[tuple[Span, ...] | None]) -> Argument:
+def _argument(spans: Sequence[tuple[Span, ...] | None]) -> ClearanceArgument:
     shown = [span for piece in spans if piece is not None for span in piece]
     if any(span.constraint is None for span in shown):
-        return Argument.ROOTS
+        return ClearanceArgument.ROOTS
     if any(span.high - span.low < 1 for span in shown):
-        return Argument.SUBDIVISION
-    return Argument.POLYGON if shown else Argument.BOXES
+        return ClearanceArgument.SUBDIVISION
+    return ClearanceArgument.POLYGON if shown else ClearanceArgument.BOXES
 
 
-def _boxes_apart(a: Box | None, b: Box | None) -> bool:
+def _are_disjoint(a: Box | None, b: Box | None) -> bool:
     """Whether two closed boxes have no common point."""
     if a is None or b is None:
         return False
@@ -259,8 +259,8 @@ def enters(curve: Bezier | Along, obstacle: Obstacle) -> bool:
     """Whether some point of the curve lies in the interior of a piece: f_i > 0 for all its constraints."""
     along = curve if isinstance(curve, Along) else Along(curve)
     for piece in obstacle.pieces:
-        if not _boxes_apart(along.box, piece.box):
+        if not _are_disjoint(along.box, piece.box):
             strict = tuple(Constraint(c.terms, True) for c in piece.constraints)
-            if Search(Piece(strict)).run([along.form(c) for c in strict]) is not None:
+            if ContactSearch(Piece(strict)).run([along.form(c) for c in strict]) is not None:
                 return True
     return False

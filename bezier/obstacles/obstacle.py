@@ -241,7 +241,7 @@ AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True, slots=True)
-class Inside:
+class PointInside:
     """The given point ``name`` at ``place`` belongs to a piece of the obstacle."""
 
     name: str
@@ -264,7 +264,7 @@ class Inside:
         return Certificate.witness(conj(map(_formula, constraints)), AXES, self.place)
 
 
-def inside(points: Mapping[str, Vector], obstacles: Sequence[Obstacle]) -> tuple[Inside, ...]:
+def inside(points: Mapping[str, Vector], obstacles: Sequence[Obstacle]) -> tuple[PointInside, ...]:
     """Every point with every obstacle that it belongs to, exactly; touching a closed obstacle is belonging to it."""
     result = []
     for name, point in points.items():
@@ -273,7 +273,7 @@ def inside(points: Mapping[str, Vector], obstacles: Sequence[Obstacle]) -> tuple
             held = (all(c.holds(c.value(place)) for c in piece.constraints) for piece in obstacle.pieces)
             number = next((k for k, holds in enumerate(held) if holds), None)
             if number is not None:
-                result.append(Inside(name, place, obstacle, number))
+                result.append(PointInside(name, place, obstacle, number))
     return tuple(result)
 
 

@@ -13,7 +13,7 @@ from bezier.curves.enclosure import Enclosure
 from bezier.curves.evidence import curve_payload
 from bezier.obstacles.along import Along
 from bezier.obstacles.bodies import distance_enclosure
-from bezier.obstacles.clearance import Clear, Contact, Outcome, Search, examine
+from bezier.obstacles.clearance import Clear, Contact, ContactSearch, Outcome, examine
 from bezier.obstacles.obstacle import Constraint, Obstacle, Piece
 from qe.errors import InputError, Unable
 from qe.proof.certificate import Certificate, Kind
@@ -69,7 +69,7 @@ def _pieces(curve: Bezier, obstacle: Obstacle, until: Fraction) -> list[Any] | N
 
 def _cover(along: Along, piece: Piece, until: Fraction) -> list[list[Any]] | None:
     """The spans for one piece; ``along``: the curve up to ``until``."""
-    search = Search(piece, roots_after=DEEP)
+    search = ContactSearch(piece, roots_after=DEEP)
     if search.run([along.form(c) for c in piece.constraints]) is not None:
         raise InputError("a curve that meets the obstacle has no clearance certificate")
     if any(span.constraint is None for span in search.spans):

@@ -54,7 +54,7 @@ class Strip:
 
 
 @dataclass(frozen=True, slots=True)
-class End:
+class StretchEnd:
     """Where a stretch begins or ends: ``t`` isolates the parameter (equal ends: exactly), ``at`` says what is there."""
 
     t: Interval
@@ -71,8 +71,8 @@ class Below:
 
     curve: str
     axis: str
-    begin: End
-    end: End
+    begin: StretchEnd
+    end: StretchEnd
     sample: tuple[Fraction, Any] | None
 
 
@@ -143,10 +143,10 @@ def _runs(at: Sequence[bool], between: Sequence[bool]) -> list[tuple[int, int]]:
     return runs
 
 
-def _end(event: Event, strip: Strip, axis: str, included: bool) -> End:
+def _end(event: Event, strip: Strip, axis: str, included: bool) -> StretchEnd:
     named = (f"x = {strip.low}", f"x = {strip.high}", f"{axis} = {strip.heights[axis]}")
     zero = [name for name, here in zip(named, event.signs, strict=True) if here == 0]
-    return End(event.t, " and ".join(zero) or "end of the curve", included)
+    return StretchEnd(event.t, " and ".join(zero) or "end of the curve", included)
 
 
 def _sample(curve: Bezier, axis: str, first: Interval, last: Interval) -> tuple[Fraction, Any] | None:
@@ -206,7 +206,7 @@ def to_json(heights: Heights) -> dict[str, Any]:
     }
 
 
-def _stated(end: End) -> dict[str, Any]:
+def _stated(end: StretchEnd) -> dict[str, Any]:
     value = {"exact": str(end.t[0])} if end.t[0] == end.t[1] else Enclosure(*end.t).to_json()
     return {"t": value, "where": end.at, "included": end.included}
 

@@ -170,7 +170,7 @@ def svg_text(figure: Any) -> str:
     FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     named = {**VARIABLES, **{colour: letter.lower() for letter, colour in COLOURS.items()}}
-    text = re.sub("|".join(named), lambda value: f"var(--{named[value[0]]})", text[text.index("<svg") :])
+    text = re.sub("|".join(named), lambda match: f"var(--{named[match[0]]})", text[text.index("<svg") :])
     return re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
 
 

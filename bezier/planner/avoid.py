@@ -22,7 +22,7 @@ from bezier.curves.enclosure import root_below
 from bezier.curves.scalar import Vector, add
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
-from bezier.obstacles.clearance import Argument, Clear
+from bezier.obstacles.clearance import Clear, ClearanceArgument
 from bezier.obstacles.survey import Finding
 from bezier.planner.table import method_for
 from bezier.plans import Attempt, Clock, Outcome, Plan
@@ -95,7 +95,7 @@ def _members(certificate: qe.Certificate) -> list[tuple[str, qe.Certificate]]:
 
 def _needed_more(finding: Finding) -> bool:
     outcome = finding.outcome
-    return isinstance(outcome, Clear) and outcome.argument in (Argument.SUBDIVISION, Argument.ROOTS)
+    return isinstance(outcome, Clear) and outcome.argument in (ClearanceArgument.SUBDIVISION, ClearanceArgument.ROOTS)
 
 
 def _polygon_remark(finding: Finding) -> str:

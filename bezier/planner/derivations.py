@@ -81,10 +81,10 @@ def _of_radius(plan: Plan) -> Mapping[str, Any]:
     return {} if plan.radius_rule is None else plan.radius_rule.answers
 
 
-def _with(plan: Plan, value: Mapping[str, Derived]) -> Plan:
+def _with(plan: Plan, derived: Mapping[str, Derived]) -> Plan:
     """The plan with these derivations, in its certificate too."""
     listed = [(m.label, m.certificate) for m in members_of(plan.certificate)]
-    return replace(plan, derivations=value, certificate=Certificate.bundle([*listed, *members(value)]))
+    return replace(plan, derivations=derived, certificate=Certificate.bundle([*listed, *members(derived)]))
 
 
 def members_of(certificate: Certificate) -> tuple[Labelled, ...]:

@@ -54,7 +54,7 @@ def why_not(made: Plan) -> str | None:
             return f"{avoid.NOT_FOUND} ({contacts}); a path may exist all the same"
         case Outcome.OUT_OF_REACH:
             return f"the arm cannot follow the path: {'; '.join(arm.summary_lines(made))}"
-    motion_found = None if made.quality is None else made.quality.motion
-    if motion_found is not None and motion_found.reason:
-        return f"{motion_found.reason}; kept at all times with {motion_found.suggestion}"
+    moving = None if made.quality is None else made.quality.motion
+    if moving is not None and moving.reason:
+        return f"{moving.reason}; kept at all times with {moving.suggestion}"
     return "; ".join(made.joints.remarks if made.joints is not None else ()) or "limits of the joints are not kept"

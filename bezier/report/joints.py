@@ -7,7 +7,7 @@ from typing import Any
 
 from bezier.arm import joint_plan as plans
 from bezier.arm.joint_plan import JointPlan
-from bezier.arm.model import Motion
+from bezier.arm.model import JointKind
 from bezier.arm.motion import JointMotion
 from bezier.arm.path_report import excesses_in_words, number_in_words
 from bezier.report import html
@@ -105,7 +105,7 @@ def _extremes(motion: JointMotion) -> list[tuple[Text, ...]]:
         ]
         worst = next((k for k in (False, None) if k in kept), True)
         said = toned(WORDS[worst], worst is True) if kept else "none given"
-        unit = "rad" if joint.motion is Motion.REVOLUTE else "mm"
+        unit = "rad" if joint.motion is JointKind.REVOLUTE else "mm"
         tops = (float(bound.high) * (1 + 1e-5) for bound in (v, a))
         bounds = (f"at most {top:.5g} {unit}/{per}" for top, per in zip(tops, ("s", "s²"), strict=True))
         rows.append((joint.name, *bounds, said))

@@ -185,10 +185,10 @@ def between(value: Enclosure) -> str:
 
 
 def _motion(motion: Motion) -> list[Text]:
-    collected = motion.extremes
+    largest = motion.extremes
     values = {
-        "max_speed": ("speed", "mm/s", collected.speed),
-        "max_acceleration": ("acceleration", "mm/s²", collected.acceleration),
+        "max_speed": ("speed", "mm/s", largest.speed),
+        "max_acceleration": ("acceleration", "mm/s²", largest.acceleration),
     }
     said = {True: "kept at all times", False: "EXCEEDED", None: "not decided"}
     rows = []

@@ -126,10 +126,10 @@ def _condition(item: OnPoint) -> str:
     return f"{point}<mo>∈</mo><mtext>{escape(condition.name)}</mtext>"
 
 
-def contradiction(system: System, value: Any, reason: str, *more: Text) -> Section:
+def contradiction(system: System, certified: Any, reason: str, *more: Text) -> Section:
     """Why there is no path, with the multipliers that prove it."""
     content = [html.paragraph(html.strong(f"{reason[0].upper()}{reason[1:]}.")), *more]
-    proof = multipliers(system, value)
+    proof = multipliers(system, certified)
     if proof:
         content += [html.heading("The proof"), html.paragraph(CONTRADICTION), proof]
     return Section("none", "Why there is no path", html.joined(*content))
@@ -153,7 +153,7 @@ def multipliers(system: System, optimum: Any, what: str = "condition") -> Markup
     return html.table((what, "multiplier"), rows)
 
 
-def optimum(plan: Plan, system: System, value: Any, title: Text, free_minimum: str) -> Section | None:
+def optimum(plan: Plan, system: System, certified: Any, title: Text, free_minimum: str) -> Section | None:
     """The best free control points and those that follow; ``free_minimum`` describes the unconstrained minimum."""
     if plan.path is None:
         return None
@@ -168,7 +168,7 @@ def optimum(plan: Plan, system: System, value: Any, title: Text, free_minimum: s
         least(plan),
         control_points(plan.path),
         html.paragraph(active),
-        multipliers(system, value, "active condition"),
+        multipliers(system, certified, "active condition"),
         html.note(field_text(plan.path)) if field_text(plan.path) else None,
     )
     return Section("best", title, html.joined(*content), short="optimum")
@@ -243,7 +243,7 @@ def condition_name(condition: Condition) -> str:
     return {"ball": "‖·‖ ≤ r", "floor": "z ≥ 0"}.get(condition.name, condition.name)
 
 
-def asked(plan: Plan, name: str, lines: Iterable[Text], counts: str) -> Markup:
+def question_with_answer(plan: Plan, name: str, lines: Iterable[Text], counts: str) -> Markup:
     """The question in the paper's notation and the quantifier-free answer, both also as text, with a link to its
     derivation; ``name``: what the plan calls the question."""
     formula, answer = plan.formula, plan.answer.formula

@@ -17,7 +17,7 @@ from bezier.arm import inverse_evidence
 from bezier.arm.inverse import Inverse, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.kinematics import position
-from bezier.arm.model import Motion
+from bezier.arm.model import JointKind
 from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm
 from bezier.certify.nested_roots import Nested, Place, nested, turns
@@ -66,14 +66,14 @@ def test_poses_that_joints_made(arm: Any, tangents: list[Fraction]) -> None:
 @settings(max_examples=2)
 @given(st.lists(st.integers(-7, 7), min_size=3, max_size=3), st.integers(-1, 1))
 def test_points_of_arms_with_joints_that_slide(arm: Any, numbers: list[int], aside: int) -> None:
-    values = [pair(k) if j.motion is Motion.REVOLUTE else Fraction(7 * k, 2) for k, j in zip(numbers, arm.joints)]
+    values = [pair(k) if j.motion is JointKind.REVOLUTE else Fraction(7 * k, 2) for k, j in zip(numbers, arm.joints)]
     point = position(arm, dict(zip((j.name for j in arm.joints), values)))
     try:
         found = solve(arm, [c + 20 * aside for c in point])
     except Unable as error:
         assert "slide along one direction" in str(error)
         return
-    if all(arm.joints[c.joint].motion is Motion.REVOLUTE for s in found.solutions for c in s.choices):
+    if all(arm.joints[c.joint].motion is JointKind.REVOLUTE for s in found.solutions for c in s.choices):
         made(found)
 
 

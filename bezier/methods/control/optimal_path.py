@@ -87,7 +87,7 @@ class Certified:
         return Certified(certificate, points, multipliers[:-1], bound)
 
 
-def found_optimum(system: System, certificate: qe.Certificate) -> Certified:
+def certified_optimum(system: System, certificate: qe.Certificate) -> Certified:
     """The optimum that planning goes on with: read from its certificate, so that checking it meets the same numbers."""
     try:
         return Certified.of(system, certificate)
@@ -160,7 +160,7 @@ def begun(problem: Problem, system: System, clock: Clock) -> Begun:
         optimum = least(system, answer, clock)
     clock.learn("optimum", optimum.status.value)
     with clock.step("curves and proofs"):
-        fields = drawn(problem, system, found_optimum(system, optimum.certificate))
+        fields = drawn(problem, system, certified_optimum(system, optimum.certificate))
     result = Drawn(system, answer, optimum, fields)
     return Begun(problem=problem, outcome=fields["outcome"], path=fields["path"], found=result, seconds=clock.seconds)
 

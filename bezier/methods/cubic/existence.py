@@ -55,8 +55,8 @@ def existence(*, timeout: float | None = None) -> Existence:
     """Ask the engine."""
     statement = question()
     answer = qe.eliminate(statement.formula, timeout=timeout)
-    told = next((line for line in answer.stats.get("plan", ()) if line.startswith(WITNESS)), "")
-    return Existence(str(statement), answer.truth, told.removeprefix(WITNESS), answer)
+    witness = next((line for line in answer.stats.get("plan", ()) if line.startswith(WITNESS)), "")
+    return Existence(str(statement), answer.truth, witness.removeprefix(WITNESS), answer)
 
 
 WITNESS = "witness in the parameters: "

@@ -40,7 +40,7 @@ def story(plan: CubicPlan, drawing: Drawing | None) -> Story:
     further = len(plan.system.conditions) - len(plan.system.shape.inner)
     counts = "18 variables, 12 of them quantified, 12 equations, 6 norm conditions"
     more = f", {further} further conditions" if further else ""
-    formulas = parts.asked(plan, FORMULA, parts.question(plan, plan.system), counts + more)
+    formulas = parts.question_with_answer(plan, FORMULA, parts.question(plan, plan.system), counts + more)
     title = Markup("The best {} and {}").format(names["Q1"], names["Q2"])
     sections = (
         Section("question", "The question", _intro(plan) + formulas),
@@ -117,8 +117,8 @@ def _stops(plan: CubicPlan, drawing: Drawing | None) -> Section:
     return Section("stops", "Does it ever stop?", html.joined(*content), "stops")
 
 
-def _speeds(value: Mapping[str, Slowest]) -> Markup:
-    rows = [(curve_name(name), toned(speed_text(slow), not slow.stops)) for name, slow in value.items()]
+def _speeds(speeds: Mapping[str, Slowest]) -> Markup:
+    rows = [(curve_name(name), toned(speed_text(slow), not slow.stops)) for name, slow in speeds.items()]
     return html.table(("curve", "least speed"), rows)
 
 

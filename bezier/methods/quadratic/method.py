@@ -85,7 +85,7 @@ def story(plan: QuadraticPlan, drawing: Drawing | None) -> Story:
         "Formula (8) of the paper: which {Q1} leave room for {P1} and {R1} such that both joins are C¹ and all three"
         " control points stay in the workspace?"
     ).format(**names)
-    formulas = parts.asked(plan, FORMULA, parts.question(plan, plan.system), counts + more)
+    formulas = parts.question_with_answer(plan, FORMULA, parts.question(plan, plan.system), counts + more)
     title, free = Markup("The best {}").format(names["Q1"]), "the unconstrained minimum, the midpoint of the via points"
     sections = (
         Section("question", "The question", html.paragraph(intro) + formulas),

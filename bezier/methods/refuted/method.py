@@ -7,7 +7,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 import qe
-from bezier.obstacles.obstacle import Inside
+from bezier.obstacles.obstacle import PointInside
 from bezier.plans import Begun, Clock, Method, Outcome, Plan, Restored, Stated, Story
 from bezier.problem import Problem, ends_inside
 from bezier.report import html
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 class RefutedPlan(Plan):
     """``inside``: the ends of the path that lie in obstacles, one at least."""
 
-    inside: tuple[Inside, ...]
+    inside: tuple[PointInside, ...]
 
 
 def begin(problem: Problem, clock: Clock) -> Begun:

@@ -28,8 +28,8 @@ from bezier.methods.single.simplex import (
     Duals,
     LinearOptimum,
     LinearProgram,
+    LinearRow,
     Outcome,
-    Row,
     certificate,
     solve,
 )
@@ -215,7 +215,7 @@ class _Search:
 def plain_program(model: Model, cuts: Sequence[Cut]) -> tuple[LinearProgram, Values]:
     """The program of (4) and the cuts without the slack, and its objective."""
     whole = model.program(cuts)
-    rows = tuple(Row(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:-1])
+    rows = tuple(LinearRow(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:-1])
     return LinearProgram(whole.names[:-1], whole.lower[:-1], rows), model.costs[:-1]
 
 

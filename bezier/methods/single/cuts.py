@@ -26,7 +26,7 @@ from bezier.curves.scalar import Vector, dot, scale, sign
 from bezier.curves.workspace import Workspace
 from bezier.input.task import Axis, Task, Values
 from bezier.methods.single.program import curve, objective, program, weights_at
-from bezier.methods.single.simplex import LinearProgram, Row
+from bezier.methods.single.simplex import LinearProgram, LinearRow
 
 ZERO, ONE = Fraction(0), Fraction(1)
 GRID = 32
@@ -106,11 +106,11 @@ class Model:
         rows = []
         for k, part in enumerate(single):
             before, after = (ZERO,) * (size * k), (ZERO,) * (size * (len(axes) - 1 - k) + 1)
-            rows += [Row((*before, *row.coefficients, *after), row.bound, True) for row in part.rows]
+            rows += [LinearRow((*before, *row.coefficients, *after), row.bound, True) for row in part.rows]
         for cut in (*self.tangents, *cuts):
             row = self.row(cut)
             rows.append(replace(row, coefficients=(*row.coefficients[:-1], ZERO)) if cut.axis in rigid else row)
-        rows.append(Row((*(ZERO,) * (size * len(axes)), ONE), ONE))
+        rows.append(LinearRow((*(ZERO,) * (size * len(axes)), ONE), ONE))
         return LinearProgram(self.names, (*(v for part in single for v in part.lower), ZERO), tuple(rows))
 
     # --- the sphere ----------------------------------------------------------------------------------------------
@@ -130,7 +130,7 @@ class Model:
 
     # --- rows ----------------------------------------------------------------------------------------------------
 
-    def row(self, cut: Cut) -> Row:
+    def row(self, cut: Cut) -> LinearRow:
         """The cut over the unknowns and s."""
         match cut.kind:
             case CutKind.HEIGHT:
@@ -150,7 +150,7 @@ class Model:
                 slope = prod(factor for factor in self.factors(cut.t) if factor)  # |w'| at its simple zero
                 return self._plane_row(normal, weights, ZERO, self.workspace.radius_squared * slope)
 
-    def _height_row(self, cut: Cut) -> Row:
+    def _height_row(self, cut: Cut) -> LinearRow:
         """h - P(t) + s h (t - t_a)(t_b - t) <= 0, or, at t_a and t_b, its derivative inwards."""
         height = next(Fraction(axis.height or 0) for axis in self.task.raised if axis.name == cut.axis)
         down = (ZERO, *(Fraction(-(axis.name == cut.axis)) for axis in self.task.axes))
@@ -163,13 +163,13 @@ class Model:
 
     def _plane_row(
         self, normal: Vector, weights: Values, bound: Fraction, slack: Fraction, equation: bool = False
-    ) -> Row:
+    ) -> LinearRow:
         """normal . (sum weights_i P_i) + slack s <= bound."""
         straight = curve(self.task, {axis.name: _ends_only(self.task, axis) for axis in self.task.raised})
         fixed = [dot(weights, straight.coordinate(i)) for i in range(straight.dimension)]
         factors = [normal[1 + self.task.axes.index(axis)] for axis in self.task.raised]
         coefficients = [factor * w for factor in factors for w in weights[1:-1]]
-        return Row((*coefficients, slack), bound - dot(normal, fixed), equation)
+        return LinearRow((*coefficients, slack), bound - dot(normal, fixed), equation)
 
     # --- violations ----------------------------------------------------------------------------------------------
 

@@ -58,7 +58,7 @@ def inverse() -> st.Statement:
     here = st.equal(x, _between(first, last, t))
     solved = st.equal(st.Product((st.difference(last, first), t)), st.difference(x, first))
     same = st.Every((st.Implies(here, solved), st.Implies(solved, here)), bracketed=True)
-    return st.for_all(("x0", "xn", "x", "t"), st.Implies(st.Comparison(first, Relation.NE, last), same))
+    return st.for_all(("x0", "xn", "x", "t"), st.Implies(st.Atomic(first, Relation.NE, last), same))
 
 
 def _between(first: st.Term, last: st.Term, t: st.Term) -> st.Term:

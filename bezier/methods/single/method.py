@@ -34,7 +34,7 @@ def story(plan: SinglePlan, drawing: Drawing | None) -> Story:
     given = plan.task
     lines = [shown(line) for axis in given.raised for line in _question(given, axis)]
     counts = "linear equations and bounds for each coordinate; v stands for the sum"
-    formulas = parts.asked(plan, SUMS, lines, counts)
+    formulas = parts.question_with_answer(plan, SUMS, lines, counts)
     sections = (
         Section("question", "The question", _intro(given) + formulas),
         _programs(plan),

@@ -23,7 +23,7 @@ Check = Callable[[], object]
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class LinearRow:
     """coefficients . x <= bound, or = bound for an ``equation``."""
 
     coefficients: Numbers
@@ -41,7 +41,7 @@ class LinearProgram:
 
     names: tuple[str, ...]
     lower: Numbers
-    rows: tuple[Row, ...]
+    rows: tuple[LinearRow, ...]
 
     def __post_init__(self) -> None:
         if any(len(numbers) != len(self.names) for numbers in (self.lower, *(row.coefficients for row in self.rows))):

@@ -21,7 +21,7 @@ from bezier.arm.inverse import solve
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.kinematics import positions
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.reader import load_arm
 from bezier.arm.study import ends_of, study
 from bezier.curves.curve import Bezier
@@ -144,7 +144,7 @@ def test_solutions_within_the_limits_are_counted_for_every_s(rng: random.Random)
     limits: list[Limits] = []
     for joint in arm.joints:
         ends = sorted(rng.sample(choices, 2))
-        scale = 1 if joint.motion is Motion.REVOLUTE else 60
+        scale = 1 if joint.motion is JointKind.REVOLUTE else 60
         limits.append(rng.choice((None, (scale * ends[0], scale * ends[1]))))
     try:
         found = study(limited(arm, limits), curve_near(arm, rng))
@@ -158,7 +158,7 @@ def test_solutions_within_the_limits_are_counted_for_every_s(rng: random.Random)
 
 def curve_near(arm: Arm, rng: random.Random) -> Bezier:
     """A curve near a point that the arm reaches; sometimes in the plane y = 0 or at one height."""
-    q = [rng.uniform(-3, 3) if j.motion is Motion.REVOLUTE else rng.uniform(40, 300) for j in arm.joints]
+    q = [rng.uniform(-3, 3) if j.motion is JointKind.REVOLUTE else rng.uniform(40, 300) for j in arm.joints]
     centre = [round(float(c)) for c in positions(arm, [q])[0]]
     points = [[c + rng.randint(-60, 60) for c in centre] for _ in range(rng.choice((2, 3, 3, 4)))]
     still = rng.choice((None, None, None, 1, 2))
@@ -202,7 +202,7 @@ def close_passes(rng: random.Random) -> int:
     if not free.whole_runs:
         return 0
     run = rng.choice(free.whole_runs)
-    turns = arm.joints[joint].motion is Motion.REVOLUTE
+    turns = arm.joints[joint].motion is JointKind.REVOLUTE
     top = greatest(arm, curve, run.parts[0][1], joint)
     if top is None or abs(top) > 20:
         return 0

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import Nonnegative, decide
 from bezier.obstacles.bodies import HalfSpaceBody, Rounded
-from bezier.obstacles.clearance import Argument, Clear, Contact, enters, examine
+from bezier.obstacles.clearance import Clear, ClearanceArgument, Contact, enters, examine
 from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
 from bezier.obstacles.survey import clearance_certificate
 from qe.certify.verify import verify
@@ -131,9 +131,9 @@ def test_arguments_are_named_by_what_was_needed():
         assert isinstance(found, Clear)
         return found.argument
 
-    assert argument(ball((9, 9, 9), 1)) is Argument.BOXES
-    assert argument(obstacle(HalfSpaceBody(at(1, 0, 1), Fraction(-5)))) is Argument.POLYGON
-    assert argument(ball((0, 0, 0), 1)) is Argument.SUBDIVISION
+    assert argument(ball((9, 9, 9), 1)) is ClearanceArgument.BOXES
+    assert argument(obstacle(HalfSpaceBody(at(1, 0, 1), Fraction(-5)))) is ClearanceArgument.POLYGON
+    assert argument(ball((0, 0, 0), 1)) is ClearanceArgument.SUBDIVISION
 
 
 @settings(max_examples=35, deadline=None)
