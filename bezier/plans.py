@@ -210,7 +210,7 @@ class Begun:
 
 @dataclass(slots=True)
 class Clock:
-    """The steps of a plan: their times, the time left, and who is told."""
+    """The steps of a plan: their times, the time left, and who is notified."""
 
     limit: float | None = None
     listener: Listener = silent

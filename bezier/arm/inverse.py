@@ -1,6 +1,6 @@
 """Inverse kinematics at a point: all real joint positions that put the end effector there, with a proved count.
 
-The equation of ``bezier.arm.elimination``, confirmed once per arm by putting the angles back into its forward
+The equation of ``bezier.arm.elimination``, confirmed once per arm by substituting the angles into its forward
 kinematics, is solved at the point by exact real root isolation over the field of its coefficients; every real root is
 one solution.
 """

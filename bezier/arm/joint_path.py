@@ -245,7 +245,7 @@ def _check_joined(studied: Study, curve: int, runs: Sequence[Run], plane: Vertic
                 near = ([e for e in r.excesses if e.curve == curve and one.high in (e.low, e.high)] for r in through)
                 shown = not all(near)
             if not shown:
-                raise Unable(f"near s = {float(low):.12g} it is not told which joint passes its limit first")
+                raise Unable(f"near s = {float(low):.12g} it is not decided which joint passes its limit first")
 
 
 def _follows(one: Branch, other: Branch) -> bool:

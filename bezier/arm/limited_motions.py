@@ -180,7 +180,7 @@ class LimitedMotions:
 
     @staticmethod
     def of(motions: ContinuousMotions, studies: Sequence[Study]) -> LimitedMotions:
-        """Raises ``Unable`` where an angle is not told from a limit."""
+        """Raises ``Unable`` where an angle is not separated from a limit."""
         if not motions.arm.has_limits:
             return LimitedMotions(motions.count, {m.number: Kept((), (None,) * 3) for m in motions.motions})
         parts = list(_parts(motions, studies))

@@ -97,9 +97,9 @@ def _check_shape(geometry: Geometry) -> None:
     if not all(geometry.turns):
         raise Unable(f"{geometry.arm.name}: the closed form is for arms whose joints all turn")
     parallel = is_zero(geometry.nu[2])
-    flat = all(is_zero(f[2]) for f in geometry.v[1:])
+    is_plane = all(is_zero(f[2]) for f in geometry.v[1:])
     in_plane = is_zero(geometry.v[0][2] + geometry.gamma[2])
-    if not (parallel and flat and in_plane and sign(dot(geometry.shift[:2], geometry.shift[:2])) > 0):
+    if not (parallel and is_plane and in_plane and sign(dot(geometry.shift[:2], geometry.shift[:2])) > 0):
         raise Unable(f"{geometry.arm.name}: the closed form is for arms that move in a plane through their first axis")
 
 

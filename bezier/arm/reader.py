@@ -18,19 +18,23 @@ spline = true                               # points to pass through instead: a 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import ast
+import operator
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 from bezier.arm.choices import MOST_RADIANS
 from bezier.arm.model import EXPECTED, Angle, Arm, Convention, Joint, JointKind, Row, read_angle
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, add, scale, subtract
-from bezier.input.numbers import NotANumber, describe, shorten
+from bezier.input.numbers import MAX_CHARACTERS, NotANumber, describe, parse, shorten
 from bezier.input.toml_table import Table, read_text
 from qe.errors import InputError
+from qe.exact.algebraic import RealAlgebraic
 
 MAX_ROWS = 24
 SUFFIX = ".toml"
@@ -187,3 +191,64 @@ def natural_spline(points: Sequence[Vector]) -> list[Bezier]:
         Bezier((p, add(p, scale(third, u)), subtract(q, scale(third, v)), q))
         for p, q, u, v in zip(points, points[1:], slopes, slopes[1:], strict=False)
     ]
+
+
+Exact = Fraction | RealAlgebraic
+
+EXACT = 'an exact number such as 3/4, 0.75 or "44*sqrt(2) + 120"'
+MOST_ROOTS = 4
+_BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+
+
+def read_exact(text: str) -> Exact:
+    """The number that the text stands for, also with the minus sign of printed pages. Raises ``InputError``."""
+    text = text.replace("−", "-")
+    try:
+        return parse(text)
+    except NotANumber as error:
+        if "sqrt" not in text or len(text) > MAX_CHARACTERS:
+            raise InputError(f"expected {EXACT}, found {error}") from None
+    refused = InputError(f'expected {EXACT}, found "{shorten(text)}"')
+    if text.count("sqrt") > MOST_ROOTS:
+        raise InputError(f"expected at most {MOST_ROOTS} square roots in a number, found {text.count('sqrt')}")
+    try:
+        tree = ast.parse(text.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise refused from None
+    value = _value(tree.body, text.strip(), refused)
+    return value.as_fraction() if isinstance(value, RealAlgebraic) and value.is_rational else value
+
+
+def _value(node: ast.expr, text: str, refused: InputError) -> Any:
+    match node:
+        case ast.Constant(value=int() | float()) if not isinstance(node.value, bool):
+            try:
+                return parse(ast.get_source_segment(text, node) or "")  # the digits as written, never a float
+            except NotANumber:
+                raise refused from None
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=inner):
+            value = _value(inner, text, refused)
+            return -value if isinstance(sign, ast.USub) else value
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
+            a, b = _value(left, text, refused), _value(right, text, refused)
+            if isinstance(op, ast.Div) and b == 0:
+                raise InputError(f'expected {EXACT}, found "{shorten(text)}", which divides by zero')
+            return _BINARY[type(op)](a, b)
+        case ast.Call(func=ast.Name(id="sqrt"), args=[inner], keywords=[]):
+            return _root(_value(inner, text, refused), text)
+    raise refused
+
+
+def _root(value: Any, text: str) -> RealAlgebraic:
+    if isinstance(value, RealAlgebraic) and value.is_rational:
+        value = value.as_fraction()
+    if not isinstance(value, Fraction):
+        raise InputError(f'expected square roots of rational numbers, found "{shorten(text)}"')
+    if value < 0:
+        raise InputError(f'expected {EXACT}, found "{shorten(text)}", with the root of a negative number')
+    return RealAlgebraic.from_root([-value.numerator, 0, value.denominator], 0, value + 1)

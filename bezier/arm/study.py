@@ -164,7 +164,7 @@ def marks(along: AlongCurve, critical: Iterable[Number]) -> tuple[Place, ...]:
     """0, 1, the critical parameters, and all in between at which a solution may be at a limit, or, where full turns
     count, an angle may be a multiple of a quarter turn; ascending.
 
-    Enclosures that cannot be told from each other are one. Raises ``Unable`` where that joins two of the same limit, or
+    Enclosures that are not separated are one. Raises ``Unable`` where that joins two of the same limit, or
     an enclosure and an exact parameter."""
     exact, enclosures = set[Number](critical), list[Callable[[int], list[Near]]]()
     for k, joint in enumerate(along.arm.joints):
@@ -209,7 +209,9 @@ def _joined(group: list[Item]) -> Place:
         return group[0][2]
     limits = [k for *_, k in group]
     if -1 in limits or len(set(limits)) < len(limits):
-        raise Unable(f"near s = {float(group[0][0]):.12g} places where joints are at limits are not told from others")
+        raise Unable(
+            f"near s = {float(group[0][0]):.12g} places where joints are at limits are not separated from others"
+        )
     return Near(min(item[0] for item in group), max(item[1] for item in group), is_joined=True)
 
 
@@ -268,7 +270,7 @@ def _enclosed_zeros(along: AlongCurve, p: Poly, limit: Fraction, bits: int) -> l
     """Intervals in [0, 1], each with one zero, of p at an angle."""
     found = zeros_at_angle(p, S, along.arm.field.theta, limit, bits)
     if found is None:
-        raise Unable(f"the places where a joint is at {limit} are not told apart")
+        raise Unable(f"the places where a joint is at {limit} are not separated")
     return [Near(low, high) for low, high in found if high >= 0 and low <= 1]
 
 

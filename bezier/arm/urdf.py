@@ -51,7 +51,7 @@ def load_urdf(name: str) -> Arm:
             raise missing from None
         raise
     try:
-        with warnings.catch_warnings():  # about numbers that are none, which are told below
+        with warnings.catch_warnings():  # about numbers that are none, which are reported below
             warnings.simplefilter("ignore", RuntimeWarning)
             model = yourdfpy.URDF.load(file, build_scene_graph=False, load_meshes=False)
         joints = list(model.robot.joints)

@@ -178,7 +178,7 @@ def _arcs(entry: Entry, turning: bool) -> tuple[tuple[Box, Box], ...]:
         result.append((low, high))
     disjoint = [box for low, high in result for box in ([low] if low == high else [low, high])]
     if any(_meet(a, b) for a, b in combinations(disjoint, 2)):
-        raise entry.fail("two ends are not told apart")
+        raise entry.fail("two ends are not separated")
     return tuple(result)
 
 

@@ -31,8 +31,7 @@ from fractions import Fraction
 from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import ArmChain, read_chain, read_number, read_surd
 from bezier.certify.branch import powers, read_curve
-from bezier.certify.constant_sign import constant_sign
-from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, dot
+from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, constant_sign, dot
 from qe.certify.kinds import BroughtKind
 from qe.errors import Unable
 from qe.options import Budget
@@ -73,21 +72,21 @@ class _Plane:
         may_fold = False
         if chain.turns[1]:
             normal, centre = axis, tuple(o)
-            flat = not (third[0] or third[1]) if chain.turns[2] else not third[2]
+            is_plane = not (third[0] or third[1]) if chain.turns[2] else not third[2]
             base = tuple(x + n * reach[2] for x, n in zip(o, normal, strict=True))
             if chain.turns[2]:
                 inside = dot(b[:2], b[:2])
                 size, rest, may_fold = FOUR * inside * radius, inside + radius, not (inside - radius)
-                flat = flat and bool(size)
+                is_plane = is_plane and bool(size)
             else:
                 lever = reach[0] * third[1] - reach[1] * third[0]
                 size, may_fold = lever * lever, not lever
         else:
             base = centre = tuple(x + dot(row, reach) for x, row in zip(o, first, strict=True))
             normal = outer if chain.turns[2] else _cross(axis, outer)
-            flat = not dot(normal, axis) and (bool(radius) or not chain.turns[2])
+            is_plane = not dot(normal, axis) and (bool(radius) or not chain.turns[2])
             size = radius
-        if not flat or normal[2] or dot(normal, normal) != ONE:
+        if not is_plane or normal[2] or dot(normal, normal) != ONE:
             raise entry.fail("the second and the third joint are not proved to move in a plane along the first axis")
         along = (normal[1], -normal[0])
         return _Plane(

@@ -138,8 +138,7 @@ def ik(
 ) -> int:
     """All real joint positions that put the end effector of ARM at the point (X, Y, Z)."""
     from bezier.arm.command import inverse
-    from bezier.arm.exact_text import read_exact
-    from bezier.arm.reader import load_arm
+    from bezier.arm.reader import load_arm, read_exact
 
     check_limits(timeout, memory)
     check_writable(certificate)
@@ -191,8 +190,7 @@ def joints(
 ) -> int:
     """Find the joint sequence of least change, prove joint velocities and accelerations; write data and a moving
     page."""
-    from bezier.arm.exact_text import read_exact
-    from bezier.arm.reader import load_arm, load_route
+    from bezier.arm.reader import load_arm, load_route, read_exact
     from bezier.planner.outputs import all_or_none
 
     check_limits(timeout, memory)

@@ -14,8 +14,7 @@ import qe
 from bezier.compare import whole_curve
 from bezier.compare.planar import Plane, plane_coordinates
 from bezier.curves.area import convex_area
-from bezier.curves.enclosure import Enclosure
-from bezier.curves.quality import curvature_enclosure, length_enclosure
+from bezier.curves.enclosure import Enclosure, curvature_enclosure, length_enclosure
 from bezier.methods.control.statements import Statement, exists
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.cubic.existence import Existence, existence, sentence
@@ -300,7 +299,7 @@ class _Spent(Exception):
 
 
 def _measured(formula: Formula, channel: Channel, *, most: float | None) -> tuple[qe.Region, Enclosure]:
-    """The region with all that is shown of it, which is told as soon as it is known, and its area.
+    """The region with all that is shown of it, reported as soon as it is known, and its area.
 
     Raises ``BudgetExceeded`` after ``most`` seconds of processor time.
     """

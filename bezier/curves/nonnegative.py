@@ -8,7 +8,7 @@ Farouki 2012, section 5), or q < 0 on an interval, and a bisection point falls i
 
 Where several polynomials along one curve change their signs: all roots in [0, 1], in order, with all exact signs.
 
-Each polynomial is isolated by itself and the roots are then told apart by halving. Inverses are what is slow in a large
+Each polynomial is isolated by itself and the roots are then separated by halving. Inverses are what is slow in a large
 number field, and greatest common divisors are full of them; so they are left for the cases that halving does not
 settle: a multiple root (the discriminant tells, up to degree 3), and a root that two polynomials seem to share.
 """

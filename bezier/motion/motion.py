@@ -27,8 +27,7 @@ from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
-from bezier.curves.enclosure import Enclosure, bounds
-from bezier.curves.quality import curvature_enclosure, length_enclosure
+from bezier.curves.enclosure import Enclosure, bounds, curvature_enclosure, length_enclosure
 from bezier.curves.scalar import Vector, add, decimal_text, is_zero, scale
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import Extremes, Law, TimeLaw, composed, extremes, least_duration, stretches

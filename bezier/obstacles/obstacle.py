@@ -183,8 +183,8 @@ def pieces_of(body: Body) -> tuple[Piece, ...]:
 def _rounded(core: Polytope, radius: Fraction) -> list[Piece]:
     pieces = []
     if core.facets:
-        walls = tuple(half_space(f.normal, f.offset) for f in core.facets)
-        pieces.append(Piece(walls, _hull(core.corners, ZERO)))
+        boundaries = tuple(half_space(f.normal, f.offset) for f in core.facets)
+        pieces.append(Piece(boundaries, _hull(core.corners, ZERO)))
     if not radius:
         return pieces
     for facet in core.facets:
@@ -202,7 +202,7 @@ def _rounded(core: Polytope, radius: Fraction) -> list[Piece]:
 
 
 def _prism(core: Polytope, facet: Facet, radius: Fraction) -> Piece:
-    sides = tuple(half_space(normal, offset) for normal, offset in facet.walls)
+    sides = tuple(half_space(normal, offset) for normal, offset in facet.boundaries)
     corners = [core.corners[i] for i in facet.corners]
     return Piece((slab(facet.normal, facet.offset, radius), *sides), _hull(corners, radius))
 

@@ -26,13 +26,13 @@ class Facet:
     """A face of dimension 2: ``normal`` . p <= ``offset`` holds in the body, with equality exactly at ``corners``.
 
     ``normal`` has coprime integer entries and points outwards; ``corners`` are indices, in order around the facet.
-    ``walls``: (n, c) for each side; n . p <= c says that p is on the facet's side of the upright plane there.
+    ``boundaries``: (n, c) for each side; n . p <= c says that p is on the facet's side of the upright plane there.
     """
 
     normal: Point
     offset: Fraction
     corners: tuple[int, ...]
-    walls: tuple[tuple[Point, Fraction], ...]
+    boundaries: tuple[tuple[Point, Fraction], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,7 @@ class Polytope:
         """The projection of an outer point to a facet right below it; then no other point of the body is as near."""
         for facet in self.facets:
             excess = dot(facet.normal, p) - facet.offset
-            if excess > 0 and all(dot(n, p) <= c for n, c in facet.walls):
+            if excess > 0 and all(dot(n, p) <= c for n, c in facet.boundaries):
                 share = excess / dot(facet.normal, facet.normal)
                 return tuple(x - share * n for x, n in zip(p, facet.normal, strict=True))
         return None
@@ -89,7 +89,7 @@ def segment(a: Point, b: Point) -> Polytope:
 
 
 def parallelepiped(corner: Point, sides: Sequence[Point]) -> Polytope:
-    """The body corner + [0, 1] s_1 + [0, 1] s_2 + [0, 1] s_3. Raises ``InputError`` if it is flat."""
+    """The body corner + [0, 1] s_1 + [0, 1] s_2 + [0, 1] s_3. Raises ``InputError`` if it lies in a plane."""
     result = []
     for used in itertools.product((0, 1), repeat=3):
         result.append(tuple(c + sum(u * s[i] for u, s in zip(used, sides, strict=True)) for i, c in enumerate(corner)))
@@ -99,7 +99,7 @@ def parallelepiped(corner: Point, sides: Sequence[Point]) -> Polytope:
 def from_half_spaces(half_spaces: Sequence[tuple[Point, Fraction]]) -> Polytope:
     """The body {p : n . p <= c for all (n, c)}.
 
-    Raises ``InputError`` when it is empty, flat or unbounded. A pointed polyhedron is bounded iff no direction
+    Raises ``InputError`` when it is empty, in a plane or unbounded. A pointed polyhedron is bounded iff no direction
     +-(n_i x n_j), the only candidates for extreme rays, satisfies n . d <= 0 for all n.
     """
     normals = [n for n, _ in half_spaces]
@@ -120,7 +120,7 @@ def from_half_spaces(half_spaces: Sequence[tuple[Point, Fraction]]) -> Polytope:
 
 
 def from_corners(points: Sequence[Point]) -> Polytope:
-    """The convex hull of points. Raises ``InputError`` when it is flat."""
+    """The convex hull of points. Raises ``InputError`` when it lies in a plane."""
     distinct = sorted(set(points))
     scale = lcm(*(c.denominator for p in distinct for c in p))
     whole = [tuple(int(c * scale) for c in p) for p in distinct]
@@ -136,11 +136,11 @@ def from_corners(points: Sequence[Point]) -> Polytope:
             continue
         on = tuple(n for n, height in enumerate(heights) if height == 0)
         if len(on) == len(distinct):
-            raise InputError("a flat set of corners")
+            raise InputError("a set of corners in one plane")
         outward = _primitive(normal if max(heights) == 0 else tuple(-x for x in normal))
         planes[outward, Fraction(dot(outward, distinct[i]))] = on
     if not planes:
-        raise InputError("a flat set of corners")
+        raise InputError("a set of corners in one plane")
     return _with_edges(distinct, planes)
 
 
@@ -156,7 +156,9 @@ def _with_edges(points: list[Point], planes: dict[tuple[Point, Fraction], tuple[
     for (normal, offset), on in planes.items():
         sides = [(i, j) for i, j in pairs if i in on and j in on]
         loop = _around(sides)
-        facets.append(Facet(normal, offset, tuple(place[i] for i in loop), _walls(normal, [points[i] for i in loop])))
+        facets.append(
+            Facet(normal, offset, tuple(place[i] for i in loop), _boundaries(normal, [points[i] for i in loop]))
+        )
     corners = tuple(points[i] for i in extreme)
     return Polytope(corners, tuple((place[i], place[j]) for i, j in pairs), tuple(facets))
 
@@ -171,7 +173,7 @@ def _around(sides: list[tuple[int, int]]) -> list[int]:
     return order[:-1]
 
 
-def _walls(normal: Point, corners: Sequence[Point]) -> tuple[tuple[Point, Fraction], ...]:
+def _boundaries(normal: Point, corners: Sequence[Point]) -> tuple[tuple[Point, Fraction], ...]:
     """The upright planes over the sides of a facet, its inner side where n . p <= c."""
     result = []
     for k, a in enumerate(corners):

@@ -8,12 +8,11 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.certify.containment import MAX_DEGREE
+from bezier.curves.containment import curve_payload
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
-from bezier.curves.evidence import curve_payload
-from bezier.obstacles.along import Along
 from bezier.obstacles.bodies import distance_enclosure
-from bezier.obstacles.clearance import Clear, Contact, ContactSearch, Outcome, examine
+from bezier.obstacles.clearance import Along, Clear, Contact, ContactSearch, Outcome, examine
 from bezier.obstacles.obstacle import Constraint, Obstacle, Piece
 from qe.errors import InputError, Unable
 from qe.proof.certificate import Certificate, Kind

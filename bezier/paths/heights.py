@@ -27,7 +27,7 @@ from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.nonnegative import Event, Interval, events_of
 from bezier.curves.scalar import brief, decimal_text, sign
-from bezier.obstacles.along import Along
+from bezier.obstacles.clearance import Along
 from bezier.obstacles.obstacle import Constraint
 from bezier.paths.path import Path
 

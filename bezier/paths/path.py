@@ -8,10 +8,9 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from bezier.curves.containment import Inside, Leaves, Outcome, examine_all
+from bezier.curves.containment import Inside, Leaves, Outcome, containment, examine_all
 from bezier.curves.curve import Bezier, Join, Smoothness, join
 from bezier.curves.enclosure import Enclosure, maximum, root_above, root_below
-from bezier.curves.evidence import containment
 from bezier.curves.nonnegative import UNIT, Interval, isolate, located
 from bezier.curves.scalar import Vector, is_zero, scale
 from bezier.curves.workspace import Condition, Workspace

@@ -17,7 +17,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
-from bezier.curves.evidence import field_json
+from bezier.curves.containment import field_json
 from bezier.curves.scalar import decimal_text, described, rational, scale
 from bezier.motion import motion
 from bezier.paths import heights

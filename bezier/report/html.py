@@ -1,7 +1,7 @@
 """The building blocks of every page: text, tables, pictures, and the page that holds them as a list of sections.
 
 A section is a title with its content, so that a page is data until ``document`` writes it. Text is escaped where it
-is put in; what is already HTML is ``Markup``.
+is inserted; what is already HTML is ``Markup``.
 """
 
 from __future__ import annotations

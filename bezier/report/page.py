@@ -33,7 +33,7 @@ TESTS = {
     Argument.ROOTS: "square-free part of the distance to the boundary: it touches zero but does not cross",
 }
 CLAIMS = {
-    "elimination": "The formula is equivalent to the conditions with the dependent points put in",
+    "elimination": "The formula is equivalent to the conditions with the dependent points substituted",
     "path": "Every curve stays in the workspace, by its Bernstein coefficients",
     "clearance": "Every curve stays clear of every obstacle, by Bernstein coefficients",
 }

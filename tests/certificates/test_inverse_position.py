@@ -12,11 +12,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bezier.arm.exact_text import read_exact
 from bezier.arm.inverse import solve
 from bezier.arm.inverse_evidence import _parameter, _roots, inverse_certificate
 from bezier.arm.kinematics import position
-from bezier.arm.reader import load_arm, read_arm
+from bezier.arm.reader import load_arm, read_arm, read_exact
 from bezier.arm.roots_of_squares import square_roots
 from bezier.certify import square_roots as sr
 from bezier.certify.square_roots import ONE, Surd

@@ -200,7 +200,7 @@ def body_of(statement: Statement, order: tuple[str, ...]) -> Formula:
 
 def elimination(system: System) -> tuple[str, qe.Certificate]:
     """That the joins, which are linear equations, eliminate the dependent points: the printed formula is equivalent to
-    the conditions with those points put in."""
+    the conditions with those points substituted."""
     shape = system.shape
     order = (*shape.variables, *shape.quantified)
     equations = [body_of(join, order) for join in system.joins()]

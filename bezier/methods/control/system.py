@@ -2,7 +2,7 @@
 
 A ``Shape`` says which control points a method leaves free and how the joins fix the others; a ``System`` adds the
 given points and the conditions of one problem. From it come the formula for the engine, the conditions with the
-dependent points put in, and the exact points and curves for a choice of the free ones. Variables: ``p1x, p1y,
+dependent points substituted, and the exact points and curves for a choice of the free ones. Variables: ``p1x, p1y,
 p1z`` for the control point P1, and so on. A norm condition ||v|| <= r is written v.v <= r^2, which is the same for
 r >= 0; with symbolic r the condition r >= 0 is written down too.
 """
@@ -122,7 +122,7 @@ class System:
         return [(item.label, stated(item.condition, st.names(coordinates(item.point)))) for item in self.conditions]
 
     def in_free_points(self) -> st.Statement:
-        """The conditions with the dependent points put in terms of the free ones."""
+        """The conditions with the dependent points in terms of the free ones."""
         return st.every(*(stated(item.condition, self._in_free(item.point)) for item in self.conditions))
 
     def joins(self) -> list[st.Statement]:

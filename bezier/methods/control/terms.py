@@ -142,8 +142,8 @@ def optimal_points(system: System, payload: Mapping[str, Any]) -> dict[str, Vect
         return None
     if tuple(payload["problem"]["variables"]) != system.shape.variables:
         raise CertificateRejected("optimum: problem.variables", f"expected {', '.join(system.shape.variables)}")
-    flat = numbers(payload["point"], payload["field"], "optimum.point")
-    points = system.points([flat[i : i + DIMENSION] for i in range(0, len(flat), DIMENSION)])
+    coordinates = numbers(payload["point"], payload["field"], "optimum.point")
+    points = system.points([coordinates[i : i + DIMENSION] for i in range(0, len(coordinates), DIMENSION)])
     for label in system.violated(points):
         raise CertificateRejected("optimum.point", f"violates the condition {label}")
     return points
@@ -166,8 +166,8 @@ def near_points(
     )
     if tuple(reached["order"]) != system.shape.variables:
         raise CertificateRejected("optimum: point: order", f"expected {', '.join(system.shape.variables)}")
-    flat = numbers(reached["values"], None, "optimum: point: values")
-    points = system.points([flat[i : i + DIMENSION] for i in range(0, len(flat), DIMENSION)])
+    coordinates = numbers(reached["values"], None, "optimum: point: values")
+    points = system.points([coordinates[i : i + DIMENSION] for i in range(0, len(coordinates), DIMENSION)])
     for label in system.violated(points):
         raise CertificateRejected("optimum: point", f"violates the condition {label}")
     value = exactly(system.objective_at(points))

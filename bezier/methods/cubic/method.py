@@ -3,27 +3,132 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
 from bezier.curves.scalar import brief, described
+from bezier.methods.control.optimal_path import (
+    Drawn,
+    Members,
+    SystemPlan,
+    begun,
+    drawn,
+    elimination,
+    optimum_members,
+    path_through,
+    restored,
+    restored_optimum,
+    verified,
+)
+from bezier.methods.control.system import System
 from bezier.methods.control.terms import named_multipliers
-from bezier.methods.cubic import plan as cubic_plan
-from bezier.methods.cubic.plan import FORMULA, CubicPlan
-from bezier.paths.path import Slowest
-from bezier.plans import Method, Restored, Stated, Story
+from bezier.methods.cubic import formula as cubic
+from bezier.paths.path import Path, Slowest, slowest_of
+from bezier.plans import Begun, Clock, Method, Restored, Stated, Story
 from bezier.problem import Problem
 from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
 from bezier.report.html import Section, toned
 from bezier.report.page import curve_name
 from bezier.report.parts import shown
+from qe.formula.syntax import Formula
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
+
+
+FORMULA = "formula (7)"
+"""What the engine is asked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trivial:
+    """The choice Q1 = Q0, Q2 = R0, which always satisfies formula (7) as printed.
+
+    ``path``: through it; ``violated``: the problem's further conditions that it violates; ``slowest``: each curve's
+    least speed, which is zero at the joins.
+    """
+
+    path: Path
+    violated: tuple[str, ...]
+    slowest: Mapping[str, Slowest]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class CubicPlan(SystemPlan):
+    """``slowest``: of each curve of the path (empty without a path)."""
+
+    slowest: Mapping[str, Slowest]
+    trivial: Trivial
+
+
+def begin(problem: Problem, clock: Clock) -> Begun:
+    """The path of formula (7)."""
+    return begun(problem, cubic.system(problem), clock)
+
+
+def finish(given: Begun, clock: Clock) -> CubicPlan:
+    """The plan with formula (7)."""
+    result: Drawn = given.found
+    with clock.step("speed"):
+        fields = {**result.fields, **_speed_fields(given.problem, result.system, given.path)}
+    with clock.step("verification"):
+        certificate, checks = verified(_members(result.system, result.optimum.certificate), given.path)
+    return CubicPlan(
+        **fields,
+        answer=result.answer,
+        optimum=result.optimum,
+        certificate=certificate,
+        checks=checks,
+        seconds=clock.seconds,
+        eliminations={FORMULA: result.answer},
+    )
+
+
+def questions(problem: Problem) -> dict[str, Formula]:
+    """What is asked of the engine about a problem."""
+    return {FORMULA: cubic.system(problem).statement().formula}
+
+
+def restored_plan(problem: Problem, certificate: Certificate) -> CubicPlan:
+    """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
+    system = cubic.system(problem)
+    optimum = restored_optimum(system, certificate)
+    fields = drawn(problem, system, optimum)
+    fields |= _speed_fields(problem, system, fields["path"])
+    return CubicPlan(**restored(fields, optimum, _members(system, optimum.certificate)))
+
+
+def _members(system: System, certificate: Certificate) -> Members:
+    return [elimination(system), *optimum_members(certificate)]
+
+
+def _speed_fields(problem: Problem, system: System, path: Path | None) -> dict[str, Any]:
+    """What only the plan of this method has."""
+    slowest = slowest_of(path) if path else {}
+    return {"slowest": slowest, "trivial": _trivial(problem, system), "remarks": _remarks(problem)}
+
+
+def _remarks(problem: Problem) -> tuple[str, ...]:
+    result = []
+    if problem.ratio != 1:
+        result.append(f"the outer curves take {problem.ratio} of the time of the middle one")
+    if problem.join_speed:
+        result.append(
+            f"a speed of at least {problem.join_speed} mm per unit of time at both joins is required, in the form of a"
+            " speed in the direction from Q0 to R0"
+        )
+    return tuple(result)
+
+
+def _trivial(problem: Problem, system: System) -> Trivial:
+    points = system.points(cubic.trivial_choice(problem))
+    path = path_through(problem, system, points)
+    return Trivial(path, system.violated(points), slowest_of(path))
 
 
 NAMES = ("P0", "Q0", "R0", "R3")
@@ -192,7 +297,7 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
 
 def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[CubicPlan]:
     """The plan that the certificates of a folder prove; nothing else in the folder is needed for it."""
-    plan = cubic_plan.restore(problem, certificate)
+    plan = restored_plan(problem, certificate)
     lines = [
         "the elimination belongs to formula (7) of this problem",
         "the optimum belongs to formula (7) of this problem",
@@ -203,13 +308,13 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 
 
 CUBIC: Method[CubicPlan] = Method(
-    begin=cubic_plan.begin,
-    finish=cubic_plan.finish,
+    begin=begin,
+    finish=finish,
     reason=reason,
     summary_lines=summary_lines,
     json_entries=json_entries,
     draw=draw,
     story=story,
     restore=restore,
-    questions=cubic_plan.questions,
+    questions=questions,
 )

@@ -9,9 +9,8 @@ from functools import lru_cache
 from typing import Any
 
 import qe
-from bezier.curves.containment import Inside, Leaves, examine_closely
+from bezier.curves.containment import Inside, Leaves, containment, examine_closely
 from bezier.curves.curve import Bezier
-from bezier.curves.evidence import containment
 from bezier.curves.scalar import Vector
 from bezier.curves.workspace import HalfSpace
 from bezier.input.task import Task, Values

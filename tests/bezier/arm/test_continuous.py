@@ -25,8 +25,7 @@ from bezier.arm.path_report import in_words
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.study import study
 from bezier.arm.vertical import vertical_arm
-from bezier.certify.constant_sign import constant_sign
-from bezier.certify.square_roots import Surd, times
+from bezier.certify.square_roots import Surd, constant_sign, times
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.errors import Unable

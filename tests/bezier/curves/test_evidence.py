@@ -8,9 +8,8 @@ from hypothesis import given
 
 import qe
 from bezier.curves import bernstein as bs
-from bezier.curves.containment import Inside, Leaves, examine
+from bezier.curves.containment import Inside, Leaves, containment, examine
 from bezier.curves.curve import Bezier
-from bezier.curves.evidence import containment
 from bezier.curves.workspace import Ball, HalfSpace
 from qe.exact.field import NumberField
 from tests.bezier.numbers import control_points

@@ -82,7 +82,7 @@ BALL = 'kind="ball"\ncentre=[0,0,0]\n'
         ('kind="cylinder"\ncentre=[0,0,0]\nradius=1', "centre: expected the x and y of the axis"),
         ('kind="capsule"\nstart=[0,0,0]\nend=[0,0,0]\nradius=1', "end: expected a point other than start"),
         ('kind="polyhedron"\nhalf_spaces=[[0,0,1,1],[0,0,-1,1]]', "expected a bounded polyhedron with interior"),
-        ('kind="polyhedron"\nvertices=[[0,0,0],[1,0,0],[0,1,0]]', "found a flat set of corners"),
+        ('kind="polyhedron"\nvertices=[[0,0,0],[1,0,0],[0,1,0]]', "found a set of corners in one plane"),
         ('kind="polyhedron"', "expected either half_spaces or vertices"),
         ('kind="polyhedron"\nhalf_spaces=[[0,0,0,1]]', "a half-space with normal zero"),
         ('kind="formula"\nformula="x >"', "formula: expected a formula in x, y, z, found formula:1:4"),
