@@ -74,15 +74,15 @@ def not_negative(p: Polynomial, third: Sequence[Polynomial], norm: Polynomial, m
     for entry in marks.items():
         budget.check()
         between.append(read_interval(entry, between[-1] if between else None))
-        if not (all(sr.at(p, x) for x in between[-1]) and sr.tarski(p, [ONE], between[-1]) == 1):
+        if not (all(p.at(x) for x in between[-1]) and sr.tarski(p, Polynomial((ONE,)), between[-1]) == 1):
             raise entry.fail("expected exactly one root in the interval")
-    if len(p) > 1 and len(between) != sr.tarski(p, [ONE]):
+    if len(p) > 1 and len(between) != sr.tarski(p, Polynomial((ONE,))):
         raise marks.fail("not all roots are listed")
     if not between:
         return None if p[0].sign() > 0 else ()
     places = [Place.of(p, x) for x in between]
     ends = [JointValue(*(nested(place.value(v)) for v in (*third, norm))) for place in places]
-    after = [sr.at(p, high).sign() > 0 for _, high in between]
+    after = [p.at(high).sign() > 0 for _, high in between]
     if all(after):
         return None
     result, n = list[Arc](), len(ends)

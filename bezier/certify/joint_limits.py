@@ -23,7 +23,6 @@ from functools import cache
 from typing import Any
 
 from bezier.certify import duals
-from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import ArmChain
 from bezier.certify.held_joint import Held, Rigid, slid, turned
 from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
@@ -50,22 +49,6 @@ class JointStretch:
     values: Range
     radius: Fraction
     at_end: Callable[[int], Sequence[Range]]
-
-
-@dataclass(frozen=True, slots=True)
-class _Polynomial:
-    """A polynomial in s."""
-
-    p: Polynomial
-
-    def __add__(self, other: _Polynomial) -> _Polynomial:
-        return _Polynomial(sr.add(self.p, other.p))
-
-    def __sub__(self, other: _Polynomial) -> _Polynomial:
-        return _Polynomial(sr.add(self.p, sr.scaled(other.p, -ONE)))
-
-    def __mul__(self, other: _Polynomial) -> _Polynomial:
-        return _Polynomial(sr.times(self.p, other.p))
 
 
 def read_limits(entry: Entry, joints: int) -> list[Limits | None]:
@@ -113,12 +96,12 @@ class KeptLimits:
     def _zeros_at(self, curve: int, joint: int, limit: Fraction) -> list[Fraction]:
         """The coefficients of a polynomial that vanishes wherever the joint can be at its limit; none if that is
         everywhere."""
-        point = [_Polynomial(sr.trimmed([Surd.rational(c) for c in row])) for row in self._curves[curve]]
+        point = [Polynomial.of(map(Surd.rational, row)) for row in self._curves[curve]]
         value = Surd.rational(limit)
         parts = (ONE, ZERO) if self._chain.turns[joint] else (value,)
-        held = self._held(joint, parts, lambda c: _Polynomial(sr.trimmed([c])))
-        holding = (relation.p for relation, needs in held.relations(point) if not any(c.p for c in needs))
-        return _rational(next((p for p in holding if p), []))
+        held = self._held(joint, parts, lambda c: Polynomial.of([c]))
+        holding = (relation for relation, needs in held.relations(point) if not any(needs))
+        return _rational(next((p for p in holding if p), Polynomial()))
 
     def _held(self, joint: int, value: tuple[Any, ...], lift: Any) -> Held:
         """With a joint held at a length, or at a cosine and a sine, which ``lift`` makes numbers of another kind."""
@@ -157,7 +140,7 @@ def _rational(p: Polynomial) -> list[Fraction]:
     """The product of the conjugates over the rational numbers."""
     while roots := [d for c in p for d, _ in c.terms if d > 1]:
         prime = next(k for k in range(2, roots[0] + 1) if roots[0] % k == 0)
-        p = sr.times(p, [Surd(tuple((d, -q if d % prime == 0 else q) for d, q in c.terms)) for c in p])
+        p = p * Polynomial(tuple(Surd(tuple((d, -q if d % prime == 0 else q) for d, q in c.terms)) for c in p))
     return [c.terms[0][1] if c else Fraction(0) for c in p]
 
 

@@ -32,7 +32,7 @@ class Place:
     @staticmethod
     def of(equation: Polynomial, between: Interval) -> Place:
         """The one root of an equation in an interval, which the caller has counted."""
-        return Place(sr.scaled(equation, equation[-1].inverse()), between)
+        return Place(equation.by(equation[-1].inverse()), between)
 
     def value(self, p: Polynomial) -> Residue:
         """The polynomial at the root."""
@@ -47,17 +47,17 @@ class Residue:
     place: Place
 
     def __add__(self, other: Residue) -> Residue:
-        return Residue(sr.add(self.poly, other.poly), self.place)
+        return Residue(self.poly + other.poly, self.place)
 
     def __mul__(self, other: Residue) -> Residue:
-        return self.place.value(sr.times(self.poly, other.poly))
+        return self.place.value(self.poly * other.poly)
 
     def by(self, c: Surd) -> Residue:
         """c times it."""
-        return Residue(sr.scaled(self.poly, c), self.place)
+        return Residue(self.poly.by(c), self.place)
 
     def __neg__(self) -> Residue:
-        return Residue([-c for c in self.poly], self.place)
+        return Residue(-self.poly, self.place)
 
     def __bool__(self) -> bool:
         return bool(self.poly)
@@ -169,7 +169,7 @@ class Nested:
     def unit(self) -> Nested:
         """The number 1, over the same root as this number, which is not 0."""
         some = next(iter(self.terms.values()))
-        return nested(some.place.value([ONE]) if isinstance(some, Residue) else ONE)
+        return nested(some.place.value(Polynomial((ONE,))) if isinstance(some, Residue) else ONE)
 
 
 def nested(value: Number) -> Nested:

@@ -12,18 +12,16 @@ On [a, b] a polynomial lies between its smallest and its largest Bernstein coeff
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from math import ceil, comb, floor, gcd, isqrt
 
 LARGEST = 10**10
 """Radicands are factored by trial division, up to this."""
 
 Interval = tuple[Fraction, Fraction]
-Polynomial = list["Surd"]
-"""Coefficients from degree 0 up, the last one not zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,32 +115,60 @@ def _prime(d: int) -> int:
 # --- polynomials -------------------------------------------------------------------------------------------------
 
 
-def trimmed(p: Sequence[Surd]) -> Polynomial:
-    """Without leading zeros."""
-    result = list(p)
-    while result and not result[-1]:
-        result.pop()
-    return result
+@dataclass(frozen=True, slots=True)
+class Polynomial:
+    """Coefficients from degree 0 up, the last one not zero."""
 
+    coefficients: tuple[Surd, ...] = ()
 
-def add(p: Polynomial, q: Polynomial) -> Polynomial:
-    """p + q."""
-    size = max(len(p), len(q))
-    return trimmed([(p[k] if k < len(p) else ZERO) + (q[k] if k < len(q) else ZERO) for k in range(size)])
+    @staticmethod
+    def of(values: Iterable[Surd]) -> Polynomial:
+        """Without leading zeros."""
+        kept = list(values)
+        while kept and not kept[-1]:
+            kept.pop()
+        return Polynomial(tuple(kept))
 
+    def __len__(self) -> int:
+        return len(self.coefficients)
 
-def times(p: Polynomial, q: Polynomial) -> Polynomial:
-    """p q."""
-    result = [ZERO] * max(0, len(p) + len(q) - 1)
-    for i, a in enumerate(p):
-        for j, b in enumerate(q):
-            result[i + j] = result[i + j] + a * b
-    return trimmed(result)
+    def __getitem__(self, k: int) -> Surd:
+        return self.coefficients[k]
 
+    def __iter__(self) -> Iterator[Surd]:
+        return iter(self.coefficients)
 
-def scaled(p: Polynomial, c: Surd) -> Polynomial:
-    """c p."""
-    return trimmed([a * c for a in p])
+    def __add__(self, other: Polynomial) -> Polynomial:
+        return Polynomial.of(a + b for a, b in zip_longest(self, other, fillvalue=ZERO))
+
+    def __neg__(self) -> Polynomial:
+        return Polynomial(tuple(-c for c in self))
+
+    def __sub__(self, other: Polynomial) -> Polynomial:
+        return self + -other
+
+    def __mul__(self, other: Polynomial) -> Polynomial:
+        product = [ZERO] * max(0, len(self) + len(other) - 1)
+        for i, a in enumerate(self):
+            for j, b in enumerate(other):
+                product[i + j] = product[i + j] + a * b
+        return Polynomial.of(product)
+
+    def by(self, c: Surd) -> Polynomial:
+        """c times it."""
+        return Polynomial.of(a * c for a in self)
+
+    def at(self, x: Fraction) -> Surd:
+        """The value at a rational number."""
+        total, point = ZERO, Surd.rational(x)
+        for c in reversed(self.coefficients):
+            total = total * point + c
+        return total
+
+    @property
+    def derivative(self) -> Polynomial:
+        """The slope."""
+        return Polynomial.of(Surd.rational(k) * c for k, c in enumerate(self) if k)
 
 
 def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
@@ -154,30 +180,21 @@ def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
         if c:
             for j, a in enumerate(q):
                 rest[k + j] = rest[k + j] - c * a
-    return trimmed(quotient), trimmed(rest[: len(q) - 1] if len(p) >= len(q) else rest)
-
-
-def at(p: Polynomial, x: Fraction) -> Surd:
-    """The value at a rational number."""
-    total, point = ZERO, Surd.rational(x)
-    for c in reversed(p):
-        total = total * point + c
-    return total
+    return Polynomial.of(quotient), Polynomial.of(rest[: len(q) - 1] if len(p) >= len(q) else rest)
 
 
 def tarski(p: Polynomial, s: Polynomial, between: Interval | None = None) -> int:
     """The sum of the signs of s at the different real roots of p, all of them or those in an interval whose ends are no
     roots (S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*, theorem 2.73). p is not constant."""
-    slope = trimmed([Surd.rational(k) * c for k, c in enumerate(p)][1:])
-    sequence = [p, times(slope, s)]
+    sequence = [p, p.derivative * s]
     while sequence[-1]:
-        sequence.append([-c for c in divided(sequence[-2], sequence[-1])[1]])
+        sequence.append(-divided(sequence[-2], sequence[-1])[1])
     sequence.pop()
     if between is None:
         high = [q[-1].sign() for q in sequence]
         low = [sign * (-1) ** (len(q) - 1) for sign, q in zip(high, sequence, strict=True)]
     else:
-        low, high = ([at(q, x).sign() for q in sequence] for x in between)
+        low, high = ([q.at(x).sign() for q in sequence] for x in between)
     return _variations(low) - _variations(high)
 
 
@@ -203,7 +220,7 @@ def product(a: Interval, b: Interval) -> Interval:
 def enclosure(p: Polynomial, x: Interval, bits: int) -> Interval:
     """An interval around p on x, by Horner's rule."""
     total: Interval = (Fraction(0), Fraction(0))
-    for c in reversed(p):
+    for c in reversed(p.coefficients):
         total = plus(product(total, x), c.interval(bits))
     return total
 
@@ -280,7 +297,7 @@ Ends = list[tuple[int, int]]
 
 def constant_sign(p: Polynomial, low: Fraction, high: Fraction) -> int:
     """1 or -1 if p is proved to have this sign everywhere on [low, high], else 0."""
-    ends = {at(p, x).sign() for x in (low, high)}
+    ends = {p.at(x).sign() for x in (low, high)}
     if len(ends) > 1 or ends == {0}:
         return 0
     bernstein = _bernstein(p, low, high)
@@ -289,11 +306,11 @@ def constant_sign(p: Polynomial, low: Fraction, high: Fraction) -> int:
 
 def _bernstein(p: Polynomial, low: Fraction, high: Fraction) -> list[Surd]:
     """b_k = Σ_j C(k,j) / C(n,j) c_j, c the coefficients of p(low + (high - low) u)."""
-    step, moved = [Surd.rational(low), Surd.rational(high - low)], Polynomial()
-    for c in reversed(p):
-        moved = add(times(moved, step), [c])
+    step, composed = Polynomial((Surd.rational(low), Surd.rational(high - low))), Polynomial()
+    for c in reversed(p.coefficients):
+        composed = composed * step + Polynomial.of([c])
     n = len(p) - 1
-    moved = moved + [ZERO] * (n + 1 - len(moved))
+    moved = [*composed, *[ZERO] * (n + 1 - len(composed))]
     result = []
     for k in range(n + 1):
         pairs = [(d, q * Fraction(comb(k, j), comb(n, j))) for j in range(k + 1) for d, q in moved[j].terms]
