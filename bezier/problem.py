@@ -44,32 +44,35 @@ class PointCondition:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """A planning problem. All coordinates and the radius are in one unit of length (millimetres in the paper).
-
-    ``via``: the two points Q0 and R0 between which the obstacle is avoided. ``radius_is_auto``: the radius is
-    the paper's maximum of the four norms. ``half_spaces``: further conditions on control points. ``ratio``: the
-    duration of the outer spans, the middle one taking 1. ``join_speed``: the least speed at the joins that is
-    asked for, 0 for none. ``obstacles``: what the whole path has to stay clear of; ``above``: what follows from them
-    for control points. ``timing``: what is asked of the motion in time. ``single``: what Method 1 is given, None for
-    the other methods. ``arm``: the arm that has to follow the path. ``notes``: remarks for the reader about the input.
-    """
+    """A planning problem. All coordinates and the radius are in one unit of length (millimetres in the paper)."""
 
     method: PlanMethod
     workspace: Workspace
     start: Vector
     via: tuple[Vector, Vector]
+    """The two points Q0 and R0 between which the obstacle is avoided."""
     goal: Vector
     radius_is_auto: bool
+    """The radius is the paper's maximum of the four norms."""
     notes: tuple[str, ...] = ()
+    """Remarks for the reader about the input."""
     source: str = "<problem>"
     half_spaces: tuple[PointCondition, ...] = ()
+    """Further conditions on control points."""
     ratio: Fraction = Fraction(1)
+    """The duration of the outer spans, the middle one taking 1."""
     join_speed: Fraction = Fraction(0)
+    """The least speed at the joins that is asked for, 0 for none."""
     obstacles: tuple[Obstacle, ...] = ()
+    """What the whole path has to stay clear of."""
     above: tuple[PointCondition, ...] = ()
+    """What follows from them for control points."""
     timing: Timing | None = None
+    """What is asked of the motion in time."""
     single: SingleCurve | None = None
+    """What Method 1 is given, None for the other methods."""
     arm: str | None = None
+    """The arm that has to follow the path."""
 
     def __repr__(self) -> str:
         return f"Problem({self.method.value}, {self.source}, {len(self.obstacles)} obstacles)"

@@ -46,16 +46,15 @@ class Arcs:
 
 @dataclass(frozen=True, slots=True)
 class Junction:
-    """Between two neighbours in the list of ``Arcs``, at ``s`` of a curve (its end, where a next one begins).
-
-    ``passes``: the pairs of labels before and after whose solutions have the same limit. ``on_axis``, ``meets``:
-    whether that is on the axis of the first joint, and whether solutions before or after it meet there."""
+    """Between two neighbours in the list of ``Arcs``, at ``s`` of a curve (its end, where a next one begins)."""
 
     curve: int
     s: Number
     passes: frozenset[tuple[Label, Label]]
+    """The pairs of labels before and after whose solutions have the same limit. ``on_axis``,."""
     on_axis: bool
     meets: bool
+    """Whether that is on the axis of the first joint, and whether solutions before or after it meet there."""
 
 
 @dataclass(frozen=True, slots=True)

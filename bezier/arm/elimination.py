@@ -63,24 +63,25 @@ class Quotient:
 
 @dataclass(frozen=True, eq=False)
 class Reduction:
-    """What is left of the position problem in a ring whose last two variables are t and m.
-
-    ``equation``: the polynomial in t that has to vanish; ``degree``: its degree where no angle is missed, None where t
-    misses none. ``square``: m² as a polynomial in t, None where there is no m. ``kappa``: |κ|² (1 + t²)²; where it
-    vanishes θ2 is free. ``axis``: the square of the distance of the point from axis 1; where it vanishes θ1 is free;
-    both None where that joint slides. ``shoulder``: what vanishes where the point lies on the circle that the origin
-    of the second joint describes. ``values``: cosine and sine of a joint that turns, the length of one that slides,
-    valid where ``kappa`` and ``axis`` do not vanish.
-    """
+    """What is left of the position problem in a ring whose last two variables are t and m."""
 
     ring: Ring
     equation: Poly
+    """The polynomial in t that has to vanish."""
     degree: int | None
+    """Its degree where no angle is missed, None where t misses none."""
     square: Poly | None
+    """m² as a polynomial in t, None where there is no m."""
     kappa: Poly | None
+    """|κ|² (1 + t²)²; where it vanishes θ2 is free."""
     axis: Poly | None
+    """The square of the distance of the point from axis 1; where it vanishes θ1 is free; both None where that joint
+    slides."""
     shoulder: tuple[Poly, ...]
+    """What vanishes where the point lies on the circle that the origin of the second joint describes."""
     values: tuple[tuple[Quotient, ...], ...]
+    """Cosine and sine of a joint that turns, the length of one that slides, valid where ``kappa`` and ``axis`` do
+    not vanish."""
 
     @cached_property
     def coefficients(self) -> tuple[Poly, ...]:
@@ -90,13 +91,13 @@ class Reduction:
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """The constants of the derivation above, for one arm. ``v``: f0, f1, f2 with v = f0 + cos θ f1 + sin θ f2, or
-    f0, f1 with v = f0 + t f1."""
+    """The constants of the derivation above, for one arm."""
 
     arm: Arm
     turn: Any
     shift: Vector
     v: tuple[Vector, ...]
+    """f0, f1, f2 with v = f0 + cos θ f1 + sin θ f2, or f0, f1 with v = f0 + t f1."""
     gamma: Vector
     nu: Vector
 

@@ -41,18 +41,21 @@ NAMES = ("w", "x", "y", "z", "t", "m")
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """One solution, or a family. ``values``: one for each joint, None where it is free; ``multiple``: two solutions
-    meet here; ``allowed``: whether it keeps the limits of the joints. ``place``: the exact point that it was read from.
-    ``choices``: the joints of a family that can be chosen, independently of each other, and which of their values are
-    possible: exactly for these there are positions. Other free joints follow them, and their limits are left aside.
-    """
+    """One solution, or a family."""
 
     values: tuple[Value | None, ...]
+    """One for each joint, None where it is free."""
     multiple: bool
+    """Two solutions meet here."""
     allowed: bool
+    """Whether it keeps the limits of the joints."""
     place: Evaluation
+    """The exact point that it was read from."""
     quotients: tuple[Known | None, ...]
     choices: tuple[Choice, ...] = ()
+    """The joints of a family that can be chosen, independently of each other, and which of their values are
+    possible: exactly for these there are positions. Other free joints follow them, and their limits are left
+    aside."""
 
     @property
     def angles(self) -> tuple[float | None, ...]:
@@ -71,19 +74,18 @@ class Solution:
 
 @dataclass(frozen=True, eq=False)
 class Inverse:
-    """All solutions at a point (mm).
-
-    ``free``: the joints whose value is not determined; then there are infinitely many solutions, and each of those that
-    leave one of them open stands for a family. ``cases``: the names of what is special about the point. ``rotation``:
-    the rows of the orientation that was asked for, if one was.
-    """
+    """All solutions at a point (mm)."""
 
     arm: Arm
     point: tuple[Any, ...]
     solutions: tuple[Solution, ...]
     free: tuple[str, ...] = ()
+    """The joints whose value is not determined; then there are infinitely many solutions, and each of those that
+    leave one of them open stands for a family."""
     cases: tuple[str, ...] = ()
+    """The names of what is special about the point."""
     rotation: tuple[tuple[Any, ...], ...] = ()
+    """The rows of the orientation that was asked for, if one was."""
 
     @property
     def count(self) -> int | None:

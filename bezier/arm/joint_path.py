@@ -29,15 +29,14 @@ from qe.errors import BudgetExceeded, InputError, Unable
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One continuous joint motion: (index of the curve, branch), in order. ``number`` names it, from 1.
-
-    ``turns``: full turns of each joint that are added to the branches. ``excesses``: where it is then beyond a limit.
-    """
+    """One continuous joint motion: (index of the curve, branch), in order. ``number`` names it, from 1."""
 
     number: int
     parts: tuple[tuple[int, Branch], ...]
     turns: tuple[int, ...] = ()
+    """Full turns of each joint that are added to the branches."""
     excesses: tuple[Excess, ...] = ()
+    """Where it is then beyond a limit."""
 
     def branch(self, curve: int) -> Branch | None:
         """Its branch on a curve."""
@@ -51,12 +50,7 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class JointPath:
-    """The curves of a path by name, the study of each, and the runs.
-
-    ``motions``: all continuous motions, through singular places too, and ``limited``: which of them keep the limits of
-    the joints; None where that is not decided, and ``undecided`` says why. Whole runs have the numbers of their
-    motions.
-    """
+    """The curves of a path by name, the study of each, and the runs."""
 
     arm: Arm
     curves: Mapping[str, Bezier]
@@ -64,7 +58,10 @@ class JointPath:
     branches: tuple[tuple[Branch, ...], ...]
     runs: tuple[Run, ...] = field(default=())
     motions: ContinuousMotions | None = None
+    """All continuous motions, through singular places too."""
     limited: LimitedMotions | None = None
+    """Which of them keep the limits of the joints; None where that is not decided, and ``undecided`` says why. Whole
+    runs have the numbers of their motions."""
     undecided: str = ""
 
     @cached_property

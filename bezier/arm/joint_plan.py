@@ -27,13 +27,12 @@ DECIMALS, FRAMES = 9, 150
 
 @dataclass(frozen=True, eq=False)
 class JointPlan:
-    """``ends``: the share of the law's path at which each curve ends.
-
-    ``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
+    """``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
 
     path: JointPath
     law: TimeLaw
     ends: tuple[Fraction, ...]
+    """The share of the law's path at which each curve ends."""
     duration: Fraction
     sequence: JointSequence | None
     motion: JointMotion | None

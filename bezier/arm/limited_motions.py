@@ -116,12 +116,14 @@ SECTORS = {(1, 0): 0, (1, 1): 1, (0, 1): 2, (-1, 1): 3, (-1, 0): 4, (-1, -1): -3
 @dataclass(frozen=True, slots=True)
 class Reading:
     """A joint of one solution in a stretch: by how many full turns, ``least`` to ``most``, it is moved between its
-    limits (never if least > most). ``sector``: where its turns are counted; ``value``: about its value."""
+    limits (never if least > most)."""
 
     least: int
     most: int
     sector: int | None
+    """Where its turns are counted."""
     value: float
+    """About its value."""
 
 
 @dataclass(frozen=True, slots=True)

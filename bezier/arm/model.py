@@ -172,12 +172,12 @@ class JointKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A moving joint. ``limits``: the least and the greatest value, rad for a revolute joint and mm for a prismatic
-    one."""
+    """A moving joint."""
 
     name: str
     motion: JointKind
     limits: tuple[Fraction, Fraction] | None = None
+    """The least and the greatest value, rad for a revolute joint and mm for a prismatic one."""
     max_velocity: Fraction | None = None
     max_acceleration: Fraction | None = None
 

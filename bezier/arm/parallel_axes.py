@@ -127,13 +127,14 @@ Stage = tuple[str, Poly, _Parallel | None]
 
 @dataclass(frozen=True, eq=False)
 class _Tower:
-    """The solutions at one pose as functions of the roots. ``stages``: the name of a root, its square, and what leaves
-    the last joint free where it is known; ``size``: the square of the length of Π's translation: where it vanishes, the
-    first and the last of the parallel joints are free."""
+    """The solutions at one pose as functions of the roots."""
 
     stages: tuple[Stage, ...]
+    """The name of a root, its square, and what leaves the last joint free where it is known."""
     joints: Mapping[int, tuple[Quotient, ...]]
     size: Poly
+    """The square of the length of Π's translation: where it vanishes, the first and the last of the parallel joints
+    are free."""
 
 
 @dataclass(frozen=True, eq=False)

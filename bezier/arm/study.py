@@ -56,16 +56,16 @@ class Special:
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """What is proved about a curve. ``within``: stretches in which no solution passes a limit of a joint, with the
-    numbers of solutions that keep all of them. ``shared``: where two solutions have the sine of the last joint in
-    common."""
+    """What is proved about a curve."""
 
     arm: Arm
     curve: Bezier
     stretches: tuple[Stretch, ...]
     within: tuple[Stretch, ...]
+    """Stretches in which no solution passes a limit of a joint, with the numbers of solutions that keep all of them."""
     specials: tuple[Special, ...]
     shared: tuple[Number, ...]
+    """Where two solutions have the sine of the last joint in common."""
 
     @property
     def is_reachable(self) -> bool:
@@ -130,12 +130,12 @@ QUARTERS = ((1, 0), (0, 1), (-1, 0), (0, -1))
 
 @dataclass(frozen=True, slots=True)
 class Near:
-    """A parameter between two rational numbers; its joint is at a limit of a rational number of radians there.
-    ``is_joined``: or several such parameters, of different limits."""
+    """A parameter between two rational numbers; its joint is at a limit of a rational number of radians there."""
 
     low: Fraction
     high: Fraction
     is_joined: bool = False
+    """Or several such parameters, of different limits."""
 
     def __float__(self) -> float:
         return float(self.low)

@@ -77,33 +77,32 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class PlanarRegion:
-    """The possible places of Q1 in the plane of the via points. ``formula``: as asked; its free variables are q1u, q1v.
+    """The possible places of Q1 in the plane of the via points.
 
     ``region`` and ``area`` (None: not reached, see ``reason``; the area in the square of the unit of the points).
-    ``answer``: how the region's formula was found, where something was eliminated for it.
     """
 
     formula: str
+    """As asked; its free variables are q1u, q1v."""
     region: qe.Region | None = None
     area: Enclosure | None = None
     reason: str = ""
     answer: qe.Answer | None = None
+    """How the region's formula was found, where something was eliminated for it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Planar:
-    """The planar regions of formula (8), of (8*) for whole curves, and of (7) with Q2 quantified.
-
-    ``contained``: whether the engine proved that the first lies in the second (None: not decided);
-    ``implications``: its answers about that, by what was asked.
-    """
+    """The planar regions of formula (8), of (8*) for whole curves, and of (7) with Q2 quantified."""
 
     plane: Plane
     polygon: PlanarRegion
     whole: PlanarRegion
     cubic: PlanarRegion
     contained: bool | None
+    """Whether the engine proved that the first lies in the second (None: not decided)."""
     implications: Mapping[str, Any] = field(default_factory=dict)
+    """Its answers about that, by what was asked."""
 
     @property
     def named(self) -> dict[str, PlanarRegion]:

@@ -32,13 +32,11 @@ POINT = "Q1"
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """Curves base(t) + sum x * move(t) over parameters x: control points that depend on parameters affinely.
-
-    ``moves``: by the names of the parameters, of the degree of ``base``. All coordinates are rational.
-    """
+    """Curves base(t) + sum x * move(t) over parameters x: control points that depend on parameters affinely."""
 
     base: Bezier
     moves: Mapping[str, Bezier] = field(default_factory=dict)
+    """By the names of the parameters, of the degree of ``base``. All coordinates are rational."""
 
     def __post_init__(self) -> None:
         curves = (self.base, *self.moves.values())

@@ -46,16 +46,14 @@ Choice = TypeVar("Choice", bound=Enum)
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """One table: its values, the file it came from, and where it stands there (``prefix``, e.g. ``obstacle[0].``).
-
-    ``names``: for values that came from Python, what the keys of the whole file are called there.
-    """
+    """One table: its values, the file it came from, and where it stands there (``prefix``, e.g. ``obstacle[0].``)."""
 
     values: Mapping[str, Any]
     source: str = "<problem>"
     lines: tuple[str, ...] = ()
     prefix: str = ""
     names: Mapping[str, str] = field(default_factory=dict)
+    """For values that came from Python, what the keys of the whole file are called there."""
 
     @staticmethod
     def parse(text: str, source: str) -> Table:

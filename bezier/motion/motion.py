@@ -42,11 +42,12 @@ QUARTER = Fraction(1, 4)
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """What a problem asks of the motion. ``duration``: None for the least one. Invariant: a duration or a limit."""
+    """What a problem asks of the motion."""
 
     law: Law
     ramp: Fraction
     duration: Fraction | None
+    """None for the least one. Invariant: a duration or a limit."""
     limits: Mapping[str, Fraction] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, str]:
@@ -81,11 +82,12 @@ def read_timing(table: Table) -> Timing | None:
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A path in time. ``extremes``: the largest speed (mm/s) and acceleration (mm/s^2) over the whole time."""
+    """A path in time."""
 
     timing: Timing
     duration: Fraction
     extremes: Extremes
+    """The largest speed (mm/s) and acceleration (mm/s^2) over the whole time."""
 
     def __repr__(self) -> str:
         return f"Motion({float(self.duration):.6g} s, {'within' if self.keeps_limits else 'not within'} its limits)"

@@ -99,16 +99,14 @@ def _value(polynomial: Power, t: Fraction) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class TimeStretch:
-    """A time interval in which a curve is run through by one polynomial: ``parameter`` is u as a power form of tau.
-
-    ``certain``: whether the curve is on its way in all of it; otherwise the passage to its neighbour lies in it.
-    """
+    """A time interval in which a curve is run through by one polynomial: ``parameter`` is u as a power form of tau."""
 
     curve: str
     low: Fraction
     high: Fraction
     parameter: Power
     certain: bool
+    """Whether the curve is on its way in all of it; otherwise the passage to its neighbour lies in it."""
 
 
 def stretches(path: Path, law: TimeLaw) -> Iterator[TimeStretch]:

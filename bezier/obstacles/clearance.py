@@ -140,27 +140,28 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Clear:
-    """The curve never meets the obstacle. ``spans``: for each piece the proof, None where boxes already show it."""
+    """The curve never meets the obstacle."""
 
     argument: ClearanceArgument
     spans: tuple[tuple[Span, ...] | None, ...]
+    """For each piece the proof, None where boxes already show it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """The curve meets the obstacle; ``t`` is the first parameter, an isolating interval or exactly (equal ends).
-
-    ``place``: P(t) enclosed; ``exact_place``: where t is rational. ``enters``: whether a part of the curve lies in the
-    interior of a piece; if not, the curve only touches. ``attained``: False where the obstacle is not closed (strict
-    inequalities) and the contact begins right after t. ``piece``: the piece met first.
-    """
+    """The curve meets the obstacle; ``t`` is the first parameter, an isolating interval or exactly (equal ends)."""
 
     t: Interval
     place: tuple[Enclosure, ...]
+    """P(t) enclosed."""
     exact_place: Vector | None
+    """Where t is rational."""
     enters: bool
+    """Whether a part of the curve lies in the interior of a piece; if not, the curve only touches."""
     attained: bool
+    """False where the obstacle is not closed (strict inequalities) and the contact begins right after t."""
     piece: int
+    """The piece met first."""
 
     @property
     def is_exact(self) -> bool:
@@ -192,14 +193,13 @@ class Hit:
 
 @dataclass(slots=True)
 class ContactSearch:
-    """One curve against one piece, from left to right up to the first contact.
-
-    ``roots_after``: so many halvings come before roots are isolated; ``spans``: the proof so far.
-    """
+    """One curve against one piece, from left to right up to the first contact."""
 
     piece: Piece
     roots_after: int = SHORT
+    """So many halvings come before roots are isolated."""
     spans: list[Span] = field(default_factory=list)
+    """The proof so far."""
 
     def run(self, forms: Sequence[Numbers]) -> Hit | None:
         """The first contact, or None with ``spans`` covering [0, 1]; ``forms``: the constraints along the curve."""

@@ -79,20 +79,23 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:
-    """The union of ``pieces``. ``body``: the convex body it is, where it is one; ``box``: a box around everything.
+    """The union of ``pieces``.
 
-    ``margin`` is already included in the pieces and in the body. ``stated``: the table of the problem file, with exact
-    numbers. ``elimination``: the engine's answer to the formula that it is given by, where that has quantifiers.
+    ``margin`` is already included in the pieces and in the body.
     """
 
     name: str
     kind: ObstacleKind
     pieces: tuple[Piece, ...]
     body: Body | None = None
+    """The convex body it is, where it is one."""
     box: Box | None = None
+    """A box around everything."""
     margin: Fraction = ZERO
     stated: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    """The table of the problem file, with exact numbers."""
     elimination: Any = field(default=None, compare=False, repr=False)
+    """The engine's answer to the formula that it is given by, where that has quantifiers."""
 
     @property
     def top(self) -> Fraction | None:

@@ -26,13 +26,13 @@ class Facet:
     """A face of dimension 2: ``normal`` . p <= ``offset`` holds in the body, with equality exactly at ``corners``.
 
     ``normal`` has coprime integer entries and points outwards; ``corners`` are indices, in order around the facet.
-    ``boundaries``: (n, c) for each side; n . p <= c says that p is on the facet's side of the upright plane there.
     """
 
     normal: Point
     offset: Fraction
     corners: tuple[int, ...]
     boundaries: tuple[tuple[Point, Fraction], ...]
+    """(n, c) for each side; n . p <= c says that p is on the facet's side of the upright plane there."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -82,17 +82,15 @@ def _constraint(constraint: Constraint) -> dict[str, Any]:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What was found out about one curve and one obstacle.
-
-    ``distance``: an enclosure of the least distance; None for obstacles given by a formula, and where the limit of the
-    enclosure was reached.
-    """
+    """What was found out about one curve and one obstacle."""
 
     name: str
     curve: Bezier
     obstacle: Obstacle
     outcome: Outcome
     distance: Enclosure | None
+    """An enclosure of the least distance; None for obstacles given by a formula, and where the limit of the
+    enclosure was reached."""
 
     @property
     def is_clear(self) -> bool:

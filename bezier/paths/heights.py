@@ -64,16 +64,14 @@ class StretchEnd:
 
 @dataclass(frozen=True, slots=True)
 class Below:
-    """A whole stretch of parameters on which a curve is in the strip and below a height.
-
-    ``sample``: the curve's coordinate at a rational parameter of it; None when the stretch is a single irrational one.
-    """
+    """A whole stretch of parameters on which a curve is in the strip and below a height."""
 
     curve: str
     axis: str
     begin: StretchEnd
     end: StretchEnd
     sample: tuple[Fraction, Any] | None
+    """The curve's coordinate at a rational parameter of it; None when the stretch is a single irrational one."""
 
 
 @dataclass(frozen=True, slots=True)

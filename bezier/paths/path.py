@@ -41,16 +41,14 @@ class Proof:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The curves in order, the control points by name, the joins, and the containment proofs.
-
-    ``durations``: the time that a curve takes, where it is not 1.
-    """
+    """The curves in order, the control points by name, the joins, and the containment proofs."""
 
     curves: Mapping[str, Bezier]
     points: Mapping[str, Vector]
     joins: tuple[ProvedJoin, ...]
     proofs: tuple[Proof, ...]
     durations: Mapping[str, Fraction] = field(default_factory=dict)
+    """The time that a curve takes, where it is not 1."""
 
     def __repr__(self) -> str:
         curves = ", ".join(f"{name} of degree {curve.degree}" for name, curve in self.curves.items())
@@ -127,14 +125,12 @@ REL = Fraction(1, 10**6)
 
 @dataclass(frozen=True, slots=True)
 class Slowest:
-    """The least speed of a curve in mm per unit of time.
-
-    ``least``: it lies in this enclosure, which is 0 when the curve stops. ``stops``: where, as intervals of the
-    parameter with one zero of the speed each (equal ends: exactly there).
-    """
+    """The least speed of a curve in mm per unit of time."""
 
     least: Enclosure
+    """It lies in this enclosure, which is 0 when the curve stops."""
     stops: tuple[Interval, ...]
+    """Where, as intervals of the parameter with one zero of the speed each (equal ends: exactly there)."""
 
 
 def slowest(curve: Bezier, duration: Fraction = Fraction(1)) -> Slowest:

@@ -25,7 +25,7 @@ Indices = NDArray[np.int64]
 class RegionMesh:
     """A closed surface: ``vertices`` (n, 3), ``faces`` (m, 3), ``owner`` (m,): index of the bounding condition.
 
-    ``normals`` (m, 3): outward, those of the boundary surface itself. ``edges``: polylines where two of these meet.
+    ``normals`` (m, 3): outward, those of the boundary surface itself.
     """
 
     vertices: Array
@@ -33,6 +33,7 @@ class RegionMesh:
     owner: Indices
     normals: Array
     edges: tuple[Array, ...]
+    """Polylines where two of these meet."""
 
 
 Shape = tuple[str, Array, float]

@@ -64,16 +64,14 @@ def least(system: System, answer: Any, clock: Clock) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class Certified:
-    """What the certificate of an optimum shows about a system: its point and the multipliers of its constraints.
-
-    ``points``: all control points, None when the conditions contradict each other. ``bound``: the objective is not
-    below it, where the point is only near the optimum.
-    """
+    """What the certificate of an optimum shows about a system: its point and the multipliers of its constraints."""
 
     certificate: qe.Certificate
     points: Mapping[str, Vector] | None
+    """All control points, None when the conditions contradict each other."""
     multipliers: Vector
     bound: Fraction | None = None
+    """The objective is not below it, where the point is only near the optimum."""
 
     @staticmethod
     def of(system: System, certificate: qe.Certificate) -> Certified:
@@ -117,13 +115,11 @@ def optimum_members(certificate: qe.Certificate) -> Members:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class SystemPlan(Plan):
-    """The plan of a method with a system of control points.
-
-    ``optimum``: what the engine's minimisation found, or its certificate shows: a point or a contradiction.
-    """
+    """The plan of a method with a system of control points."""
 
     system: System
     optimum: Any
+    """What the engine's minimisation found, or its certificate shows: a point or a contradiction."""
 
 
 def drawn(problem: Problem, system: System, certified: Certified) -> dict[str, Any]:

@@ -54,20 +54,20 @@ class OnPoint:
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A method's control points.
-
-    ``free``: those to be chosen; ``follows``: the others inside the curves, from the given and the free ones;
-    ``inner``: free and dependent ones in the order in which the formula bounds them; ``curves``: the control points
-    of each curve; ``ends``: the last points of curves that are given points under another name; ``route``: the
-    objective is the sum of |b - a|^2 over its consecutive points a, b.
-    """
+    """A method's control points."""
 
     free: tuple[str, ...]
+    """Those to be chosen."""
     follows: Mapping[str, Combination]
+    """The others inside the curves, from the given and the free ones."""
     inner: tuple[str, ...]
+    """Free and dependent ones in the order in which the formula bounds them."""
     curves: Mapping[str, tuple[str, ...]]
+    """The control points of each curve."""
     ends: Mapping[str, str]
+    """The last points of curves that are given points under another name."""
     route: tuple[str, ...]
+    """The objective is the sum of |b - a|^2 over its consecutive points a, b."""
 
     @property
     def variables(self) -> tuple[str, ...]:

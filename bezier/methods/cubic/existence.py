@@ -20,15 +20,13 @@ GIVEN = ("Q0", "R0")
 
 @dataclass(frozen=True, slots=True)
 class Existence:
-    """The sentence, the engine's verdict (None: not reached), and the witness it found: terms in the parameters.
-
-    ``answer``: the engine's, None where it was not asked.
-    """
+    """The sentence, the engine's verdict (None: not reached), and the witness it found: terms in the parameters."""
 
     sentence: str
     truth: bool | None
     witness: str
     answer: Any = field(default=None, compare=False, repr=False)
+    """The engine's, None where it was not asked."""
 
 
 def question() -> st.Statement:

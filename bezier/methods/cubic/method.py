@@ -47,15 +47,14 @@ FORMULA = "formula (7)"
 
 @dataclass(frozen=True, slots=True)
 class Trivial:
-    """The choice Q1 = Q0, Q2 = R0, which always satisfies formula (7) as printed.
-
-    ``path``: through it; ``violated``: the problem's further conditions that it violates; ``slowest``: each curve's
-    least speed, which is zero at the joins.
-    """
+    """The choice Q1 = Q0, Q2 = R0, which always satisfies formula (7) as printed."""
 
     path: Path
+    """Through it."""
     violated: tuple[str, ...]
+    """The problem's further conditions that it violates."""
     slowest: Mapping[str, Slowest]
+    """Each curve's least speed, which is zero at the joins."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)

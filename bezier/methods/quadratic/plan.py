@@ -62,19 +62,18 @@ def above_label(point: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """Whether control points that the printed formula (8) allows can lie below the table {z = 0}.
-
-    ``example``: control points that the formula allows, one of them below the table, or None when there are none.
-    ``region``: the region with z >= 0 added for all control points, where there is a gap. ``chosen``: what was
-    found out about z >= 0 along the curves of the chosen path. ``certificates``: of the example, or that the formula
-    keeps each control point above the table. ``answers``: of the engine, by what was asked.
-    """
+    """Whether control points that the printed formula (8) allows can lie below the table {z = 0}."""
 
     example: Mapping[str, Vector] | None
+    """Control points that the formula allows, one of them below the table, or None when there are none."""
     region: Any | None
+    """The region with z >= 0 added for all control points, where there is a gap."""
     chosen: tuple[Proof, ...]
+    """What was found out about z >= 0 along the curves of the chosen path."""
     certificates: tuple[tuple[str, qe.Certificate], ...] = ()
+    """Of the example, or that the formula keeps each control point above the table."""
     answers: Mapping[str, Any] = field(default_factory=dict)
+    """Of the engine, by what was asked."""
 
     @property
     def can_leave(self) -> bool:

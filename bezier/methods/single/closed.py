@@ -47,15 +47,14 @@ SIMPLE_STEPS = 5
 
 @dataclass(frozen=True, slots=True)
 class ProvedCurve:
-    """A curve for which everything is proved for all t. ``value``: its sum over p+1..q of all raised axes.
-
-    ``bound``: no curve has a smaller sum, by ``certificate`` about the linear program of (4) and ``cuts``.
-    """
+    """A curve for which everything is proved for all t."""
 
     values: dict[str, Values]
     curve: Bezier
     value: Fraction
+    """Its sum over p+1..q of all raised axes."""
     bound: Fraction
+    """No curve has a smaller sum, by ``certificate`` about the linear program of (4) and ``cuts``."""
     cuts: tuple[Cut, ...]
     certificate: Certificate
     rounds: int

@@ -58,17 +58,16 @@ class Cut:
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """The conditions of Method 1* for this task and ball, and their cuts as rows over the unknowns and s.
-
-    ``ends``: P(0) and P(1); ``via``: P(t_a) and P(t_b), which (4) fixes; ``touches``: which of the four parameters
-    0, 1, t_a, t_b have P on the sphere. ``Model.of`` finds them.
-    """
+    """The conditions of Method 1* for this task and ball, and their cuts as rows over the unknowns and s."""
 
     task: Task
     workspace: Workspace
     ends: tuple[Vector, Vector]
+    """P(0) and P(1)."""
     via: tuple[Vector, Vector]
+    """P(t_a) and P(t_b), which (4) fixes."""
     touches: tuple[bool, bool, bool, bool]
+    """Which of the four parameters 0, 1, t_a, t_b have P on the sphere. ``Model.of`` finds them."""
 
     @staticmethod
     def of(task: Task, workspace: Workspace) -> Model:

@@ -38,19 +38,18 @@ ELIMINATION_DEGREE = 4
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """The curve that (4) as printed gives: ``dips`` below a height in (t_a, t_b), ``leaving`` the workspace.
-
-    ``lowest``: of the curves that (4) allows just as well, with the same least sums, the one that is lowest halfway
-    between t_a and t_b, ``lower`` its coordinates by axis; ``allowed``: where that one dips.
-    """
+    """The curve that (4) as printed gives: ``dips`` below a height in (t_a, t_b), ``leaving`` the workspace."""
 
     values: Mapping[str, Values]
     curve: Bezier
     dips: tuple[Dip, ...]
     leaving: tuple[Proof, ...]
     lowest: Bezier
+    """Of the curves that (4) allows just as well, with the same least sums, the one that is lowest halfway between
+    t_a and t_b, ``lower`` its coordinates by axis."""
     lower: Mapping[str, Values]
     allowed: tuple[Dip, ...]
+    """Where that one dips."""
 
     @property
     def holds(self) -> bool:

@@ -60,15 +60,15 @@ class Duals:
 class LinearOptimum:
     """``point`` minimises the first objective c, among those points the second one, and so on.
 
-    ``duals`` prove it for the first: c.x + sum rows_i (a_i.x - b_i) + sum bounds_j (lower_j - x_j) = ``value`` for
-    all x.
-    ``unique``: whether no other point minimises the first objective; False also when that is not known.
+    ``duals`` prove it for the first: c.x + sum rows_i (a_i.x - b_i) + sum bounds_j (lower_j - x_j) = ``value`` for all
+    x.
     """
 
     value: Fraction
     point: Numbers
     duals: Duals
     unique: bool
+    """Whether no other point minimises the first objective; False also when that is not known."""
 
 
 @dataclass(frozen=True, slots=True)
