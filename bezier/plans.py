@@ -141,7 +141,7 @@ class Plan:
     objective: Any | None
     path: Path | None
     active: tuple[str, ...]
-    """Labels of the conditions that hold with equality (with a."""
+    """Labels of the conditions that hold with equality (with a ``bound``: that prove it)."""
     certificate: qe.Certificate
     """All certificates, labelled."""
     checks: Mapping[str, qe.Verdict]
@@ -155,7 +155,8 @@ class Plan:
     attempts: tuple[Attempt, ...] = ()
     """What was tried to get around the obstacles."""
     bound: Fraction | None = None
-    """That prove it)."""
+    """No choice of the method has an objective below it, where the exact optimum is out of reach; None: the objective
+    is the least."""
     quality: Quality | None = None
     """Lengths, curvatures and the motion in time."""
     heights: Heights | None = None

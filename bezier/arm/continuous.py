@@ -51,10 +51,11 @@ class Junction:
     curve: int
     s: Number
     passes: frozenset[tuple[Label, Label]]
-    """The pairs of labels before and after whose solutions have the same limit. ``on_axis``,."""
+    """The pairs of labels before and after whose solutions have the same limit."""
     on_axis: bool
+    """Whether that is on the axis of the first joint."""
     meets: bool
-    """Whether that is on the axis of the first joint, and whether solutions before or after it meet there."""
+    """Whether solutions before or after it meet there."""
 
 
 @dataclass(frozen=True, slots=True)
