@@ -117,7 +117,7 @@ def _balls_reason(plan: QuadraticPlan) -> str:
             "no control point exists: the three balls meet, but nowhere do all control points also satisfy the other"
             " conditions (the certificate shows it)"
         )
-    shape = "acute" if balls.is_acute else "right or obtuse or degenerate"
+    shape = "acute" if balls.is_acute else "right or obtuse or flat"
     return (
         f"no control point exists: the balls of radius r = {_root(radius, balls.radius_squared)} about O, 2 Q0 and"
         f" 2 R0 have no common point; the triangle O, Q0, R0 is {shape}, so r would have to be at least"
