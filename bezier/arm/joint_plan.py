@@ -65,6 +65,7 @@ def joint_plan(
     sizes = [Fraction(1) if parts is None else parts[name] for name in curves]
     ends = tuple(total / sum(sizes) for total in accumulate(sizes))
     path = joint_path(arm, curves)
+    moments = samples_of(ends, law, samples)
     remarks: list[str] = []
     if path.is_stopped and (path.excesses or path.is_reachable):
         within = " within the limits of the joints" if path.excesses else ""
@@ -75,7 +76,7 @@ def joint_plan(
         return JointPlan(path, law, ends, duration, None, None, tuple(remarks))
     sequence = motion = None
     try:
-        sequence = joint_sequence(path, samples_of(ends, law, samples))
+        sequence = joint_sequence(path, moments)
         remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
         run = next((run for run in path.runs if run.number == sequence.run), None)
         if run is not None and not run.excesses:

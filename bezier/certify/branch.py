@@ -4,14 +4,16 @@
 1969; Neumaier, Interval Methods for Systems of Equations, section 5.1, with a parameter): with f(σ, r) the end point at
 centre + slope σ + r minus the curve at middle + σ, and any matrix C, if -C f(σ, 0) + (I - C ∂f/∂r(σ, R)) R lies in the
 interior of the box R for all σ, there is exactly one r in R with f = 0, for every σ; it lies in that image and depends
-continuously on σ. Neighbouring pieces belong together when the image of the one lies in the box of the other at their
-common parameter: then both have the same solution there. ``limits``: for each joint null, or two values between which
-it stays (``bezier.certify.joint_limits``).
+continuously on σ. The first joint moves everything rigidly: with its line centre + slope σ taken back from the
+curve's point, seen from the base, f has the same zeros, and is as tame near the axis of that joint as elsewhere.
+Neighbouring pieces belong together when the image of the one lies in the box of the other at their common parameter:
+then both have the same solution there. ``limits``: for each joint null, or two values between which it stays
+(``bezier.certify.joint_limits``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -23,6 +25,7 @@ from bezier.certify import duals
 from bezier.certify.arm_rows import read_chain
 from bezier.certify.duals import Dual, Vector
 from bezier.certify.joint_limits import JointStretch, KeptLimits, Limits, read_limits
+from bezier.certify.square_roots import STILL, Motion, Surd, back, image
 from qe.certify.kinds import BroughtKind
 from qe.exact.balls import ends, precision
 from qe.options import Budget
@@ -98,15 +101,12 @@ class Tubes:
     def __init__(self, arm: Entry, curves: Sequence[Points], limits: Sequence[Limits | None]) -> None:
         chain = read_chain(arm)
         if len(chain.turns) != 3:
-            raise arm.fields("convention", "rows")[1].fail("expected rows, three of them with a joint")
+            raise arm.fail("expected rows, three of them with a joint")
+        coefficients = [[powers([p[i] for p in points]) for i in range(3)] for points in curves]
+        self._turns, self._limits = chain.turns, KeptLimits(chain, coefficients, limits)
         with precision(duals.BITS):
-            self._constants = [
-                ([[duals.root_ball(v.terms) for v in row] for row in rows], [duals.root_ball(v.terms) for v in shift])
-                for rows, shift in chain.constants
-            ]
-        self._turns = chain.turns
-        self._coefficients = [[powers([p[i] for p in points]) for i in range(3)] for points in curves]
-        self._limits = KeptLimits(chain, self._coefficients, limits)
+            self._links = [duals.rigid(motion) for motion in chain.constants[1:]]
+            self._curves = [list(_seen_from(chain.constants[0], curve)) for curve in coefficients]
 
     def image(self, piece: Tube) -> list[Fraction]:
         """Radii of a box around 0 that holds the image, which is proved to lie inside the piece's box."""
@@ -132,23 +132,22 @@ class Tubes:
         return next((part.joint for part in parts if not self._limits.keeps(part)), None)
 
     def _error(self, piece: Tube, sigma: Any, r: Sequence[Any]) -> list[Dual]:
-        """f(σ, r) with its derivatives."""
+        """f(σ, r) with its derivatives, the line of the first joint taken back."""
         step = duals.seed(sigma, SIGMA, DIRECTIONS)
-        joints = [
-            duals.number(c, DIRECTIONS) + duals.number(v, DIRECTIONS) * step + duals.seed(x, j + 1, DIRECTIONS)
-            for j, (c, v, x) in enumerate(zip(piece.centre, piece.slope, r, strict=True))
+        lines = [
+            duals.number(c, DIRECTIONS) + duals.number(v, DIRECTIONS) * step
+            for c, v in zip(piece.centre, piece.slope, strict=True)
         ]
-        s = duals.number((piece.low + piece.high) / 2, DIRECTIONS) + step
-        curve = self._coefficients[piece.curve]
-        return [a - _horner(c, s) for a, c in zip(self._end_point(joints), curve, strict=True)]
-
-    def _end_point(self, q: Vector) -> Vector:
-        """The end point for these joint values."""
-        point = [duals.number(Fraction(0), DIRECTIONS)] * 3
-        for k in reversed(range(4)):
-            point = duals.moved(self._constants[k], point)
-            point = duals.joint_moved(q[k - 1], self._turns[k - 1], point) if k else point
-        return point
+        ahead = [duals.seed(x, j + 1, DIRECTIONS) for j, x in enumerate(r)]
+        s, target = duals.number((piece.low + piece.high) / 2, DIRECTIONS) + step, duals.origin(DIRECTIONS)
+        for c in reversed(self._curves[piece.curve]):
+            target = [t * s + x for t, x in zip(target, c, strict=True)]
+        point = duals.origin(DIRECTIONS)
+        joints = (ahead[0], *(q + x for q, x in zip(lines[1:], ahead[1:], strict=True)))
+        for turns, link, q in reversed(list(zip(self._turns, self._links, joints, strict=True))):
+            point = duals.moved(turns, q, link(point))
+        target = duals.moved(self._turns[0], -lines[0], target)
+        return [a - b for a, b in zip(point, target, strict=True)]
 
     def _at_end(self, piece: Tube, radii: Sequence[Fraction], end: int) -> list[tuple[Fraction, Fraction]]:
         """Bounds of the joints at one end: for this σ alone, the image of what holds the solution holds it too."""
@@ -169,11 +168,12 @@ def powers(values: list[Fraction]) -> list[Fraction]:
     return [comb(n, k) * sum((-1) ** (k - j) * comb(k, j) * values[j] for j in range(k + 1)) for k in range(n + 1)]
 
 
-def _horner(coefficients: list[Fraction], s: Dual) -> Dual:
-    total = duals.number(Fraction(0), DIRECTIONS)
-    for c in reversed(coefficients):
-        total = total * s + duals.number(c, DIRECTIONS)
-    return total
+def _seen_from(base: Motion, curve: Sequence[Sequence[Fraction]]) -> Iterator[Vector]:
+    """The vectors of 1, s, s², … of a curve, moved back by a motion."""
+    rows, shift = back(base)
+    for k, vector in enumerate(zip(*curve, strict=True)):
+        seen = image((rows, shift if k == 0 else STILL[1]), [Surd.rational(c) for c in vector])
+        yield [duals.root_sum(c.terms, DIRECTIONS) for c in seen]
 
 
 def _check_link(one: Tube, first: list[Fraction], other: Tube, second: list[Fraction], curves: list[Points]) -> None:

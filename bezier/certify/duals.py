@@ -5,10 +5,12 @@ The checker's own: whoever makes the certificates uses products of matrices and 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 
 from flint import arb, arb_mat, fmpq
+
+from bezier.certify.square_roots import Motion, Triple
 
 BITS = 96
 
@@ -27,6 +29,9 @@ class Dual:
     def __sub__(self, other: Dual) -> Dual:
         return Dual(self.value - other.value, tuple(a - b for a, b in zip(self.slope, other.slope, strict=True)))
 
+    def __neg__(self) -> Dual:
+        return Dual(-self.value, tuple(-a for a in self.slope))
+
     def __mul__(self, other: Dual) -> Dual:
         pairs = zip(self.slope, other.slope, strict=True)
         return Dual(self.value * other.value, tuple(a * other.value + self.value * b for a, b in pairs))
@@ -44,12 +49,8 @@ def number(value: Fraction, directions: int) -> Dual:
 
 def root_sum(terms: Iterable[tuple[int, Fraction]], directions: int) -> Dual:
     """The sum of q √d over the pairs (d, q), a constant."""
-    return Dual(root_ball(terms), (arb(0),) * directions)
-
-
-def root_ball(terms: Iterable[tuple[int, Fraction]]) -> arb:
-    """The same as a ball alone."""
-    return sum((arb(d).sqrt() * ball(q) for d, q in terms), arb(0))
+    value = sum((arb(d).sqrt() * ball(q) for d, q in terms), arb(0))
+    return Dual(value, (arb(0),) * directions)
 
 
 def seed(value: arb, which: int, directions: int) -> Dual:
@@ -70,22 +71,40 @@ def around(radius: Fraction) -> arb:
 Vector = list[Dual]
 
 
-def moved(motion: tuple[Sequence[Sequence[arb]], Sequence[arb]], point: Vector) -> Vector:
-    """The image of a point under a constant motion: rows of the rotation, and the shift."""
-    values, slopes = [p.value for p in point], list(zip(*(p.slope for p in point), strict=True))
-    return [
-        Dual(o + _inner(row, values), tuple(_inner(row, slope) for slope in slopes))
-        for row, o in zip(*motion, strict=True)
-    ]
+def origin(directions: int) -> Vector:
+    """The point 0."""
+    return [number(Fraction(0), directions) for _ in range(3)]
 
 
-def joint_moved(value: Dual, turns: bool, point: Vector) -> Vector:
-    """The image of a point under a joint that turns about the z axis, or slides along it."""
-    x, y, z = point
+def rigid(motion: Motion) -> Callable[[Vector], Vector]:
+    """A constant motion."""
+    rows, shift = [_values(row) for row in motion[0]], _values(motion[1])
+
+    def moved(p: Vector) -> Vector:
+        values = [_inner(row, [v.value for v in p]) + o for row, o in zip(rows, shift, strict=True)]
+        slopes = [tuple(_inner(row, part) for part in zip(*(v.slope for v in p), strict=True)) for row in rows]
+        return [Dual(value, slope) for value, slope in zip(values, slopes, strict=True)]
+
+    return moved
+
+
+def _values(numbers: Triple) -> list[arb]:
+    return [root_sum(c.terms, 0).value for c in numbers]
+
+
+def moved(turns: bool, value: Dual, p: Vector) -> Vector:
+    """A point turned about the z axis by an angle, or shifted along it by a length."""
+    x, y, z = p
     if not turns:
         return [x, y, z + value]
-    s, c = value.sine_cosine()
-    return [c * x - s * y, s * x + c * y, z]
+    s, c = value.value.sin(), value.value.cos()
+
+    def turned(a: arb, b: arb) -> tuple[arb, arb]:
+        return c * a - s * b, s * a + c * b
+
+    rates = zip(x.slope, y.slope, value.slope, strict=True)
+    slopes = [turned(dx - rate * y.value, dy + rate * x.value) for dx, dy, rate in rates]
+    return [*map(Dual, turned(x.value, y.value), zip(*slopes, strict=True)), z]
 
 
 def krawczyk(

@@ -21,7 +21,7 @@ from bezier.report import html, parts
 from bezier.report.first import DRAWING
 from bezier.report.html import Card, Page, Section, Text
 from bezier.report.page import PAPER
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 
 NAMES = ("P0", "Q0", "R0", "R2")
 PLANE = (

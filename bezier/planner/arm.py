@@ -33,7 +33,7 @@ from bezier.problem import Problem
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 from qe.kernel.verdict import Verdict
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.proof.certificate import Certificate
 
 GRAIN = Fraction(1, 1 << 34)

@@ -15,7 +15,7 @@ from bezier.planner.table import method_for
 from bezier.planner.words import lines
 from bezier.plans import Clock, Plan
 from bezier.problem import Problem
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing

@@ -17,7 +17,7 @@ from qe.engine.early import early_parts, equations, gathered_block
 from qe.engine.finish import settled, shortened
 from qe.engine.local import WORK, without_locals
 from qe.engine.redundant import without_redundant_parts
-from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, alone, attempts, chosen_alone, complete
+from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, Spare, alone, attempts, chosen_alone, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -32,8 +32,9 @@ from qe.options import Budget, Method, Options, Stage
 from qe.proof.answer import Answer, Status
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
-from qe.proof.step import Nested, Step
+from qe.proof.step import Nested
 from qe.proving.certificates import certificate_of
+from qe.rules.linear import may_define
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, StepKind, steps_without
 from qe.simplify.simplify import simplify
@@ -74,28 +75,21 @@ def _counted(formula: Formula, options: Options) -> Formula:
     return formula if options.root_atoms and formula.is_quantifier_free else without_root_atoms(formula)
 
 
-@dataclass(frozen=True, slots=True)
-class _Spare:
-    """A complete outcome that was too long to be taken at once, with its steps."""
-
-    outcome: Outcome
-    attempt: Attempt
-    name: str
-    steps: tuple[Step, ...]
-
-
 @dataclass(slots=True)
 class _Run:
     options: Options
     budget: Budget
     log: RunLog = field(default_factory=RunLog)
+    tried: set[Formula] = field(default_factory=set)
 
     # --- the question as a whole ---------------------------------------------------------------
     def question(self, formula: Formula) -> Outcome:
         """The answer; for sentences that begin with a quantifier also a witness or counterexample.
 
-        What is there only to name a term is put in first: no choice below depends on it.
+        What is there only to name a term is substituted first: no choice below depends on it.
         """
+        if not may_define(formula):
+            return self.unnamed(formula)
         mark = self.log.mark()
         ready = self.prepared(formula, {StepKind.DEFINITION})
         if not any(step.rule == StepKind.LINEAR.value for step in self.log.steps(mark)):
@@ -117,7 +111,7 @@ class _Run:
         problem, mark = Block.of(formula), self.log.mark()
         found = None
         if problem is not None:
-            found = self.by_local_variables(problem) or self.first_of(Scope.ASKED, problem)
+            found = self.by_local_variables(problem) or self.whole(problem)
         if found is None and problem is not None and not problem.free:
             found = self.sentence(problem)
             if found.witness is not None:
@@ -197,7 +191,7 @@ class _Run:
             self.log.forget_steps(mark)
         problem = Block.of(ready)
         if found is None and problem is not None:
-            found = self.first_of(Scope.ASKED, problem) or self.eliminated(problem)
+            found = self.whole(problem) or self.eliminated(problem)
         return found if found is not None else Outcome(self.without_quantifiers(ready))
 
     def finished(self, formula: Formula, question: Formula, mark: int) -> Formula:
@@ -244,7 +238,7 @@ class _Run:
                 return next((found for found in map(self.decided, args) if found.formula == TRUE), Outcome(FALSE))
             case Exists(variables, body) | ForAll(variables, body):
                 problem = Block(variables, body, isinstance(formula, ForAll))
-                return self.first_of(Scope.ASKED, problem) or self.eliminated(problem)
+                return self.whole(problem) or self.eliminated(problem)
         return Outcome(self.without_quantifiers(formula))
 
     def conjunction(self, args: Iterable[Formula]) -> Outcome:
@@ -334,11 +328,19 @@ class _Run:
         found = self.first_of(Scope.INNER, reduced) if reduced.is_flat else None
         return reduced.formula if found is None else found.formula
 
+    def whole(self, problem: Block) -> Outcome | None:
+        """What an attempt for whole questions gives; None where all were made before: nothing was there to prepare."""
+        question = problem.dual.formula
+        if question in self.tried:
+            return None
+        self.tried.add(question)
+        return self.first_of(Scope.ASKED, problem)
+
     # --- the loop -------------------------------------------------------------------------------------
     def first_of(self, scope: Scope, problem: Block) -> Outcome | None:
         """What the first attempt gives that comes to an end; None if there is none."""
         last: Unable | None = None
-        spare: _Spare | None = None
+        spare: Spare | None = None
         for attempt, method, reason in attempts(scope, problem, self.options):
             mark, found = self.log.mark(), None
             try:
@@ -356,14 +358,14 @@ class _Run:
             if spare is not None:
                 return self.spared(spare, problem)
             if found is not None and attempt.spare and complete(found, problem):
-                spare = _Spare(found, attempt, method.name, steps)
+                spare = Spare(found, attempt, method.name, steps)
         if spare is not None:
             return self.spared(spare, problem)
         if last is not None and scope in (Scope.BLOCK, Scope.NESTED):
             raise last
         return None
 
-    def spared(self, spare: _Spare, problem: Block) -> Outcome:
+    def spared(self, spare: Spare, problem: Block) -> Outcome:
         """The outcome that was put aside."""
         self.log.choice(spare.name, problem.variables, "its answer is long, but known")
         self.log.take_up(spare.steps)

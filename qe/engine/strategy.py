@@ -18,6 +18,7 @@ from qe.errors import Unable
 from qe.formula.block import Block
 from qe.formula.traverse import atoms
 from qe.options import Method, Options, Stage
+from qe.proof.step import Step
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +147,16 @@ class Attempt:
         """The method itself."""
         method: EliminationMethod = getattr(import_module(self.listed.module), self.listed.kind)()
         return method
+
+
+@dataclass(frozen=True, slots=True)
+class Spare:
+    """A complete outcome that was too long to be taken at once, with its steps."""
+
+    outcome: Outcome
+    attempt: Attempt
+    name: str
+    steps: tuple[Step, ...]
 
 
 SHORTCUT, FIRST, PROBE, SPARE = 20_000, 60_000, 1_500, 20_000

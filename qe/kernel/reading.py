@@ -12,6 +12,7 @@ import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 from qe.errors import InputError, Unable
@@ -63,24 +64,33 @@ def parsed(text: str, marks: Mapping[str, str]) -> Tree:
     """The tree of a text with words for its marks."""
     for mark, word in marks.items():
         text = text.replace(f"{{{mark}}}", word)
+    return _tree(text)
+
+
+@cache
+def _tree(text: str) -> Tree:
     text = re.sub(r"(?<![<>!=/])=(?!=)", "==", text.replace("/=", "!=").replace("^", "**"))
     return ast.parse(" ".join(text.split()), mode="eval").body
 
 
+@cache
+def _nodes(tree: Tree) -> tuple[ast.AST, ...]:
+    """All nodes of a tree, which nobody changes; theorems of a file share theirs."""
+    return tuple(ast.walk(tree))
+
+
 def binders_in(tree: Tree) -> Iterator[str]:
     """The names that quantifiers bind."""
-    for node in ast.walk(tree):
+    for node in _nodes(tree):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in QUANTIFIERS:
             yield from (arg.id for arg in node.args[:-1] if isinstance(arg, ast.Name))
 
 
 def names_in(tree: Tree, params: Sequence[str]) -> Iterator[str]:
     """The names of variables, letters and what is let, but not of numbers."""
-    places = [node.target for node in ast.walk(tree) if isinstance(node, ast.comprehension)]
-    numbers = {place.id for place in places if isinstance(place, ast.Name)}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Name) and node.id not in {*RESERVED, *numbers, *params}:
-            yield node.id
+    places = [node.target for node in _nodes(tree) if isinstance(node, ast.comprehension)]
+    others = {*RESERVED, *params, *(place.id for place in places if isinstance(place, ast.Name))}
+    return (node.id for node in _nodes(tree) if isinstance(node, ast.Name) and node.id not in others)
 
 
 class Reading:

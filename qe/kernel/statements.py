@@ -54,6 +54,24 @@ class Row:
         pairs = [zip(key.split(), word.split(), strict=True) for key, word in zip(self.data.get("for", {}), words)]
         return {mark: word for pair in pairs for mark, word in pair}
 
+    def relations(self, words: Sequence[str]) -> tuple[str, ...]:
+        """Those between the two sides of the block's comparisons, sorted, ``undirected``."""
+        marks = self.marks(words)
+        listed = re.findall(r"\{\w+\}|[<>/]=|[<>=]", self.data["block"])
+        return tuple(sorted(undirected(marks.get(relation.strip("{}"), relation)) for relation in listed))
+
+    def variables(self, words: Sequence[str]) -> int:
+        """How many the block binds."""
+        vectors, marks = self.table("vectors"), self.marks(words)
+        before = re.match(r"exists\(((\w+, )+)", self.data["block"])
+        binders = before[1].removesuffix(", ").split(", ") if before else []
+        return sum(_number(vectors[name], marks) if name in vectors else 1 for name in binders)
+
+
+def undirected(relation: str) -> str:
+    """The relation that is meant where a side may be any of the two."""
+    return relation.replace(">", "<")
+
 
 @cache
 def rows() -> Mapping[str, Row]:

@@ -35,7 +35,7 @@ class BlockContext:
     log: RunLog = field(default_factory=RunLog)
 
     def __post_init__(self) -> None:
-        self.facts = replace(self.facts, watch=self.watch)
+        self.facts = self.facts.watched(self.watch)
 
     def watch(self) -> None:
         """Raises ``BudgetExceeded`` at a limit."""
@@ -75,9 +75,18 @@ class Found:
     proof: Mapping[str, object] | None = None
 
 
+Apply = Callable[[tuple[str, ...], Formula, BlockContext], Found | None]
+
+
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """``apply`` is tried where steps of the ``kind`` are enabled: what it makes of ``ex variables. body``, or None."""
+    """``apply`` is tried where steps of one of the ``kinds`` are enabled: what it makes of ``ex variables. body``, or
+    None."""
 
-    kind: StepKind
-    apply: Callable[[tuple[str, ...], Formula, BlockContext], Found | None]
+    kinds: frozenset[StepKind]
+    apply: Apply
+
+
+def rule(apply: Apply, *kinds: StepKind) -> Rule:
+    """The rule that takes steps of these kinds."""
+    return Rule(frozenset(kinds), apply)

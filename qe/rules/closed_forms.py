@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import permutations, product
 from math import isqrt, prod
 
@@ -19,9 +19,9 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
-from qe.kernel.statements import Row, Theorem, rows, theorem
+from qe.kernel.statements import Row, Theorem, rows, theorem, undirected
 from qe.proof.entry import Json, poly_to_text
-from qe.rules.block_context import BlockContext, Found, Rule
+from qe.rules.block_context import BlockContext, Found, Rule, rule
 from qe.rules.step import StepKind
 from qe.rules.tree import Leaf
 
@@ -38,10 +38,19 @@ Terms = Mapping[tuple[int, ...], Poly]
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """A comparison of a theorem's block: its relation, and terms in the letters by the powers of its variables."""
+    """A comparison of a block: its relation, and terms in letters or parameters by the powers of its variables.
+
+    ``letters``: those that are such a term up to a sign, with its powers.
+    """
 
     relation: Relation
     terms: Terms
+    letters: tuple[tuple[str, int, tuple[int, ...]], ...] = ()
+
+    @property
+    def degree(self) -> int:
+        """The degree in the variables of the block."""
+        return max(map(sum, self.terms))
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,16 +65,20 @@ class Pattern:
     roots: Mapping[str, ast.expr]
 
 
-def patterns(family: str, body: Formula, variables: Sequence[str], conditions: int) -> Iterator[Pattern]:
-    """Those of a family that the block may be an instance of, by its size and the number of its parameters."""
-    parameters = len(set(body.free) - set(variables))
-    degrees = (p.degree(p.ring.index[v]) for p in polynomials(body) for v in variables)
-    size = frozenset((len(variables), max(degrees, default=0)))
-    for row in rows().values():
-        if row.family == family and row.data.get("parameters", 0) <= parameters:
-            for found in (pattern(row.name, words) for words in row.choices(size)):
-                if len(found.variables) == len(variables) and len(found.conditions) == conditions:
-                    yield found
+@lru_cache(maxsize=1_000)
+def patterns(
+    families: tuple[str, ...], parameters: int, variables: int, degree: int, relations: tuple[str, ...]
+) -> tuple[Pattern, ...]:
+    """Those of these families that a block may be an instance of, by the numbers of its parameters and variables, the
+    highest degree in one of these, and its relations, sorted, up to their direction."""
+    sizes = frozenset((variables, degree))
+    return tuple(
+        pattern(row.name, words)
+        for row in rows().values()
+        if row.family in families and row.data.get("parameters", 0) <= parameters
+        for words in row.choices(sizes)
+        if row.relations(words) == relations and row.variables(words) == variables
+    )
 
 
 @cache
@@ -77,8 +90,20 @@ def pattern(name: str, words: tuple[str, ...]) -> Pattern:
     assert isinstance(block, Exists) and block.ring is not None
     indices = [block.ring.index[v] for v in block.variables]
     parts = [part for part in conjuncts(block.body) if isinstance(part, Atom)]
-    conditions = tuple(Condition(p.relation, p.poly.collected(indices)) for p in parts)
+    collected = [p.poly.collected(indices) for p in parts]
+    conditions = tuple(
+        Condition(part.relation, terms, tuple(_single(terms))) for part, terms in zip(parts, collected, strict=True)
+    )
     return Pattern(used, rows()[name], block.variables, conditions, dict(_roots(used, block)))
+
+
+def _single(terms: Terms) -> Iterator[tuple[str, int, tuple[int, ...]]]:
+    """The letters that are a term up to a sign, that sign, and the powers before which they stand."""
+    for powers, term in terms.items():
+        if term.term_count() == 1 and term.total_degree == 1:
+            ((exponents, coefficient),) = term.terms()
+            if abs(coefficient) == 1:
+                yield term.ring.names[exponents.index(1)], coefficient, powers
 
 
 def _roots(used: Theorem, block: Formula) -> Iterator[tuple[str, ast.expr]]:
@@ -114,18 +139,28 @@ class Match:
         }
 
 
-def matches(family: str, variables: Sequence[str], body: Formula) -> Iterator[Match]:
-    """The theorems of a family of which ``exists variables. body`` is an instance, but for what is given."""
+def matches(families: tuple[str, ...], variables: Sequence[str], body: Formula) -> Iterator[Match]:
+    """The theorems of these families of which ``exists variables. body`` is an instance, but for what is given."""
     parts = [part for part in conjuncts(body) if isinstance(part, Atom)]
     if body.ring is None or len(parts) < len(conjuncts(body)) or len(parts) > MOST_CONDITIONS:
         return
-    for found in patterns(family, body, variables, len(parts)):
-        if found.row.data.get("dense") and not all(set(variables) <= set(part.free) for part in parts):
-            continue
-        for names in permutations(variables) if len(variables) < 3 else [tuple(variables)]:
-            indices = [body.ring.index[name] for name in names]
-            for letters in _assigned(found.conditions, parts, indices, {}):
-                yield from _completed(found, letters, names, variables, body)
+    index, parameters = body.ring.index, len(set(body.free) - set(variables))
+    degree = max(part.poly.degree(index[v]) for part in parts for v in variables)
+    relations = tuple(sorted(undirected(part.relation.value) for part in parts))
+    candidates = patterns(families, parameters, len(variables), degree, relations)
+    orders = (permutations(variables) if len(variables) < 3 else [tuple(variables)]) if candidates else ()
+    ways = [(names, [_both_sides(part, [index[v] for v in names]) for part in parts]) for names in orders]
+    for found in candidates:
+        if not found.row.data.get("dense") or all(set(variables) <= set(part.free) for part in parts):
+            for names, sides in ways:
+                for letters in _assigned(found.conditions, sides, {}):
+                    yield from _completed(found, letters, names, variables, body)
+
+
+def _both_sides(part: Atom, indices: Sequence[int]) -> tuple[Condition, Condition]:
+    """An atom about its polynomial, and about minus that."""
+    terms, relation = part.poly.collected(indices), part.relation
+    return Condition(relation, terms), Condition(relation.flipped, {powers: -t for powers, t in terms.items()})
 
 
 def _completed(
@@ -160,49 +195,52 @@ def square_root(poly: Poly) -> Poly | None:
 
 
 def _assigned(
-    conditions: Sequence[Condition], parts: Sequence[Atom], indices: Sequence[int], known: Letters
+    conditions: Sequence[Condition], parts: Sequence[tuple[Condition, Condition]], known: Letters
 ) -> Iterator[Letters]:
     """The letters, so that each condition of the theorem is one of the parts."""
     if not conditions:
         yield known
         return
     first, *rest = conditions
-    for k, part in enumerate(parts):
-        for sign, relation in ((1, part.relation), (-1, part.relation.flipped)):
-            if relation is first.relation:
-                letters = _read_off(first.terms, (part.poly * sign).collected(indices), known)
+    for k, sides in enumerate(parts):
+        for side in sides:
+            if side.relation is first.relation:
+                letters = _read_off(first, side, known)
                 if letters is not None:
-                    yield from _assigned(rest, [*parts[:k], *parts[k + 1 :]], indices, letters)
+                    yield from _assigned(rest, [*parts[:k], *parts[k + 1 :]], letters)
 
 
-def _read_off(terms: Terms, of: Terms, known: Letters) -> Letters | None:
-    """The letters with which the polynomial ``of`` may have these terms, as far as single letters tell."""
-    if not of.keys() <= terms.keys():
+def _read_off(condition: Condition, side: Condition, known: Letters) -> Letters | None:
+    """The letters with which the condition of a theorem may be this side of a part, as far as single letters tell.
+
+    None also where the degree is lower: where leading terms vanish, other methods have shorter answers.
+    """
+    if not side.terms.keys() <= condition.terms.keys() or side.degree < condition.degree:
         return None
-    zero = next(iter(of.values())) * 0
+    zero = next(iter(side.terms.values())) * 0
     letters = dict(known)
-    for powers, term in terms.items():
-        if term.term_count() == 1 and term.total_degree == 1:
-            ((exponents, coefficient),) = term.terms()
-            name = term.ring.names[exponents.index(1)]
-            if abs(coefficient) == 1:
-                letters.setdefault(name, of.get(powers, zero) * coefficient)
+    for name, sign, powers in condition.letters:
+        value = side.terms.get(powers, zero) * sign
+        if letters.setdefault(name, value) != value:
+            return None
     return letters
 
 
-def closed_form(kind: StepKind) -> Rule:
-    """The rule that takes the answers of the theorems of the family that is called like the step."""
+def closed_form(*kinds: StepKind) -> Rule:
+    """The rule that takes the answers of the theorems of the families that are called like the steps."""
 
     def apply(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+        families = tuple(kind.value for kind in kinds if kind in context.enabled)
         with suppress(Unable):  # a determinant is too large
-            for match in matches(kind.value, variables, body):
+            for match in matches(families, variables, body):
                 if _holds(match.formula("given"), context):
                     answer = nnf(match.formula("answer"))
                     if all(p.term_count() <= MOST_TERMS for p in polynomials(answer)):
-                        return Found(kind, match.theorem.name, Leaf((), answer), match.evidence)
+                        kind, name = StepKind(match.theorem.family), match.theorem.name
+                        return Found(kind, name, Leaf((), answer), match.evidence)
         return None
 
-    return Rule(kind, apply)
+    return rule(apply, *kinds)
 
 
 def _holds(given: Formula, context: BlockContext) -> bool:

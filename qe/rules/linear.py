@@ -12,7 +12,7 @@ sign of a is not known, so the factor is positive.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass
 
 from qe.errors import BudgetExceeded
@@ -62,9 +62,10 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
     """
     best: Pivot | None = None
     best_cost: tuple[int, int, int] | None = None
-    occurrences = _occurrences(parts)
     # those with a constant coefficient first: where there is one, the signs of the others need not be known
-    for position, i, rest, lead in sorted(_linear_in(parts, variables), key=lambda found: not found[3].is_constant):
+    linear = sorted(_linear_in(parts, variables), key=lambda found: not found[3].is_constant)
+    occurrences = _occurrences(parts if linear else ())
+    for position, i, rest, lead in linear:
         if best_cost is not None and best_cost[0] == 0 and not lead.is_constant:
             break
         alone = occurrences[i] == 1
@@ -77,19 +78,29 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
     return best
 
 
+def may_define(formula: Formula) -> bool:
+    """Whether an equation, perhaps below a negation, is linear in a bound variable with a number before it: where there
+    is none, nothing is ``defining`` in any block."""
+    return any(
+        isinstance(a, Atom)
+        and a.relation in (Relation.EQ, Relation.NE)
+        and any(a.poly.coefficients(i)[1].is_constant for i in _linear_variables(a.poly, formula.bound))
+        for a in atoms(formula)
+    )
+
+
 def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
     """Equations v = t among the conjuncts that are there to give t a name.
 
     All those with a v that occurs nowhere else; if there is none, the one of least cost whose t is not linear, or whose
     v stands in one other atom only: so no form is written out twice. In very many variables linear forms stay named.
     """
-    occurrences = _occurrences(parts)
     alone: dict[int, Pivot] = {}
     best: tuple[int, Pivot] | None = None
+    linear = [found for found in _linear_in(parts, variables) if found[3].is_constant]
+    occurrences = _occurrences(parts if linear else ())
     few = len(occurrences) <= MOST_VARIABLES
-    for position, i, rest, lead in _linear_in(parts, variables):
-        if not lead.is_constant:
-            continue
+    for position, i, rest, lead in linear:
         sign = 1 if lead.constant_value() > 0 else -1
         pivot = Pivot(position, i, lead, rest, sign, occurrences[i] == 1)
         if pivot.alone:
@@ -115,10 +126,14 @@ def _linear_in(parts: Sequence[Formula], variables: Sequence[str]) -> Iterator[t
     """Position, variable, rest and coefficient of every variable in which an equation among the conjuncts is linear."""
     for position, part in enumerate(parts):
         if isinstance(part, Atom) and part.relation is Relation.EQ:
-            for i in part.poly.variables:
-                if part.poly.degree(i) == 1 and part.poly.ring.names[i] in variables:
-                    rest, lead = part.poly.coefficients(i)
-                    yield position, i, rest, lead
+            for i in _linear_variables(part.poly, variables):
+                rest, lead = part.poly.coefficients(i)
+                yield position, i, rest, lead
+
+
+def _linear_variables(poly: Poly, names: Container[str]) -> Iterator[int]:
+    """Those of these names in which a polynomial has degree 1."""
+    return (i for i in poly.variables if poly.ring.names[i] in names and poly.degree(i) == 1)
 
 
 def _sign(lead: Poly, position: int, facts: Callable[[int], Facts]) -> int | None:

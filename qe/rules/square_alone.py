@@ -45,7 +45,7 @@ def square_alone(variables: tuple[str, ...], body: Formula, context: BlockContex
 
 def _solved(name: str, part: Atom, others: Sequence[int]) -> tuple[Formula, Lift] | None:
     """What takes the place of the condition, and the way back, where the other variables do not get higher degrees."""
-    for match in matches(StepKind.SQUARE_ALONE.value, (name,), part):
+    for match in matches((StepKind.SQUARE_ALONE.value,), (name,), part):
         k, l, m = (match.letters[letter] for letter in "klm")
         plain = k.is_constant and not any(l.degree(i) for i in others) and any(m.degree(i) for i in others)
         if plain and match.formula("given") == TRUE:

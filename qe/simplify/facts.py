@@ -10,7 +10,7 @@ implicit theory, here with ranges instead of pairwise rules).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 
@@ -105,6 +105,10 @@ class Facts:
         """Whether nothing is known."""
         return not self.ranges and not self.literals
 
+    def watched(self, watch: Callable[[], object]) -> Facts:
+        """The same, with this one to be asked."""
+        return Facts(self.ranges, self.literals, watch)
+
     def known(self, key: Poly) -> Range:
         """The best range of a key: stored, inherent and enclosed from the ranges of its variables."""
         found = meet(self.ranges.get(key, EVERYTHING), inherent(key))
@@ -165,7 +169,7 @@ class Facts:
             if isinstance(given, Atom):
                 key, wanted = constraint(given)
                 ranges[key] = meet(ranges.get(key, EVERYTHING), wanted)
-        return replace(self, ranges=ranges)
+        return Facts(ranges, self.literals, self.watch)
 
     def without(self, names: tuple[str, ...]) -> Facts:
         """The facts that do not mention these variables (they get bound)."""
@@ -178,7 +182,7 @@ class Facts:
             for f, value in self.literals.items()
             if isinstance(f, RootAtom) and free(f.poly) and f.variable not in names
         }
-        return replace(self, ranges={key: r for key, r in self.ranges.items() if free(key)}, literals=literals)
+        return Facts({key: r for key, r in self.ranges.items() if free(key)}, literals, self.watch)
 
 
 NOTHING = Facts()

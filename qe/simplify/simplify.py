@@ -10,7 +10,6 @@ variables does not grow, and the result is a fixed point.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 
 from qe.exact.ring import Poly
 from qe.exact.watch import IDLE
@@ -61,7 +60,7 @@ def simplify(formula: Formula, assumptions: Formula = TRUE, *, watch: Callable[[
         if known == FALSE:
             return TRUE
         facts = facts_of(known, formula)
-    return simplify_under(formula, facts if watch is IDLE else replace(facts, watch=watch))
+    return simplify_under(formula, facts if watch is IDLE else facts.watched(watch))
 
 
 def simplify_under(formula: Formula, facts: Facts) -> Formula:
@@ -113,7 +112,7 @@ def _level(args: Iterable[Formula], facts: Facts, conjunctive: bool) -> Formula:
     join = conj if conjunctive else disj
     absorbing: Formula = FALSE if conjunctive else TRUE
     atoms, literals, others = _sort(args, conjunctive)
-    nothing = replace(NOTHING, watch=facts.watch)
+    nothing = Facts(watch=facts.watch)
     for _ in range(_ROUNDS):
         tidied = _tidy(atoms, facts, conjunctive)
         if tidied is None:
@@ -181,7 +180,7 @@ def _extended(facts: Facts, atoms: Iterable[Atom], literals: Iterable[Formula], 
             values[literal.arg] = not conjunctive
         else:
             values[literal] = conjunctive
-    return replace(known, literals=values)
+    return Facts(known.ranges, values, facts.watch)
 
 
 class _Board:
@@ -192,7 +191,7 @@ class _Board:
         self.groups: dict[Poly, list[Atom]] = {}
         self.own: dict[Poly, Range] = {}
         self.ranges: dict[Poly, Range] = dict(facts.ranges)
-        self.view = replace(facts, ranges=self.ranges)
+        self.view = Facts(self.ranges, facts.literals, facts.watch)
         for given in atoms:
             self.insert(given)
 

@@ -30,7 +30,7 @@ from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.nested import names_within
 from qe.proving.prover import Prover
-from qe.rules.block_context import Rule
+from qe.rules import block_context
 from qe.rules.step import StepKind
 from qe.rules.tree import Any
 
@@ -78,25 +78,25 @@ def any_exponent(m: pytest.MonkeyPatch) -> None:
     """Exponents are divided by 2 whatever they are, bare comparisons of x too."""
     once = iter([2])
     m.setattr(degree_shift, "common_exponent", lambda body, x, nonnegative=False: next(once, 1))
-    m.setattr(block, "RULES", (Rule(StepKind.DEGREE_SHIFT, degree_shift.shift_degree),))
+    m.setattr(block, "RULES", (block_context.rule(degree_shift.shift_degree, StepKind.DEGREE_SHIFT),))
 
 
 def any_weights(m: pytest.MonkeyPatch) -> None:
     """Polynomials count as homogeneous for equal weights."""
     m.setattr(scaling, "find_weights", lambda body, names: {k: Fraction(1) for k in range(2)})
-    m.setattr(block, "RULES", (Rule(StepKind.SCALING, scaling.fix_scale),))
+    m.setattr(block, "RULES", (block_context.rule(scaling.fix_scale, StepKind.SCALING),))
 
 
 def one_value(m: pytest.MonkeyPatch) -> None:
     """The values 0 and -1 are left out after scaling."""
     m.setattr(scaling, "sorted", lambda signs, reverse=False: [1], raising=False)
-    m.setattr(block, "RULES", (Rule(StepKind.SCALING, scaling.fix_scale),))
+    m.setattr(block, "RULES", (block_context.rule(scaling.fix_scale, StepKind.SCALING),))
 
 
 def any_direction(m: pytest.MonkeyPatch) -> None:
     """Polynomials count as constant along a direction."""
     m.setattr(translation, "kernel_vector", lambda columns, rows: {k: Fraction(1) for k in columns})
-    m.setattr(block, "RULES", (Rule(StepKind.TRANSLATION, translation.fix_origin),))
+    m.setattr(block, "RULES", (block_context.rule(translation.fix_origin, StepKind.TRANSLATION),))
 
 
 def all_open(m: pytest.MonkeyPatch) -> None:
@@ -113,19 +113,19 @@ def fewer_factors(m: pytest.MonkeyPatch) -> None:
         return found and (found[0], found[1][:-1])
 
     m.setattr(cases.eq, "factor_choice", fewer)
-    m.setattr(block, "RULES", (Rule(StepKind.FACTOR_SPLIT, cases.split_factors),))
+    m.setattr(block, "RULES", (block_context.rule(cases.split_factors, StepKind.FACTOR_SPLIT),))
 
 
 def other_equations(m: pytest.MonkeyPatch) -> None:
     """A basis loses an equation."""
     m.setattr(cases.eq, "better_equations", lambda found, basis, variables: tuple(basis.polys)[:1])
-    m.setattr(block, "RULES", (Rule(StepKind.GROEBNER, cases.groebner_equations),))
+    m.setattr(block, "RULES", (block_context.rule(cases.groebner_equations, StepKind.GROEBNER),))
 
 
 def all_apart(m: pytest.MonkeyPatch) -> None:
     """Conditions that share a variable are quantified apart."""
     m.setattr(structural, "connected", lambda parts, names: ((), [(frozenset("xy"), (p,)) for p in parts]))
-    m.setattr(block, "RULES", (Rule(StepKind.MINISCOPE, structural.independent_parts),))
+    m.setattr(block, "RULES", (block_context.rule(structural.independent_parts, StepKind.MINISCOPE),))
 
 
 def no_dual(m: pytest.MonkeyPatch) -> None:
@@ -141,7 +141,7 @@ def wrong_factors(m: pytest.MonkeyPatch) -> None:
 def one_case(m: pytest.MonkeyPatch) -> None:
     """The boundary itself is forgotten."""
     m.setattr(generic, "Any", lambda nodes: Any(nodes[:1]))
-    m.setattr(block, "RULES", (Rule(StepKind.GENERIC, generic.drop_inequations),))
+    m.setattr(block, "RULES", (block_context.rule(generic.drop_inequations, StepKind.GENERIC),))
 
 
 def negated(m: pytest.MonkeyPatch) -> None:

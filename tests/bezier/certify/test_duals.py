@@ -10,6 +10,7 @@ from flint import arb
 
 from bezier.certify import duals
 from bezier.certify.duals import Dual
+from bezier.certify.square_roots import ONE, ZERO, Surd, turn
 
 
 def floats(d: Dual) -> tuple[float, ...]:
@@ -31,31 +32,18 @@ def test_values_and_derivatives_of_sums_products_and_angles() -> None:
     assert floats(duals.number(Fraction(5, 2), 2)) == (2.5, 0, 0)
 
 
-def fixed(rows: list[list[int]], shift: list[int]) -> tuple[list[list[arb]], list[arb]]:
-    return [[arb(v) for v in row] for row in rows], [arb(v) for v in shift]
-
-
-STILL = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-ABOUT_X = fixed([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 5])
-
-
-def test_motions_in_their_order() -> None:
-    point = [duals.number(Fraction(v), 1) for v in (1, 2, 3)]
-    turn = duals.seed(arb.pi() / 2, 0, 1)
-    turned = duals.joint_moved(turn, True, point)
-    assert [float(c.value) for c in turned] == pytest.approx([-2, 1, 3])
-    assert [float(c.slope[0]) for c in turned] == pytest.approx([-1, -2, 0])
-    slid = duals.joint_moved(duals.seed(arb(5), 0, 1), False, point)
-    assert [float(c.value) for c in slid] == [1, 2, 8] and [float(c.slope[0]) for c in slid] == [0, 0, 1]
-    assert [float(c.value) for c in duals.moved(ABOUT_X, point)] == [1, -3, 7]
-    assert [float(c.value) for c in duals.moved(fixed(STILL, [1, 0, 0]), slid)] == [2, 2, 8]
-    assert [float(c.slope[0]) for c in duals.moved(ABOUT_X, turned)] == pytest.approx([-1, 0, -2])
-
-
-def test_sums_of_square_roots() -> None:
-    terms = ((1, Fraction(1, 2)), (2, Fraction(-3)))
-    assert float(duals.root_sum(terms, 1).value) == pytest.approx(0.5 - 3 * 2**0.5)
-    assert duals.root_ball(()).contains(0)
+def test_motions() -> None:
+    x, y, z = variables(Fraction(1), Fraction(2), Fraction(3))
+    half = turn((1, 2), (Surd.of([(3, Fraction(1, 2))]), Surd.rational(Fraction(1, 2))), (ONE, ZERO, ZERO))
+    root = math.sqrt(3) / 2
+    found = [floats(v) for v in duals.rigid(half)([x, y, z])]
+    expected = [(2, 1, 0, 0), (2 * root - 1.5, 0, root, -0.5), (1 + 3 * root, 0, 0.5, root)]
+    assert [v for row in found for v in row] == pytest.approx([v for row in expected for v in row])
+    assert [floats(v) for v in duals.moved(False, x, [x, y, z])] == [floats(x), floats(y), floats(z + x)]
+    turned = [floats(v)[0] for v in duals.moved(True, x, [x, y, z])]
+    c, s = math.cos(1), math.sin(1)
+    assert turned == pytest.approx([c - 2 * s, s + 2 * c, 3])
+    assert [floats(-v)[0] for v in (x, y)] == [-1, -2] and floats(-x)[1:] == (-1, 0, 0)
 
 
 RADII = [Fraction(1, 4), Fraction(1, 4), Fraction(1, 2)]

@@ -7,12 +7,12 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from qe.expert.named_form import check_named_form
 
 import qe
 import qe.elimination.named_form as named_form
 from qe.elimination.protocol import Context
 from qe.exact.ring import Ring
-from qe.expert.named_form import check_named_form
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, exists
 from qe.formula.evaluate import holds_at

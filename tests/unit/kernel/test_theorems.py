@@ -16,7 +16,7 @@ from qe.formula.build import conj, exists, neg
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import conjuncts
 from qe.kernel.negation import negation
-from qe.kernel.statements import Theorem, rows, theorem
+from qe.kernel.statements import Theorem, rows, theorem, undirected
 from qe.kernel.step import Claim, Context
 from qe.kernel.theorem import check_theorem
 from qe.proof.certificate import Kind
@@ -221,10 +221,21 @@ def test_the_matcher_reads_the_letters_off(name: str) -> None:
     """Of an instance it makes one again, of the same block."""
     for case in cases(name):
         block = case.formula("block")
-        listed = list(matches(case.used.family, block.variables, block.body))  # type: ignore[attr-defined]
+        listed = list(matches((case.used.family,), block.variables, block.body))  # type: ignore[attr-defined]
         assert any(match.theorem.name == name for match in listed) or len(block.free) < 3  # too few parameters
         for match in listed:
             assert not objection(block, match.formula("answer"), match.evidence, conjuncts(match.formula("given")))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_the_text_of_a_block_says_is_what_the_block_has(name: str) -> None:
+    """By its relations and the number of its variables a theorem is chosen before it is read."""
+    row = rows()[name]
+    for words in row.choices(SIZES):
+        known = pattern(name, words)
+        relations = (undirected(condition.relation.value) for condition in known.conditions)
+        assert row.relations(words) == tuple(sorted(relations))
+        assert row.variables(words) == len(known.variables)
 
 
 def test_proofs_that_are_stored_are_accepted() -> None:

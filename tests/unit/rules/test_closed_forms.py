@@ -160,6 +160,8 @@ OTHERS = [
     (CUBIC, "ex x. a*x >= 1 and x <= 1 and x^3 + b*x + c < 0"),
     (CUBIC, "ex x. 0 <= x and x <= 1 and x^4 + a*x^2 + b*x + c < 0"),
     (CUBIC, "ex x. 0 <= x and x <= 1 and x^3 + a*x + b < 0"),  # two parameters
+    (CUBIC, "ex x. 0 <= x and x <= 1 and a*x^2 + b*x + c < 0"),  # substitution has shorter answers
+    (CUBIC, "ex x. x > 0 and a*x^2 + b*x + c < 0"),
 ]
 
 

@@ -7,11 +7,11 @@ from itertools import product
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from qe.expert.zeros import check_zeros
 
 import qe
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
-from qe.expert.zeros import check_zeros
 from qe.formula.build import atom, conj, disj
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf
