@@ -12,10 +12,7 @@ from qe.formula.traverse import conjuncts
 from qe.kernel.elimination_set import block_of
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.proof.entry import Json, formula_from_json
-from qe.proving.lemma_list import EMPTY
 from qe.proving.made import Made
-
-NOTHING: Json = {"theory": EMPTY}
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,10 +69,10 @@ def by_independent_parts(made: Made, names: Sequence[str], parts: Sequence[Part]
             break
         if part.together:
             whole = block_of(names, conj((*beside, part.body)), made.ring)
-            made.step("signs", start, whole, NOTHING, beside)
+            made.signs(start, whole, used=beside)
             made.derived(whole, part.end, part.steps)
             for member in (f for f in conjuncts(part.end) if f not in beside and made.current != FALSE):
-                made.step("signs", member, without(member, beside), NOTHING, beside)
+                made.signs(member, without(member, beside), used=beside)
         else:
             made.derived(start, part.end, part.steps)
     return made.finished(after)

@@ -9,10 +9,9 @@ from qe.kernel.block import existential
 from qe.kernel.negation import negation
 from qe.kernel.step import Claim, Context, Limits, only, outside
 from qe.kernel.virtual_substitution import TestPoint, put
-from qe.proof.certificate import written
 from qe.proof.entry import Json, formula_from_json
-from qe.proving.lemma_list import EMPTY, Term, identities
-from qe.proving.made import Made
+from qe.proving.lemma_list import Term, identities
+from qe.proving.made import Made, by_signs
 
 
 def infinity_first(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -56,7 +55,7 @@ def _taken(made: Made, block: Exists, name: str, side: int, end: Formula) -> Non
     known = tuple(f for f in conjuncts(end) if f != TRUE)
     point: Json = {"coefficients": [], "branch": 0, "shift": side}
     tried: Json = {"point": point, "guard": True, "formula": None, "settled": []}
-    steps = [written("signs", (), end, TRUE, known, {"theory": EMPTY})] if known else []
+    steps: list[Json] = [by_signs(made.claim, made.limits, end, TRUE, known)] if known else []
     evidence: dict[str, Json] = {"variable": name, "side": 1, "quadratics": []}
     made.step("elimination set", block, TRUE, {**evidence, "points": [tried], "parts": [steps]}, known)
 
@@ -70,5 +69,4 @@ def zeros(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     for poly in polys:
         terms = [(-c, tuple((ring.gen(i), e) for i, e in powers)) for powers, c in poly.sparse_terms()]
         listed.append([(1, ((poly, 1),)), *terms])
-    evidence = {"theory": identities(listed, ring)}
-    return [written("signs", (), before, after, context, evidence)]
+    return [by_signs(claim, limits, before, after, context, identities(listed, ring))]

@@ -28,8 +28,11 @@ def named(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         raise claim.fail("two blocks expected")
     name = after.variables[0]
     outer = [part for part in conjuncts(after.body) if isinstance(part, Atom)]
-    inner = next(part for part in conjuncts(after.body) if isinstance(part, Exists))
-    naming = next(part for part in conjuncts(inner.body) if isinstance(part, Atom) and name in part.free)
+    inner = next((part for part in conjuncts(after.body) if isinstance(part, Exists)), None)
+    parts = () if inner is None else conjuncts(inner.body)
+    naming = next((part for part in parts if isinstance(part, Atom) and name in part.free), None)
+    if inner is None or naming is None:
+        raise claim.fail("one block beside the others, with an equation that names the form, expected")
     beside = [part for part in conjuncts(inner.body) if part != naming]
     given = [part for part in conjuncts(before.body) if part not in beside]
     y = ring.index[name]
@@ -55,7 +58,7 @@ def named(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     whole = exists(names, conj((naming, before.body)))
     moved = exists(names, conj((naming, *beside, *outer)))
     made.named(before, whole, name, naming)
-    made.step("signs", whole, moved, {"theory": identities(listed, ring)})
+    made.signs(whole, moved, identities(listed, ring))
     return made.finished(after)
 
 
@@ -89,7 +92,7 @@ def seen_along(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     evidence: dict[str, Json] = {"theorem": used.name, "words": list(words), "letters": _texts(letters)}
     made.by_lemmas("theorem", theorem_goals, inner, answer, {**evidence, "variables": dict(variables)})
     if not {*conjuncts(answer)} <= {*conjuncts(final)}:  # the radius follows
-        made.step("signs", values, exists(outer, final), {"theory": _radius(letters, len(names), ring)})
+        made.signs(values, exists(outer, final), _radius(letters, len(names), ring))
     return made.finished(after)
 
 

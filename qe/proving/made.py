@@ -19,7 +19,7 @@ from qe.kernel.terms import Quotient, terms_goals
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proof.step import Place
-from qe.proving.lemma_list import EMPTY
+from qe.proving.lemma_list import EMPTY, with_cases
 from qe.proving.lemmas import refuting
 from qe.proving.primitive_names import SIGNS
 from qe.proving.simplified import Simplified
@@ -29,6 +29,17 @@ FRESH = ("'", "''")
 
 
 Obligations = Callable[[Claim, Context], Sequence[Goal]]
+
+
+def by_signs(
+    claim: Claim, limits: Limits, before: Formula, after: Formula, context: Context, lemmas: Json = EMPTY
+) -> Json:
+    """The step that these lemmas prove, with the cases in which they do. ``CertificateRejected`` where they do not."""
+    step = replace(claim, rule=SIGNS, before=before, after=after, evidence=Entry({"theory": lemmas}, claim.path))
+    theory = with_cases(lemmas, block_goals(step, context), claim.ring, limits)
+    if theory is None:
+        raise claim.fail("the lemmas do not show this step")
+    return written(SIGNS, (), before, after, context, {"theory": theory})
 
 
 @dataclass(slots=True)
@@ -63,6 +74,12 @@ class Made:
         if before != after:
             self.steps.append(written(rule, place, before, after, used, evidence))
         self.current = changed
+
+    def signs(self, before: Formula, after: Formula, lemmas: Json = EMPTY, used: Context = ()) -> None:
+        """A step that these lemmas prove."""
+        step = by_signs(self.claim, self.limits, before, after, used, lemmas)
+        assert isinstance(step, dict)
+        self.step(SIGNS, before, after, step["evidence"], used)
 
     def place(self, part: Formula) -> Place:
         """Where it stands, as a whole or among the members of a conjunction or disjunction."""

@@ -90,7 +90,7 @@ def _follow(
             twice = next((n for n in (1, 2) if (poly + image) * n == value * 2), None)
             terms: list[Term] = [(twice or 1, ((poly, 1),)), (twice or 1, ((image, 1),))]
             listed.append([*terms, (-2, ((value, 1),))] if value else terms)
-    made.step("signs", before, after, {"theory": identities(listed, made.ring)})
+    made.signs(before, after, identities(listed, made.ring))
 
 
 def _put(formula: Formula, terms: Mapping[str, Quotient], made: Made) -> Formula:

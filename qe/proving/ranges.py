@@ -19,9 +19,9 @@ from qe.formula.traverse import conjuncts
 from qe.kernel.block import existential
 from qe.kernel.limits import check_value
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json
 from qe.proving.lemma_list import Lemmas, Term
+from qe.proving.made import by_signs
 from qe.simplify.facts import factor_list
 
 Number = Fraction | float
@@ -52,7 +52,7 @@ def by_ranges(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         made.about(claim.ring.gen(i) * value.rational().denominator - value.rational().numerator)
     for poly in _at_most_zero(parts, last):
         made.follow(poly, None, 0)
-    return [written("signs", (), before, after, context, {"theory": made.evidence()})]
+    return [by_signs(claim, limits, before, after, context, made.evidence())]
 
 
 def _at_most_zero(parts: tuple[object, ...], entry: Entry) -> Iterator[Poly]:

@@ -14,10 +14,8 @@ from qe.kernel.negation import negation, normal
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.substitution import at_number
 from qe.kernel.terms import Quotient
-from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json
-from qe.proving.lemma_list import EMPTY
-from qe.proving.made import Made
+from qe.proving.made import Made, by_signs
 
 
 def degenerate_truth_set(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -37,7 +35,7 @@ def degenerate_truth_set(claim: Claim, context: Context, limits: Limits) -> list
         zero = conj((atom(pivot.equation, Relation.EQ), block))
         cases = [atom(pivot.equation, relation) for relation in (Relation.LT, Relation.GT)]
         split = disj((zero, *(conj((case, block)) for case in cases)))
-        together = [written("signs", (), split, block, (), {"theory": EMPTY})]
+        together: list[Json] = [by_signs(claim, limits, split, block, ())]
         made.step("converse", block, split, {"steps": together})
     for case, steps in zip(cases, parts.items(), strict=True):
         refuted = _refuted(claim, limits, conj((case, block)), block, case, instances, steps)
@@ -80,7 +78,7 @@ def _refuted(
     nothing.moved(start, first)
     nothing.derived(first, FALSE, steps.value)
     made.back(beside, both, nothing)
-    simpler = [written("signs", (), start, both, (), {"theory": EMPTY})]
+    simpler: list[Json] = [by_signs(claim, limits, start, both, ())]
     made.step("converse", both, start, {"steps": simpler})
     made.moved(start, first)
     made.derived(first, FALSE, steps.value)

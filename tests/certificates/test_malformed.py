@@ -55,6 +55,7 @@ OTHERS = [
 """Questions for rules that those of ``derivations`` do not need, with the method."""
 
 BY_HAND = [
+    step("mirror images of a convex set", "ex x. x < a and -x < a", "0 < a", {"mirror": [["x", "x", -1]]}),
     step("only asked to be no root", "ex x. a*x + b /= 0", "a /= 0 or b /= 0"),
 ]
 
