@@ -35,8 +35,8 @@ def __getattr__(name: str) -> Any:
     from qe.extras import wanted
 
     with wanted():
-        found = globals()[name] = getattr(import_module(_LATER[name]), name)
-    return found
+        result = globals()[name] = getattr(import_module(_LATER[name]), name)
+    return result
 
 
 def __dir__() -> list[str]:

@@ -57,11 +57,13 @@ class Outcome(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """One problem that was tried. ``outcome``: None when planning was unable; ``detail``: how it ended, in words."""
+    """One problem that was tried."""
 
     what: str
     outcome: Outcome | None
+    """None when planning was unable."""
     detail: str
+    """How it ended, in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,42 +130,48 @@ def derivation_page(number: int, first: str = "") -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
-    """What every method finds out. ``path`` and ``objective`` are None exactly when the problem is infeasible.
-
-    ``bound``: no choice of the method has an objective below it, where the exact optimum is out of reach (None: the
-    objective is the least). ``formula``: as handed to the engine; ``answer``: its quantifier-free answer; ``active``:
-    labels of the conditions that hold with equality (with a ``bound``: that prove it); ``certificate``: all
-    certificates, labelled; ``checks``: what the independent checker says of them; ``seconds``: the time of each step;
-    ``remarks``: for the reader;
-    ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles;
-    ``quality``: lengths, curvatures and the motion in time. ``heights``: the height condition, decided for all curves.
-    ``radius_rule``: what the radius forces where a via point lies on the sphere. ``joints``: of the arm.
-    ``eliminations``: the answers of the engine that the plan rests on, by what was asked; ``derivations``: those of
-    them (and of what else was eliminated for the plan) whose every step was checked, where that was asked for;
-    ``unproved``: why others were not.
-    """
+    """What every method finds out. ``path`` and ``objective`` are None exactly when the problem is infeasible."""
 
     problem: Problem
     outcome: Outcome
     formula: str
+    """As handed to the engine."""
     answer: Any
+    """Its quantifier-free answer."""
     objective: Any | None
     path: Path | None
     active: tuple[str, ...]
+    """Labels of the conditions that hold with equality (with a ``bound``: that prove it)."""
     certificate: qe.Certificate
+    """All certificates, labelled."""
     checks: Mapping[str, qe.Verdict]
+    """What the independent checker says of them."""
     seconds: Mapping[str, float]
+    """The time of each step."""
     remarks: tuple[str, ...] = ()
+    """For the reader."""
     findings: tuple[Finding, ...] = ()
+    """Each curve and each obstacle."""
     attempts: tuple[Attempt, ...] = ()
+    """What was tried to get around the obstacles."""
     bound: Fraction | None = None
+    """No choice of the method has an objective below it, where the exact optimum is out of reach; None: the objective
+    is the least."""
     quality: Quality | None = None
+    """Lengths, curvatures and the motion in time."""
     heights: Heights | None = None
+    """The height condition, decided for all curves."""
     radius_rule: RadiusRule | None = None
+    """What the radius forces where a via point lies on the sphere."""
     joints: JointPlan | None = None
+    """Of the arm."""
     eliminations: Mapping[str, Any] = field(default_factory=dict)
+    """The answers of the engine that the plan rests on, by what was asked."""
     derivations: Mapping[str, Derived] = field(default_factory=dict)
+    """Those of them (and of what else was eliminated for the plan) whose every step was checked, where that was
+    asked for."""
     unproved: Mapping[str, str] = field(default_factory=dict)
+    """Why others were not."""
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.outcome.value}, {self.path!r})"
@@ -176,9 +184,9 @@ class Plan:
     @property
     def not_certified(self) -> tuple[str, ...]:
         """The entries of the summary that no certificate covers and ``bezier check`` cannot find again."""
-        found = ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
+        result = ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
         has_radius = self.radius_rule is not None and self.radius_rule.larger is not None
-        return (*found, "radius_rule.larger_radius") if has_radius else found
+        return (*result, "radius_rule.larger_radius") if has_radius else result
 
     @property
     def derivation_pages(self) -> dict[str, str]:
@@ -196,21 +204,20 @@ class Plan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Begun:
-    """A plan as far as its path is known and proved to stay inside; what is left shows more about it.
-
-    ``found``: what the method goes on from. ``seconds``: the time of each step so far.
-    """
+    """A plan as far as its path is known and proved to stay inside; what is left shows more about it."""
 
     problem: Problem
     outcome: Outcome
     path: Path | None
     found: Any
+    """What the method goes on from."""
     seconds: Mapping[str, float]
+    """The time of each step so far."""
 
 
 @dataclass(slots=True)
 class Clock:
-    """The steps of a plan: their times, the time left, and who is told."""
+    """The steps of a plan: their times, the time left, and who is notified."""
 
     limit: float | None = None
     listener: Listener = silent
@@ -242,10 +249,10 @@ class Clock:
         """Seconds left, or None without a limit."""
         if self.limit is None:
             return None
-        left = self.limit - (time.perf_counter() - self.start)
-        if left <= 0:
+        seconds = self.limit - (time.perf_counter() - self.start)
+        if seconds <= 0:
             raise BudgetExceeded(f"time limit of {self.limit:g} s reached before: {name}")
-        return left
+        return seconds
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,58 +268,61 @@ P = TypeVar("P", bound=Plan)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Story:
-    """What the page of a method says in its own words.
-
-    ``kind``: the curves. ``place``: the section of the paper; ``reported``: the time that it gives. ``given``: its
-    names of the four given points. ``claims``: what each certificate says, by its label. ``none``: why there is no
-    path, where there is none. ``sections``: question, answer and optimum, in order.
-    """
+    """What the page of a method says in its own words."""
 
     kind: str
+    """The curves."""
     place: str
+    """The section of the paper."""
     given: tuple[str, str, str, str]
+    """Its names of the four given points."""
     claims: Mapping[str, str]
+    """What each certificate says, by its label."""
     none: Section | None
+    """Why there is no path, where there is none."""
     sections: tuple[Section, ...]
+    """Question, answer and optimum, in order."""
     reported: str = ""
+    """The time that it gives."""
 
 
 @dataclass(frozen=True, slots=True)
 class Restored(Generic[P]):
-    """A plan found again from a folder, before obstacles and quality, and a line about each thing that was checked.
-
-    ``plan``: its certificate is the one that the folder has to have; what only planning needs is left out.
-    """
+    """A plan found again from a folder, before obstacles and quality, and a line about each thing that was checked."""
 
     plan: P
+    """Its certificate is the one that the folder has to have; what only planning needs is left out."""
     lines: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Method(Generic[P]):
-    """A planning method.
-
-    ``begin``: the path; ``finish``: the plan, from there on. ``reason``: why there is no path, in one sentence.
-    ``summary_lines``: its lines in the summary for people. ``json_entries``: its further entries in the summary as
-    JSON. ``files``: its further data files, by name. ``draw``: writes the pictures into a folder. ``hatted_names``:
-    whether the paper writes its points with hats.
-    ``story``: what its page says beyond what every page says, with the drawing if there is one.
-    ``restore``: the plan that the certificates in a folder prove, without any search; ``CertificateRejected`` where
-    they are not about the problem. ``questions``: what it may ask the engine about a problem, by the names that its
-    plan has for the answers in ``eliminations``.
-    """
+    """A planning method."""
 
     begin: Callable[[Problem, Clock], Begun]
+    """The path."""
     finish: Callable[[Begun, Clock], P]
+    """The plan, from there on."""
     reason: Callable[[P], str]
-    summary_lines: Callable[[P], list[str]]
+    """Why there is no path, in one sentence."""
     json_entries: Callable[[P], dict[str, Any]]
-    files: Callable[[P], dict[str, str]]
+    """Its further entries in the summary as JSON."""
     draw: Callable[[P, FilePath], Drawing]
-    hatted_names: bool
+    """Writes the pictures into a folder."""
     story: Callable[[P, Drawing | None], Story]
+    """What its page says beyond what every page says, with the drawing if there is one."""
     restore: Callable[[Problem, Certificate, Stated], Restored[P]]
-    questions: Callable[[Problem], Mapping[str, Formula]]
+    """The plan that the certificates in a folder prove, without any search; ``CertificateRejected`` where they are
+    not about the problem."""
+    summary_lines: Callable[[P], list[str]] = lambda plan: []
+    """Its lines in the summary for people."""
+    files: Callable[[P], dict[str, str]] = lambda plan: {}
+    """Its further data files, by name."""
+    questions: Callable[[Problem], Mapping[str, Formula]] = lambda problem: {}
+    """What it may ask the engine about a problem, by the names that its plan has for the answers in
+    ``eliminations``."""
+    hatted_names: bool = False
+    """Whether the paper writes its points with hats."""
 
     def make(self, problem: Problem, clock: Clock) -> P:
         """The plan."""

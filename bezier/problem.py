@@ -12,15 +12,12 @@ from typing import Any
 
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, same
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
-from bezier.input.files import read_text
 from bezier.input.numbers import NotANumber, describe, read_squared, shorten
-from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
-from bezier.input.toml_table import LARGEST, POINT, Table
+from bezier.input.task import SingleCurve, Via, read_single, stated_via
+from bezier.input.toml_table import LARGEST, POINT, Table, read_text
 from bezier.motion.motion import Timing, read_timing
-from bezier.obstacles.inside import Inside, inside
-from bezier.obstacles.obstacle import Obstacle
-from bezier.obstacles.reader import read_obstacles
-from bezier.obstacles.via import via_at_thirds, via_over
+from bezier.obstacles.obstacle import Obstacle, PointInside, inside
+from bezier.obstacles.reader import read_obstacles, via_at_thirds, via_over
 from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
 
@@ -47,32 +44,35 @@ class PointCondition:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """A planning problem. All coordinates and the radius are in one unit of length (millimetres in the paper).
-
-    ``via``: the two points Q0 and R0 between which the obstacle is avoided. ``radius_is_auto``: the radius is
-    the paper's maximum of the four norms. ``half_spaces``: further conditions on control points. ``ratio``: the
-    duration of the outer spans, the middle one taking 1. ``join_speed``: the least speed at the joins that is
-    asked for, 0 for none. ``obstacles``: what the whole path has to stay clear of; ``above``: what follows from them
-    for control points. ``timing``: what is asked of the motion in time. ``single``: what Method 1 is given, None for
-    the other methods. ``arm``: the arm that has to follow the path. ``notes``: remarks for the reader about the input.
-    """
+    """A planning problem. All coordinates and the radius are in one unit of length (millimetres in the paper)."""
 
     method: PlanMethod
     workspace: Workspace
     start: Vector
     via: tuple[Vector, Vector]
+    """The two points Q0 and R0 between which the obstacle is avoided."""
     goal: Vector
     radius_is_auto: bool
+    """The radius is the paper's maximum of the four norms."""
     notes: tuple[str, ...] = ()
+    """Remarks for the reader about the input."""
     source: str = "<problem>"
     half_spaces: tuple[PointCondition, ...] = ()
+    """Further conditions on control points."""
     ratio: Fraction = Fraction(1)
+    """The duration of the outer spans, the middle one taking 1."""
     join_speed: Fraction = Fraction(0)
+    """The least speed at the joins that is asked for, 0 for none."""
     obstacles: tuple[Obstacle, ...] = ()
+    """What the whole path has to stay clear of."""
     above: tuple[PointCondition, ...] = ()
+    """What follows from them for control points."""
     timing: Timing | None = None
+    """What is asked of the motion in time."""
     single: SingleCurve | None = None
+    """What Method 1 is given, None for the other methods."""
     arm: str | None = None
+    """The arm that has to follow the path."""
 
     def __repr__(self) -> str:
         return f"Problem({self.method.value}, {self.source}, {len(self.obstacles)} obstacles)"
@@ -100,7 +100,7 @@ class Problem:
         return Strip(low, high, kept) if kept else None
 
 
-def ends_inside(problem: Problem) -> tuple[Inside, ...]:
+def ends_inside(problem: Problem) -> tuple[PointInside, ...]:
     """The start and the goal with the obstacles that they lie in: then no path exists."""
     return inside({"start": problem.start, "goal": problem.goal}, problem.obstacles)
 
@@ -160,7 +160,7 @@ def load_problem(path: Path) -> Problem:
 
 
 def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, ...]) -> tuple[Vector, Vector]:
-    """The via points given, or those over the obstacles (``bezier.obstacles.via``); where no path exists, any."""
+    """The via points given, or those over the obstacles (``bezier.obstacles.reader``); where no path exists, any."""
     expected = "two points of 3 numbers"
     if "via" not in table.values and obstacles:
         if inside({"start": start, "goal": goal}, obstacles):
@@ -190,7 +190,7 @@ def _radius(table: Table, raw: object) -> Fraction:
 
 def _half_spaces(table: Table, method: PlanMethod) -> tuple[PointCondition, ...]:
     """``[[half_space]]``: normal . p >= offset for the control points named."""
-    found = []
+    result = []
     for i, entry in enumerate(table.tables("half_space")):
         if method not in INNER:
             raise table.error("half_space", "no such key with this method", "a table")
@@ -199,21 +199,21 @@ def _half_spaces(table: Table, method: PlanMethod) -> tuple[PointCondition, ...]
         if all(map(is_zero, normal)):
             raise entry.error("normal", f"{POINT}, not all zero", "the zero vector")
         points = entry.words("points", INNER[method], "control points")
-        found.append(PointCondition(HalfSpace(normal, -offset, f"half_space[{i}]"), points))
-    return tuple(found)
+        result.append(PointCondition(HalfSpace(normal, -offset, f"half_space[{i}]"), points))
+    return tuple(result)
 
 
 def _above(table: Table, method: PlanMethod, obstacles: tuple[Obstacle, ...]) -> tuple[PointCondition, ...]:
     """``above`` of an obstacle: the control points named lie at the height of its top or higher."""
-    found = []
+    result = []
     for entry, obstacle in zip(table.tables("obstacle"), obstacles, strict=True):
         if "above" in entry.values:
             if obstacle.top is None:
                 raise entry.error("above", "this key for an obstacle with a top", "one without")
             points = entry.words("above", INNER.get(method, ()), "control points")
             up = (Fraction(0), Fraction(0), Fraction(1))
-            found.append(PointCondition(HalfSpace(up, -obstacle.top, f"above {obstacle.name}"), points))
-    return tuple(found)
+            result.append(PointCondition(HalfSpace(up, -obstacle.top, f"above {obstacle.name}"), points))
+    return tuple(result)
 
 
 def _for_cubic(table: Table, method: PlanMethod, key: str, default: Fraction) -> Fraction:
@@ -279,7 +279,7 @@ def _notes(points: Mapping[str, Vector], via: tuple[Vector, Vector]) -> tuple[st
 
 def to_json(problem: Problem) -> dict[str, Any]:
     """The problem in exact numbers, with the keys of the TOML file, the radius by its square."""
-    found: dict[str, Any] = {
+    data: dict[str, Any] = {
         "method": problem.method.value,
         "workspace": problem.workspace.kind.value,
         "radius_squared": str(problem.workspace.radius_squared),
@@ -287,11 +287,11 @@ def to_json(problem: Problem) -> dict[str, Any]:
         "goal": _texts(problem.goal),
     }
     if problem.single is None or not problem.single.states_via:
-        found["via"] = [_texts(p) for p in problem.via]
+        data["via"] = [_texts(p) for p in problem.via]
     if problem.single is not None:
-        found["single"] = dict(problem.single.stated)
+        data["single"] = dict(problem.single.stated)
     if problem.half_spaces:
-        found["half_space"] = [
+        data["half_space"] = [
             {
                 "normal": _texts(item.half_space.normal),
                 "offset": str(-item.half_space.offset),
@@ -300,16 +300,16 @@ def to_json(problem: Problem) -> dict[str, Any]:
             for item in problem.half_spaces
         ]
     if problem.obstacles:
-        found["obstacle"] = [dict(item.stated) for item in problem.obstacles]
+        data["obstacle"] = [dict(item.stated) for item in problem.obstacles]
     if problem.timing is not None:
-        found["timing"] = problem.timing.to_json()
+        data["timing"] = problem.timing.to_json()
     if problem.arm is not None:
-        found["arm"] = problem.arm
+        data["arm"] = problem.arm
     if problem.ratio != 1:
-        found["ratio"] = str(problem.ratio)
+        data["ratio"] = str(problem.ratio)
     if problem.join_speed:
-        found["join_speed"] = str(problem.join_speed)
-    return found
+        data["join_speed"] = str(problem.join_speed)
+    return data
 
 
 def from_json(stored: Mapping[str, Any], source: str) -> Problem:

@@ -16,9 +16,8 @@ from functools import partial
 import numpy as np
 
 from bezier.curves.curve import Bezier
-from bezier.obstacles.along import Along
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
-from bezier.obstacles.clearance import Clear, Contact, examine
+from bezier.obstacles.clearance import Along, Clear, Contact, examine
 from bezier.obstacles.obstacle import Obstacle, ObstacleKind, from_body
 from bezier.obstacles.polyhedron import Point, parallelepiped, point, segment
 from bezier.pictures.mesh import sampled

@@ -19,8 +19,7 @@ from pathlib import Path
 from random import Random
 
 import qe
-from bezier.arm.reader import read_arm
-from bezier.arm.route import read_route
+from bezier.arm.reader import read_arm, read_route
 from qe import arguments
 from qe.cli.prompt import is_open
 from qe.cli.smt import Solver

@@ -10,19 +10,122 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import pi
+from math import ceil, floor, pi
 
-from bezier.arm.elimination import TURNS
-from bezier.arm.limits import full_turns, length_side, side
-from bezier.arm.model import Joint, Motion
-from bezier.arm.value import BITS, Known, Value, value_of
-from qe.errors import InternalError
-from qe.exact.point_values import Evaluation, roots_above, signs_around
+from bezier.arm.elimination import TURNS, Quotient
+from bezier.arm.model import Joint, JointKind
+from qe.errors import InternalError, Unable
+from qe.exact.point_values import Ball, Evaluation, angle, pi_ends, roots_above, signs_around
 from qe.exact.ring import Poly
+
+Ends = tuple[Fraction, Fraction]
+Known = tuple[Quotient, ...]
+"""Cosine and sine of a joint that turns, or the length of one that slides."""
+
+BITS = 64
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Value:
+    """One joint of one solution: its angle in (-pi, pi] (rad) or its length (mm), in a ball at most 2^-60 wide, and
+    cosine and sine of an angle."""
+
+    ball: Ball
+    pair: tuple[Ball, Ball] | None = None
+
+    def __float__(self) -> float:
+        return float(self.ball)
+
+    @property
+    def ends(self) -> Ends:
+        """An interval around the angle or the length."""
+        return self.ball.ends
+
+    def fixed(self, places: int) -> str:
+        """The angle or the length with so many decimal places."""
+        digits = round(sum(self.ends) / 2 * 10**places)
+        whole, part = divmod(abs(digits), 10**places)
+        return f"{'-' if digits < 0 else ''}{whole}.{part:0{places}d}"
+
+    def meets(self, other: Value) -> bool:
+        """Whether the balls leave it open that both are the same: those of cosine and sine, or of the length."""
+        pairs = zip(self.pair or (self.ball,), other.pair or (other.ball,), strict=True)
+        return all(a.ends[0] <= b.ends[1] and b.ends[0] <= a.ends[1] for a, b in pairs)
+
+    @property
+    def cosine(self) -> Ends | None:
+        """An interval around the cosine; None for a length."""
+        return None if self.pair is None else self.pair[0].ends
+
+    @property
+    def sine(self) -> Ends | None:
+        """An interval around the sine; None for a length."""
+        return None if self.pair is None else self.pair[1].ends
+
+
+def value_of(here: Evaluation, quotients: Known, bits: int) -> Value:
+    """A joint at a point: from its cosine and sine, or from its length alone."""
+    if len(quotients) == 1:
+        return Value(quotients[0].at(here, bits))
+    pair = quotients[0].at(here, bits), quotients[1].at(here, bits)
+    return Value(angle(*pair, bits), pair)
+
+
+MOST_BITS = 4096
+MOST_RADIANS = 25
+"""Limits of joints that turn: four full turns. Larger ones may be degrees."""
+
+
+def allowed(joint: Joint, here: Evaluation, known: Known) -> bool:
+    """Whether the angle, or one that differs from it by full turns, lies in the closed interval of the limits.
+
+    The limits are rational numbers of radians. cos and sin of a rational number other than 0 are transcendental
+    (Lindemann), those of the angle algebraic: so more digits always tell the two apart, but for the limit 0. The length
+    of a joint that slides may be a limit: it is compared exactly.
+    """
+    if joint.limits is None:
+        return True
+    least, most = joint.limits
+    if joint.motion is JointKind.PRISMATIC:
+        return length_side(here, known[0], least) >= 0 >= length_side(here, known[0], most)
+    if most - least >= 7:  # more than a full turn
+        return True
+    return any(side(here, known, k, least) >= 0 and side(here, known, k, most) <= 0 for k in full_turns(joint.limits))
+
+
+def full_turns(limits: tuple[Fraction, Fraction]) -> range:
+    """How many full turns an angle in (-pi, pi] may be away from one between the limits, and some more."""
+    least, most = limits
+    turn = 2 * pi_ends(64 + max(abs(least), abs(most)).numerator.bit_length())[0]
+    return range(floor(least / turn) - 2, ceil(most / turn) + 2)
+
+
+def side(here: Evaluation, known: Known, turns: int, limit: Fraction) -> int:
+    """The sign of an angle, full turns added, minus a limit (rad). Raises ``Unable`` if they agree to 4096 places."""
+    bits = 64
+    while bits <= MOST_BITS:
+        low, high = value_of(here, known, bits).ends
+        pi_low, pi_high = pi_ends(bits + 16)
+        low += 2 * turns * (pi_low if turns > 0 else pi_high)
+        high += 2 * turns * (pi_high if turns > 0 else pi_low)
+        if low > limit or high < limit:
+            return 1 if low > limit else -1
+        # the sine vanishes, and the interval around 0 tells that the cosine is 1
+        if limit == 0 and turns == 0 and here.point.sign(known[1].top) == 0:
+            return 0
+        bits *= 2
+    raise Unable(f"an angle agrees with a limit of its joint to {MOST_BITS} binary places")
+
+
+def length_side(here: Evaluation, length: Quotient, limit: Fraction) -> int:
+    """The sign of a length minus a limit."""
+    scale, below = length.scale, here.point.sign(length.bottom)
+    top = length.top * (scale.numerator * limit.denominator)
+    return below * here.point.sign(top - length.bottom * (limit.numerator * scale.denominator))
 
 
 @dataclass(frozen=True, eq=False)
-class End:
+class RangeEnd:
     """An exact value of a joint at which a range ends."""
 
     place: Evaluation
@@ -33,7 +136,7 @@ class End:
         return value_of(self.place, self.known, bits)
 
 
-Arc = tuple[End | None, End | None]
+Arc = tuple[RangeEnd | None, RangeEnd | None]
 """All angles from one on the way round to the other, or all lengths between two; both ends belong to it, and may be
 one. None: there is no end on this side."""
 
@@ -45,14 +148,14 @@ class Choice:
 
     joint: int
     arcs: tuple[Arc, ...] | None = None
-    zeros: tuple[End, ...] = ()
+    zeros: tuple[RangeEnd, ...] = ()
 
     def backwards(self, count: int) -> Choice:
         """The same of an arm of so many joints that is read from the hand to the base: all turn the other way."""
         joint = count - 1 - self.joint
         if self.arcs is None:
             return Choice(joint)
-        ends = {e: End(e.place, backwards(e.known)) for arc in self.arcs for e in arc if e is not None}
+        ends = {e: RangeEnd(e.place, backwards(e.known)) for arc in self.arcs for e in arc if e is not None}
         return Choice(joint, tuple((ends[b], ends[a]) for a, b in self.arcs if a and b))
 
 
@@ -67,7 +170,7 @@ class Edge:
     """Where a range of values between the limits of a joint ends: at ``end``, full turns added, or at a ``limit``;
     nowhere where both are None."""
 
-    end: End | None = None
+    end: RangeEnd | None = None
     turns: int = 0
     limit: Fraction | None = None
 
@@ -82,23 +185,23 @@ class Edge:
 Span = tuple[Edge, Edge]
 
 
-def arcs_of(marks: Sequence[End | None], at: Sequence[bool], after: Sequence[bool]) -> tuple[Arc, ...] | None:
+def arcs_of(marks: Sequence[RangeEnd | None], at: Sequence[bool], after: Sequence[bool]) -> tuple[Arc, ...] | None:
     """The closed set of angles that has marks, the way round, where ``at`` says so, and what lies after one, where
     ``after`` does; None for the whole circle, if marks there are."""
     if all(after):
         return None
-    found, n = list[Arc](), len(marks)
+    result, n = list[Arc](), len(marks)
     for i in range(n):
         if at[i] and not after[i - 1]:
             j = i
             while after[j % n]:
                 j += 1
-            found.append((marks[i], marks[j % n]))
-    return tuple(found)
+            result.append((marks[i], marks[j % n]))
+    return tuple(result)
 
 
 def not_negative(
-    here: Evaluation, p: Poly, var: int, known: Known, motion: Motion = Motion.REVOLUTE
+    here: Evaluation, p: Poly, var: int, known: Known, motion: JointKind = JointKind.REVOLUTE
 ) -> tuple[Arc, ...] | None:
     """The values ``known`` of a joint, in the variable ``var`` next after the place, at which p is not negative. The
     angle that t misses must be no zero of p, unless it vanishes everywhere."""
@@ -106,8 +209,8 @@ def not_negative(
     if roots is None:
         return None
     signs = [s > 0 for s in signs_around(here.point, var, p, roots)]
-    ends = [End(here.extend(root), known) for root in roots]
-    if motion is Motion.PRISMATIC:
+    ends = [RangeEnd(here.extend(root), known) for root in roots]
+    if motion is JointKind.PRISMATIC:
         if not roots:
             return None if signs[0] else ()
         return arcs_of([None, *ends, None], [signs[0], *[True] * len(ends), signs[-1]], [*signs, False])
@@ -118,9 +221,9 @@ def not_negative(
     return arcs_of(ends, [True] * len(ends), signs[1:])
 
 
-def zeros(here: Evaluation, p: Poly, var: int, known: Known) -> tuple[End, ...]:
+def zeros(here: Evaluation, p: Poly, var: int, known: Known) -> tuple[RangeEnd, ...]:
     """The values of a joint at which p vanishes; none where it vanishes everywhere."""
-    return tuple(End(here.extend(root), known) for root in roots_above(here.point, var, p) or ())
+    return tuple(RangeEnd(here.extend(root), known) for root in roots_above(here.point, var, p) or ())
 
 
 def by_turns(
@@ -139,7 +242,7 @@ def by_turns(
 
 def spans(joint: Joint, choice: Choice) -> tuple[Span, ...]:
     """The values of the joint between its limits, ascending and disjoint."""
-    if joint.motion is Motion.PRISMATIC:
+    if joint.motion is JointKind.PRISMATIC:
         return tuple(_lengths(joint, choice))
     return tuple(_angles(joint, choice))
 
@@ -159,7 +262,7 @@ def _lengths(joint: Joint, choice: Choice) -> Iterator[Span]:
         yield ends[0], ends[1]
 
 
-def _length(end: End | None, limit: Fraction, infinite: int) -> int:
+def _length(end: RangeEnd | None, limit: Fraction, infinite: int) -> int:
     return infinite if end is None else length_side(end.place, end.known[0], limit)
 
 
@@ -184,11 +287,11 @@ def _angles(joint: Joint, choice: Choice) -> Iterator[Span]:
             )
 
 
-def _side(end: End, turns: int, limit: Fraction) -> int:
+def _side(end: RangeEnd, turns: int, limit: Fraction) -> int:
     return side(end.place, end.known, turns, limit)
 
 
-def _is_before(one: End, other: End) -> bool:
+def _is_before(one: RangeEnd, other: RangeEnd) -> bool:
     """Whether the first of two different angles in (-pi, pi] is the smaller one; they are the same only as objects."""
     bits = BITS
     while one is not other:

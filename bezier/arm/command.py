@@ -9,14 +9,13 @@ from math import degrees
 from typing import Any
 
 from bezier.arm import evidence, path_report
-from bezier.arm.choices import Arc, Choice, Edge, spans
+from bezier.arm.choices import Arc, Choice, Edge, Ends, Value, spans
 from bezier.arm.evidence import certificates, without_certificate
 from bezier.arm.inverse import MOST_BITS, Inverse, Solution, separated, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
-from bezier.arm.model import Arm, Joint, Motion
+from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.pose import rotation_of, solve_pose
-from bezier.arm.value import Ends, Value
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
 from qe.certify.verify import verify
@@ -45,30 +44,30 @@ def inverse(
     Raises ``Unable`` where there is no certificate."""
     if quaternion is None and len(arm.joints) > MOST_FOR_A_POINT:
         raise InputError(f"{arm.name} has {len(arm.joints)} joints: --quaternion W X Y Z expected, the orientation")
-    found = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
-    certificate = inverse_certificate(found).to_json() if certified else ""
+    result = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
+    certificate = inverse_certificate(result).to_json() if certified else ""
     if json:
-        data = {"status": "solved", **to_json(found), **({"certified": True} if certified else {})}
+        data = {"status": "solved", **to_json(result), **({"certified": True} if certified else {})}
         return json_text.dumps(data, indent=1, ensure_ascii=False), certificate
-    return "\n".join([*in_words(found), *(["certificate: accepted"] if certified else [])]), certificate
+    return "\n".join([*in_words(result), *(["certificate: accepted"] if certified else [])]), certificate
 
 
 def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: bool) -> tuple[str, str]:
     """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text, if there
     are any."""
-    found = joint_path(arm, curves)
-    listed = certificates(found)
+    result = joint_path(arm, curves)
+    listed = certificates(result)
     bundle = Certificate.bundle(listed)
     verdict = verify(bundle)
     if json:
-        data = {"status": "solved", **path_report.to_json(found), "certified": verdict.accepted}
-        data["without_certificate"] = without_certificate(found, listed)
+        data = {"status": "solved", **path_report.to_json(result), "certified": verdict.accepted}
+        data["without_certificate"] = without_certificate(result, listed)
         return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if listed else ""
-    lines = [*path_report.in_words(found), *evidence.in_words(found, listed, verdict)]
+    lines = [*path_report.in_words(result), *evidence.in_words(result, listed, verdict)]
     return "\n".join(lines), bundle.to_json() if listed else ""
 
 
-def to_json(found: Inverse) -> dict[str, Any]:
+def to_json(answer: Inverse) -> dict[str, Any]:
     """All solutions as JSON data.
 
     ``count``: of different solutions, null for infinitely many; then the joints in ``free`` can be chosen (null in the
@@ -80,15 +79,15 @@ def to_json(found: Inverse) -> dict[str, Any]:
     where there is none. ``follow``: the other joints without a value, whose limits are left aside.
     """
     return {
-        "arm": found.arm.name,
-        "point": [described(c) for c in found.point],
-        "rotation": [[described(c) for c in row] for row in found.rotation] or None,
-        "count": found.count,
-        "count_within_limits": None if found.free else sum(s.allowed for s in found.solutions),
-        "reachable": found.is_reachable,
-        "free": list(found.free),
-        "special": list(found.cases),
-        "solutions": [_solution(found.arm, s) for s in separated(found).solutions],
+        "arm": answer.arm.name,
+        "point": [described(c) for c in answer.point],
+        "rotation": [[described(c) for c in row] for row in answer.rotation] or None,
+        "count": answer.count,
+        "count_within_limits": None if answer.free else sum(s.allowed for s in answer.solutions),
+        "reachable": answer.is_reachable,
+        "free": list(answer.free),
+        "special": list(answer.cases),
+        "solutions": [_solution(answer.arm, s) for s in separated(answer).solutions],
     }
 
 
@@ -96,11 +95,11 @@ def _solution(arm: Arm, solution: Solution) -> dict[str, Any]:
     joints: dict[str, Any] = {}
     for joint, value in zip(arm.joints, solution.values, strict=True):
         joints[joint.name] = None if value is None else _joint(value)
-    found = {"joints": joints, "multiple": solution.multiple, "within_limits": solution.allowed}
+    result = {"joints": joints, "multiple": solution.multiple, "within_limits": solution.allowed}
     if solution.choices:
-        found["choices"] = [_choice(arm.joints[choice.joint], choice) for choice in solution.choices]
-        found["follow"] = _followers(arm, solution)
-    return found
+        result["choices"] = [_choice(arm.joints[choice.joint], choice) for choice in solution.choices]
+        result["follow"] = _followers(arm, solution)
+    return result
 
 
 def _followers(arm: Arm, solution: Solution) -> list[str]:
@@ -136,37 +135,37 @@ def _decimal(ends: Ends) -> str:
     return decimal_text(Fraction(ends[0] + ends[1]) / 2, DIGITS)
 
 
-def in_words(found: Inverse) -> list[str]:
+def in_words(answer: Inverse) -> list[str]:
     """The same for people."""
-    where = ", ".join(brief(c) for c in found.point)
-    lines = [f"{found.arm.name} at ({where}) mm" + (", turned" if found.rotation else "")]
-    lines += [f"special: {case}" for case in found.cases]
-    if not found.is_reachable:
+    where = ", ".join(brief(c) for c in answer.point)
+    lines = [f"{answer.arm.name} at ({where}) mm" + (", turned" if answer.rotation else "")]
+    lines += [f"special: {case}" for case in answer.cases]
+    if not answer.is_reachable:
         what = "pose (proved: a square that has to be a root's is negative, or the pose is out of the arm's plane)"
-        what = what if found.rotation else "point (proved: the equation of the last joint has no real root)"
+        what = what if answer.rotation else "point (proved: the equation of the last joint has no real root)"
         return [*lines, f"no joint position reaches the {what}"]
-    if found.free:
-        lines.append(f"infinitely many solutions, {', '.join(found.free)} free; {_families(found)}")
+    if answer.free:
+        lines.append(f"infinitely many solutions, {', '.join(answer.free)} free; {_families(answer)}")
     else:
-        lines.append(f"{len(found.solutions)} solution{'s' if len(found.solutions) != 1 else ''} (proved), in rad:")
-    found, further = separated(found), 0
+        lines.append(f"{len(answer.solutions)} solution{'s' if len(answer.solutions) != 1 else ''} (proved), in rad:")
+    answer, further = separated(answer), 0
     while True:
-        told = [_positions(found.arm, solution, further) for solution in found.solutions]
-        if len({*told}) == len(told) or found.free or further > MOST_BITS:
+        texts = [_positions(answer.arm, solution, further) for solution in answer.solutions]
+        if len({*texts}) == len(texts) or answer.free or further > MOST_BITS:
             break
         further += FURTHER
-    for k, (solution, positions) in enumerate(zip(found.solutions, told, strict=True), start=1):
+    for k, (solution, positions) in enumerate(zip(answer.solutions, texts, strict=True), start=1):
         notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (
             not solution.allowed
         )
         lines.append(f"  {k}. {positions}" + (f"  [{'; '.join(notes)}]" if notes else ""))
-    return lines if found.allowed_count else [*lines, "no joint position is within the limits of the joints"]
+    return lines if answer.allowed_count else [*lines, "no joint position is within the limits of the joints"]
 
 
 def _positions(arm: Arm, solution: Solution, further: int) -> str:
     """The joints of one solution, with so many further decimal places."""
     parts = [
-        f"{joint.name} follows" if value is None else f"{joint.name} = {_told(value, further)}"
+        f"{joint.name} follows" if value is None else f"{joint.name} = {_value_text(value, further)}"
         for joint, value in zip(arm.joints, solution.values, strict=True)
     ]
     for choice in solution.choices:
@@ -175,10 +174,10 @@ def _positions(arm: Arm, solution: Solution, further: int) -> str:
     return ", ".join(parts)
 
 
-def _families(found: Inverse) -> str:
+def _families(answer: Inverse) -> str:
     """Solutions with a joint that can be chosen, and those without one."""
-    single = sum(None not in s.angles for s in found.solutions)
-    count = len(found.solutions) - single
+    single = sum(None not in s.angles for s in answer.solutions)
+    count = len(answer.solutions) - single
     families = f"{count} famil{'y' if count == 1 else 'ies'}"
     return families + (f" and {single} single solution{'s' if single != 1 else ''}" if single else "")
 
@@ -190,9 +189,9 @@ def _range(joint: Joint, choice: Choice) -> str:
         return "free, but not between its limits"
     if listed == [(Edge(), Edge())]:
         return "free"
-    unit = "mm" if joint.motion is Motion.PRISMATIC else "rad"
-    told = [_between(*(edge.value for edge in ends)) for ends in listed]
-    return f"free {' and '.join(told)} {unit}" + (" (its limits)" if choice.arcs is None else "")
+    unit = "mm" if joint.motion is JointKind.PRISMATIC else "rad"
+    texts = [_between(*(edge.value for edge in ends)) for ends in listed]
+    return f"free {' and '.join(texts)} {unit}" + (" (its limits)" if choice.arcs is None else "")
 
 
 def _between(low: float | None, high: float | None) -> str:
@@ -203,7 +202,7 @@ def _between(low: float | None, high: float | None) -> str:
     return f"from {low:.9f} to {high:.9f}"
 
 
-def _told(value: Value, further: int) -> str:
+def _value_text(value: Value, further: int) -> str:
     if value.pair is None:
         return f"{value.fixed(9 + further)} mm"
     return f"{value.fixed(12 + further)} ({degrees(float(value)):.4f}°)"

@@ -12,7 +12,7 @@ r = σ √W and δ = ε √Q these limits are compared by
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -22,14 +22,12 @@ from bezier.arm.critical import AlongCurve, Number, S
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio
-from bezier.arm.signs_along import SignsAlong
-from bezier.arm.vertical import Label, vertical_arm
+from bezier.arm.vertical import Label, SignsAlong, vertical_arm
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import sign
 from qe.errors import InternalError
 from qe.exact.nearby import rational_between
 
-Note = Callable[[], None]
 MOST_LISTED = 64
 """Motions that are listed; all are counted."""
 
@@ -48,16 +46,16 @@ class Arcs:
 
 @dataclass(frozen=True, slots=True)
 class Junction:
-    """Between two neighbours in the list of ``Arcs``, at ``s`` of a curve (its end, where a next one begins).
-
-    ``passes``: the pairs of labels before and after whose solutions have the same limit. ``on_axis``, ``meets``:
-    whether that is on the axis of the first joint, and whether solutions before or after it meet there."""
+    """Between two neighbours in the list of ``Arcs``, at ``s`` of a curve (its end, where a next one begins)."""
 
     curve: int
     s: Number
     passes: frozenset[tuple[Label, Label]]
+    """The pairs of labels before and after whose solutions have the same limit."""
     on_axis: bool
+    """Whether that is on the axis of the first joint."""
     meets: bool
+    """Whether solutions before or after it meet there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,13 +84,13 @@ class ContinuousMotions:
     @cached_property
     def _onward(self) -> list[dict[Label, int]]:
         """For each interval: in how many ways each arc goes on to the goal."""
-        found = [dict.fromkeys(self.arcs[-1].labels, 1)]
+        result = [dict.fromkeys(self.arcs[-1].labels, 1)]
         for arcs, junction in zip(self.arcs[-2::-1], self.junctions[::-1], strict=True):
-            after = found[-1]
-            found.append(
+            after = result[-1]
+            result.append(
                 {one: sum(n for other, n in after.items() if (one, other) in junction.passes) for one in arcs.labels}
             )
-        return found[::-1]
+        return result[::-1]
 
     @cached_property
     def motions(self) -> tuple[ContinuousMotion, ...]:
@@ -122,7 +120,7 @@ def _agree(one: Label, other: Label) -> bool:
     return all(0 in (a, b) or a == b for a, b in zip(one, other, strict=True))
 
 
-def continuous_motions(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None) -> ContinuousMotions | None:
+def continuous_motions(arm: Arm, curves: Mapping[str, Bezier]) -> ContinuousMotions | None:
     """All continuous motions along a path, or None for arms without such a plane.
 
     Raises ``Unable`` where a whole curve is on the axis or along a border, or where the second joint is free.
@@ -133,7 +131,6 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier], note: Note = lamb
     listed = [SignsAlong.of(plane, AlongCurve(arm, curve)) for curve in curves.values()]
     arcs, junctions = list[Arcs](), list[Junction]()
     for k, along in enumerate(listed):
-        note()
         places = along.places
         marks: list[Number] = [Fraction(0), *(s for s in places if 0 < s < 1), Fraction(1)]
         for i, (low, high) in enumerate(pairwise(marks)):
@@ -144,17 +141,16 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier], note: Note = lamb
                 junctions.append(_junction(before, (along, low), last, arcs[-1], s))
             else:
                 arcs.append(_arcs(along, k, low, high))
-            note()
     return ContinuousMotions(arm, tuple(listed), tuple(arcs), tuple(junctions))
 
 
 def _arcs(along: SignsAlong, curve: int, low: Number, high: Number) -> Arcs:
     sample = rational_between(low, high)
-    found = solve(along.along.arm, along.along.curve.point(sample)).solutions
-    labels = tuple(along.plane.label(solution) for solution in found)
+    result = solve(along.along.arm, along.along.curve.point(sample)).solutions
+    labels = tuple(along.plane.label(solution) for solution in result)
     if len(set(labels)) != len(labels) or set(labels) != along.labels(sample):
         raise InternalError("the solutions of an arm contradict the signs that tell them apart")
-    return Arcs(curve, low, high, sample, labels, found)
+    return Arcs(curve, low, high, sample, labels, result)
 
 
 def _junction(

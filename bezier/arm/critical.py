@@ -61,13 +61,13 @@ class AlongCurve:
         """p(s), coordinates as polynomials of the ring ``NAMES``."""
         ring, field = Ring.of(NAMES), self.arm.field
         s = Ratio(ring.gen(S), 1, field)
-        found = []
+        result = []
         for i in range(3):
             total = constant(ring, 0, field)
             for c in reversed(powers([exactly(p[i]) for p in self.curve.points])):
                 total = total * s + c
-            found.append(total)
-        return tuple(found)
+            result.append(total)
+        return tuple(result)
 
     @cached_property
     def _reductions(self) -> dict[int, Reduction]:
@@ -94,9 +94,9 @@ class AlongCurve:
     def regular(self) -> Reduction:
         """A reduction whose equation has its full degree for almost all s."""
         for k in range(len(TURNS)):
-            found = self.reduction(k)
-            if found.degree is None or len(found.coefficients) > found.degree:
-                return found
+            result = self.reduction(k)
+            if result.degree is None or len(result.coefficients) > result.degree:
+                return result
         raise Unable(f"along the curve the equation of {self.arm.name} has a solution at every angle that was tried")
 
     def polynomials(self) -> Iterator[tuple[Reason, Poly]]:
@@ -119,15 +119,15 @@ class AlongCurve:
 
     def critical(self) -> list[tuple[Number, tuple[Reason, ...]]]:
         """All such parameters in [0, 1], ascending. Raises ``Unable`` where the whole curve is special."""
-        found: dict[Number, list[Reason]] = {}
+        result: dict[Number, list[Reason]] = {}
         for reason, p in self.polynomials():
             if not p:
                 raise Unable(
                     f"everywhere along the curve: {reason.value}; the number of solutions is not followed there"
                 )
             for s in self.zeros(p):
-                found.setdefault(s, []).append(reason)
-        return [(s, tuple(dict.fromkeys(found[s]))) for s in sorted(found)]
+                result.setdefault(s, []).append(reason)
+        return [(s, tuple(dict.fromkeys(result[s]))) for s in sorted(result)]
 
     def shared_sines(self) -> list[Number]:
         """The parameters in [0, 1] where two real solutions have the sine, not the cosine of the last joint in common.

@@ -27,7 +27,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from bezier.arm.model import Arm, Motion, apply, inverse
+from bezier.arm.model import Arm, JointKind, apply, inverse
 from bezier.arm.ratio import Ratio, constant
 from bezier.curves.scalar import dot, is_zero
 from qe.errors import Unable
@@ -63,24 +63,25 @@ class Quotient:
 
 @dataclass(frozen=True, eq=False)
 class Reduction:
-    """What is left of the position problem in a ring whose last two variables are t and m.
-
-    ``equation``: the polynomial in t that has to vanish; ``degree``: its degree where no angle is missed, None where t
-    misses none. ``square``: m² as a polynomial in t, None where there is no m. ``kappa``: |κ|² (1 + t²)²; where it
-    vanishes θ2 is free. ``axis``: the square of the distance of the point from axis 1; where it vanishes θ1 is free;
-    both None where that joint slides. ``shoulder``: what vanishes where the point lies on the circle that the origin
-    of the second joint describes. ``values``: cosine and sine of a joint that turns, the length of one that slides,
-    valid where ``kappa`` and ``axis`` do not vanish.
-    """
+    """What is left of the position problem in a ring whose last two variables are t and m."""
 
     ring: Ring
     equation: Poly
+    """The polynomial in t that has to vanish."""
     degree: int | None
+    """Its degree where no angle is missed, None where t misses none."""
     square: Poly | None
+    """m² as a polynomial in t, None where there is no m."""
     kappa: Poly | None
+    """|κ|² (1 + t²)²; where it vanishes θ2 is free."""
     axis: Poly | None
+    """The square of the distance of the point from axis 1; where it vanishes θ1 is free; both None where that joint
+    slides."""
     shoulder: tuple[Poly, ...]
+    """What vanishes where the point lies on the circle that the origin of the second joint describes."""
     values: tuple[tuple[Quotient, ...], ...]
+    """Cosine and sine of a joint that turns, the length of one that slides, valid where ``kappa`` and ``axis`` do
+    not vanish."""
 
     @cached_property
     def coefficients(self) -> tuple[Poly, ...]:
@@ -90,13 +91,13 @@ class Reduction:
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """The constants of the derivation above, for one arm. ``v``: f0, f1, f2 with v = f0 + cos θ f1 + sin θ f2, or
-    f0, f1 with v = f0 + t f1."""
+    """The constants of the derivation above, for one arm."""
 
     arm: Arm
     turn: Any
     shift: Vector
     v: tuple[Vector, ...]
+    """f0, f1, f2 with v = f0 + cos θ f1 + sin θ f2, or f0, f1 with v = f0 + t f1."""
     gamma: Vector
     nu: Vector
 
@@ -114,7 +115,7 @@ class Geometry:
             return tuple(a - b for a, b in zip(apply(second, vector), origin, strict=True))
 
         v: tuple[Vector, ...]
-        if chain.joints[2].motion is Motion.REVOLUTE:
+        if chain.joints[2].motion is JointKind.REVOLUTE:
             v = (apply(second, (zero, zero, e[2])), direction((e[0], e[1], zero)), direction((-e[1], e[0], zero)))
         else:
             v = (apply(second, e), direction((zero, zero, zero + 1)))
@@ -131,7 +132,7 @@ class Geometry:
     @cached_property
     def turns(self) -> tuple[bool, ...]:
         """Which joints turn."""
-        return tuple(joint.motion is Motion.REVOLUTE for joint in self.arm.joints)
+        return tuple(joint.motion is JointKind.REVOLUTE for joint in self.arm.joints)
 
     @cached_property
     def moves_last(self) -> bool:
@@ -155,8 +156,8 @@ class Geometry:
         t, one = Ratio(ring.var(T), 1, field), constant(ring, 1, field)
         norm, factors = weights(t, one, turn) if self.turns[2] else (one, (one, t))
         v = [sum((w * f[i] for w, f in zip(factors, self.v, strict=True)), one * 0) for i in range(3)]
-        left = _Left(self, norm, v, target, Ratio(ring.var(M), 1, field))
-        equation, square, image, second, kappa = left.second_turns() if self.turns[1] else left.second_slides()
+        work = _Left(self, norm, v, target, Ratio(ring.var(M), 1, field))
+        equation, square, image, second, kappa = work.second_turns() if self.turns[1] else work.second_slides()
         q = [dot(row, image) + norm * o for row, o in zip(self.turn, self.shift, strict=True)]
         x, y, z = target
         axis = x * x + y * y
@@ -165,7 +166,7 @@ class Geometry:
             bottom = axis * norm
             first = (quotient(x * q[0] + y * q[1], bottom), quotient(y * q[0] - x * q[1], bottom))
         last = tuple(quotient(w, norm) for w in factors[1:])
-        degree = (4 if square is None and left.is_quadratic else 2) if self.turns[2] else None
+        degree = (4 if square is None and work.is_quadratic else 2) if self.turns[2] else None
         shoulder = (axis - dot(self.shift[:2], self.shift[:2]), z - self.shift[2]) if all(self.turns[:2]) else ()
         return Reduction(
             ring=ring,
@@ -216,8 +217,8 @@ class _Left:
     def distance(self) -> Ratio:
         """norm (|p'|² - |o|² - |v|²)."""
         shift = self.geometry.shift
-        found: Ratio = self.norm * (dot(self.target, self.target) - dot(shift, shift)) - self.v_squared
-        return found
+        result: Ratio = self.norm * (dot(self.target, self.target) - dot(shift, shift)) - self.v_squared
+        return result
 
     def linear(self) -> tuple[Ratio, Ratio]:
         """What the two equations ask of u (with v_z) or of d (with v): ``rows`` times M(q2) v."""

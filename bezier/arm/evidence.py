@@ -2,28 +2,218 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from math import ceil, floor, tau
+from typing import Any
 
-from bezier.arm.arm_json import arm_json, curve_json
+from bezier.arm.continuous import ContinuousMotions
+from bezier.arm.critical import Number, S
+from bezier.arm.follow import SPARE, Branch, chain_of, curve_powers
 from bezier.arm.joint_path import JointPath, Run
-from bezier.arm.limited_pieces import limited_pieces
-from bezier.arm.motion_chain import Piece
-from bezier.arm.motions_evidence import motions_certificate
+from bezier.arm.model import Angle, Arm
+from bezier.arm.motion_chain import ProvedPiece
+from bezier.arm.roots_of_squares import square_roots
+from bezier.arm.vertical import SignsAlong
+from bezier.certify import branch as checked
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import exactly
+from qe.certify.verify import verify
 from qe.errors import BudgetExceeded, Unable
+from qe.exact.balls import precision
+from qe.exact.field import FieldElement, NumberField
+from qe.exact.ring import Poly
+from qe.exact.sample import Point
 from qe.kernel.verdict import Verdict
 from qe.proof.certificate import Certificate, Kind
-from qe.proof.entry import Json
+from qe.proof.entry import Entry, Json
+
+
+def arm_json(arm: Arm) -> Json:
+    """The rows of an arm, exactly: angles as twelfths of pi or as [cosine, sine]."""
+    rows: list[Json] = [
+        {
+            "a": str(row.a),
+            "alpha": _angle(row.alpha),
+            "d": str(row.d),
+            "theta": _angle(row.theta),
+            "joint": None if row.joint is None else row.joint.motion.value,
+        }
+        for row in arm.rows
+    ]
+    return {"convention": arm.convention.value, "rows": rows}
+
+
+def _angle(angle: Angle) -> Json:
+    return angle.twelfths if angle.twelfths is not None else [str(angle.cosine), str(angle.sine)]
+
+
+def curve_json(curve: Bezier) -> Json:
+    """The control points of a curve."""
+    return [[str(exactly(c)) for c in point] for point in curve.points]
+
+
+LEAST = Fraction(1, 1 << 40)
+ROUNDING = 1e-14
+
+
+def limited_pieces(
+    arm: Arm, curves: Sequence[Bezier], parts: Sequence[tuple[int, Branch]], turns: Sequence[int]
+) -> Iterator[tuple[int, ProvedPiece]]:
+    """Pieces with the index of their curve, ``turns`` full turns added. Raises ``Unable`` where a joint comes closer to
+    a limit than boxes can tell."""
+    if not arm.has_limits:
+        yield from ((k, piece) for k, branch in parts for piece in branch.pieces)
+        return
+    points = [[tuple(exactly(c) for c in p) for p in curve.points] for curve in curves]
+    tubes = checked.Tubes(Entry(arm_json(arm), "arm"), points, [joint.limits for joint in arm.joints])
+    tracks = [chain_of(arm).track(curve_powers(curve)) for curve in curves]
+    for k, branch in parts:
+        open_ones = [_turned(piece, turns) for piece in reversed(branch.pieces)]
+        while open_ones:
+            piece = open_ones.pop()
+            if _keeps(tubes, k, piece):
+                yield k, piece
+                continue
+            middle = (piece.low + piece.high) / 2
+            halves = [
+                chain_of(arm).piece(tracks[k], low, high, [float(v) for v in piece.at((low + high) / 2)])
+                for low, high in ((middle, piece.high), (piece.low, middle))
+            ]
+            if piece.high - piece.low < LEAST or None in halves:
+                raise Unable(f"near s = {float(middle):.9g} a joint is closer to a limit than boxes can tell")
+            open_ones += [half for half in halves if half is not None]
+
+
+def _turned(piece: ProvedPiece, turns: Sequence[int]) -> ProvedPiece:
+    """Moved by full turns, rounded: the boxes have room for that."""
+    centre = tuple(c + tau * k for c, k in zip(piece.centre, turns, strict=True))
+    inner = tuple(r + ROUNDING * abs(k) for r, k in zip(piece.inner, turns, strict=True))
+    return replace(piece, centre=centre, inner=inner)
+
+
+def _keeps(tubes: checked.Tubes, curve: int, piece: ProvedPiece) -> bool:
+    centre, slope, radius = (tuple(map(Fraction, values)) for values in (piece.centre, piece.slope, piece.radius))
+    given = checked.Tube(curve, piece.low, piece.high, centre, slope, radius, Entry(None, "piece"))
+    return tubes.unlimited(given, [SPARE * Fraction(r) for r in piece.inner]) is None
+
+
+ATTEMPTS = (16, 40, 100, 250)
+"""Binary places of the intervals around what is special: more where such places lie close together."""
+
+PRECISIONS = (128, 512, 2048)
+
+Coefficients = list[FieldElement]
+
+
+def motions_certificate(motions: ContinuousMotions) -> Certificate:
+    """The certificate that these are all continuous motions, accepted by the checker. Raises ``Unable`` where there is
+    none."""
+    factors = [[(s, _factor(signs, s)) for s in signs.places] for signs in motions.curves]
+
+    def payloads() -> Iterator[dict[str, Json]]:
+        for bits in ATTEMPTS:
+            yield {
+                "arm": arm_json(motions.arm),
+                "curves": [curve_json(signs.along.curve) for signs in motions.curves],
+                "places": [[_place(s, factor, bits) for s, factor in places] for places in factors],
+                "solutions": [len(arcs.labels) for arcs in motions.arcs],
+                "through": [len(junction.passes) for junction in motions.junctions],
+                "motions": motions.count,
+            }
+
+    return accepted_certificate("motions", payloads())
+
+
+def accepted_certificate(kind: str, payloads: Iterable[dict[str, Json]]) -> Certificate:
+    """The first of these that the checker accepts. Raises ``Unable`` with its last reason where it accepts none."""
+    reason = "the last joint is undetermined"
+    for payload in payloads:
+        certificate = Certificate(Kind(kind), payload)
+        verdict = verify(certificate)
+        if verdict.accepted:
+            return certificate
+        reason = verdict.reason
+    raise Unable(f"no certificate was found: {reason}")
+
+
+def _place(s: Number, factor: Json, bits: int) -> Json:
+    """An interval around s."""
+    low, high = (s, s) if isinstance(s, Fraction) else s.interval(bits + 4)
+    unit = Fraction(1, 1 << bits)
+    ends = floor(low / unit - 1) * unit, ceil(high / unit + 1) * unit
+    return {"low": str(ends[0]), "high": str(ends[1]), "factor": factor}
+
+
+def _factor(signs: SignsAlong, s: Number) -> Json:
+    """A polynomial with a simple zero at s that divides W, N and A as often as they vanish there; None for N itself."""
+    field = signs.along.arm.field
+    if isinstance(s, Fraction):
+        return _written([field.rational(-s), field.rational(1)])
+    here = signs.along.place(s)
+    quality = signs.quality
+    norm = None if quality is None else quality.norm.top
+    if norm is not None and not signs.has_no_square(s) and _is_apparent(here, norm.derivative(S)):
+        return None
+    result = [field.rational(c) for c in s.minimal_polynomial]
+    for p in (signs.square, norm, None if quality is None else quality.even.top):
+        while p and here.sign(p) == 0:
+            result = _common_factor(result, _coefficients(p, field))
+            p = p.derivative(S)
+    return _written(result)
+
+
+def _is_apparent(here: Point, p: Poly) -> bool:
+    """Whether balls show that p does not vanish: exact zero tests take long where degrees are high."""
+    reduced = here.reduce(p)
+    for bits in PRECISIONS:
+        with precision(bits):
+            if not here.enclose(reduced, bits).contains(0):
+                return True
+    return False
+
+
+def _coefficients(p: Poly, field: NumberField) -> Coefficients:
+    """Of a polynomial in w and s, from degree 0 up."""
+    return [field.element([c.constant_value() for c in part.coefficients(0)]) for part in p.coefficients(S)]
+
+
+def _common_factor(a: Coefficients, b: Coefficients) -> Coefficients:
+    """The greatest common divisor, by Euclid's algorithm with leading coefficient 1."""
+    while b:
+        over = b[-1].inverse()
+        b = [c * over for c in b]
+        rest = list(a)
+        while len(rest) >= len(b):
+            lead = rest.pop()
+            for k in range(1, len(b)):
+                rest[-k] = rest[-k] - lead * b[-k - 1]
+        while rest and not rest[-1]:
+            rest.pop()
+        a, b = b, rest
+    return a
+
+
+def _written(p: Coefficients) -> Json:
+    return [surd_json(c) for c in p]
+
+
+def surd_json(value: Any) -> Json:
+    """A sum of square roots as [factor, number under the root]."""
+    return [[str(q), d] for d, q in sorted(square_roots(value).items()) if q]
+
 
 ALL = "all continuous joint motions"
 Labelled = list[tuple[str, Certificate]]
 
 
-def certificates(found: JointPath) -> Labelled:
+def certificates(path: JointPath) -> Labelled:
     """Labelled certificates: of every run that keeps the limits of the joints, unless a joint comes closer to one than
     boxes tell; and of all continuous motions, limits left aside, where their number is decided by signs."""
-    of_runs = ((_label(found, run), partial(_of, found, run)) for run in found.runs if not run.excesses)
-    of_all = [] if found.motions is None else [(ALL, partial(motions_certificate, found.motions))]
+    of_runs = ((_label(path, run), partial(_branch_certificate, path, run)) for run in path.runs if not run.excesses)
+    of_all = [] if path.motions is None else [(ALL, partial(motions_certificate, path.motions))]
     listed = Labelled()
     for label, made in (*of_runs, *of_all):
         try:
@@ -35,47 +225,47 @@ def certificates(found: JointPath) -> Labelled:
     return listed
 
 
-def without_certificate(found: JointPath, listed: Labelled) -> dict[str, str]:
+def without_certificate(path: JointPath, listed: Labelled) -> dict[str, str]:
     """The motions, by their numbers, that keep the limits of the joints without a certificate of that, and why."""
     labels = {label for label, _ in listed}
-    runs = {run.number: run for run in found.runs if not run.excesses}
+    runs = {run.number: run for run in path.runs if not run.excesses}
     close = "a joint comes closer to a limit than boxes tell"
-    missing = {n: close for n, run in runs.items() if _label(found, run) not in labels}
-    if found.arm.has_limits:
+    missing = {n: close for n, run in runs.items() if _label(path, run) not in labels}
+    if path.arm.has_limits:
         boxless = "it goes where boxes do not: that it keeps the limits is decided, and not certified"
-        missing |= dict.fromkeys(sorted(found.kept_numbers - {*runs}), boxless)
+        missing |= dict.fromkeys(sorted(path.kept_numbers - {*runs}), boxless)
     return {str(n): why for n, why in missing.items()}
 
 
-def in_words(found: JointPath, listed: Labelled, verdict: Verdict) -> list[str]:
+def in_words(path: JointPath, listed: Labelled, verdict: Verdict) -> list[str]:
     """What certificates there are, whether they are accepted, and what they claim and do not claim."""
     of_all = [label for label, _ in listed if label == ALL]
-    limits = (", within the limits", ", limits left aside") if found.arm.has_limits else ("", "")
-    told = f"{len(listed) - len(of_all) or 'none'} of motions held by boxes{limits[0]}; "
-    told += f"one of the number of all motions{limits[1]}" if of_all else "none of the number of motions"
+    limits = (", within the limits", ", limits left aside") if path.arm.has_limits else ("", "")
+    text = f"{len(listed) - len(of_all) or 'none'} of motions held by boxes{limits[0]}; "
+    text += f"one of the number of all motions{limits[1]}" if of_all else "none of the number of motions"
     state = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
-    lines = [f"certificates of the joint motions: {f'{state} ({told})' if listed else 'none'}"]
-    return lines + [f"  none of motion {n}: {why}" for n, why in without_certificate(found, listed).items()]
+    lines = [f"certificates of the joint motions: {f'{state} ({text})' if listed else 'none'}"]
+    return lines + [f"  none of motion {n}: {why}" for n, why in without_certificate(path, listed).items()]
 
 
-def _label(found: JointPath, run: Run) -> str:
-    return f"motion {run.number}" + (", the whole path" if run.covers(len(found.curves)) else "")
+def _label(path: JointPath, run: Run) -> str:
+    return f"motion {run.number}" + (", the whole path" if run.covers(len(path.curves)) else "")
 
 
-def _of(found: JointPath, run: Run) -> Certificate:
-    curves = list(found.curves.values())
+def _branch_certificate(path: JointPath, run: Run) -> Certificate:
+    curves = list(path.curves.values())
     used = sorted({k for k, _ in run.parts})
-    pieces: list[Json] = [_piece(k - used[0], p) for k, p in limited_pieces(found.arm, curves, run.parts, run.turns)]
+    pieces: list[Json] = [_piece(k - used[0], p) for k, p in limited_pieces(path.arm, curves, run.parts, run.turns)]
     payload: dict[str, Json] = {
-        "arm": arm_json(found.arm),
+        "arm": arm_json(path.arm),
         "curves": [curve_json(curves[k]) for k in used],
-        "limits": [None if j.limits is None else [str(v) for v in j.limits] for j in found.arm.joints],
+        "limits": [None if j.limits is None else [str(v) for v in j.limits] for j in path.arm.joints],
         "pieces": pieces,
     }
     return Certificate(Kind("branch"), payload)
 
 
-def _piece(curve: int, piece: Piece) -> Json:
+def _piece(curve: int, piece: ProvedPiece) -> Json:
     triples = {"centre": piece.centre, "slope": piece.slope, "radius": piece.radius}
     numbers: dict[str, Json] = {key: [str(Fraction(v)) for v in values] for key, values in triples.items()}
     return {"curve": curve, "low": str(piece.low), "high": str(piece.high), **numbers}

@@ -9,18 +9,18 @@ s.
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from operator import attrgetter
 
+from bezier.arm.choices import Value
 from bezier.arm.critical import powers
 from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
-from bezier.arm.model import Arm, Motion
-from bezier.arm.motion_chain import MotionChain, Piece
-from bezier.arm.value import Value
+from bezier.arm.model import Arm, JointKind
+from bezier.arm.motion_chain import MotionChain, ProvedPiece
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
 from qe.exact.point_values import pi_ends
@@ -40,14 +40,13 @@ ROUNDING = 1e-12
 """Much more than what sums of a few numbers lose in floating point, relative to their sizes."""
 
 Box = tuple[tuple[Fraction, Fraction], ...]
-Note = Callable[[], None]
 
 
 @dataclass(frozen=True, slots=True)
 class Branch:
     """Linked pieces over [low, high] within [0, 1], in ascending order."""
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[ProvedPiece, ...]
 
     @property
     def low(self) -> Fraction:
@@ -59,7 +58,7 @@ class Branch:
         """The greatest parameter."""
         return self.pieces[-1].high
 
-    def piece(self, s: Fraction) -> Piece:
+    def piece(self, s: Fraction) -> ProvedPiece:
         """A piece that contains s."""
         return self.pieces[bisect_left(self.pieces, s, key=attrgetter("high"))]
 
@@ -87,7 +86,7 @@ class Branch:
 @lru_cache(maxsize=64)
 def chain_of(arm: Arm) -> MotionChain:
     """The arm in ball arithmetic."""
-    return MotionChain(arm.chain.constants, [j.motion is Motion.REVOLUTE for j in arm.joints])
+    return MotionChain(arm.chain.constants, [j.motion is JointKind.REVOLUTE for j in arm.joints])
 
 
 def curve_powers(curve: Bezier) -> list[list[Fraction]]:
@@ -101,10 +100,9 @@ def follow(
     start: Sequence[float],
     at: Fraction,
     end: Fraction,
-    note: Note = lambda: None,
-    before: tuple[Piece, Fraction] | None = None,
+    before: tuple[ProvedPiece, Fraction] | None = None,
     stops: Sequence[Fraction] = (),
-) -> tuple[Piece, ...]:
+) -> tuple[ProvedPiece, ...]:
     """Pieces from ``at`` towards ``end`` as far as they can be proved, in ascending order of s.
 
     ``start``: joint values near the solution at ``at``. They end before ``end`` where the arm becomes singular.
@@ -114,10 +112,9 @@ def follow(
     chain = chain_of(arm)
     track = chain.track(curve_powers(curve))
     forwards = end > at
-    pieces: list[Piece] = []
+    pieces: list[ProvedPiece] = []
     here, step = at, FIRST
     while here != end and step >= LEAST:
-        note()
         far = min(here + step, end) if forwards else max(here - step, end)
         low, high = (here, far) if forwards else (far, here)
         if step < NEAR and any(abs(here - stop) < 2 * NEAR for stop in stops):
@@ -153,13 +150,13 @@ def whole(
     return Branch(pieces) if pieces and Branch(pieces).contains(at, solution) else None
 
 
-def joined(one: Piece, other: Piece) -> bool:
+def joined(one: ProvedPiece, other: ProvedPiece) -> bool:
     """Whether the solution at the end of one curve is the one at the beginning of the next (which begins where that
     ends)."""
     return _same(one, ONE, other, ZERO)
 
 
-def _same(one: Piece, s: Fraction, other: Piece, t: Fraction) -> bool:
+def _same(one: ProvedPiece, s: Fraction, other: ProvedPiece, t: Fraction) -> bool:
     """Whether the solutions at s and at t, over the same point, are one: the inner box of one lies in the other box."""
     gaps = [abs(a - b) for a, b in zip(one.at(s), other.at(t), strict=True)]
     return any(
@@ -168,7 +165,7 @@ def _same(one: Piece, s: Fraction, other: Piece, t: Fraction) -> bool:
     )
 
 
-def _inside(box: Box, piece: Piece, s: Fraction) -> bool:
+def _inside(box: Box, piece: ProvedPiece, s: Fraction) -> bool:
     middle = piece.at(s)
     return all(
         m - Fraction(r) <= low and high <= m + Fraction(r)
@@ -178,13 +175,13 @@ def _inside(box: Box, piece: Piece, s: Fraction) -> bool:
 
 def _turned(solution: Solution, near: Sequence[float]) -> Box:
     """The box of the solution, by full turns next to these joint values."""
-    found = []
+    result = []
     for value, other in zip(solution.values, near, strict=True):
         assert value is not None, "a branch is followed where no angle is free"
         turns = 0 if value.pair is None else round((other - float(value)) / 6.283185307179586)
         low, high = pi_ends(96) if turns >= 0 else pi_ends(96)[::-1]
-        found.append((value.ends[0] + 2 * turns * low, value.ends[1] + 2 * turns * high))
-    return tuple(found)
+        result.append((value.ends[0] + 2 * turns * low, value.ends[1] + 2 * turns * high))
+    return tuple(result)
 
 
 def _gap(value: Value, other: float) -> float:

@@ -1,6 +1,6 @@
 """Inverse kinematics at a point: all real joint positions that put the end effector there, with a proved count.
 
-The equation of ``bezier.arm.elimination``, confirmed once per arm by putting the angles back into its forward
+The equation of ``bezier.arm.elimination``, confirmed once per arm by substituting the angles into its forward
 kinematics, is solved at the point by exact real root isolation over the field of its coefficients; every real root is
 one solution.
 """
@@ -15,16 +15,15 @@ from itertools import combinations
 from numbers import Integral
 from typing import Any
 
-from bezier.arm.choices import Choice, not_negative, spans, zeros
-from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Reduction, T
-from bezier.arm.limits import allowed
-from bezier.arm.model import Arm
-from bezier.arm.ratio import variable
-from bezier.arm.substitute_back import confirm
-from bezier.arm.value import BITS, Known, Value, value_of
+from bezier.arm.choices import BITS, Choice, Known, Value, allowed, not_negative, spans, value_of, zeros
+from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Quotient, Reduction, T
+from bezier.arm.kinematics import position
+from bezier.arm.model import Arm, JointKind
+from bezier.arm.ratio import Ratio, reduced, variable
 from bezier.curves.scalar import rational
 from qe.errors import InputError, InternalError
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.field import NumberField
 from qe.exact.point_values import Evaluation, multiple_roots, roots_above
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import FibreRoot, Point
@@ -42,18 +41,21 @@ NAMES = ("w", "x", "y", "z", "t", "m")
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """One solution, or a family. ``values``: one for each joint, None where it is free; ``multiple``: two solutions
-    meet here; ``allowed``: whether it keeps the limits of the joints. ``place``: the exact point that it was read from.
-    ``choices``: the joints of a family that can be chosen, independently of each other, and which of their values are
-    possible: exactly for these there are positions. Other free joints follow them, and their limits are left aside.
-    """
+    """One solution, or a family."""
 
     values: tuple[Value | None, ...]
+    """One for each joint, None where it is free."""
     multiple: bool
+    """Two solutions meet here."""
     allowed: bool
+    """Whether it keeps the limits of the joints."""
     place: Evaluation
+    """The exact point that it was read from."""
     quotients: tuple[Known | None, ...]
     choices: tuple[Choice, ...] = ()
+    """The joints of a family that can be chosen, independently of each other, and which of their values are
+    possible: exactly for these there are positions. Other free joints follow them, and their limits are left
+    aside."""
 
     @property
     def angles(self) -> tuple[float | None, ...]:
@@ -72,19 +74,18 @@ class Solution:
 
 @dataclass(frozen=True, eq=False)
 class Inverse:
-    """All solutions at a point (mm).
-
-    ``free``: the joints whose value is not determined; then there are infinitely many solutions, and each of those that
-    leave one of them open stands for a family. ``cases``: the names of what is special about the point. ``rotation``:
-    the rows of the orientation that was asked for, if one was.
-    """
+    """All solutions at a point (mm)."""
 
     arm: Arm
     point: tuple[Any, ...]
     solutions: tuple[Solution, ...]
     free: tuple[str, ...] = ()
+    """The joints whose value is not determined; then there are infinitely many solutions, and each of those that
+    leave one of them open stands for a family."""
     cases: tuple[str, ...] = ()
+    """The names of what is special about the point."""
     rotation: tuple[tuple[Any, ...], ...] = ()
+    """The rows of the orientation that was asked for, if one was."""
 
     @property
     def count(self) -> int | None:
@@ -102,18 +103,18 @@ class Inverse:
         return sum(s.allowed for s in self.solutions)
 
 
-def separated(found: Inverse) -> Inverse:
+def separated(answer: Inverse) -> Inverse:
     """The same with balls so narrow that no two solutions share those of all joints, as far as ``MOST_BITS`` go.
 
     Different solutions differ in the cosine, the sine or the length of a joint. Families stay as they are.
     """
-    solutions, bits = found.solutions, BITS
-    while bits < MOST_BITS and not found.free and any(a.may_be(b) for a, b in combinations(solutions, 2)):
+    solutions, bits = answer.solutions, BITS
+    while bits < MOST_BITS and not answer.free and any(a.may_be(b) for a, b in combinations(solutions, 2)):
         bits *= 2
         solutions = tuple(
             replace(one, values=tuple(one.refined(k, bits) for k in range(len(one.values)))) for one in solutions
         )
-    return replace(found, solutions=solutions)
+    return replace(answer, solutions=solutions)
 
 
 def solve(arm: Arm, point: Sequence[Any]) -> Inverse:
@@ -140,8 +141,8 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
     if not geometry_of(arm).moves_last:
         place = Evaluation(here.extend(RealAlgebraic.rational(Fraction(0))))
         reached = place.point.sign(first.equation) == 0
-        found = list(_at_root(arm, place, first, on_axis, False, is_still=True)) if reached else []
-        return _listed(arm, numbers, found, (*cases, *(f"{arm.joints[2].name} does not move the point",) * reached))
+        result = list(_at_root(arm, place, first, on_axis, False, is_still=True)) if reached else []
+        return _listed(arm, numbers, result, (*cases, *(f"{arm.joints[2].name} does not move the point",) * reached))
     for k in range(len(TURNS)):
         reduction = reductions(k)
         roots = roots_above(here, t, reduction.equation)
@@ -154,22 +155,22 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
                 return _listed(arm, numbers, [_family(arm, values, reduction, on_axis)], cases)
         elif _misses(here, reduction.equation, reduction.degree, t):
             continue  # the angle that t misses may be a solution: another φ tells
-        found = [
+        result = [
             solution
             for root, multiple in zip(roots, multiple_roots(roots), strict=True)
             for solution in _at_root(arm, values.extend(root), reduction, on_axis, multiple)
         ]
-        if any(s.multiple for s in found) and not on_axis:
+        if any(s.multiple for s in result) and not on_axis:
             cases = (*cases, "two solutions meet: the arm is singular here")
-        return _listed(arm, numbers, found, cases)
+        return _listed(arm, numbers, result, cases)
     raise InternalError("an equation of degree four has more than four roots")
 
 
-def _listed(arm: Arm, numbers: tuple[Any, ...], found: list[Solution], cases: tuple[str, ...]) -> Inverse:
-    found.sort(key=lambda s: [v for v in s.angles if v is not None])
+def _listed(arm: Arm, numbers: tuple[Any, ...], solutions: list[Solution], cases: tuple[str, ...]) -> Inverse:
+    solutions.sort(key=lambda s: [v for v in s.angles if v is not None])
     names = tuple(joint.name for joint in arm.joints)
-    open_ones = {name for s in found for name, v in zip(names, s.values, strict=True) if v is None}
-    return Inverse(arm, numbers, tuple(found), tuple(n for n in names if n in open_ones), cases)
+    open_ones = {name for s in solutions for name, v in zip(names, s.values, strict=True) if v is None}
+    return Inverse(arm, numbers, tuple(solutions), tuple(n for n in names if n in open_ones), cases)
 
 
 def _misses(here: Point, p: Poly | None, degree: int | None, t: int) -> bool:
@@ -287,3 +288,86 @@ def _family(arm: Arm, values: Evaluation, reduction: Reduction, on_axis: bool) -
     marks = () if square is None else zeros(values, square, t, known)
     choices = [Choice(k) for k, free in enumerate((on_axis, turns)) if free]
     return solution_of(arm, values, (None, None, None), False, [*choices, Choice(2, arcs, marks)])
+
+
+def confirm(arm: Arm, reduction: Reduction, point: Sequence[Ratio]) -> None:
+    """Put cosines and sines back into the forward kinematics, for all points at once.
+
+    Multiplied by their denominators, c² + s² - 1 of every joint and position minus point have to leave no remainder on
+    division by m² - square and then by the equation in t (pseudo-division: so they vanish at every root where the
+    leading coefficient does not). Raises ``InternalError`` otherwise.
+    """
+    field, ring = arm.field, reduction.ring
+    tops = [tuple(_top(q, field) for q in quotients) for quotients in reduction.values]
+    bottoms = [Ratio(quotients[0].bottom, 1, field) for quotients in reduction.values]
+    zeros = [c * c + s * s - d * d for (c, *rest), d in zip(tops, bottoms, strict=True) for s in rest]
+    whole = Ratio(ring.constant(1), 1, field)
+    for d in bottoms:
+        whole = whole * d
+    for coordinate, p in zip(_general_position(arm), point, strict=True):
+        total = -(whole * p)
+        for exponents, c in coordinate:
+            term = Ratio(c.convert(ring), 1, field) * Fraction(1, coordinate.bottom)
+            for k, (known, d) in enumerate(zip(tops, bottoms, strict=True)):
+                used = [top for top, e in zip(known, exponents[2 * k : 2 * k + 2], strict=False) if e]
+                term = term * (used[0] if used else d)
+            total = total + term
+        zeros.append(total)
+    for value in zeros:
+        if any(
+            leaves_remainder(part, reduction.coefficients, field) for part in _without_m(value.top, reduction, field)
+        ):
+            raise InternalError("the reduction of an arm contradicts its forward kinematics")
+
+
+def _top(q: Quotient, field: NumberField) -> Ratio:
+    return Ratio(q.top * q.scale.numerator, q.scale.denominator, field)
+
+
+class _Coordinate(list[tuple[tuple[int, ...], Poly]]):
+    """Terms in cosines and sines (exponents of c1, s1, c2, s2, ...; a length stands for a cosine), over ``bottom``."""
+
+    bottom: int = 1
+
+
+def _general_position(arm: Arm) -> list[_Coordinate]:
+    """The forward kinematics as polynomials in cosines and sines, or lengths, of the joints: of degree 1 in each."""
+    names = [f"{letter}{k}" for k in range(len(arm.joints)) for letter in "cs"]
+    ring = Ring.of(("w", *names))
+    variables = [Ratio(ring.var(name), 1, arm.field) for name in names]
+    values: dict[str, Any] = {
+        j.name: (variables[2 * k], variables[2 * k + 1]) if j.motion is JointKind.REVOLUTE else variables[2 * k]
+        for k, j in enumerate(arm.joints)
+    }
+    result = []
+    for value in position(arm, values):
+        ratio = value if isinstance(value, Ratio) else variables[0] * 0 + value
+        terms = _Coordinate(ratio.top.collected(range(1, ring.size)).items())
+        terms.bottom = ratio.bottom
+        result.append(terms)
+    return result
+
+
+def _without_m(p: Poly, reduction: Reduction, field: NumberField) -> tuple[Poly, ...]:
+    """The coefficients of 1 and m after m² was replaced."""
+    if reduction.square is None:
+        return (p,)
+    result = list(p.coefficients(p.ring.index[M]))
+    while len(result) > 2:
+        lead = result.pop()
+        result[-2] = reduced(result[-2] + lead * reduction.square, field)
+    return tuple(result)
+
+
+def leaves_remainder(p: Poly, divisor: Sequence[Poly], field: NumberField) -> bool:
+    """Whether pseudo-division by a polynomial in t (coefficients from degree 0 up) leaves a remainder."""
+    t = p.ring.index[T]
+    rest = list(p.coefficients(t))
+    lead = divisor[-1]
+    while len(rest) >= len(divisor):
+        first = rest.pop()
+        rest = [reduced(c * lead, field) for c in rest]
+        offset = len(rest) - len(divisor) + 1
+        for k, c in enumerate(divisor[:-1]):
+            rest[offset + k] = reduced(rest[offset + k] - first * c, field)
+    return any(bool(c) for c in rest)

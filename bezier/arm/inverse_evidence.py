@@ -6,17 +6,14 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
-from bezier.arm.arm_json import arm_json
-from bezier.arm.choices import Choice
+from bezier.arm.choices import Choice, Value
 from bezier.arm.elimination import TURNS
+from bezier.arm.evidence import accepted_certificate, arm_json, surd_json
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve
-from bezier.arm.model import Arm, Motion
-from bezier.arm.square_roots import square_roots
-from bezier.arm.value import Value
+from bezier.arm.model import JointKind
 from bezier.arm.wrist import centre_at, wrist_of
-from qe.certify.verify import verify
 from qe.errors import Unable
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 from qe.proof.entry import Json
 
 ATTEMPTS = ((100, 30), (260, 90), (800, 300))
@@ -26,52 +23,41 @@ FAR = 8
 """t is at most about so large: else another φ is taken."""
 
 
-def inverse_certificate(found: Inverse) -> Certificate:
+def inverse_certificate(answer: Inverse) -> Certificate:
     """The certificate that these are all solutions, and all families of them, accepted by the checker.
 
     Raises ``Unable`` where there is none: a coordinate is not a sum of square roots, or the first of six joints with
     three parallel axes can be chosen.
     """
-    listed: dict[str, Json] = {"arm": arm_json(found.arm), "point": _triple(found.point)}
-    if found.rotation:
-        listed["rotation"] = [_triple(row) for row in found.rotation]
-    listed["count"] = found.count
-    verdict = None
-    for bits, places in ATTEMPTS:
-        for payload in _payloads(found, bits, places):
-            certificate = Certificate(Kind("inverse"), {**listed, **payload})
-            verdict = verify(certificate)
-            if verdict.accepted:
-                return certificate
-    raise Unable(
-        f"no certificate was found: {verdict.reason if verdict is not None else 'the last joint is undetermined'}"
-    )
+    listed: dict[str, Json] = {"arm": arm_json(answer.arm), "point": _triple(answer.point)}
+    if answer.rotation:
+        listed["rotation"] = [_triple(row) for row in answer.rotation]
+    listed["count"] = answer.count
+    attempts = (payload for bits, places in ATTEMPTS for payload in _payloads(answer, bits, places))
+    return accepted_certificate("inverse", ({**listed, **payload} for payload in attempts))
 
 
-def _payloads(found: Inverse, bits: int, places: int) -> Iterator[dict[str, Json]]:
+def _payloads(answer: Inverse, bits: int, places: int) -> Iterator[dict[str, Json]]:
     """What lists the solutions: over roots of the equation in t for one φ after the other, or alone."""
-    wrist = wrist_of(found.arm) if found.rotation else None
-    if found.rotation and wrist is None:
-        yield {"solutions": [_box(s, places) for s in found.solutions]}
+    wrist = wrist_of(answer.arm) if answer.rotation else None
+    if answer.rotation and wrist is None:
+        yield {"solutions": [_box(s, places) for s in answer.solutions]}
         return
-    arm, place = (found.arm, found.point) if wrist is None else (wrist.first, centre_at(wrist, found))
-    positions = solve(arm, place).solutions if wrist is not None else found.solutions
+    arm, place = (answer.arm, answer.point) if wrist is None else (wrist.first, centre_at(wrist, answer))
+    positions = solve(arm, place).solutions if wrist is not None else answer.solutions
     if any(s.values[:3] == (None, None, None) for s in positions):
-        yield from _over_marks(found, positions[0], bits, places)
+        yield from _over_marks(answer, positions[0], bits, places)
         return
-    turns = (None,) if _is_still(arm) or arm.joints[2].motion is Motion.PRISMATIC else TURNS
+    moves = geometry_of(arm).moves_last and arm.joints[2].motion is not JointKind.PRISMATIC
+    turns = TURNS if moves else (None,)
     for turn in turns:
-        t = [_parameter(s, turn, bits) for s in positions], [_parameter(s, turn, bits) for s in found.solutions]
+        t = [_parameter(s, turn, bits) for s in positions], [_parameter(s, turn, bits) for s in answer.solutions]
         if turn is None or all(abs(v) <= FAR for v in t[0]):
             written: Json = None if turn is None else [str(v) for v in turn]
-            yield {"turn": written, "roots": list(_roots(*t, found.solutions, bits, places))}
+            yield {"turn": written, "roots": list(_roots(*t, answer.solutions, bits, places))}
 
 
-def _is_still(arm: Arm) -> bool:
-    return not geometry_of(arm).moves_last
-
-
-def _over_marks(found: Inverse, family: Solution, bits: int, places: int) -> Iterator[dict[str, Json]]:
+def _over_marks(answer: Inverse, family: Solution, bits: int, places: int) -> Iterator[dict[str, Json]]:
     """Where the third joint can be chosen alone: intervals around its ends, and around other zeros of m²."""
     width = Fraction(1, 1 << bits)
     for turn in TURNS:
@@ -79,7 +65,7 @@ def _over_marks(found: Inverse, family: Solution, bits: int, places: int) -> Ite
         t = sorted({round(_tangent(end.value(bits + 20), turn) / width) for end in ends})
         if all(abs(k) * width <= FAR for k in t):
             marks: list[Json] = [[str((k - 4) * width), str((k + 4) * width)] for k in t]
-            solutions: list[Json] = [_box(s, places) for s in found.solutions]
+            solutions: list[Json] = [_box(s, places) for s in answer.solutions]
             yield {"turn": [str(v) for v in turn], "marks": marks, "solutions": solutions}
 
 
@@ -143,4 +129,4 @@ def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:
 
 
 def _triple(numbers: Sequence[Any]) -> Json:
-    return [[[str(q), d] for d, q in sorted(square_roots(c).items()) if q] for c in numbers]
+    return [surd_json(c) for c in numbers]

@@ -9,7 +9,7 @@ Runs are what boxes hold, with bounds of the velocities; how many continuous mot
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -18,30 +18,25 @@ from itertools import count, pairwise
 from bezier.arm.continuous import Arcs, ContinuousMotions, continuous_motions
 from bezier.arm.follow import ONE, ZERO, Branch, follow, joined, whole
 from bezier.arm.inverse import solve
-from bezier.arm.limit_places import Near, ends_of
-from bezier.arm.limited_motions import LimitedMotions
+from bezier.arm.limited_motions import Excess, LimitedMotions, excesses, turns_of
 from bezier.arm.model import Arm
-from bezier.arm.motion_limits import Excess, excesses, turns_of
-from bezier.arm.study import Study, study
+from bezier.arm.study import Near, Study, ends_of, study
 from bezier.arm.vertical import Label, VerticalArm, vertical_arm
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import same
 from qe.errors import BudgetExceeded, InputError, Unable
 
-Note = Callable[[], None]
-
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One continuous joint motion: (index of the curve, branch), in order. ``number`` names it, from 1.
-
-    ``turns``: full turns of each joint that are added to the branches. ``excesses``: where it is then beyond a limit.
-    """
+    """One continuous joint motion: (index of the curve, branch), in order. ``number`` names it, from 1."""
 
     number: int
     parts: tuple[tuple[int, Branch], ...]
     turns: tuple[int, ...] = ()
+    """Full turns of each joint that are added to the branches."""
     excesses: tuple[Excess, ...] = ()
+    """Where it is then beyond a limit."""
 
     def branch(self, curve: int) -> Branch | None:
         """Its branch on a curve."""
@@ -55,12 +50,7 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class JointPath:
-    """The curves of a path by name, the study of each, and the runs.
-
-    ``motions``: all continuous motions, through singular places too, and ``limited``: which of them keep the limits of
-    the joints; None where that is not decided, and ``undecided`` says why. Whole runs have the numbers of their
-    motions.
-    """
+    """The curves of a path by name, the study of each, and the runs."""
 
     arm: Arm
     curves: Mapping[str, Bezier]
@@ -68,7 +58,10 @@ class JointPath:
     branches: tuple[tuple[Branch, ...], ...]
     runs: tuple[Run, ...] = field(default=())
     motions: ContinuousMotions | None = None
+    """All continuous motions, through singular places too."""
     limited: LimitedMotions | None = None
+    """Which of them keep the limits of the joints; None where that is not decided, and ``undecided`` says why. Whole
+    runs have the numbers of their motions."""
     undecided: str = ""
 
     @cached_property
@@ -122,9 +115,9 @@ class JointPath:
     @cached_property
     def excesses(self) -> dict[int, tuple[Excess, ...]]:
         """Where motions and runs are beyond limits, by their numbers."""
-        found = {run.number: run.excesses for run in self.runs}
-        found |= {} if self.limited is None else {n: kept.excesses for n, kept in self.limited.listed.items()}
-        return {n: found[n] for n in sorted(found) if found[n]}
+        result = {run.number: run.excesses for run in self.runs}
+        result |= {} if self.limited is None else {n: kept.excesses for n, kept in self.limited.listed.items()}
+        return {n: result[n] for n in sorted(result) if result[n]}
 
     @cached_property
     def kept_numbers(self) -> frozenset[int]:
@@ -134,7 +127,7 @@ class JointPath:
         return frozenset(listed - {*self.excesses})
 
 
-def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None) -> JointPath:
+def joint_path(arm: Arm, curves: Mapping[str, Bezier]) -> JointPath:
     """Study a path (curves with rational control points in mm, each beginning where the last one ends) and follow its
     branches.
 
@@ -150,42 +143,41 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None
             raise InputError(f"path: {second} has to begin where {first} ends")
     motions, undecided = None, "its arm is of another shape"
     try:
-        motions = continuous_motions(arm, curves, note)
+        motions = continuous_motions(arm, curves)
     except BudgetExceeded:
         raise
     except Unable as error:
         undecided = str(error)
     also = [()] * len(listed) if motions is None else [signs.places for signs in motions.curves]
-    studies = tuple(study(arm, curve, note, places) for curve, places in zip(curves.values(), also, strict=True))
+    studies = tuple(study(arm, curve, places) for curve, places in zip(curves.values(), also, strict=True))
     branches: list[tuple[Branch, ...]] = []
-    for found in studies:
-        branches.append(tuple(_branches(found, branches[-1] if branches else (), note)))
+    for result in studies:
+        branches.append(tuple(_branches(result, branches[-1] if branches else ())))
     runs = tuple(_limited(arm, studies, run) for run in _runs(branches))
     limited = None
     if motions is not None:
         runs, undecided = tuple(_numbered(runs, motions, len(listed))), ""
         limited = LimitedMotions.of(motions, studies)
-    for k, found in enumerate(studies):
-        _check_joined(found, k, runs, None if motions is None else vertical_arm(arm))
+    for k, result in enumerate(studies):
+        _check_joined(result, k, runs, None if motions is None else vertical_arm(arm))
     return JointPath(arm, dict(curves), studies, tuple(branches), runs, motions, limited, undecided)
 
 
-def _branches(found: Study, before: Sequence[Branch], note: Note) -> list[Branch]:
+def _branches(studied: Study, before: Sequence[Branch]) -> list[Branch]:
     """All branches of a curve, each once: those that go on from the curve before, with the same angles and not only the
     same
     directions, and those through the other solutions at one parameter of every stretch."""
     branches: list[Branch] = []
-    stops = [p.s if isinstance(p.s, Fraction) else p.s.interval(40)[0] for p in found.specials if p.reasons]
+    stops = [p.s if isinstance(p.s, Fraction) else p.s.interval(40)[0] for p in studied.specials if p.reasons]
     for last in before:
         if last.high == ONE:
-            pieces = follow(found.arm, found.curve, last.at(ONE), ZERO, ONE, note, (last.pieces[-1], ONE), stops)
+            pieces = follow(studied.arm, studied.curve, last.at(ONE), ZERO, ONE, (last.pieces[-1], ONE), stops)
             branches += [Branch(pieces)] if pieces else []
-    for stretch in found.stretches:
-        for solution in solve(found.arm, found.curve.point(stretch.sample)).solutions:
+    for stretch in studied.stretches:
+        for solution in solve(studied.arm, studied.curve.point(stretch.sample)).solutions:
             if not any(b.contains(stretch.sample, solution) for b in branches):
-                branch = whole(found.arm, found.curve, solution, stretch.sample, (ZERO, ONE), stops)
+                branch = whole(studied.arm, studied.curve, solution, stretch.sample, (ZERO, ONE), stops)
                 branches += [branch] if branch is not None else []
-            note()
     return branches
 
 
@@ -234,15 +226,15 @@ def _limited(arm: Arm, studies: Sequence[Study], run: Run) -> Run:
     return replace(run, turns=turns, excesses=excesses(arm, studies, run.parts, turns))
 
 
-def _check_joined(found: Study, curve: int, runs: Sequence[Run], plane: VerticalArm | None) -> None:
+def _check_joined(studied: Study, curve: int, runs: Sequence[Run], plane: VerticalArm | None) -> None:
     """Where enclosures of several places are one, a motion through them has to show that there is a solution within
     the limits in between, too: one of the runs, or of the arcs of an arm with a plane, which do not end at such places.
     Raises ``Unable``."""
-    for one, other in pairwise(found.within):
+    for one, other in pairwise(studied.within):
         if isinstance(one.high, Near) and one.high.is_joined and one.count and other.count:
             low, high = ends_of(one.high)
             if plane is not None:
-                ends = (solve(found.arm, found.curve.point(part.sample)).solutions for part in (one, other))
+                ends = (solve(studied.arm, studied.curve.point(part.sample)).solutions for part in (one, other))
                 before, after = ({plane.label(x) for x in solutions if x.allowed} for solutions in ends)
                 shown = bool(before & after)
             else:
@@ -250,7 +242,7 @@ def _check_joined(found: Study, curve: int, runs: Sequence[Run], plane: Vertical
                 near = ([e for e in r.excesses if e.curve == curve and one.high in (e.low, e.high)] for r in through)
                 shown = not all(near)
             if not shown:
-                raise Unable(f"near s = {float(low):.12g} it is not told which joint passes its limit first")
+                raise Unable(f"near s = {float(low):.12g} it is not decided which joint passes its limit first")
 
 
 def _follows(one: Branch, other: Branch) -> bool:

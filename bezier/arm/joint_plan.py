@@ -6,7 +6,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate
@@ -15,26 +15,24 @@ from typing import Any
 from bezier.arm import path_report
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.kinematics import jacobians, positions, skeleton
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.motion import Extreme, JointMotion, joint_motion
 from bezier.arm.sequence import JointSequence, joint_sequence, samples_of
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import Unable
 
-Note = Callable[[], None]
-DECIMALS = 9
+DECIMALS, FRAMES = 9, 150
 
 
 @dataclass(frozen=True, eq=False)
 class JointPlan:
-    """``ends``: the share of the law's path at which each curve ends.
-
-    ``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
+    """``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
 
     path: JointPath
     law: TimeLaw
     ends: tuple[Fraction, ...]
+    """The share of the law's path at which each curve ends."""
     duration: Fraction
     sequence: JointSequence | None
     motion: JointMotion | None
@@ -58,7 +56,6 @@ def joint_plan(
     law: TimeLaw,
     duration: Fraction,
     samples: int,
-    note: Note = lambda: None,
     parts: Mapping[str, Fraction] | None = None,
 ) -> JointPlan:
     """Plan the joints for a path (curves with rational control points, mm) run through in ``duration`` seconds.
@@ -67,7 +64,7 @@ def joint_plan(
     """
     sizes = [Fraction(1) if parts is None else parts[name] for name in curves]
     ends = tuple(total / sum(sizes) for total in accumulate(sizes))
-    path = joint_path(arm, curves, note)
+    path = joint_path(arm, curves)
     moments = samples_of(ends, law, samples)
     remarks: list[str] = []
     if path.is_stopped and (path.excesses or path.is_reachable):
@@ -79,7 +76,7 @@ def joint_plan(
         return JointPlan(path, law, ends, duration, None, None, tuple(remarks))
     sequence = motion = None
     try:
-        sequence = joint_sequence(path, moments, note)
+        sequence = joint_sequence(path, moments)
         remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
         run = next((run for run in path.runs if run.number == sequence.run), None)
         if run is not None and not run.excesses:
@@ -134,7 +131,7 @@ def to_csv(plan: JointPlan) -> str:
 
 def to_json(plan: JointPlan) -> dict[str, Any]:
     """``joints.json``: the study of the path, the sequence, and what is proved about the motion."""
-    found: dict[str, Any] = {
+    data: dict[str, Any] = {
         **path_report.to_json(plan.path),
         "duration": str(plan.duration),
         "proved": plan.is_proved,
@@ -148,9 +145,9 @@ def to_json(plan: JointPlan) -> dict[str, Any]:
     }
     if plan.sequence is not None:
         header, rows = table(plan)
-        found["columns"] = header
-        found["rows"] = [[None if v != v else round(v, DECIMALS) for v in row] for row in rows]
-    return found
+        data["columns"] = header
+        data["rows"] = [[None if v != v else round(v, DECIMALS) for v in row] for row in rows]
+    return data
 
 
 def _extremes(motion: JointMotion) -> dict[str, Any]:
@@ -163,19 +160,19 @@ def _bounds(value: Extreme) -> list[float]:
     return [float(f"{float(value.low):.6g}"), float(f"{float(value.high) * (1 + 1e-5):.6g}")]
 
 
-def animation(plan: JointPlan, frames: int = 150) -> str:
+def animation(plan: JointPlan) -> str:
     """What the moving picture needs, as JSON text: frames with the points of the arm (mm) and its angles, and the
     path."""
     assert plan.sequence is not None, "only plans with a sequence move"
     arm, sequence = plan.path.arm, plan.sequence
-    step = max(1, len(sequence.angles) // frames)
+    step = max(1, len(sequence.angles) // FRAMES)
     chosen = sorted({*range(0, len(sequence.angles), step), len(sequence.angles) - 1})
     curves = plan.path.curves.values()
     trace = [[round(float(c), 2) for c in curve.point(Fraction(k, 40))] for curve in curves for k in range(41)]
     return json.dumps(
         {
             "names": [joint.name for joint in arm.joints],
-            "turns": [joint.motion is Motion.REVOLUTE for joint in arm.joints],
+            "turns": [joint.motion is JointKind.REVOLUTE for joint in arm.joints],
             "moving": [row.joint is not None for row in arm.rows],
             "path": trace,
             "duration": float(plan.duration),
@@ -201,7 +198,7 @@ def in_words(plan: JointPlan) -> list[str]:
         lines.append(f"sequence of {size} joint positions: {change:.6g} rad in all, {kept}")
     if plan.motion is not None:
         for joint, v, a in zip(plan.motion.joints, plan.motion.speeds, plan.motion.accelerations, strict=True):
-            unit = "rad" if joint.motion is Motion.REVOLUTE else "mm"
+            unit = "rad" if joint.motion is JointKind.REVOLUTE else "mm"
             speed, push = f"{float(v.high):.4g} {unit}/s", f"{float(a.high):.4g} {unit}/s^2"
             lines.append(f"  {joint.name}: at most {speed} and {push} at all times (proved)")
         words = {True: "kept (proved)", False: "EXCEEDED", None: "closer than the bounds can tell"}

@@ -8,7 +8,7 @@ from functools import lru_cache
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from bezier.arm.model import Arm, Matrix, Motion, apply, motion, product
+from bezier.arm.model import Arm, JointKind, Matrix, apply, motion, product
 from qe.errors import InputError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def pose(arm: Arm, values: Mapping[str, Any]) -> Matrix:
         if joint.name not in values:
             raise InputError(f"values: a value for the joint {joint.name} expected")
         value = values[joint.name]
-        turns = joint.motion is Motion.REVOLUTE
+        turns = joint.motion is JointKind.REVOLUTE
         parts = value if turns and isinstance(value, list | tuple) else [value]
         if len(parts) != 1 + turns or any(isinstance(part, str | bool | float | list | tuple) for part in parts):
             what = "cosine and sine" if turns else "a length"
@@ -70,17 +70,17 @@ def _motions(arm: Arm, q: Floats) -> list[Floats]:
     """One 4 x 4 matrix for each joint and each row of ``q``; shape of each (N, 4, 4)."""
     import numpy as np
 
-    found = []
+    result = []
     for k, joint in enumerate(arm.joints):
         m = np.zeros((len(q), 4, 4))
         m[:, range(4), range(4)] = 1.0
-        if joint.motion is Motion.REVOLUTE:
+        if joint.motion is JointKind.REVOLUTE:
             c, s = np.cos(q[:, k]), np.sin(q[:, k])
             m[:, 0, 0], m[:, 0, 1], m[:, 1, 0], m[:, 1, 1] = c, -s, s, c
         else:
             m[:, 2, 3] = q[:, k]
-        found.append(m)
-    return found
+        result.append(m)
+    return result
 
 
 def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
@@ -88,12 +88,12 @@ def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
     import numpy as np
 
     try:
-        found = np.atleast_2d(np.asarray(q, dtype=float))
+        result = np.atleast_2d(np.asarray(q, dtype=float))
     except (TypeError, ValueError):
         raise InputError("joint positions: numbers, rad or mm, expected") from None
-    if found.ndim != 2 or found.shape[1] != len(arm.joints):
-        raise InputError(f"joint positions: rows of {len(arm.joints)} numbers expected, shape {found.shape} found")
-    return found
+    if result.ndim != 2 or result.shape[1] != len(arm.joints):
+        raise InputError(f"joint positions: rows of {len(arm.joints)} numbers expected, shape {result.shape} found")
+    return result
 
 
 def positions(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
@@ -123,7 +123,7 @@ def jacobians(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
         whole = whole @ m @ constant
     tip = whole[:, :3, 3]
     columns = [
-        np.cross(z, tip - o) if joint.motion is Motion.REVOLUTE else z
+        np.cross(z, tip - o) if joint.motion is JointKind.REVOLUTE else z
         for (z, o), joint in zip(axes, arm.joints, strict=True)
     ]
     return np.stack(columns, axis=2)
@@ -134,14 +134,14 @@ def skeleton(arm: Arm, q: Sequence[float]) -> list[list[float]]:
     import numpy as np
 
     motions = iter(_motions(arm, np.atleast_2d(np.asarray(q, dtype=float))))
-    whole, found = np.eye(4), [[0.0, 0.0, 0.0]]
+    whole, result = np.eye(4), [[0.0, 0.0, 0.0]]
     for row, (before, after) in zip(arm.rows, _row_constants(arm), strict=True):
         whole = whole @ before
         if row.joint is not None:
             whole = whole @ next(motions)[0]
         whole = whole @ after
-        found.append([float(v) for v in whole[:3, 3]])
-    return found
+        result.append([float(v) for v in whole[:3, 3]])
+    return result
 
 
 @lru_cache(maxsize=64)

@@ -6,27 +6,108 @@ also where solutions meet and on the axis. THEOREM. Intervals [L, U] + 2πk are 
 angle that always lies in one of them, k any integer, always lies in the same one. For limits further apart the
 parameters hold those at which the angle is a multiple of a quarter turn. So it stays on one of these or strictly
 between two neighbours, and the closures of what it takes before and after a parameter meet: that counts full turns.
+
+Whether a continuous joint motion keeps the limits of the joints, exactly, and where it does not.
+
+Between neighbouring ``places`` of a curve (``bezier.arm.study``) no solution passes a limit: so one rational
+parameter decides for all. Where a motion keeps a limit on both sides of a place it keeps it there, as limits are
+closed. An angle counts with its full turns: all of a motion may be some turns away from its branches.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import tau
 
+from bezier.arm.choices import Known, full_turns, length_side, side
 from bezier.arm.continuous import ContinuousMotion, ContinuousMotions
+from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
-from bezier.arm.limit_places import is_wide
-from bezier.arm.limits import full_turns, length_side, side
-from bezier.arm.model import Arm, Joint, Motion
-from bezier.arm.motion_limits import Excess, joined
-from bezier.arm.study import Stretch, Study
-from bezier.arm.value import Known
+from bezier.arm.model import Arm, Joint, JointKind
+from bezier.arm.study import Place, Stretch, Study, is_wide, sample_between
 from bezier.arm.vertical import Label, vertical_arm
 from qe.errors import InternalError, Unable
 from qe.exact.point_values import Evaluation
+
+Parts = Sequence[tuple[int, Branch]]
+
+
+@dataclass(frozen=True, slots=True)
+class Excess:
+    """``joint`` is beyond a limit for all s between two parameters of a curve, given by its index."""
+
+    curve: int
+    joint: Joint
+    limit: Fraction
+    low: Place
+    high: Place
+
+
+def turns_of(arm: Arm, parts: Parts) -> tuple[int, ...]:
+    """For each joint, by how many full turns its whole motion is best moved to lie between its limits."""
+    result = []
+    for k, joint in enumerate(arm.joints):
+        if joint.limits is None or joint.motion is JointKind.PRISMATIC:
+            result.append(0)
+            continue
+        values = [v[k] for _, branch in parts for p in branch.pieces for v in (p.near(p.low), p.near(p.high))]
+        result.append(round((float(sum(joint.limits)) - max(values) - min(values)) / 2 / tau))
+    return tuple(result)
+
+
+def excesses(arm: Arm, studies: Sequence[Study], parts: Parts, turns: Sequence[int]) -> tuple[Excess, ...]:
+    """Where the motion, so many full turns added, is beyond a limit."""
+    return joined(_judged(arm, studies, parts, turns))
+
+
+Judged = tuple[int, Place, Place, list[tuple[Joint, Fraction]]]
+
+
+def joined(judged: Iterable[Judged]) -> tuple[Excess, ...]:
+    """Of the limits that are broken in stretches (curve, low, high) one after another; neighbours as one."""
+    result = list[Excess]()
+    for curve, low, high, broken in judged:
+        for joint, limit in broken:
+            before = next(
+                (e for e in result if (e.curve, e.joint, e.limit, e.high) == (curve, joint, limit, low)), None
+            )
+            if before is not None:
+                result.remove(before)
+            result.append(Excess(curve, joint, limit, low if before is None else before.low, high))
+    return tuple(result)
+
+
+def _judged(arm: Arm, studies: Sequence[Study], parts: Parts, turns: Sequence[int]) -> Iterator[Judged]:
+    """Every stretch that the branches take a part of, with the limits that they break there."""
+    for curve, branch in parts:
+        study = studies[curve]
+        for part in study.within:
+            s = sample_between(part.low, part.high, (branch.low, branch.high))
+            if s is None:
+                continue
+            (solution,) = (x for x in solve(arm, study.curve.point(s)).solutions if branch.contains(s, x))
+            yield curve, part.low, part.high, list(_broken_at(arm, solution, branch.at(s), turns))
+
+
+def _broken_at(
+    arm: Arm, solution: Solution, near: Sequence[float], turns: Sequence[int]
+) -> Iterator[tuple[Joint, Fraction]]:
+    for joint, known, value, close, more in zip(
+        arm.joints, solution.quotients, solution.values, near, turns, strict=True
+    ):
+        assert known is not None and value is not None, "a branch determines every joint"
+        around = more if value.pair is None else round((close - float(value)) / tau) + more
+        for limit, wanted in zip(joint.limits or (), (1, -1), strict=False):
+            if joint.motion is JointKind.PRISMATIC:
+                here = length_side(solution.place, known[0], limit)
+            else:
+                here = side(solution.place, known, around, limit)
+            if here == -wanted:
+                yield joint, limit
+
 
 SECTORS = {(1, 0): 0, (1, 1): 1, (0, 1): 2, (-1, 1): 3, (-1, 0): 4, (-1, -1): -3, (0, -1): -2, (1, -1): -1}
 """The angle in (-π, π] in eighths of a turn by the signs of cosine and sine; odd: strictly between two quarters."""
@@ -35,12 +116,14 @@ SECTORS = {(1, 0): 0, (1, 1): 1, (0, 1): 2, (-1, 1): 3, (-1, 0): 4, (-1, -1): -3
 @dataclass(frozen=True, slots=True)
 class Reading:
     """A joint of one solution in a stretch: by how many full turns, ``least`` to ``most``, it is moved between its
-    limits (never if least > most). ``sector``: where its turns are counted; ``value``: about its value."""
+    limits (never if least > most)."""
 
     least: int
     most: int
     sector: int | None
+    """Where its turns are counted."""
     value: float
+    """About its value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +182,7 @@ class LimitedMotions:
 
     @staticmethod
     def of(motions: ContinuousMotions, studies: Sequence[Study]) -> LimitedMotions:
-        """Raises ``Unable`` where an angle is not told from a limit."""
+        """Raises ``Unable`` where an angle is not separated from a limit."""
         if not motions.arm.has_limits:
             return LimitedMotions(motions.count, {m.number: Kept((), (None,) * 3) for m in motions.motions})
         parts = list(_parts(motions, studies))
@@ -113,8 +196,8 @@ def _parts(motions: ContinuousMotions, studies: Sequence[Study]) -> Iterator[Par
         here = [k for k, a in enumerate(motions.arcs) if a.curve == curve]
         for stretch in study.within:
             (arcs,) = (k for k in here if motions.arcs[k].low < stretch.sample < motions.arcs[k].high)
-            found = solve(motions.arm, study.curve.point(stretch.sample)).solutions
-            yield Part(curve, arcs, stretch, {plane.label(x): _readings(motions.arm, x) for x in found})
+            result = solve(motions.arm, study.curve.point(stretch.sample)).solutions
+            yield Part(curve, arcs, stretch, {plane.label(x): _readings(motions.arm, x) for x in result})
 
 
 def _count(motions: ContinuousMotions, parts: Sequence[Part]) -> int:
@@ -149,7 +232,7 @@ def _kept(arm: Arm, parts: Sequence[Part], motion: ContinuousMotion) -> Kept:
     ]
     begin = [
         None
-        if joint.limits is None or joint.motion is Motion.PRISMATIC
+        if joint.limits is None or joint.motion is JointKind.PRISMATIC
         else float(sum(joint.limits)) / 2
         if r.sector is None
         else r.value + tau * k
@@ -168,18 +251,18 @@ def _broken(
 
 
 def _readings(arm: Arm, solution: Solution) -> tuple[Reading, ...]:
-    found = []
+    result = []
     for joint, known, value in zip(arm.joints, solution.quotients, solution.values, strict=True):
         assert known is not None and value is not None, "between special parameters every joint is determined"
-        found.append(_reading(joint, solution, known, float(value)))
-    return tuple(found)
+        result.append(_reading(joint, solution, known, float(value)))
+    return tuple(result)
 
 
 def _reading(joint: Joint, solution: Solution, known: Known, value: float) -> Reading:
     if joint.limits is None:
         return Reading(0, 0, None, value)
     (low, high), here = joint.limits, solution.place
-    if joint.motion is Motion.PRISMATIC:
+    if joint.motion is JointKind.PRISMATIC:
         is_below, is_above = length_side(here, known[0], low) < 0, length_side(here, known[0], high) > 0
         return Reading(int(is_below), -int(is_above), None, value)
     listed = full_turns(joint.limits)

@@ -15,7 +15,7 @@ from math import ceil, isqrt
 
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Joint
-from bezier.arm.motion_chain import Piece
+from bezier.arm.motion_chain import ProvedPiece
 from bezier.curves import bernstein as bs
 from bezier.motion.timelaw import TICK, TimeLaw
 from qe.errors import Unable
@@ -56,13 +56,13 @@ class JointMotion:
     @property
     def kept(self) -> dict[str, bool | None]:
         """For each limit, by joint and kind, whether it is kept at all times."""
-        found = {}
+        result = {}
         for joint, v, a in zip(self.joints, self.speeds, self.accelerations, strict=True):
             if joint.max_velocity is not None:
-                found[f"{joint.name} velocity"] = v.keeps(joint.max_velocity)
+                result[f"{joint.name} velocity"] = v.keeps(joint.max_velocity)
             if joint.max_acceleration is not None:
-                found[f"{joint.name} acceleration"] = a.keeps(joint.max_acceleration)
-        return found
+                result[f"{joint.name} acceleration"] = a.keeps(joint.max_acceleration)
+        return result
 
     @property
     def keeps_limits(self) -> bool:
@@ -82,12 +82,12 @@ class JointMotion:
         return ceil(self.duration * max(factors) / TICK) * TICK
 
 
-def joint_motion(found: JointPath, run: Run, law: TimeLaw, duration: Fraction, ends: Sequence[Fraction]) -> JointMotion:
+def joint_motion(path: JointPath, run: Run, law: TimeLaw, duration: Fraction, ends: Sequence[Fraction]) -> JointMotion:
     """The motion along a run from start to goal. Raises ``Unable`` for a run that ends before: its velocities may be
     unbounded."""
-    if not run.covers(len(found.curves)):
+    if not run.covers(len(path.curves)):
         raise Unable(f"motion {run.number} does not go from start to goal; near its end the joints move ever faster")
-    count = len(found.arm.joints)
+    count = len(path.arm.joints)
     low, high = ([[ZERO, ZERO] for _ in range(count)] for _ in range(2))
     for piece, first, second in _timed(run, law, ends):
         for j in range(count):
@@ -98,10 +98,10 @@ def joint_motion(found: JointPath, run: Run, law: TimeLaw, duration: Fraction, e
                 low[j][k] = max(low[j][k], value[0], -value[1])
     speeds = tuple(Extreme(low[j][0], high[j][0]).over(duration) for j in range(count))
     pushes = tuple(Extreme(low[j][1], high[j][1]).over(duration**2) for j in range(count))
-    return JointMotion(found.arm.joints, duration, speeds, pushes)
+    return JointMotion(path.arm.joints, duration, speeds, pushes)
 
 
-def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[Piece, Range, Range]]:
+def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[ProvedPiece, Range, Range]]:
     """Every piece with the ranges of ds/dτ and d²s/dτ² (s the parameter of its curve) while it is run through."""
     known = (ZERO, ZERO)
     for k, branch in run.parts:

@@ -39,7 +39,7 @@ Range = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class ProvedPiece:
     """For every s in [low, high] there is exactly one joint position within ``radius`` of centre + slope (s - middle).
 
     It lies within ``inner`` of it. ``velocity`` and ``acceleration``: bounds of its first and second derivative by s.
@@ -78,13 +78,13 @@ class Track:
 
     def at(self, s: arb, order: int = 0) -> list[arb]:
         """A derivative at a ball, by Horner's rule."""
-        found = []
+        values = []
         for coefficients in self.derivatives[order]:
             total = arb(0)
             for c in reversed(coefficients):
                 total = total * s + c
-            found.append(total)
-        return found
+            values.append(total)
+        return values
 
     def behind(self, turns: bool, value: arb, rate: arb, s: arb) -> list[list[arb]]:
         """p(s), p'(s), p''(s) seen from what the first joint moves, which is at ``value`` and goes on at ``rate``."""
@@ -168,7 +168,7 @@ class MotionChain:
                     return [float(v.mid()) for v in q]
             return None
 
-    def piece(self, track: Track, low: Fraction, high: Fraction, start: Sequence[float]) -> Piece | None:
+    def piece(self, track: Track, low: Fraction, high: Fraction, start: Sequence[float]) -> ProvedPiece | None:
         """A proved piece over [low, high] near ``start``, a solution about the middle; None where the test fails."""
         centre = self.solve(track, (low + high) / 2, start)
         if centre is None:
@@ -176,7 +176,7 @@ class MotionChain:
         with precision(BITS):
             return self._tested(track, low, high, centre)
 
-    def _tested(self, track: Track, low: Fraction, high: Fraction, centre: list[float]) -> Piece | None:
+    def _tested(self, track: Track, low: Fraction, high: Fraction, centre: list[float]) -> ProvedPiece | None:
         middle, sigma = _ball((low + high) / 2), arb(0, 1) * _ball((high - low) / 2)
         q, first, turns = [arb(0), *map(arb, centre[1:])], arb(centre[0]), self._turning[0]
         matrix, tip, _, _ = self._jacobian(q)
@@ -210,7 +210,7 @@ class MotionChain:
         acceleration = _solved(near, _times(inverse, push))
         if acceleration is None:
             return None
-        return Piece(
+        return ProvedPiece(
             low,
             high,
             tuple(centre),
@@ -240,18 +240,18 @@ def _times(m: arb_mat, v: Sequence[arb]) -> list[arb]:
 def _inverse(m: arb_mat) -> arb_mat | None:
     """The middle of an inverse: any matrix will do for the test."""
     try:
-        found = m.inv()
+        result = m.inv()
     except ZeroDivisionError:
         return None
-    return arb_mat([[found[i, j].mid() for j in range(3)] for i in range(3)])
+    return arb_mat([[result[i, j].mid() for j in range(3)] for i in range(3)])
 
 
 def _solved(m: arb_mat, v: Sequence[arb]) -> list[arb] | None:
     try:
-        found = m.solve(arb_mat([[x] for x in v]))
+        result = m.solve(arb_mat([[x] for x in v]))
     except ZeroDivisionError:
         return None
-    return [found[i, 0] for i in range(3)]
+    return [result[i, 0] for i in range(3)]
 
 
 def _derived(coefficients: Sequence[arb]) -> list[arb]:

@@ -28,12 +28,11 @@ from functools import partial
 from itertools import pairwise
 from typing import Any
 
-from bezier.arm.choices import Arc, Choice, End, arcs_of, by_turns
+from bezier.arm.choices import Arc, Choice, Known, RangeEnd, arcs_of, by_turns
 from bezier.arm.elimination import Quotient, quotient, weights
-from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse, product
+from bezier.arm.model import Arm, Chain, JointKind, Matrix, apply, inverse, product
 from bezier.arm.ratio import Ratio, reduced
 from bezier.arm.roots_of_squares import Rules, Scaled, Turn, fixed, turned
-from bezier.arm.value import Known
 from bezier.arm.wrist import Found, Joints, meeting
 from bezier.curves.scalar import dot, is_zero
 from qe.errors import InternalError, Unable
@@ -48,7 +47,7 @@ ZERO = Fraction(0)
 
 
 @dataclass(frozen=True)
-class Shape:
+class ParallelShape:
     """Which of the arms above: ``chain`` read in the direction of the derivation; ``first``: the place of the first of
     the three parallel axes, 0 (three joints) or 1 (six joints). ``slide``: the place and the direction, seen from the
     base, of a joint that slides along three parallel axes; it is left out of the chain."""
@@ -59,7 +58,7 @@ class Shape:
     slide: tuple[int, tuple[Any, ...]] | None = None
 
 
-def shape_of(arm: Arm) -> Shape:
+def shape_of(arm: Arm) -> ParallelShape:
     """Raises ``Unable`` for an arm that the derivation does not fit."""
     chain = arm.chain
     needed = (
@@ -67,22 +66,22 @@ def shape_of(arm: Arm) -> Shape:
         " neighbouring axes that meet after one before"
     )
     refused = Unable(f"inverse kinematics at a pose needs {needed}; {arm.name} is none")
-    sliding = [k for k, joint in enumerate(chain.joints) if joint.motion is Motion.PRISMATIC]
+    sliding = [k for k, joint in enumerate(chain.joints) if joint.motion is JointKind.PRISMATIC]
     if len(chain.joints) == 4 and len(sliding) == 1 and (shape := _with_slide(chain, sliding[0])) is not None:
         return shape
     if sliding:
         raise refused
     if len(chain.joints) == 3 and _are_parallel(chain, 0):
-        return Shape(chain, False, 0)
+        return ParallelShape(chain, False, 0)
     if len(chain.joints) == 6:
         backwards = Chain(tuple(inverse(m) for m in reversed(chain.constants)), chain.joints[::-1])
         for one, is_reversed in ((chain, False), (backwards, True)):
             if _are_parallel(one, 1) and _meet(one) is not None:
-                return Shape(one, is_reversed, 1)
+                return ParallelShape(one, is_reversed, 1)
     raise refused
 
 
-def _with_slide(chain: Chain, k: int) -> Shape | None:
+def _with_slide(chain: Chain, k: int) -> ParallelShape | None:
     """Three parallel joints and one that slides along them, as in a SCARA arm: its length moves nothing else."""
     between = chain.constants[1:4]
     if any(not is_zero(m[i][2]) for m in between for i in range(2)):
@@ -91,7 +90,7 @@ def _with_slide(chain: Chain, k: int) -> Shape | None:
     for m in between[:k]:
         axis = product(axis, m)
     rest = Chain((*chain.constants[:k], merged, *chain.constants[k + 2 :]), (*chain.joints[:k], *chain.joints[k + 1 :]))
-    return Shape(rest, False, 0, (k, tuple(row[2] for row in axis))) if _are_parallel(rest, 0) else None
+    return ParallelShape(rest, False, 0, (k, tuple(row[2] for row in axis))) if _are_parallel(rest, 0) else None
 
 
 def _are_parallel(chain: Chain, first: int) -> bool:
@@ -128,20 +127,21 @@ Stage = tuple[str, Poly, _Parallel | None]
 
 @dataclass(frozen=True, eq=False)
 class _Tower:
-    """The solutions at one pose as functions of the roots. ``stages``: the name of a root, its square, and what leaves
-    the last joint free where it is known; ``size``: the square of the length of Π's translation: where it vanishes, the
-    first and the last of the parallel joints are free."""
+    """The solutions at one pose as functions of the roots."""
 
     stages: tuple[Stage, ...]
+    """The name of a root, its square, and what leaves the last joint free where it is known."""
     joints: Mapping[int, tuple[Quotient, ...]]
     size: Poly
+    """The square of the length of Π's translation: where it vanishes, the first and the last of the parallel joints
+    are free."""
 
 
 @dataclass(frozen=True, eq=False)
-class Search:
+class PoseSearch:
     """The solutions at one pose, root by root of the tower."""
 
-    shape: Shape
+    shape: ParallelShape
     rules: Rules
     pose: Scaled
 
@@ -192,7 +192,7 @@ class Search:
         sign = sum((a * b for a, b in zip(axis, z, strict=True)), ZERO)
         length = along * sign
         rows = tuple((*row[:3], rules.tidy(row[3] - length * c)) for row, c in zip(self.pose.rows, axis, strict=True))
-        rest = Search(replace(self.shape, slide=None), rules, Scaled(rows, self.pose.scale, rules))
+        rest = PoseSearch(replace(self.shape, slide=None), rules, Scaled(rows, self.pose.scale, rules))
         slid = (quotient(length, rules.number(1)),)
         for here, joints, multiple, choices in rest.solutions(place):
             moved: Joints = {j + (j >= k): known for j, known in joints.items()}
@@ -216,8 +216,8 @@ class Search:
         gaps = [RealAlgebraic.rational(rational_between(*pair)) for pair in pairwise([None, *marks, None])]
         behind = self._after_first(turned((-one, one * 0), one), one)
         origin = Evaluation(place.extend(RealAlgebraic.rational(ZERO)))
-        ends = [End(origin, (quotient(-one, one), quotient(one * 0, one)))]
-        ends += [End(Evaluation(place.extend(value)), known) for value in marks]
+        ends = [RangeEnd(origin, (quotient(-one, one), quotient(one * 0, one)))]
+        ends += [RangeEnd(Evaluation(place.extend(value)), known) for value in marks]
         at = [holds(behind.stages, RealAlgebraic.rational(ZERO)), *(holds(around.stages, value) for value in marks)]
         after = [holds(around.stages, value) for value in gaps]
         return arcs_of(ends, at, after)
@@ -274,9 +274,9 @@ class Search:
         near = fixed(inverse(constants[1]), rules) @ turn1.inverse() @ based
         backs = fixed(inverse(constants[5]), rules), fifth.motion.inverse(), fixed(inverse(constants[4]), rules)
         far = backs[0] @ backs[1] @ backs[2]
-        found = near @ turn6.inverse() @ backs[0] @ backs[1] @ backs[2]
+        result = near @ turn6.inverse() @ backs[0] @ backs[1] @ backs[2]
         parallel = _Parallel(below.top, partial(self._elbow_over_last, near, far), rules.ring.index[ROOTS[2]])
-        joints, size_of_plane, square = self._three(found)
+        joints, size_of_plane, square = self._three(result)
         after: tuple[Stage, ...] = ((ROOTS[1], fifth.square.top, parallel), (ROOTS[2], square, None))
         pairs = {**(known or {}), 4: fifth.pair, 5: turn6.pair, **joints}
         return _Tower((*stages, *after), pairs, size_of_plane)
@@ -307,20 +307,20 @@ class Search:
         one = k * 0 + 1
         return one * dot(g, o3), one * (g[1] * o3[0] - g[0] * o3[1]), k, squared
 
-    def _three(self, found: Scaled) -> tuple[dict[int, tuple[Quotient, ...]], Poly, Poly]:
+    def _three(self, motion: Scaled) -> tuple[dict[int, tuple[Quotient, ...]], Poly, Poly]:
         """The three parallel joints with Π = ``found``, the square of the length of its shift, and m3²."""
         rules, first = self.rules, self.shape.first
         second, third = self.shape.chain.constants[first + 1 : first + 3]
-        across = [found.rows[i][3] for i in range(2)]
+        across = [motion.rows[i][3] for i in range(2)]
         size = rules.tidy(dot(across, across))
-        elbow = rules.turn(*self._elbow(size, rules.tidy(found.scale * found.scale)), ROOTS[2])
+        elbow = rules.turn(*self._elbow(size, rules.tidy(motion.scale * motion.scale)), ROOTS[2])
         assert elbow is not None, "no two neighbours of the parallel axes coincide"
         inner = fixed(second, rules) @ elbow.motion @ fixed(third, rules)
         f = [inner.rows[i][3] for i in range(2)]  # its length is that of Π's shift, but for the scales
-        cosine = rules.tidy(dot(f, across) * found.scale)
-        sine = rules.tidy((f[0] * across[1] - f[1] * across[0]) * found.scale)
+        cosine = rules.tidy(dot(f, across) * motion.scale)
+        sine = rules.tidy((f[0] * across[1] - f[1] * across[0]) * motion.scale)
         turn2 = turned((cosine, sine), rules.tidy(size * inner.scale))
-        turn4 = (turn2 @ inner.rotation).inverse() @ found.rotation
+        turn4 = (turn2 @ inner.rotation).inverse() @ motion.rotation
         return {first: turn2.pair, first + 1: elbow.pair, first + 2: turn4.pair}, size.top, elbow.square.top
 
     def _leaves(self, here: Evaluation, stages: Sequence[Stage]) -> Iterator[tuple[Evaluation, bool]]:
@@ -361,12 +361,12 @@ def _height(pair: Sequence[Matrix]) -> tuple[Any, Any]:
     return second[2][3] + second[2][2] * third[2][3], second[2][2] * third[2][2]
 
 
-def _out_of_plane(found: Scaled, pair: Sequence[Matrix]) -> Iterator[Any]:
+def _out_of_plane(motion: Scaled, pair: Sequence[Matrix]) -> Iterator[Any]:
     """What has to vanish for a motion of the plane."""
     height, side = _height(pair)
-    yield from (found.rows[2][0], found.rows[2][1])
-    yield found.rows[2][2] - found.scale * side
-    yield found.rows[2][3] - found.scale * height
+    yield from (motion.rows[2][0], motion.rows[2][1])
+    yield motion.rows[2][2] - motion.scale * side
+    yield motion.rows[2][3] - motion.scale * height
 
 
 def _marks(place: Point, var: int, polynomials: Sequence[Poly]) -> list[RealAlgebraic]:

@@ -9,7 +9,7 @@ from typing import Any
 from bezier.arm.choices import Choice, backwards
 from bezier.arm.inverse import Inverse, Solution, exact_number, listed, solution_of
 from bezier.arm.model import Arm, Matrix, inverse
-from bezier.arm.parallel_axes import ROOTS, Search, shape_of
+from bezier.arm.parallel_axes import ROOTS, PoseSearch, shape_of
 from bezier.arm.roots_of_squares import Rules, fixed
 from bezier.arm.wrist import ROOTS as WRIST_ROOTS
 from bezier.arm.wrist import Joints, solve_wrist, wrist_of
@@ -69,15 +69,15 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
         solutions = [_solution(arm, *leaf) for leaf in solve_wrist(wrist, rules, place, pose)]
     else:
         wanted = fixed(pose, rules) if not shape.is_reversed else fixed(inverse(pose), rules)
-        leaves = Search(shape, rules, wanted).solutions(place)
+        leaves = PoseSearch(shape, rules, wanted).solutions(place)
         solutions = [_solution(arm, *leaf, is_reversed=shape.is_reversed) for leaf in leaves]
-    found = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
+    result = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]
-    free = {name for s in found for name, v in zip(names, s.values, strict=True) if v is None}
+    free = {name for s in result for name, v in zip(names, s.values, strict=True) if v is None}
     way = -1 if shape is not None and shape.is_reversed else 1
-    named = {_named(names[::way], s.values[::way], shape is None) for s in found if None in s.values}
-    cases = (*sorted(named), *("two solutions meet: the arm is singular here",) * any(s.multiple for s in found))
-    return Inverse(arm, numbers, found, tuple(n for n in names if n in free), cases, rows)
+    named = {_named(names[::way], s.values[::way], shape is None) for s in result if None in s.values}
+    cases = (*sorted(named), *("two solutions meet: the arm is singular here",) * any(s.multiple for s in result))
+    return Inverse(arm, numbers, result, tuple(n for n in names if n in free), cases, rows)
 
 
 def _named(names: Sequence[str], values: Sequence[Any], is_wrist: bool) -> str:

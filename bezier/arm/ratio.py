@@ -45,8 +45,8 @@ class Ratio:
         return self + negated
 
     def __rsub__(self, other: Any) -> Ratio:
-        found: Ratio = -self + other
-        return found
+        result: Ratio = -self + other
+        return result
 
     def __mul__(self, other: Any) -> Ratio:
         if isinstance(other, int | Fraction):
@@ -59,8 +59,8 @@ class Ratio:
 
     def __truediv__(self, other: Any) -> Ratio:
         """By a nonzero number."""
-        found: Ratio = self * (1 / (Fraction(other) if isinstance(other, int) else other))
-        return found
+        result: Ratio = self * (1 / (Fraction(other) if isinstance(other, int) else other))
+        return result
 
     @property
     def scale(self) -> Fraction:
@@ -92,13 +92,13 @@ def reduced(p: Poly, field: NumberField) -> Poly:
     if p.degree(0) < n:
         return p
     minimal, w = field.minimal_polynomial, p.ring.gen(0)
-    found = list(p.coefficients(0))
-    while len(found) > n:
-        lead = found.pop()
+    result = list(p.coefficients(0))
+    while len(result) > n:
+        lead = result.pop()
         for k in range(n):
             if minimal[k]:
-                found[len(found) - n + k] = found[len(found) - n + k] - lead * minimal[k]
+                result[len(result) - n + k] = result[len(result) - n + k] - lead * minimal[k]
     total = p.ring.constant(0)
-    for c in reversed(found):
+    for c in reversed(result):
         total = total * w + c
     return total

@@ -8,19 +8,38 @@ end point. A point with distance ρ from axis 1 and height z is reached iff
 
 With h = |R1 - R2|, in the hole (ρ - a)² + (z - c)² < h² of σ = 1 the root for σ = -1 lies between 2a - h and 2a + h.
 So if h <= a and 2a + h <= R1 + R2 the other sign reaches it: the reachable set is (ρ - a)² + (z - c)² <= (R1 + R2)².
+
+What an arm reaches as a formula in x, y and z, by quantifier elimination: position only, joints that turn without
+limits, joints that slide within theirs.
+
+With p' = A0^-1 p and q = A1 M2 A2 ... An 0 a point is reached iff p' = M1 q for some joints. A first joint that turns
+takes q to every point with the same height and distance from its axis, so it is left out at once:
+
+    q_z = p'_z,  q_x² + q_y² = p'_x² + p'_y²;    one that slides:  q_x = p'_x, q_y = p'_y, p'_z - q_z within its limits.
+
+Every other joint is a quantified pair (c, s) with c² + s² = 1, or a quantified length within its limits; so is the
+generator of the field of constants. What is left is a question of real algebra, with a certificate like any other.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from math import hypot
+from fractions import Fraction
+from math import hypot, lcm
 from typing import Any
 
+import qe
 from bezier.arm.elimination import Geometry
 from bezier.arm.inverse import geometry_of
-from bezier.arm.model import Arm, apply
+from bezier.arm.model import Arm, Joint, JointKind, apply, inverse, motion, product
+from bezier.arm.ratio import Ratio, constant, variable
 from bezier.curves.scalar import dot, is_zero, sign
 from qe.errors import Unable
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, exists
+from qe.formula.syntax import Formula, Relation
+from qe.proof.answer import Answer
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +97,78 @@ def _check_shape(geometry: Geometry) -> None:
     if not all(geometry.turns):
         raise Unable(f"{geometry.arm.name}: the closed form is for arms whose joints all turn")
     parallel = is_zero(geometry.nu[2])
-    flat = all(is_zero(f[2]) for f in geometry.v[1:])
+    is_plane = all(is_zero(f[2]) for f in geometry.v[1:])
     in_plane = is_zero(geometry.v[0][2] + geometry.gamma[2])
-    if not (parallel and flat and in_plane and sign(dot(geometry.shift[:2], geometry.shift[:2])) > 0):
+    if not (parallel and is_plane and in_plane and sign(dot(geometry.shift[:2], geometry.shift[:2])) > 0):
         raise Unable(f"{geometry.arm.name}: the closed form is for arms that move in a plane through their first axis")
+
+
+PLACE = ("x", "y", "z")
+SECONDS = 30.0
+"""How long the elimination may take by default."""
+
+
+def reachable_formula(arm: Arm, *, timeout: float | None = SECONDS, check: bool = True) -> Answer:
+    """The points (mm) that the arm reaches, as a formula in x, y, z: an answer of ``qe.eliminate``, with ``check`` with
+    its certificate. Limits of joints that turn are left aside.
+
+    Raises ``Unable`` in one line where the elimination does not end in ``timeout`` seconds, or is beyond its methods.
+    """
+    result = qe.eliminate(question(arm), timeout=timeout, check=check)
+    if result.formula is None:
+        reason = result.reason or result.status.value
+        raise Unable(f"the reachable set of {arm.name} is not found by elimination: {reason}")
+    return result
+
+
+def question(arm: Arm) -> Formula:
+    """That the arm reaches (x, y, z): the formula with quantifiers."""
+    chain, joints = arm.chain, arm.chain.joints
+    bound = ["w"] * (arm.field.degree > 1)
+    names = [name for k in range(1, len(joints)) for name in _names(k, joints[k])]
+    ring = Ring.of(("w", *PLACE, *names))
+    conditions = [*_generator(arm, ring)]
+    q = chain.constants[1]
+    for k, (joint, after) in enumerate(zip(joints[1:], chain.constants[2:], strict=True), start=1):
+        values = [variable(ring, name, arm.field) for name in _names(k, joint)]
+        conditions += _within(joint, values)
+        q = product(product(q, motion(joint, tuple(values) if len(values) == 2 else values[0])), after)
+    zero = constant(ring, 0, arm.field)
+    tip = [zero + v for v in apply(q, (Fraction(0),) * 3)]
+    p = [zero + v for v in apply(inverse(chain.constants[0]), [variable(ring, name, arm.field) for name in PLACE])]
+    if joints[0].motion is JointKind.REVOLUTE:
+        squares = [v[0] * v[0] + v[1] * v[1] for v in (tip, p)]
+        pairs = [(tip[2], p[2]), (squares[0], squares[1])]
+    else:
+        pairs = [(tip[0], p[0]), (tip[1], p[1])]
+        conditions += _within(joints[0], [p[2] - tip[2]])
+    conditions += [atom((a - b).top, Relation.EQ) for a, b in pairs]
+    return exists([*bound, *names], conj(conditions))
+
+
+def _names(k: int, joint: Joint) -> tuple[str, ...]:
+    return (f"c{k + 1}", f"s{k + 1}") if joint.motion is JointKind.REVOLUTE else (f"d{k + 1}",)
+
+
+def _within(joint: Joint, values: list[Ratio]) -> Iterator[Formula]:
+    """What the values of a joint satisfy; a ``Ratio`` has a positive denominator."""
+    if joint.motion is JointKind.REVOLUTE:
+        c, s = values
+        yield atom((c * c + s * s - 1).top, Relation.EQ)
+    elif joint.limits is not None:
+        yield atom((values[0] - joint.limits[0]).top, Relation.GE)
+        yield atom((values[0] - joint.limits[1]).top, Relation.LE)
+
+
+def _generator(arm: Arm, ring: Ring) -> Iterator[Formula]:
+    """That w is the generator of the field of constants."""
+    if arm.field.degree == 1:
+        return
+    theta: Any = arm.field.theta
+    low, high = theta.interval()
+    w = ring.var("w")
+    minimal = sum((w**k * c for k, c in enumerate(theta.minimal_polynomial)), ring.constant(0))
+    scale = lcm(low.denominator, high.denominator)
+    yield atom(minimal, Relation.EQ)
+    yield atom(w * scale - int(low * scale), Relation.GE)
+    yield atom(w * scale - int(high * scale), Relation.LE)

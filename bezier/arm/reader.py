@@ -7,22 +7,34 @@ joint = "theta1"                 # a moving row; "kind" is "revolute" unless it 
 a = 0                            # mm; so is d
 alpha = "pi/2"                   # a multiple of pi/12
 limits = ["-3", "3"]             # rad or mm
+
+Paths for arms from files: ``[[curve]]`` tables of a TOML file, or the folder of a plan.
+
+[[curve]]
+points = [[10, 40, 80], [40, 100, 20]]      # control points in mm: two make a line
+name = "first"                              # optional
+spline = true                               # points to pass through instead: a natural cubic spline, one curve per span
 """
 
 from __future__ import annotations
 
+import ast
+import operator
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
-from bezier.arm.angles import EXPECTED, Angle, read_angle
-from bezier.arm.limits import MOST_RADIANS
-from bezier.arm.model import Arm, Convention, Joint, Motion, Row
-from bezier.input.files import read_text
-from bezier.input.numbers import NotANumber, describe, shorten
-from bezier.input.toml_table import Table
+from bezier.arm.choices import MOST_RADIANS
+from bezier.arm.model import EXPECTED, Angle, Arm, Convention, Joint, JointKind, Row, read_angle
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import Vector, add, scale, subtract
+from bezier.input.numbers import MAX_CHARACTERS, NotANumber, describe, parse, shorten
+from bezier.input.toml_table import Table, read_text
 from qe.errors import InputError
+from qe.exact.algebraic import RealAlgebraic
 
 MAX_ROWS = 24
 SUFFIX = ".toml"
@@ -86,7 +98,7 @@ def _row(entry: Table) -> Row:
 
 
 def _joint(entry: Table) -> Joint:
-    kind = entry.choice("kind", Motion, Motion.REVOLUTE)
+    kind = entry.choice("kind", JointKind, JointKind.REVOLUTE)
     name = entry.values["joint"]
     if not isinstance(name, str) or not name.isidentifier():
         raise entry.error("joint", "a name such as theta1", describe(name))
@@ -98,7 +110,7 @@ def _joint(entry: Table) -> Joint:
         raise entry.error("limits", "the least and the greatest value", describe(raw))
     inner = Table({f"limits[{i}]": value for i, value in enumerate(raw)}, entry.source, entry.lines, entry.prefix)
     low, high = (inner.number(f"limits[{i}]") for i in range(2))
-    if kind is Motion.REVOLUTE and max(abs(low), abs(high)) > MOST_RADIANS:
+    if kind is JointKind.REVOLUTE and max(abs(low), abs(high)) > MOST_RADIANS:
         expected = f"rad, at most {MOST_RADIANS} (four full turns)"
         raise entry.error("limits", expected, f"{low} and {high}, which may be degrees")
     if low >= high:
@@ -118,3 +130,125 @@ def _text(table: Table, key: str, default: str) -> str:
     if not isinstance(value, str):
         raise table.error(key, "a text", describe(value))
     return value
+
+
+MOST_POINTS = 40
+
+
+def load_route(path: Path) -> dict[str, Bezier]:
+    """The curves of a file by name, in order. Raises ``InputError``."""
+    return read_route(read_text(path), str(path))
+
+
+def read_route(text: str, source: str = "<path>") -> dict[str, Bezier]:
+    """The curves that TOML text describes. Raises ``InputError``."""
+    table = Table.parse(text, source)
+    table.only(("curve",))
+    entries = table.tables("curve")
+    if not entries:
+        raise table.error("curve", "tables [[curve]]", "none")
+    result: dict[str, Bezier] = {}
+    for i, entry in enumerate(entries):
+        entry.only(("points", "name", "spline"))
+        name = entry.values.get("name", f"curve {i + 1}")
+        if not isinstance(name, str) or not name or name in result:
+            raise entry.error("name", "a name of its own for each curve", describe(name))
+        points = _points(entry)
+        is_spline = entry.values.get("spline", False)
+        if not isinstance(is_spline, bool):
+            raise entry.error("spline", "true or false", describe(is_spline))
+        spans = natural_spline(points) if is_spline else [Bezier.of(points)]
+        result |= {name if len(spans) == 1 else f"{name}, span {k}": c for k, c in enumerate(spans, start=1)}
+    return result
+
+
+def _points(entry: Table) -> list[Vector]:
+    raw = entry.required("points", "a list of points")
+    if not isinstance(raw, list) or not 2 <= len(raw) <= MOST_POINTS:
+        raise entry.error("points", f"2 to {MOST_POINTS} points", describe(raw))
+    return [entry.as_point(f"points[{i}]", p) for i, p in enumerate(raw)]
+
+
+def natural_spline(points: Sequence[Vector]) -> list[Bezier]:
+    """The natural cubic spline through the points, with equal steps of the parameter, as one Bézier curve for each
+    span.
+
+    With slopes m_i: m_{i-1} + 4 m_i + m_{i+1} = 3 (p_{i+1} - p_{i-1}) inside, 2 m_0 + m_1 = 3 (p_1 - p_0) and likewise
+    at the end (C. de Boor, A Practical Guide to Splines, chapter IV). Exact.
+    """
+    n = len(points)
+    diagonal = [Fraction(2), *[Fraction(4)] * (n - 2), Fraction(2)]
+    right = [scale(3, subtract(points[min(i + 1, n - 1)], points[max(i - 1, 0)])) for i in range(n)]
+    for i in range(1, n):
+        factor = 1 / diagonal[i - 1]
+        diagonal[i] -= factor
+        right[i] = subtract(right[i], scale(factor, right[i - 1]))
+    slopes = [scale(1 / diagonal[-1], right[-1])]
+    for i in range(n - 2, -1, -1):
+        slopes.insert(0, scale(1 / diagonal[i], subtract(right[i], slopes[0])))
+    third = Fraction(1, 3)
+    return [
+        Bezier((p, add(p, scale(third, u)), subtract(q, scale(third, v)), q))
+        for p, q, u, v in zip(points, points[1:], slopes, slopes[1:], strict=False)
+    ]
+
+
+Exact = Fraction | RealAlgebraic
+
+EXACT = 'an exact number such as 3/4, 0.75 or "44*sqrt(2) + 120"'
+MOST_ROOTS = 4
+_BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+
+
+def read_exact(text: str) -> Exact:
+    """The number that the text stands for, also with the minus sign of printed pages. Raises ``InputError``."""
+    text = text.replace("−", "-")
+    try:
+        return parse(text)
+    except NotANumber as error:
+        if "sqrt" not in text or len(text) > MAX_CHARACTERS:
+            raise InputError(f"expected {EXACT}, found {error}") from None
+    refused = InputError(f'expected {EXACT}, found "{shorten(text)}"')
+    if text.count("sqrt") > MOST_ROOTS:
+        raise InputError(f"expected at most {MOST_ROOTS} square roots in a number, found {text.count('sqrt')}")
+    try:
+        tree = ast.parse(text.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise refused from None
+    value = _value(tree.body, text.strip(), refused)
+    return value.as_fraction() if isinstance(value, RealAlgebraic) and value.is_rational else value
+
+
+def _value(node: ast.expr, text: str, refused: InputError) -> Any:
+    match node:
+        case ast.Constant(value=int() | float()) if not isinstance(node.value, bool):
+            try:
+                return parse(ast.get_source_segment(text, node) or "")  # the digits as written, never a float
+            except NotANumber:
+                raise refused from None
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=inner):
+            value = _value(inner, text, refused)
+            return -value if isinstance(sign, ast.USub) else value
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
+            a, b = _value(left, text, refused), _value(right, text, refused)
+            if isinstance(op, ast.Div) and b == 0:
+                raise InputError(f'expected {EXACT}, found "{shorten(text)}", which divides by zero')
+            return _BINARY[type(op)](a, b)
+        case ast.Call(func=ast.Name(id="sqrt"), args=[inner], keywords=[]):
+            return _root(_value(inner, text, refused), text)
+    raise refused
+
+
+def _root(value: Any, text: str) -> RealAlgebraic:
+    if isinstance(value, RealAlgebraic) and value.is_rational:
+        value = value.as_fraction()
+    if not isinstance(value, Fraction):
+        raise InputError(f'expected square roots of rational numbers, found "{shorten(text)}"')
+    if value < 0:
+        raise InputError(f'expected {EXACT}, found "{shorten(text)}", with the root of a negative number')
+    return RealAlgebraic.from_root([-value.numerator, 0, value.denominator], 0, value + 1)

@@ -14,8 +14,7 @@ from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.joint_plan import JointPlan, joint_plan
 from bezier.arm.model import Arm
 from bezier.arm.pose import rotation_of, solve_pose
-from bezier.arm.reach_formula import SECONDS, reachable_formula
-from bezier.arm.reachable import Torus, reachable_set
+from bezier.arm.reachable import SECONDS, Torus, reachable_formula, reachable_set
 from bezier.arm.reader import load_arm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
@@ -63,7 +62,7 @@ class Robot:
         return reachable_set(self.arm)
 
     def reachable_formula(self, timeout: float | None = SECONDS) -> Answer:
-        """The reachable set as a formula in x, y, z, by quantifier elimination: see ``bezier.arm.reach_formula``."""
+        """The reachable set as a formula in x, y, z, by quantifier elimination: see ``bezier.arm.reachable``."""
         return reachable_formula(self.arm, timeout=timeout)
 
     def path(self, curves: Mapping[str, Bezier]) -> JointPath:

@@ -8,14 +8,13 @@ from fractions import Fraction
 from math import gcd
 from typing import Any
 
-from bezier.arm.angles import root_in
 from bezier.arm.elimination import Quotient, quotient
-from bezier.arm.model import Matrix
+from bezier.arm.model import Matrix, root_in
 from bezier.arm.ratio import Ratio, constant, reduced, variable
-from bezier.arm.square_roots import Terms, square_roots
 from bezier.curves.scalar import is_zero, rational
 from qe.errors import Unable
-from qe.exact.algebraic import RealAlgebraic
+from qe.exact.algebraic import RealAlgebraic, irreducible_roots
+from qe.exact.algebraic_text import square_part
 from qe.exact.field import FieldElement, NumberField
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
@@ -190,13 +189,13 @@ def _sum_of_roots(value: RealAlgebraic) -> Terms | None:
 
 
 def _lowered(p: Poly, place: int, square: Poly) -> Poly:
-    found = list(p.coefficients(place))
-    if len(found) <= 2:
+    result = list(p.coefficients(place))
+    if len(result) <= 2:
         return p
-    while len(found) > 2:
-        lead = found.pop()
-        found[-2] = found[-2] + lead * square
-    return found[0] + found[1] * p.ring.gen(place)
+    while len(result) > 2:
+        lead = result.pop()
+        result[-2] = result[-2] + lead * square
+    return result[0] + result[1] * p.ring.gen(place)
 
 
 def _constant(value: Ratio, field: NumberField) -> Any:
@@ -215,3 +214,40 @@ def _constant(value: Ratio, field: NumberField) -> Any:
 
 def _is_nothing(value: Any) -> bool:
     return not value.top
+
+
+Terms = dict[int, Fraction]
+
+
+def square_roots(value: Any) -> Terms:
+    """The number as a sum of factors times square roots of squarefree numbers, from a field of at most two square
+    roots. Raises ``Unable`` where it is none.
+
+    With c the mean of a number and its conjugates, it is c plus what it differs from c by (degree 2), or plus its half
+    sums with each conjugate, less c (degree 4): in such a field their squares are rational.
+    """
+    number = rational(value)
+    if number is not None:
+        return {1: number} if number else {}
+    a: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
+    conjugates = irreducible_roots(a.poly)
+    refused = Unable("certificates of joint positions are for coordinates that are sums of square roots")
+    if a.degree not in (2, 4) or len(conjugates) != a.degree:
+        raise refused
+    mean = Fraction(-a.minimal_polynomial[-2], a.degree * a.minimal_polynomial[-1])
+    parts = [a - mean] if a.degree == 2 else [(a + b) * Fraction(1, 2) - mean for b in conjugates if b != a]
+    result = {1: mean}
+    for x in parts:
+        square = rational(x * x)
+        if square is None:
+            raise refused
+        if square:
+            d, q = _root(square)
+            result[d] = result.get(d, Fraction(0)) + (q if x > 0 else -q)
+    return {d: q for d, q in result.items() if q}
+
+
+def _root(square: Fraction) -> tuple[int, Fraction]:
+    whole = square.numerator * square.denominator
+    outside = square_part(whole)
+    return whole // outside**2, Fraction(outside, square.denominator)

@@ -8,7 +8,7 @@ free: there the angles of the neighbouring layers are offered.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -20,12 +20,11 @@ from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.joint_path import JointPath
 from bezier.arm.kinematics import wrapped
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import InputError, Unable
 from qe.extras import wanted
 
-Note = Callable[[], None]
 MOST_SAMPLES = 5_000
 UNIT = 1 << 32
 SLIDE = 100.0
@@ -84,20 +83,20 @@ def samples_of(ends: Sequence[Fraction], law: TimeLaw, count: int) -> list[Sampl
     """
     if not 2 <= count <= MOST_SAMPLES:
         raise InputError(f"samples: 2 to {MOST_SAMPLES} expected, {count} found")
-    found = []
+    result = []
     for k in range(count):
         tau = Fraction(k, count - 1)
         share = law.derivatives(tau)[0]
         curve = next(i for i, end in enumerate(ends) if share <= end)
         begin = ends[curve - 1] if curve else 0
-        found.append(Sample(tau, curve, Fraction(round((share - begin) / (ends[curve] - begin) * UNIT), UNIT)))
-    return found
+        result.append(Sample(tau, curve, Fraction(round((share - begin) / (ends[curve] - begin) * UNIT), UNIT)))
+    return result
 
 
-def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lambda: None) -> JointSequence:
+def joint_sequence(joint_path_: JointPath, samples: Sequence[Sample]) -> JointSequence:
     """The sequence of least total change. Raises ``Unable`` where a sample has no joint position within the limits."""
-    arm = found.arm
-    layers = list(_layers(found, samples, note))
+    arm = joint_path_.arm
+    layers = list(_layers(joint_path_, samples))
     with wanted():  # loading it takes longer than planning a path without an arm
         import networkx as nx
 
@@ -114,27 +113,26 @@ def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lam
     stands = [layers[k][i] for k, i in path[1:-1]]
     change = sum(_distance(arm, a.angles, b.angles) for a, b in pairwise(stands))
     run, switches = _kept(arm, stands, samples)
-    begin = _between_limits(found, stands[0], samples[0], run)
+    begin = _between_limits(joint_path_, stands[0], samples[0], run)
     return JointSequence(tuple(samples), _unrolled(arm, stands, begin), change, run, switches)
 
 
-def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator[list[Stand]]:
-    curves = list(found.curves.values())
+def _layers(path: JointPath, samples: Sequence[Sample]) -> Iterator[list[Stand]]:
+    curves = list(path.curves.values())
     # where some motions pass a limit and others do not, a sequence that keeps the limits is wanted
-    kept = found.kept_numbers if found.excesses else frozenset[int]()
+    kept = path.kept_numbers if path.excesses else frozenset[int]()
     solved = []
     for sample in samples:
-        note()
-        solved.append([s for s in solve(found.arm, curves[sample.curve].point(sample.s)).solutions if s.allowed])
+        solved.append([s for s in solve(path.arm, curves[sample.curve].point(sample.s)).solutions if s.allowed])
     for k, (sample, solutions) in enumerate(zip(samples, solved, strict=True)):
-        places = _places(found, sample)
+        places = _places(path, sample)
         around = [a for other in solved[max(k - 1, 0) : k + 2] for s in other if (a := s.angles[0]) is not None]
-        taken = [(_runs(found, places, (sample.curve, sample.s), solution), solution) for solution in solutions]
+        taken = [(_runs(path, places, (sample.curve, sample.s), solution), solution) for solution in solutions]
         stands = [
             Stand(angles, runs & kept if kept else runs)
             for runs, solution in taken
             if runs & kept or not kept
-            for angles in _offered(found.arm, solution, around)
+            for angles in _offered(path.arm, solution, around)
         ]
         if not stands:
             where = f"s = {float(sample.s):.6g} of curve {sample.curve + 1}"
@@ -159,14 +157,14 @@ def _middle(arm: Arm, solution: Solution, joint: int) -> float:
     return 0.0
 
 
-def _places(found: JointPath, sample: Sample) -> list[tuple[int, Branch, tuple[float, ...]]]:
+def _places(path: JointPath, sample: Sample) -> list[tuple[int, Branch, tuple[float, ...]]]:
     """Every motion that is under way at the sample: its number, its branch, and about where it is."""
-    under_way = ((run.number, run.branch(sample.curve)) for run in found.runs)
+    under_way = ((run.number, run.branch(sample.curve)) for run in path.runs)
     return [(n, b, b.at(sample.s)) for n, b in under_way if b is not None and b.low <= sample.s <= b.high]
 
 
 def _runs(
-    found: JointPath,
+    path: JointPath,
     places: Sequence[tuple[int, Branch, tuple[float, ...]]],
     at: tuple[int, Fraction],
     solution: Solution,
@@ -174,50 +172,52 @@ def _runs(
     curve, s = at
     angles = [a for a in solution.angles if a is not None]
     motions = frozenset[int]()
-    if found.motions is not None and len(found.covering_runs) < found.motions.count:  # else boxes tell, in less time
-        motions = found.motions.taken(curve, s, solution)
+    if path.motions is not None and len(path.covering_runs) < path.motions.count:  # else boxes tell, in less time
+        motions = path.motions.taken(curve, s, solution)
     if len(angles) < len(solution.angles):  # the axis: every motion passes there, or stops
-        return motions if found.motions is not None else frozenset(run.number for run in found.runs)
+        return motions if path.motions is not None else frozenset(run.number for run in path.runs)
     return motions | frozenset(
         number
         for number, branch, near in places
-        if _distance(found.arm, angles, near) < FAR and branch.contains(s, solution)
+        if _distance(path.arm, angles, near) < FAR and branch.contains(s, solution)
     )
 
 
 def _steps(arm: Arm, a: Sequence[float], b: Sequence[float]) -> list[float]:
     """From a to b, the shorter way round where a joint turns."""
-    return [wrapped(y - x) if j.motion is Motion.REVOLUTE else y - x for x, y, j in zip(a, b, arm.joints, strict=True)]
+    return [
+        wrapped(y - x) if j.motion is JointKind.REVOLUTE else y - x for x, y, j in zip(a, b, arm.joints, strict=True)
+    ]
 
 
 def _distance(arm: Arm, a: Sequence[float], b: Sequence[float]) -> float:
     parts = zip(_steps(arm, a, b), arm.joints, strict=True)
-    return sum(abs(step) if joint.motion is Motion.REVOLUTE else abs(step) / SLIDE for step, joint in parts)
+    return sum(abs(step) if joint.motion is JointKind.REVOLUTE else abs(step) / SLIDE for step, joint in parts)
 
 
-def _between_limits(found: JointPath, stand: Stand, sample: Sample, number: int | None) -> tuple[float, ...]:
+def _between_limits(path: JointPath, stand: Stand, sample: Sample, number: int | None) -> tuple[float, ...]:
     """The first angles, by full turns where the motion that is kept keeps the limits."""
-    if found.limited is not None and number is not None and number in found.limited.listed:
-        begin = zip(stand.angles, found.limited.listed[number].begin, strict=True)
+    if path.limited is not None and number is not None and number in path.limited.listed:
+        begin = zip(stand.angles, path.limited.listed[number].begin, strict=True)
         return tuple(a if near is None else near + wrapped(a - near) for a, near in begin)
-    run = next((run for run in found.runs if run.number == number and run.turns), None)
+    run = next((run for run in path.runs if run.number == number and run.turns), None)
     branch = None if run is None else run.branch(sample.curve)
     if run is None or branch is None or not branch.low <= sample.s <= branch.high:
         return stand.angles
-    near = zip(stand.angles, branch.at(sample.s), run.turns, found.arm.joints, strict=True)
+    near = zip(stand.angles, branch.at(sample.s), run.turns, path.arm.joints, strict=True)
     return tuple(
-        angle + tau * (round((close - angle) / tau) + turns) if joint.motion is Motion.REVOLUTE else angle
+        angle + tau * (round((close - angle) / tau) + turns) if joint.motion is JointKind.REVOLUTE else angle
         for angle, close, turns, joint in near
     )
 
 
 def _unrolled(arm: Arm, stands: Sequence[Stand], begin: tuple[float, ...]) -> tuple[tuple[float, ...], ...]:
     """The angles with full turns added, so that no angle moves by more than half a turn between two samples."""
-    found = [begin]
+    result = [begin]
     for stand in stands[1:]:
-        last = found[-1]
-        found.append(tuple(x + step for x, step in zip(last, _steps(arm, last, stand.angles), strict=True)))
-    return tuple(found)
+        last = result[-1]
+        result.append(tuple(x + step for x, step in zip(last, _steps(arm, last, stand.angles), strict=True)))
+    return tuple(result)
 
 
 def _kept(arm: Arm, stands: Sequence[Stand], samples: Sequence[Sample]) -> tuple[int | None, tuple[Switch, ...]]:

@@ -17,11 +17,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
-from bezier.arm.angles import STEP, Angle
-from bezier.arm.limits import MOST_RADIANS
-from bezier.arm.model import Arm, Convention, Joint, Motion, Row
-from bezier.input.files import read_text
+from bezier.arm.choices import MOST_RADIANS
+from bezier.arm.model import STEP, Angle, Arm, Convention, Joint, JointKind, Row
 from bezier.input.numbers import shorten
+from bezier.input.toml_table import read_text
 from qe.errors import InputError
 from qe.extras import lacking
 
@@ -38,7 +37,7 @@ CLOSE = 1e-3
 DIGITS = 9
 TO_MM = 1000
 QUARTER = STEP // 2
-MOVING = {"revolute": Motion.REVOLUTE, "continuous": Motion.REVOLUTE, "prismatic": Motion.PRISMATIC}
+MOVING = {"revolute": JointKind.REVOLUTE, "continuous": JointKind.REVOLUTE, "prismatic": JointKind.PRISMATIC}
 
 
 def load_urdf(name: str) -> Arm:
@@ -48,11 +47,11 @@ def load_urdf(name: str) -> Arm:
     try:
         import yourdfpy
     except ImportError as error:
-        if (told := lacking(error)) is not None:
-            raise told from None
+        if (missing := lacking(error)) is not None:
+            raise missing from None
         raise
     try:
-        with warnings.catch_warnings():  # about numbers that are none, which are told below
+        with warnings.catch_warnings():  # about numbers that are none, which are reported below
             warnings.simplefilter("ignore", RuntimeWarning)
             model = yourdfpy.URDF.load(file, build_scene_graph=False, load_meshes=False)
         joints = list(model.robot.joints)
@@ -91,15 +90,15 @@ def _path(file: str, joints: list[Any], tip: str) -> list[Any]:
         raise InputError(
             f"{file}: a tree with the ends {shorten(', '.join(ends))}: one of them expected, as {file}#LINK"
         )
-    link, found = tip or ends[0], list[Any]()
+    link, result = tip or ends[0], list[Any]()
     if link not in above:
         raise InputError(f"{file}: a link below a joint expected, {shorten(link)} found")
-    while link in above and len(found) <= len(joints):
-        found.append(above[link])
+    while link in above and len(result) <= len(joints):
+        result.append(above[link])
         link = above[link].parent
     if link in above:
         raise InputError(f"{file}: a tree of links expected, a circle found")
-    return found[::-1]
+    return result[::-1]
 
 
 def _rows(file: str, joint: Any) -> Iterator[Row]:
@@ -156,8 +155,8 @@ def _origin(matrix: Floats | None, where: str) -> tuple[tuple[Fraction, ...], tu
     # an angle of exactly ±pi/2 about y is all that asin cannot tell well: it is compared as a matrix
     given = [value for row in entries[:3] for value in row[:3]]
     if any(abs(a - b) > CLOSE for a, b in zip(given, _turned(turns), strict=True)):
-        told = ", ".join(f"{v:.6g}" for v in (roll, pitch, yaw))
-        raise InputError(f"{where}: angles that are multiples of pi/{STEP} expected, roll, pitch, yaw = {told} found")
+        angles = ", ".join(f"{v:.6g}" for v in (roll, pitch, yaw))
+        raise InputError(f"{where}: angles that are multiples of pi/{STEP} expected, roll, pitch, yaw = {angles} found")
     return shift, turns
 
 
@@ -169,14 +168,14 @@ def _turned(twelfths: tuple[int, ...]) -> list[float]:
 
 def _joint(joint: Any, where: str) -> Joint:
     motion = MOVING[joint.type]
-    factor = 1 if motion is Motion.REVOLUTE else TO_MM
+    factor = 1 if motion is JointKind.REVOLUTE else TO_MM
     limit, limits, velocity = joint.limit, None, None
     if limit is not None:
         if joint.type != "continuous" and limit.lower is not None and limit.upper is not None:
             low, high = (_exact(float(v), where) * factor for v in (limit.lower, limit.upper))
             if low > high:
                 raise InputError(f"{where}: a lower limit below the upper one expected, {low} and {high} found")
-            if motion is Motion.REVOLUTE and max(-low, high) > MOST_RADIANS:
+            if motion is JointKind.REVOLUTE and max(-low, high) > MOST_RADIANS:
                 raise InputError(f"{where}: limits in rad expected, {float(low):g} and {float(high):g} found")
             limits = (low, high) if low < high else None
         velocity = _exact(float(limit.velocity), where) * factor if limit.velocity else None

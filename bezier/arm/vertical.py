@@ -18,15 +18,19 @@ signs (σ, ε), r = σ √W and δ = ε √Q(r, z), and all of them are continuo
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
+from bezier.arm.choices import Known
+from bezier.arm.critical import AlongCurve, Number, S
 from bezier.arm.elimination import Geometry, Vector
 from bezier.arm.inverse import Solution, geometry_of
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant, variable
-from bezier.arm.value import Known
 from bezier.curves.scalar import dot, is_zero
+from qe.errors import Unable
+from qe.exact.ring import Poly
 
 Label = tuple[int, int]
 """The signs σ of r and ε of δ; ε = 1 where there is no δ, 0 for one that is not determined."""
@@ -83,8 +87,8 @@ class VerticalArm:
     def square(self, target: tuple[Ratio, Ratio, Ratio]) -> Ratio:
         """W for a point in the frame of the first joint."""
         x, y, _ = target
-        found: Ratio = x * x + y * y - self.offset * self.offset
-        return found
+        result: Ratio = x * x + y * y - self.offset * self.offset
+        return result
 
     def distance(self, target: tuple[Ratio, Ratio, Ratio]) -> Split:
         """D, the square of the distance of (r, z) from the centre."""
@@ -176,8 +180,8 @@ def vertical_arm(arm: Arm) -> VerticalArm | None:
     moves = [dot(f[1], f[1])] + ([dot(f[0][:2], f[0][:2])] if all(geometry.turns) else [])
     if not is_plane or not is_zero(normal[2]) or any(is_zero(size) for size in moves):
         return None
-    found = VerticalArm(geometry, normal, dot(normal, base), (0, 0))
-    return VerticalArm(geometry, normal, found.offset, found.in_plane(centre))
+    result = VerticalArm(geometry, normal, dot(normal, base), (0, 0))
+    return VerticalArm(geometry, normal, result.offset, result.in_plane(centre))
 
 
 def _column(turn: Any) -> Vector:
@@ -191,3 +195,70 @@ def _turned(turn: Any, vector: Vector) -> Vector:
 
 def _cross(a: Vector, b: Vector) -> Vector:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+SIGNS = (1, -1)
+
+
+@dataclass(frozen=True, eq=False)
+class SignsAlong:
+    """One curve: W and Q along it, and where they vanish."""
+
+    plane: VerticalArm
+    along: AlongCurve
+    target: tuple[Ratio, Ratio, Ratio]
+    square: Poly
+    quality: Split | None
+
+    @staticmethod
+    def of(plane: VerticalArm, along: AlongCurve) -> SignsAlong:
+        """Raises ``Unable`` where W or Q vanishes along the whole curve."""
+        target = plane.geometry.based(along.point)
+        square, quality = plane.square(target).top, plane.quality(target)
+        if not square or (quality is not None and not quality.norm.top):
+            raise Unable("the whole curve is on the axis of the first joint, or along a border of what is reached")
+        return SignsAlong(plane, along, target, square, quality)
+
+    @cached_property
+    def _zeros(self) -> tuple[frozenset[Number], frozenset[Number]]:
+        norm = [] if self.quality is None else self.along.zeros(self.quality.norm.top)
+        return frozenset(self.along.zeros(self.square)), frozenset(norm)
+
+    @property
+    def places(self) -> list[Number]:
+        """Where W or Q vanishes, in [0, 1]."""
+        return sorted(self._zeros[0] | self._zeros[1])
+
+    def has_no_square(self, s: Number) -> bool:
+        """Whether W = 0."""
+        return s in self._zeros[0]
+
+    def empty_sides(self, s: Number) -> frozenset[int]:
+        """The σ with Q(σ √W) = 0; raises ``Unable`` if the second joint is free there."""
+        if self.quality is None or s not in self._zeros[1]:
+            return frozenset()
+        here = self.along.place(s)
+        if self.plane.may_fold and here.sign(self.plane.distance(self.target).norm.top) == 0:
+            raise Unable(f"at s = {float(s):.9g} the second joint is free: which motions go on is not decided")
+        even, odd = (here.sign(part.top) for part in (self.quality.even, self.quality.odd))
+        return frozenset({-even * odd} if even else SIGNS)
+
+    def labels(self, s: Fraction) -> set[Label]:
+        """The labels of the solutions at a place where neither W nor Q vanishes."""
+        here = self.along.place(s)
+        if here.sign(self.square) < 0:
+            return set()
+        if self.quality is None:
+            return {(side, 1) for side in SIGNS}
+        even, odd, norm = (here.sign(p.top) for p in (self.quality.even, self.quality.odd, self.quality.norm))
+        # with |even| > |odd √W| the sign of the one, else that of the other
+        return {(side, end) for side in SIGNS if (even if norm > 0 else side * odd) > 0 for end in SIGNS}
+
+    def direction(self, s: Number) -> tuple[Ratio, Ratio, int]:
+        """(x, y) divided by as high a power of (s' - s) as it has, as polynomials to be read at s, and that power."""
+        x, y, _ = self.target
+        here, k = self.along.place(s), 0
+        while not (here.sign(x.top) or here.sign(y.top)):
+            x, y = (Ratio(v.top.derivative(S), v.bottom, v.field) for v in (x, y))
+            k += 1
+        return x, y, k

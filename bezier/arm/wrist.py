@@ -19,14 +19,25 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from bezier.arm.angles import Angle, field_of
-from bezier.arm.choices import Arc, Choice, by_turns
+from bezier.arm.choices import Arc, Choice, Known, by_turns
 from bezier.arm.elimination import TURNS, M, Quotient, Reduction, T, quotient, weights
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve_at
-from bezier.arm.model import Arm, Chain, Convention, Matrix, Motion, Row, apply, inverse, motion, product
+from bezier.arm.model import (
+    Angle,
+    Arm,
+    Chain,
+    Convention,
+    JointKind,
+    Matrix,
+    Row,
+    apply,
+    field_of,
+    inverse,
+    motion,
+    product,
+)
 from bezier.arm.ratio import Ratio
 from bezier.arm.roots_of_squares import Rules, Scaled, fixed, turned
-from bezier.arm.value import Known
 from bezier.curves.scalar import dot, is_zero, rational
 from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
@@ -60,7 +71,7 @@ def wrist_of(arm: Arm) -> Wrist | None:
     """The wrist, or None: joints before it may slide. Raises ``Unable`` where its centre has no rational height, which
     no model here has."""
     chain = arm.chain
-    if len(chain.joints) != 6 or any(j.motion is not Motion.REVOLUTE for j in chain.joints[3:]):
+    if len(chain.joints) != 6 or any(j.motion is not JointKind.REVOLUTE for j in chain.joints[3:]):
         return None
     between, beyond = meeting(chain.constants[4]), meeting(chain.constants[5])
     if between is None or beyond is None or not is_zero(between[0] - beyond[1]):
@@ -92,9 +103,9 @@ def _first(arm: Arm, height: Fraction) -> Arm:
     return Arm(arm.name, arm.convention, (*arm.rows[: moving[3]], Row(a, alpha, height, turn)))
 
 
-def centre_at(wrist: Wrist, found: Inverse) -> tuple[Any, ...]:
+def centre_at(wrist: Wrist, answer: Inverse) -> tuple[Any, ...]:
     """Where the centre of the wrist is at a pose, exactly."""
-    pose: Matrix = tuple((*row, c) for row, c in zip(found.rotation, found.point, strict=True))
+    pose: Matrix = tuple((*row, c) for row, c in zip(answer.rotation, answer.point, strict=True))
     return apply(product(pose, inverse(wrist.chain.constants[6])), (ZERO, ZERO, wrist.height))
 
 
@@ -172,7 +183,7 @@ class _Turned:
         constants, kinds = self.wrist.chain.constants, self.wrist.chain.joints
         before = fixed(constants[0], rules).rotation
         for k, (known, constant) in enumerate(zip(self.position.quotients, constants[1:4], strict=True)):
-            if kinds[k].motion is Motion.REVOLUTE:
+            if kinds[k].motion is JointKind.REVOLUTE:
                 before = before @ (turns[k] if known is None else self._turn(known))
             before = before @ fixed(constant, rules).rotation
         return before.inverse() @ self.based.rotation
@@ -216,7 +227,7 @@ class _Turned:
             moved = motion(self.wrist.chain.joints[k], values if len(values) > 1 else values[0])
             whole = product(product(whole, moved), constant)
         pairs = [pair for rows in zip(whole, self.wanted, strict=True) for pair in zip(*rows, strict=True)]
-        if any(abs(found - wanted) > CLOSE * (1 + abs(wanted)) for found, wanted in pairs):
+        if any(abs(result - wanted) > CLOSE * (1 + abs(wanted)) for result, wanted in pairs):
             raise InternalError("the solutions at a pose contradict the forward kinematics")
 
 

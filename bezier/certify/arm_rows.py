@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from bezier.certify import square_roots as sr
-from bezier.certify.motions import STILL, Motion, Triple, back, together, turn
-from bezier.certify.square_roots import ZERO, Interval, Surd
+from bezier.certify.square_roots import STILL, ZERO, Interval, Motion, Surd, Triple, back, together, turn
 from qe.errors import Unable
 from qe.proof.entry import Entry
 
@@ -17,19 +16,19 @@ Box = tuple[Interval, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class ArmChain:
     """``constants``: what lies before, between and after the joints; ``turns``: which joints turn (others slide)."""
 
     constants: tuple[Motion, ...]
     turns: tuple[bool, ...]
 
     @property
-    def reversed(self) -> Chain:
+    def reversed(self) -> ArmChain:
         """Read from the hand to the base: every joint goes the other way."""
-        return Chain(tuple(back(m) for m in self.constants[::-1]), self.turns[::-1])
+        return ArmChain(tuple(back(m) for m in self.constants[::-1]), self.turns[::-1])
 
 
-def read_chain(entry: Entry) -> Chain:
+def read_chain(entry: Entry) -> ArmChain:
     """The rows of an arm (Craig, section 3.5)."""
     convention, rows = entry.fields("convention", "rows")
     modified = convention.text() == "modified"
@@ -52,7 +51,7 @@ def read_chain(entry: Entry) -> Chain:
             turns.append(joint.text() == "revolute")
             open_part = STILL
         open_part = together(open_part, after)
-    return Chain((*constants, open_part), tuple(turns))
+    return ArmChain((*constants, open_part), tuple(turns))
 
 
 def _angle(entry: Entry) -> tuple[Surd, Surd]:
@@ -107,10 +106,10 @@ def read_number(entry: Entry) -> Fraction:
 
 def read_triple(entry: Entry) -> Triple:
     """Three numbers, each a list of [q, d]: the sum of q √d, d squarefree."""
-    found = tuple(read_surd(c) for c in entry.items())
-    if len(found) != 3:
+    result = tuple(read_surd(c) for c in entry.items())
+    if len(result) != 3:
         raise entry.fail("expected three numbers")
-    return found
+    return result
 
 
 def read_surd(entry: Entry) -> Surd:

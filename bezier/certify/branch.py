@@ -24,9 +24,8 @@ from typing import Any
 from bezier.certify import duals
 from bezier.certify.arm_rows import read_chain
 from bezier.certify.duals import Dual, Vector
-from bezier.certify.joint_limits import KeptLimits, Limits, Stretch, read_limits
-from bezier.certify.motions import STILL, Motion, back, image
-from bezier.certify.square_roots import Surd
+from bezier.certify.joint_limits import JointStretch, KeptLimits, Limits, read_limits
+from bezier.certify.square_roots import STILL, Motion, Surd, back, image
 from qe.certify.kinds import BroughtKind
 from qe.exact.balls import ends, precision
 from qe.options import Budget
@@ -38,7 +37,7 @@ Points = list[tuple[Fraction, ...]]
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class Tube:
     """On [low, high] of a curve: joint values within ``radius`` of centre + slope (s - middle)."""
 
     curve: int
@@ -82,7 +81,7 @@ def read_curve(entry: Entry) -> Points:
     return points
 
 
-def _piece(entry: Entry, curves: int) -> Piece:
+def _piece(entry: Entry, curves: int) -> Tube:
     curve, low, high, centre, slope, radius = entry.fields("curve", "low", "high", "centre", "slope", "radius")
     middle, slopes, radii = (tuple(v.rational() for v in part.items()) for part in (centre, slope, radius))
     if not len(middle) == len(slopes) == len(radii) == 3:
@@ -93,7 +92,7 @@ def _piece(entry: Entry, curves: int) -> Piece:
         raise entry.fail("expected 0 <= low < high <= 1")
     if any(r <= 0 for r in radii):
         raise radius.fail("expected radii above 0")
-    return Piece(curve.integer(), low.rational(), high.rational(), middle, slopes, radii, entry)
+    return Tube(curve.integer(), low.rational(), high.rational(), middle, slopes, radii, entry)
 
 
 class Tubes:
@@ -109,7 +108,7 @@ class Tubes:
             self._links = [duals.rigid(motion) for motion in chain.constants[1:]]
             self._curves = [list(_seen_from(chain.constants[0], curve)) for curve in coefficients]
 
-    def image(self, piece: Piece) -> list[Fraction]:
+    def image(self, piece: Tube) -> list[Fraction]:
         """Radii of a box around 0 that holds the image, which is proved to lie inside the piece's box."""
         half, nothing = duals.around((piece.high - piece.low) / 2), [duals.ball(Fraction(0))] * 4
         box = [duals.around(r) for r in piece.radius]
@@ -123,16 +122,16 @@ class Tubes:
                 raise piece.entry.fail("the box is not proved to hold exactly one solution")
             return [duals.radius_above(x) for x in image]
 
-    def unlimited(self, piece: Piece, radii: Sequence[Fraction]) -> int | None:
+    def unlimited(self, piece: Tube, radii: Sequence[Fraction]) -> int | None:
         """The first joint that is not proved to keep its limits on a piece with an image of these radii."""
         low, high = piece.at(piece.low), piece.at(piece.high)
         at_end = cache(lambda end: self._at_end(piece, radii, end))
         parts = (
-            Stretch(piece.curve, (piece.low, piece.high), j, (low[j], high[j]), radii[j], at_end) for j in range(3)
+            JointStretch(piece.curve, (piece.low, piece.high), j, (low[j], high[j]), radii[j], at_end) for j in range(3)
         )
         return next((part.joint for part in parts if not self._limits.keeps(part)), None)
 
-    def _error(self, piece: Piece, sigma: Any, r: Sequence[Any]) -> list[Dual]:
+    def _error(self, piece: Tube, sigma: Any, r: Sequence[Any]) -> list[Dual]:
         """f(σ, r) with its derivatives, the line of the first joint taken back."""
         step = duals.seed(sigma, SIGMA, DIRECTIONS)
         lines = [
@@ -150,7 +149,7 @@ class Tubes:
         target = duals.moved(self._turns[0], -lines[0], target)
         return [a - b for a, b in zip(point, target, strict=True)]
 
-    def _at_end(self, piece: Piece, radii: Sequence[Fraction], end: int) -> list[tuple[Fraction, Fraction]]:
+    def _at_end(self, piece: Tube, radii: Sequence[Fraction], end: int) -> list[tuple[Fraction, Fraction]]:
         """Bounds of the joints at one end: for this σ alone, the image of what holds the solution holds it too."""
         s = (piece.low, piece.high)[end]
         middle = piece.at(s)
@@ -177,7 +176,7 @@ def _seen_from(base: Motion, curve: Sequence[Sequence[Fraction]]) -> Iterator[Ve
         yield [duals.root_sum(c.terms, DIRECTIONS) for c in seen]
 
 
-def _check_link(one: Piece, first: list[Fraction], other: Piece, second: list[Fraction], curves: list[Points]) -> None:
+def _check_link(one: Tube, first: list[Fraction], other: Tube, second: list[Fraction], curves: list[Points]) -> None:
     same = one.curve == other.curve and one.high == other.low
     if not same:
         joined = other.curve == one.curve + 1 and one.high == 1 and other.low == 0

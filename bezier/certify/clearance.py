@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from bezier.certify.bernstein import MAX_DEGREE, Vector, constant, product, read_points, restricted
+from bezier.certify.containment import MAX_DEGREE, Vector, constant, product, read_points, restricted
 from qe.certify.kinds import BroughtKind
 from qe.errors import CertificateRejected
 from qe.expert.arithmetic.numbers import read_field
@@ -31,18 +31,18 @@ def check_clearance(payload: dict[str, Json], budget: Budget | None = None) -> N
     )
     field = read_field(numbers, budget)
     curve = _Curve(read_points(points_entry, field), field)
-    found = list(pieces.items())
-    if not found:
+    result = list(pieces.items())
+    if not result:
         raise pieces.fail("expected at least one piece")
     after, t, index = _contact(contact)
-    for k, piece in enumerate(found):
+    for k, piece in enumerate(result):
         constraints, spans = piece.fields("constraints", "spans")
         forms = [_along(c, curve) for c in constraints.items()]
         _check_cover(forms, spans, field, after)
         if k == index and not all(_holds(form, strict, t, field) for form, strict in forms):
             raise contact.fail("a constraint of this piece does not hold at t")
-    if index >= len(found):
-        raise contact.fail(f"expected one of {len(found)} pieces")
+    if index >= len(result):
+        raise contact.fail(f"expected one of {len(result)} pieces")
 
 
 def _contact(entry: Entry) -> tuple[Fraction, Fraction, int]:

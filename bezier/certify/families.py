@@ -14,12 +14,12 @@ from itertools import combinations
 
 from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import Box, read_joint, read_number
-from bezier.certify.nested_roots import Joint, Nested, Place, nested, turns
+from bezier.certify.nested_roots import JointValue, Nested, Place, nested, turns
 from bezier.certify.square_roots import ONE, Interval, Polynomial
 from qe.options import Budget
 from qe.proof.entry import Entry
 
-Arc = tuple[Joint, Joint]
+Arc = tuple[JointValue, JointValue]
 """All angles from one on the way round to the other, both included; one angle where they are the same object."""
 Arcs = tuple[Arc, ...] | None
 """None: the whole circle."""
@@ -30,7 +30,7 @@ class Position:
     """What the joints are, None where one is free; ``chosen``: the joints that can be chosen, independently of each
     other, and exactly which of their values the others can follow."""
 
-    joints: Sequence[Joint | None]
+    joints: Sequence[JointValue | None]
     chosen: dict[int, Arcs] = field(default_factory=dict)
 
     @property
@@ -45,8 +45,8 @@ class Position:
         return Position([None if j is None else _opposite(j) for j in self.joints[::-1]], chosen)
 
 
-def _opposite(joint: Joint) -> Joint:
-    return Joint(joint.c, None if joint.s is None else -joint.s, joint.w)
+def _opposite(joint: JointValue) -> JointValue:
+    return JointValue(joint.c, None if joint.s is None else -joint.s, joint.w)
 
 
 def bounded(a: Nested, b: Nested, c: Nested, square: Nested) -> Arcs:
@@ -74,32 +74,32 @@ def not_negative(p: Polynomial, third: Sequence[Polynomial], norm: Polynomial, m
     for entry in marks.items():
         budget.check()
         between.append(read_interval(entry, between[-1] if between else None))
-        if not (all(sr.at(p, x) for x in between[-1]) and sr.tarski(p, [ONE], between[-1]) == 1):
+        if not (all(p.at(x) for x in between[-1]) and sr.tarski(p, Polynomial((ONE,)), between[-1]) == 1):
             raise entry.fail("expected exactly one root in the interval")
-    if len(p) > 1 and len(between) != sr.tarski(p, [ONE]):
+    if len(p) > 1 and len(between) != sr.tarski(p, Polynomial((ONE,))):
         raise marks.fail("not all roots are listed")
     if not between:
         return None if p[0].sign() > 0 else ()
     places = [Place.of(p, x) for x in between]
-    ends = [Joint(*(nested(place.value(v)) for v in (*third, norm))) for place in places]
-    after = [sr.at(p, high).sign() > 0 for _, high in between]
+    ends = [JointValue(*(nested(place.value(v)) for v in (*third, norm))) for place in places]
+    after = [p.at(high).sign() > 0 for _, high in between]
     if all(after):
         return None
-    found, n = list[Arc](), len(ends)
+    result, n = list[Arc](), len(ends)
     for i in range(n):
         if not after[i - 1]:
             j = next(j for j in range(i, i + n) if not after[j % n])
-            found.append((ends[i], ends[j % n]))
-    return tuple(found)
+            result.append((ends[i], ends[j % n]))
+    return tuple(result)
 
 
 def read_interval(entry: Entry, last: Interval | None) -> Interval:
     """[low, high], above the last one."""
     low, high = _pair(entry)
-    found = read_number(low), read_number(high)
-    if not found[0] < found[1] or (last is not None and found[0] <= last[1]):
+    result = read_number(low), read_number(high)
+    if not result[0] < result[1] or (last is not None and result[0] <= last[1]):
         raise entry.fail("expected intervals in ascending order")
-    return found
+    return result
 
 
 # --- what a certificate lists --------------------------------------------------------------------------------------
@@ -125,7 +125,7 @@ class Listed:
         return all(_meet(a, b) for a, b in pairs if a is not None and b is not None)
 
 
-def _holds(box: Box | None, joint: Joint | None) -> bool:
+def _holds(box: Box | None, joint: JointValue | None) -> bool:
     if box is None or joint is None:
         return box is None and joint is None
     ends = joint.intervals()
@@ -135,13 +135,13 @@ def _holds(box: Box | None, joint: Joint | None) -> bool:
 def _same(listed: tuple[tuple[Box, Box], ...] | None, arcs: Arcs) -> bool:
     if listed is None or arcs is None:
         return listed is None and arcs is None
-    left = list(listed)
+    rest = list(listed)
     for low, high in arcs:
-        found = next((ends for ends in left if _holds(ends[0], low) and _holds(ends[1], high)), None)
+        found = next((ends for ends in rest if _holds(ends[0], low) and _holds(ends[1], high)), None)
         if found is None or (found[0] == found[1]) != (low is high):
             return False
-        left.remove(found)
-    return not left
+        rest.remove(found)
+    return not rest
 
 
 def read_listed(entry: Entry, turning: tuple[bool, ...]) -> Listed:
@@ -150,17 +150,17 @@ def read_listed(entry: Entry, turning: tuple[bool, ...]) -> Listed:
     if not isinstance(entry.value, dict):
         return Listed(_boxes(entry, turning), {})
     box, chosen = entry.fields("box", "chosen")
-    found: dict[int, tuple[tuple[Box, Box], ...] | None] = {}
+    result: dict[int, tuple[tuple[Box, Box], ...] | None] = {}
     for item in chosen.items():
         number, arcs = _pair(item)
         k = number.integer(0)
-        if k >= len(turning) or k in found:
+        if k >= len(turning) or k in result:
             raise number.fail("expected the number of a joint, each once")
-        found[k] = None if arcs.value is None else _arcs(arcs, turning[k])
+        result[k] = None if arcs.value is None else _arcs(arcs, turning[k])
     boxes = _boxes(box, turning)
-    if not found or any(boxes[k] is not None for k in found):
+    if not result or any(boxes[k] is not None for k in result):
         raise chosen.fail("expected joints that are free")
-    return Listed(boxes, found)
+    return Listed(boxes, result)
 
 
 def _boxes(entry: Entry, turning: tuple[bool, ...]) -> tuple[Box | None, ...]:
@@ -172,14 +172,14 @@ def _boxes(entry: Entry, turning: tuple[bool, ...]) -> tuple[Box | None, ...]:
 
 def _arcs(entry: Entry, turning: bool) -> tuple[tuple[Box, Box], ...]:
     """The ends of arcs, in boxes that do not meet, so that it is clear which of them is where."""
-    found = list[tuple[Box, Box]]()
+    result = list[tuple[Box, Box]]()
     for arc in entry.items():
         low, high = (read_joint(end, turning) for end in _pair(arc))
-        found.append((low, high))
-    apart = [box for low, high in found for box in ([low] if low == high else [low, high])]
-    if any(_meet(a, b) for a, b in combinations(apart, 2)):
-        raise entry.fail("two ends are not told apart")
-    return tuple(found)
+        result.append((low, high))
+    disjoint = [box for low, high in result for box in ([low] if low == high else [low, high])]
+    if any(_meet(a, b) for a, b in combinations(disjoint, 2)):
+        raise entry.fail("two ends are not separated")
+    return tuple(result)
 
 
 def _meet(a: Box, b: Box) -> bool:

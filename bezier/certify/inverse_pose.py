@@ -16,12 +16,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from bezier.certify.arm_rows import Chain
+from bezier.certify.arm_rows import ArmChain
 from bezier.certify.families import Arcs, Position, bounded
-from bezier.certify.motions import Motion, Triple, back, dot, image, together
-from bezier.certify.nested_roots import Joint, Nested, Vector, angle, basis, nested, turns
+from bezier.certify.nested_roots import JointValue, Nested, Vector, angle, basis, nested, turns
 from bezier.certify.nested_roots import dot as inner
-from bezier.certify.square_roots import ONE, ZERO, Surd
+from bezier.certify.square_roots import ONE, ZERO, Motion, Surd, Triple, back, dot, image, together
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry
@@ -29,7 +28,7 @@ from qe.proof.entry import Entry
 FREE = "a joint can be chosen here"
 
 
-def parallel_axes(chain: Chain, pose: Motion, entry: Entry, budget: Budget) -> list[Position]:
+def parallel_axes(chain: ArmChain, pose: Motion, entry: Entry, budget: Budget) -> list[Position]:
     """All positions of an arm with three parallel axes. Raises ``Unable`` for another one."""
     if all(chain.turns):
         if len(chain.turns) == 3 and _are_parallel(chain.constants[1:3]):
@@ -50,7 +49,7 @@ def _only_heights(between: Sequence[Motion]) -> bool:
     return all(not (m[0][0][2] or m[0][1][2]) for m in between)
 
 
-def _with_slide(chain: Chain, pose: Motion) -> Iterator[Position]:
+def _with_slide(chain: ArmChain, pose: Motion) -> Iterator[Position]:
     """Three parallel joints and one that slides along their axes: d in A M(θ) ... Tz(d) ... moves the end by d times
     the direction of the axes and does nothing else, so the height alone tells it, and the rest is as without it."""
     k, constants = chain.turns.index(False), chain.constants
@@ -65,10 +64,10 @@ def _with_slide(chain: Chain, pose: Motion) -> Iterator[Position]:
     sign = dot(slide, [row[2] for row in merged[0][0]])
     length = sign * (based[1][2] - _height(merged[1:3])[0])
     lowered = based[0], (*based[1][:2], based[1][2] - sign * length)
-    slid = Joint(nested(length), None, nested(ONE))
-    for found in _in_plane(merged[1:3], lowered):
-        joints = [*found.joints[:k], slid, *found.joints[k:]]
-        yield Position(joints, {j + (j >= k): arcs for j, arcs in found.chosen.items()})
+    slid = JointValue(nested(length), None, nested(ONE))
+    for result in _in_plane(merged[1:3], lowered):
+        joints = [*result.joints[:k], slid, *result.joints[k:]]
+        yield Position(joints, {j + (j >= k): arcs for j, arcs in result.chosen.items()})
 
 
 def _are_parallel(pair: Sequence[Motion]) -> bool:
@@ -76,7 +75,7 @@ def _are_parallel(pair: Sequence[Motion]) -> bool:
     return all(not (m[0][0][2] or m[0][1][2]) and (m[1][0] or m[1][1]) for m in pair)
 
 
-def _has_parallel_axes(chain: Chain) -> bool:
+def _has_parallel_axes(chain: ArmChain) -> bool:
     before, *pair, after, last = chain.constants[1:6]
     bent = (before[0][0][2] or before[0][1][2]) and (after[0][2][0] or after[0][2][1])
     return bool(bent) and _are_parallel(pair) and meeting(last) is not None
@@ -127,7 +126,9 @@ def _six_joints(constants: Sequence[Motion], pose: Motion, entry: Entry, budget:
         for fifth, sixth in _last_two(u, side, after, last):
             budget.check()
 
-            def middle(vector: Vector, sixth: Joint, first: Joint = first, fifth: Joint = fifth) -> Vector:
+            def middle(
+                vector: Vector, sixth: JointValue, first: JointValue = first, fifth: JointValue = fifth
+            ) -> Vector:
                 near = vector.moved(back(after)).turned(fifth, -1).moved(back(last)).turned(sixth, -1)
                 return near.moved(based).turned(first, -1).moved(back(before))
 
@@ -155,7 +156,7 @@ def _closed(pair: Sequence[Motion], shifts: Sequence[Vector]) -> Arcs:
     return bounded(inner(x, z).by(two), inner(y, z).by(two), size, (squared * squared).by(four * second * third))
 
 
-def _last_two(u: Vector, side: Surd, after: Motion, last: Motion) -> Iterator[tuple[Joint, Joint | None]]:
+def _last_two(u: Vector, side: Surd, after: Motion, last: Motion) -> Iterator[tuple[JointValue, JointValue | None]]:
     """θ5 and θ6, by the direction u of the parallel axes seen from the end effector; None where θ6 is free."""
     r, n = after[0][2], tuple(row[2] for row in last[0])
     a, b = _constant(r[0] * n[0] + r[1] * n[1], r[1] * n[0] - r[0] * n[1])
@@ -189,11 +190,11 @@ def _three(pair: Sequence[Motion], x: Vector, d: Vector) -> Iterator[Position]:
             yield Position([None, elbow, None], {0: None})
             continue
         e = d.turned(shoulder, -1).moved(back(pair[0])).turned(elbow, -1).moved(back(pair[1]))
-        yield Position([shoulder, elbow, Joint(e.parts[0], e.parts[1], e.scale)])
+        yield Position([shoulder, elbow, JointValue(e.parts[0], e.parts[1], e.scale)])
 
 
 # --- spherical wrists --------------------------------------------------------------------------------------------
-def centre(chain: Chain) -> tuple[Surd, Surd] | None:
+def centre(chain: ArmChain) -> tuple[Surd, Surd] | None:
     """Heights of the centre of the wrist on axes 4 and 6."""
     if len(chain.turns) != 6 or not all(chain.turns[3:]):
         return None
@@ -203,7 +204,7 @@ def centre(chain: Chain) -> tuple[Surd, Surd] | None:
     return between[1], beyond[0]
 
 
-def wrist(chain: Chain, pose: Motion, arm: Position, entry: Entry) -> Iterator[Position]:
+def wrist(chain: ArmChain, pose: Motion, arm: Position, entry: Entry) -> Iterator[Position]:
     """The last three joints, over a position of the first three, or over a family of them."""
     joints = arm.joints
     r, n = _wrist_axes(chain)
@@ -226,7 +227,7 @@ def wrist(chain: Chain, pose: Motion, arm: Position, entry: Entry) -> Iterator[P
         yield Position([*joints, None, None, None], {open_ones[0]: arcs})
 
 
-def _wrist_axes(chain: Chain) -> tuple[Sequence[Surd], Sequence[Surd]]:
+def _wrist_axes(chain: ArmChain) -> tuple[Sequence[Surd], Sequence[Surd]]:
     """Axis 4 seen after the constant motion behind it, and axis 6 seen before the one in front of it."""
     return chain.constants[4][0][2], [line[2] for line in chain.constants[5][0]]
 
@@ -236,7 +237,7 @@ def _direction(values: Sequence[Surd], unit: Nested) -> Vector:
     return Vector((x, y, z), unit, False)
 
 
-def _sixth_axis(chain: Chain, end: Motion, first: Sequence[Joint], unit: Nested) -> Vector:
+def _sixth_axis(chain: ArmChain, end: Motion, first: Sequence[JointValue], unit: Nested) -> Vector:
     """W e_z: axis 6 seen from the third link, where W is what the wrist has to do after the first three joints."""
     column = _direction([row[2] for row in end[0]], unit)
     for joint, constant in zip(first, chain.constants, strict=False):
@@ -244,7 +245,7 @@ def _sixth_axis(chain: Chain, end: Motion, first: Sequence[Joint], unit: Nested)
     return column.moved(back(chain.constants[3]))
 
 
-def _three_of_wrist(chain: Chain, end: Motion, known: Sequence[Joint], entry: Entry) -> Iterator[Position]:
+def _three_of_wrist(chain: ArmChain, end: Motion, known: Sequence[JointValue], entry: Entry) -> Iterator[Position]:
     """The joints of the wrist over a position of the first three: θ5 by the angle of axes 4 and 6, then the others."""
     constants, unit = chain.constants, known[0].w.unit
     r, n = _wrist_axes(chain)

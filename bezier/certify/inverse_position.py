@@ -18,11 +18,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from bezier.certify.arm_rows import Chain, read_chain, read_circle, read_number, read_triple
+from bezier.certify.arm_rows import ArmChain, read_chain, read_circle, read_number, read_triple
 from bezier.certify.families import Listed, Position, read_listed
 from bezier.certify.inverse_pose import centre, parallel_axes, wrist
-from bezier.certify.motions import Motion, Triple, back, image, is_motion
-from bezier.certify.square_roots import ZERO
+from bezier.certify.square_roots import ZERO, Motion, Triple, back, image, is_motion
 from bezier.certify.three_joints import Positions, is_still
 from qe.certify.kinds import BroughtKind
 from qe.errors import Unable
@@ -45,13 +44,13 @@ def check_inverse(payload: dict[str, Json], budget: Budget | None = None) -> Non
         chain, place = read_chain(arm), read_triple(point)
         pose = _pose(rotation[0], place) if rotation else None
         family = _positions(chain, place, pose, turn).family(marks, budget)
-        found = [family] if pose is None else list(wrist(chain, pose, family, marks))
-        listed = _matched([p for p in found if () not in p.chosen.values()], chain, solutions)
+        result = [family] if pose is None else list(wrist(chain, pose, family, marks))
+        listed = _matched([p for p in result if () not in p.chosen.values()], chain, solutions)
     else:
         arm, point, rotated, count, solutions = whole.fields("arm", "point", "rotation", "count", "solutions")
         chain = read_chain(arm)
-        found = parallel_axes(chain, _pose(rotated, read_triple(point)), whole, budget)
-        listed = _matched(found, chain, solutions)
+        result = parallel_axes(chain, _pose(rotated, read_triple(point)), whole, budget)
+        listed = _matched(result, chain, solutions)
     if any(one.chosen for one in listed):
         if count.value is not None:
             raise count.fail("expected null: a joint can be chosen")
@@ -68,7 +67,7 @@ def _pose(rotation: Entry, place: Triple) -> Motion:
     return pose
 
 
-def _positions(chain: Chain, place: Triple, pose: Motion | None, turn: Entry) -> Positions:
+def _positions(chain: ArmChain, place: Triple, pose: Motion | None, turn: Entry) -> Positions:
     """Of the first three joints, which bring the end point or the centre of the wrist to its place."""
     constants = chain.constants
     if pose is None:
@@ -87,8 +86,10 @@ def _positions(chain: Chain, place: Triple, pose: Motion | None, turn: Entry) ->
     return Positions.of(constants[:3], chain.turns[:3], end, place, read_circle(turn) if counts else None, turn)
 
 
-def _over_roots(chain: Chain, pose: Motion | None, positions: Positions, roots: Entry, budget: Budget) -> list[Listed]:
-    found, last, total = list[Listed](), None, 0
+def _over_roots(
+    chain: ArmChain, pose: Motion | None, positions: Positions, roots: Entry, budget: Budget
+) -> list[Listed]:
+    result, last, total = list[Listed](), None, 0
     for entry in roots.items():
         budget.check()
         low, high, solutions = entry.fields("low", "high", "solutions")
@@ -100,23 +101,23 @@ def _over_roots(chain: Chain, pose: Motion | None, positions: Positions, roots: 
         total += len(here)
         if pose is not None:
             here = [whole for arm in here for whole in wrist(chain, pose, arm, entry)]
-        found += _matched(here, chain, solutions)
+        result += _matched(here, chain, solutions)
     if total != positions.total(roots):
         raise roots.fail("not all roots with a solution are listed")
-    return found
+    return result
 
 
-def _matched(found: Sequence[Position], chain: Chain, solutions: Entry) -> list[Listed]:
+def _matched(positions: Sequence[Position], chain: ArmChain, solutions: Entry) -> list[Listed]:
     """What is listed, if each holds one of the positions, or families."""
     listed = [read_listed(entry, chain.turns) for entry in solutions.items()]
-    if len(found) != len(listed):
+    if len(positions) != len(listed):
         raise solutions.fail("not the number of solutions")
-    left = list(listed)
-    for position in found:
-        held = next((one for one in left if one.holds(position)), None)
+    rest = list(listed)
+    for position in positions:
+        held = next((one for one in rest if one.holds(position)), None)
         if held is None:
             raise solutions.fail("a solution is not proved to lie in a box of its own")
-        left.remove(held)
+        rest.remove(held)
     return listed
 
 

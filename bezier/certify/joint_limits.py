@@ -23,8 +23,7 @@ from functools import cache
 from typing import Any
 
 from bezier.certify import duals
-from bezier.certify import square_roots as sr
-from bezier.certify.arm_rows import Chain
+from bezier.certify.arm_rows import ArmChain
 from bezier.certify.held_joint import Held, Rigid, slid, turned
 from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
 from qe.exact.balls import precision
@@ -40,7 +39,7 @@ Range = tuple[Fraction, Fraction]
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class JointStretch:
     """What is known of one joint between two parameters of a curve: it is within ``radius`` of the straight line with
     ``values`` at the ends. ``at_end(0)``, ``at_end(1)``: closer bounds of all joints at the ends."""
 
@@ -52,45 +51,29 @@ class Stretch:
     at_end: Callable[[int], Sequence[Range]]
 
 
-@dataclass(frozen=True, slots=True)
-class _Along:
-    """A polynomial in s."""
-
-    p: Polynomial
-
-    def __add__(self, other: _Along) -> _Along:
-        return _Along(sr.add(self.p, other.p))
-
-    def __sub__(self, other: _Along) -> _Along:
-        return _Along(sr.add(self.p, sr.scaled(other.p, -ONE)))
-
-    def __mul__(self, other: _Along) -> _Along:
-        return _Along(sr.times(self.p, other.p))
-
-
 def read_limits(entry: Entry, joints: int) -> list[Limits | None]:
     """For each joint null, or its least and its greatest value."""
-    found = list[Limits | None]()
+    result = list[Limits | None]()
     for item in entry.items():
         ends = None if item.value is None else tuple(v.rational() for v in item.items())
         if ends is not None and (len(ends) != 2 or ends[0] >= ends[1]):
             raise item.fail("expected null, or a least value below a greatest one")
-        found.append(None if ends is None else (ends[0], ends[1]))
-    if len(found) != joints:
+        result.append(None if ends is None else (ends[0], ends[1]))
+    if len(result) != joints:
         raise entry.fail(f"expected limits of {joints} joints")
-    return found
+    return result
 
 
 class KeptLimits:
     """The limits of the joints of one arm along curves, given by the coefficients of 1, s, s², …"""
 
     def __init__(
-        self, chain: Chain, curves: Sequence[Sequence[Sequence[Fraction]]], limits: Sequence[Limits | None]
+        self, chain: ArmChain, curves: Sequence[Sequence[Sequence[Fraction]]], limits: Sequence[Limits | None]
     ) -> None:
         self._chain, self._curves, self.limits = chain, curves, limits
         self._zeros = cache(self._zeros_at)
 
-    def keeps(self, part: Stretch) -> bool:
+    def keeps(self, part: JointStretch) -> bool:
         """Whether a joint is proved to keep its limits on a closed stretch."""
         for limit, side in zip(self.limits[part.joint] or (), (1, -1), strict=False):
             if min(side * (value - limit) for value in part.values) >= part.radius:
@@ -113,12 +96,12 @@ class KeptLimits:
     def _zeros_at(self, curve: int, joint: int, limit: Fraction) -> list[Fraction]:
         """The coefficients of a polynomial that vanishes wherever the joint can be at its limit; none if that is
         everywhere."""
-        point = [_Along(sr.trimmed([Surd.rational(c) for c in row])) for row in self._curves[curve]]
+        point = [Polynomial.of(map(Surd.rational, row)) for row in self._curves[curve]]
         value = Surd.rational(limit)
         parts = (ONE, ZERO) if self._chain.turns[joint] else (value,)
-        held = self._held(joint, parts, lambda c: _Along(sr.trimmed([c])))
-        holding = (relation.p for relation, needs in held.relations(point) if not any(c.p for c in needs))
-        return _rational(next((p for p in holding if p), []))
+        held = self._held(joint, parts, lambda c: Polynomial.of([c]))
+        holding = (relation for relation, needs in held.relations(point) if not any(needs))
+        return _rational(next((p for p in holding if p), Polynomial()))
 
     def _held(self, joint: int, value: tuple[Any, ...], lift: Any) -> Held:
         """With a joint held at a length, or at a cosine and a sine, which ``lift`` makes numbers of another kind."""
@@ -131,7 +114,7 @@ class KeptLimits:
         motion = turned(parts[0], parts[1], zero, one) if len(parts) == 2 else slid(parts[0], zero, one)
         return Held.of([lifted(c) for c in self._chain.constants], self._chain.turns, joint, motion)
 
-    def _stands(self, part: Stretch, limit: Fraction) -> bool:
+    def _stands(self, part: JointStretch, limit: Fraction) -> bool:
         """Whether the joint is at its limit all along: it is halfway, by a relation that holds for all its values."""
         joint, s, middle = part.joint, (part.ends[0] + part.ends[1]) / 2, (part.values[0] + part.values[1]) / 2
         if abs(middle - limit) > part.radius:
@@ -157,7 +140,7 @@ def _rational(p: Polynomial) -> list[Fraction]:
     """The product of the conjugates over the rational numbers."""
     while roots := [d for c in p for d, _ in c.terms if d > 1]:
         prime = next(k for k in range(2, roots[0] + 1) if roots[0] % k == 0)
-        p = sr.times(p, [Surd(tuple((d, -q if d % prime == 0 else q) for d, q in c.terms)) for c in p])
+        p = p * Polynomial(tuple(Surd(tuple((d, -q if d % prime == 0 else q) for d, q in c.terms)) for c in p))
     return [c.terms[0][1] if c else Fraction(0) for c in p]
 
 

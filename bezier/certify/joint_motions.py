@@ -29,11 +29,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from bezier.certify import square_roots as sr
-from bezier.certify.arm_rows import Chain, read_chain, read_number, read_surd
+from bezier.certify.arm_rows import ArmChain, read_chain, read_number, read_surd
 from bezier.certify.branch import powers, read_curve
-from bezier.certify.constant_sign import constant_sign
-from bezier.certify.motions import Triple, back, dot
-from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
+from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, constant_sign, dot
 from qe.certify.kinds import BroughtKind
 from qe.errors import Unable
 from qe.options import Budget
@@ -43,7 +41,7 @@ Label = tuple[int, int]
 Split = tuple[Polynomial, Polynomial]
 """A + r B."""
 
-SIGNS, FOUR = (1, -1), Surd.rational(4)
+SIGNS, FOUR, UNIT = (1, -1), Surd.rational(4), Polynomial((ONE,))
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +58,7 @@ class _Plane:
     may_fold: bool
 
     @staticmethod
-    def of(chain: Chain, entry: Entry) -> _Plane:
+    def of(chain: ArmChain, entry: Entry) -> _Plane:
         if len(chain.turns) != 3 or not chain.turns[0]:
             raise entry.fail("expected three joints, the first of which turns")
         (first, o), (second, b), (_, tip) = chain.constants[1:]
@@ -74,21 +72,21 @@ class _Plane:
         may_fold = False
         if chain.turns[1]:
             normal, centre = axis, tuple(o)
-            flat = not (third[0] or third[1]) if chain.turns[2] else not third[2]
+            is_plane = not (third[0] or third[1]) if chain.turns[2] else not third[2]
             base = tuple(x + n * reach[2] for x, n in zip(o, normal, strict=True))
             if chain.turns[2]:
                 inside = dot(b[:2], b[:2])
                 size, rest, may_fold = FOUR * inside * radius, inside + radius, not (inside - radius)
-                flat = flat and bool(size)
+                is_plane = is_plane and bool(size)
             else:
                 lever = reach[0] * third[1] - reach[1] * third[0]
                 size, may_fold = lever * lever, not lever
         else:
             base = centre = tuple(x + dot(row, reach) for x, row in zip(o, first, strict=True))
             normal = outer if chain.turns[2] else _cross(axis, outer)
-            flat = not dot(normal, axis) and (bool(radius) or not chain.turns[2])
+            is_plane = not dot(normal, axis) and (bool(radius) or not chain.turns[2])
             size = radius
-        if not flat or normal[2] or dot(normal, normal) != ONE:
+        if not is_plane or normal[2] or dot(normal, normal) != ONE:
             raise entry.fail("the second and the third joint are not proved to move in a plane along the first axis")
         along = (normal[1], -normal[0])
         return _Plane(
@@ -117,35 +115,35 @@ class _Along:
     @staticmethod
     def of(plane: _Plane, target: list[Polynomial], entry: Entry) -> _Along:
         x, y, z = target
-        w = sr.add(sr.add(sr.times(x, x), sr.times(y, y)), sr.trimmed([-(plane.offset * plane.offset)]))
+        w = x * x + y * y + Polynomial.of([-(plane.offset * plane.offset)])
         a, c = plane.centre
-        height = sr.add(z, sr.trimmed([-c]))
-        d = _plus(_times((sr.trimmed([-a]), [ONE]), (sr.trimmed([-a]), [ONE]), w), (sr.times(height, height), []))
+        height = z + Polynomial.of([-c])
+        d = _plus(_times((Polynomial.of([-a]), UNIT), (Polynomial.of([-a]), UNIT), w), (height * height, Polynomial()))
         quality: Split | None
         match plane.turns[1:]:
             case (True, True):
-                rest = _plus(d, (sr.trimmed([-plane.rest]), []))
-                quality = _plus(([plane.size], []), _scaled(_times(rest, rest, w), -ONE))
+                rest = _plus(d, (Polynomial.of([-plane.rest]), Polynomial()))
+                quality = _plus((Polynomial.of([plane.size]), Polynomial()), _scaled(_times(rest, rest, w), -ONE))
             case (True, False):
-                quality = _plus(d, (sr.trimmed([-plane.size]), []))
+                quality = _plus(d, (Polynomial.of([-plane.size]), Polynomial()))
             case (False, True):
                 r, up = plane.line
-                across = (sr.add(sr.scaled(height, r), sr.trimmed([a * up])), sr.trimmed([-up]))
-                quality = _plus(([plane.size], []), _scaled(_times(across, across, w), -ONE))
+                across = (height.by(r) + Polynomial.of([a * up]), Polynomial.of([-up]))
+                quality = _plus((Polynomial.of([plane.size]), Polynomial()), _scaled(_times(across, across, w), -ONE))
             case _:
                 quality = None
         norm = None if quality is None else _norm(quality, w)
-        if not w or norm == []:
+        if not w or (norm is not None and not norm):
             raise Unable(f"{entry.path}: the whole curve is on the first axis or along a border")
         return _Along(x, y, w, d, quality, norm, plane)
 
     def labels(self, s: Fraction) -> list[Label]:
         """Of the solutions where neither W nor N vanishes."""
-        if sr.at(self.w, s).sign() < 0:
+        if self.w.at(s).sign() < 0:
             return []
         if self.quality is None:
             return [(side, 1) for side in SIGNS]
-        even, odd, norm = (sr.at(p, s).sign() for p in (*self.quality, self.norm or []))
+        even, odd, norm = (p.at(s).sign() for p in (*self.quality, self.norm or Polynomial()))
         # |A| > |B √W| or less: the sign of A + σ √W B is that of the larger one
         return [(side, end) for side in SIGNS if (even if norm > 0 else side * odd) > 0 for end in SIGNS]
 
@@ -202,17 +200,17 @@ def check_motions(payload: dict[str, Json], budget: Budget | None = None) -> Non
         raise motions.fail("not the number of continuous motions")
 
 
-def _target(chain: Chain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
+def _target(chain: ArmChain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
     """The curve in the frame of the first joint."""
     rows, shift = back(chain.constants[0])
-    curve = [sr.trimmed([Surd.rational(c) for c in powers([p[i] for p in points])]) for i in range(3)]
-    found = list[Polynomial]()
+    curve = [Polynomial.of(map(Surd.rational, powers([p[i] for p in points]))) for i in range(3)]
+    result = list[Polynomial]()
     for row, o in zip(rows, shift, strict=True):
-        total = sr.trimmed([o])
+        total = Polynomial.of([o])
         for factor, part in zip(row, curve, strict=True):
-            total = sr.add(total, sr.scaled(part, factor))
-        found.append(total)
-    return found
+            total = total + part.by(factor)
+        result.append(total)
+    return result
 
 
 def _cut(along: _Along, listed: Entry, budget: Budget) -> tuple[list[_Between], list[Fraction]]:
@@ -251,14 +249,13 @@ def _place(along: _Along, entry: Entry) -> tuple[Fraction, Fraction, _Between]:
     low, high = read_number(low_entry), read_number(high_entry)
     if not low < high:
         raise entry.fail("expected an interval")
-    factor = along.norm if factor_entry.value is None else sr.trimmed([read_surd(c) for c in factor_entry.items()])
+    factor = along.norm if factor_entry.value is None else Polynomial.of([read_surd(c) for c in factor_entry.items()])
     if not factor or len(factor) < 2:
         raise factor_entry.fail("expected a polynomial that is not constant")
-    slope = sr.trimmed([Surd.rational(k) * c for k, c in enumerate(factor)][1:])
-    if sr.at(factor, low).sign() * sr.at(factor, high).sign() >= 0 or not constant_sign(slope, low, high):
+    if factor.at(low).sign() * factor.at(high).sign() >= 0 or not constant_sign(factor.derivative, low, high):
         raise factor_entry.fail("not proved to have exactly one zero in the interval, a simple one")
     for end in (Fraction(0), Fraction(1)):
-        if low <= end <= high and sr.at(factor, end):
+        if low <= end <= high and factor.at(end):
             raise entry.fail("an end of the curve is in the interval, and not the zero")
 
     def order(p: Polynomial) -> int:
@@ -293,13 +290,13 @@ def _joint(one: _Along, other: _Along, entry: Entry) -> _Between:
     if one.quality is None:
         empty = frozenset[int]()
     else:
-        even, odd, w = (sr.at(p, end) for p in (*one.quality, one.w))
-        is_empty = one.norm is not None and not sr.at(one.norm, end)
-        if is_empty and one.plane.may_fold and not sr.at(_norm(one.distance, one.w), end):
+        even, odd, w = (p.at(end) for p in (*one.quality, one.w))
+        is_empty = one.norm is not None and not one.norm.at(end)
+        if is_empty and one.plane.may_fold and not _norm(one.distance, one.w).at(end):
             raise entry.fail("the second joint is free where the curve begins")
         sides = SIGNS if not even or not w else (-even.sign() * odd.sign(),)
         empty = frozenset(sides if is_empty else ())
-    if sr.at(one.w, end):
+    if one.w.at(end):
         return _Between(False, empty, 1)
     turn = 1
     if not one.plane.offset:
@@ -311,27 +308,27 @@ def _joint(one: _Along, other: _Along, entry: Entry) -> _Between:
 def _direction(along: _Along, s: Fraction) -> tuple[Surd, Surd, int]:
     """The first derivatives of x and y that do not both vanish at s, and their order."""
     x, y, k = along.x, along.y, 0
-    while not (sr.at(x, s) or sr.at(y, s)):
-        x, y = (sr.trimmed([Surd.rational(i) * c for i, c in enumerate(p)][1:]) for p in (x, y))
+    while not (x.at(s) or y.at(s)):
+        x, y = x.derivative, y.derivative
         k += 1
-    return sr.at(x, s), sr.at(y, s), k
+    return x.at(s), y.at(s), k
 
 
 def _plus(a: Split, b: Split) -> Split:
-    return sr.add(a[0], b[0]), sr.add(a[1], b[1])
+    return a[0] + b[0], a[1] + b[1]
 
 
 def _scaled(a: Split, factor: Surd) -> Split:
-    return sr.scaled(a[0], factor), sr.scaled(a[1], factor)
+    return a[0].by(factor), a[1].by(factor)
 
 
 def _times(a: Split, b: Split, w: Polynomial) -> Split:
-    even = sr.add(sr.times(a[0], b[0]), sr.times(sr.times(a[1], b[1]), w))
-    return even, sr.add(sr.times(a[0], b[1]), sr.times(a[1], b[0]))
+    even = a[0] * b[0] + a[1] * b[1] * w
+    return even, a[0] * b[1] + a[1] * b[0]
 
 
 def _norm(a: Split, w: Polynomial) -> Polynomial:
-    return _times(a, (a[0], sr.scaled(a[1], -ONE)), w)[0]
+    return _times(a, (a[0], -a[1]), w)[0]
 
 
 def _column(rows: Sequence[Triple]) -> Triple:

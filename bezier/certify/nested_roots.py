@@ -14,8 +14,7 @@ from functools import cached_property
 from typing import Any
 
 from bezier.certify import square_roots as sr
-from bezier.certify.motions import Motion
-from bezier.certify.square_roots import ONE, Interval, Polynomial, Surd
+from bezier.certify.square_roots import ONE, Interval, Motion, Polynomial, Surd
 from qe.errors import Unable
 
 BITS = 400
@@ -33,7 +32,7 @@ class Place:
     @staticmethod
     def of(equation: Polynomial, between: Interval) -> Place:
         """The one root of an equation in an interval, which the caller has counted."""
-        return Place(sr.scaled(equation, equation[-1].inverse()), between)
+        return Place(equation.by(equation[-1].inverse()), between)
 
     def value(self, p: Polynomial) -> Residue:
         """The polynomial at the root."""
@@ -48,17 +47,17 @@ class Residue:
     place: Place
 
     def __add__(self, other: Residue) -> Residue:
-        return Residue(sr.add(self.poly, other.poly), self.place)
+        return Residue(self.poly + other.poly, self.place)
 
     def __mul__(self, other: Residue) -> Residue:
-        return self.place.value(sr.times(self.poly, other.poly))
+        return self.place.value(self.poly * other.poly)
 
     def by(self, c: Surd) -> Residue:
         """c times it."""
-        return Residue(sr.scaled(self.poly, c), self.place)
+        return Residue(self.poly.by(c), self.place)
 
     def __neg__(self) -> Residue:
-        return Residue([-c for c in self.poly], self.place)
+        return Residue(-self.poly, self.place)
 
     def __bool__(self) -> bool:
         return bool(self.poly)
@@ -101,10 +100,10 @@ class Nested:
     terms: dict[frozenset[Root], Number]
 
     def __add__(self, other: Nested) -> Nested:
-        found = dict(self.terms)
+        result = dict(self.terms)
         for key, number in other.terms.items():
-            found[key] = found[key] + number if key in found else number
-        return Nested({key: number for key, number in found.items() if number})
+            result[key] = result[key] + number if key in result else number
+        return Nested({key: number for key, number in result.items() if number})
 
     def __neg__(self) -> Nested:
         return Nested({key: -number for key, number in self.terms.items()})
@@ -133,8 +132,8 @@ class Nested:
         """-1, 0 or 1, exactly."""
         if not self.terms:
             return 0
-        if told := _side(self.interval(BITS)):
-            return told
+        if known := _side(self.interval(BITS)):
+            return known
         top = max((root for key in self.terms for root in key), key=lambda root: root.level, default=None)
         if top is None:
             side: int = self.terms[NO_ROOT].sign()
@@ -170,7 +169,7 @@ class Nested:
     def unit(self) -> Nested:
         """The number 1, over the same root as this number, which is not 0."""
         some = next(iter(self.terms.values()))
-        return nested(some.place.value([ONE]) if isinstance(some, Residue) else ONE)
+        return nested(some.place.value(Polynomial((ONE,))) if isinstance(some, Residue) else ONE)
 
 
 def nested(value: Number) -> Nested:
@@ -184,7 +183,7 @@ def _side(ends: Interval) -> int:
 
 # --- vectors and turns about the third axis ----------------------------------------------------------------------
 @dataclass(frozen=True, eq=False)
-class Joint:
+class JointValue:
     """The angle with cosine and sine ``c / w`` and ``s / w``, w > 0; or the length ``c / w`` where s is None."""
 
     c: Nested
@@ -207,7 +206,7 @@ class Vector:
     scale: Nested
     is_point: bool
 
-    def turned(self, joint: Joint, side: int = 1) -> Vector:
+    def turned(self, joint: JointValue, side: int = 1) -> Vector:
         """The image under the turn about the third axis; under the turn back for ``side`` -1. A direction stays as it
         is where the joint slides."""
         (x, y, z), w = self.parts, joint.w
@@ -235,23 +234,23 @@ def dot(a: Sequence[Nested], b: Sequence[Nested]) -> Nested:
     return sum((x * y for x, y in zip(a, b, strict=True)), Nested({}))
 
 
-def angle(a: Sequence[Nested], b: Sequence[Nested], over: tuple[Nested, Nested]) -> Joint | None:
+def angle(a: Sequence[Nested], b: Sequence[Nested], over: tuple[Nested, Nested]) -> JointValue | None:
     """The turn that takes (a0, a1) / over[0] to (b0, b1) / over[1], vectors of one length; None where they vanish."""
     size = b[0] * b[0] + b[1] * b[1]
     if not size.sign():
         return None
-    return Joint(dot(a[:2], b[:2]) * over[1], (a[0] * b[1] - a[1] * b[0]) * over[1], size * over[0])
+    return JointValue(dot(a[:2], b[:2]) * over[1], (a[0] * b[1] - a[1] * b[0]) * over[1], size * over[0])
 
 
-def basis(unit: Nested) -> tuple[Joint, Joint, Joint]:
+def basis(unit: Nested) -> tuple[JointValue, JointValue, JointValue]:
     """What stands for an unknown turn: whatever is linear in its c, s and w is known by what these three give."""
     zero = Nested({})
-    return Joint(unit, zero, zero), Joint(zero, unit, zero), Joint(zero, zero, unit)
+    return JointValue(unit, zero, zero), JointValue(zero, unit, zero), JointValue(zero, zero, unit)
 
 
-def turns(a: Nested, b: Nested, k: Nested, scale: Nested) -> Iterator[Joint]:
+def turns(a: Nested, b: Nested, k: Nested, scale: Nested) -> Iterator[JointValue]:
     """All angles with a cos + b sin = k / scale, where a and b are not both 0: cosine and sine are
     (a k - b m, b k + a m) / ((a² + b²) scale), m² = (a² + b²) scale² - k²."""
     size = a * a + b * b
     for m in (size * scale * scale - k * k).square_roots():
-        yield Joint(a * k - b * m, b * k + a * m, size * scale)
+        yield JointValue(a * k - b * m, b * k + a * m, size * scale)

@@ -3,22 +3,25 @@
 Square roots of different squarefree numbers are linearly independent over Q (A. S. Besicovitch, J. London Math. Soc.
 15, 1940), so such a sum is zero iff every q is; then more digits always tell its sign. The checker's own arithmetic:
 nothing but integers and fractions.
+
+Polynomials with square roots in their coefficients that have one sign on an interval, proved by subdivision.
+
+On [a, b] a polynomial lies between its smallest and its largest Bernstein coefficient there (R. T. Farouki, CAGD 29,
+2012, section 3). The coefficients are enclosed by integers, and halves follow by de Casteljau's algorithm.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
-from math import ceil, floor, gcd, isqrt
+from itertools import pairwise, zip_longest
+from math import ceil, comb, floor, gcd, isqrt
 
 LARGEST = 10**10
 """Radicands are factored by trial division, up to this."""
 
 Interval = tuple[Fraction, Fraction]
-Polynomial = list["Surd"]
-"""Coefficients from degree 0 up, the last one not zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,10 +33,10 @@ class Surd:
     @staticmethod
     def of(pairs: Iterable[tuple[int, Fraction]]) -> Surd:
         """The sum of q √d over the pairs (d, q)."""
-        found: dict[int, Fraction] = {}
+        result: dict[int, Fraction] = {}
         for d, q in pairs:
-            found[d] = found.get(d, Fraction(0)) + q
-        return Surd(tuple(sorted((d, q) for d, q in found.items() if q)))
+            result[d] = result.get(d, Fraction(0)) + q
+        return Surd(tuple(sorted((d, q) for d, q in result.items() if q)))
 
     @staticmethod
     def rational(value: Fraction | int) -> Surd:
@@ -50,12 +53,12 @@ class Surd:
         return Surd(tuple((d, -q) for d, q in self.terms))
 
     def __mul__(self, other: Surd) -> Surd:
-        found = []
+        result = []
         for d, q in self.terms:
             for e, r in other.terms:
                 g = gcd(d, e)
-                found.append((d // g * (e // g), q * r * g))
-        return Surd.of(found)
+                result.append((d // g * (e // g), q * r * g))
+        return Surd.of(result)
 
     def __bool__(self) -> bool:
         return bool(self.terms)
@@ -112,32 +115,60 @@ def _prime(d: int) -> int:
 # --- polynomials -------------------------------------------------------------------------------------------------
 
 
-def trimmed(p: Sequence[Surd]) -> Polynomial:
-    """Without leading zeros."""
-    found = list(p)
-    while found and not found[-1]:
-        found.pop()
-    return found
+@dataclass(frozen=True, slots=True)
+class Polynomial:
+    """Coefficients from degree 0 up, the last one not zero."""
 
+    coefficients: tuple[Surd, ...] = ()
 
-def add(p: Polynomial, q: Polynomial) -> Polynomial:
-    """p + q."""
-    size = max(len(p), len(q))
-    return trimmed([(p[k] if k < len(p) else ZERO) + (q[k] if k < len(q) else ZERO) for k in range(size)])
+    @staticmethod
+    def of(values: Iterable[Surd]) -> Polynomial:
+        """Without leading zeros."""
+        kept = list(values)
+        while kept and not kept[-1]:
+            kept.pop()
+        return Polynomial(tuple(kept))
 
+    def __len__(self) -> int:
+        return len(self.coefficients)
 
-def times(p: Polynomial, q: Polynomial) -> Polynomial:
-    """p q."""
-    found = [ZERO] * max(0, len(p) + len(q) - 1)
-    for i, a in enumerate(p):
-        for j, b in enumerate(q):
-            found[i + j] = found[i + j] + a * b
-    return trimmed(found)
+    def __getitem__(self, k: int) -> Surd:
+        return self.coefficients[k]
 
+    def __iter__(self) -> Iterator[Surd]:
+        return iter(self.coefficients)
 
-def scaled(p: Polynomial, c: Surd) -> Polynomial:
-    """c p."""
-    return trimmed([a * c for a in p])
+    def __add__(self, other: Polynomial) -> Polynomial:
+        return Polynomial.of(a + b for a, b in zip_longest(self, other, fillvalue=ZERO))
+
+    def __neg__(self) -> Polynomial:
+        return Polynomial(tuple(-c for c in self))
+
+    def __sub__(self, other: Polynomial) -> Polynomial:
+        return self + -other
+
+    def __mul__(self, other: Polynomial) -> Polynomial:
+        product = [ZERO] * max(0, len(self) + len(other) - 1)
+        for i, a in enumerate(self):
+            for j, b in enumerate(other):
+                product[i + j] = product[i + j] + a * b
+        return Polynomial.of(product)
+
+    def by(self, c: Surd) -> Polynomial:
+        """c times it."""
+        return Polynomial.of(a * c for a in self)
+
+    def at(self, x: Fraction) -> Surd:
+        """The value at a rational number."""
+        total, point = ZERO, Surd.rational(x)
+        for c in reversed(self.coefficients):
+            total = total * point + c
+        return total
+
+    @property
+    def derivative(self) -> Polynomial:
+        """The slope."""
+        return Polynomial.of(Surd.rational(k) * c for k, c in enumerate(self) if k)
 
 
 def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
@@ -149,30 +180,21 @@ def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
         if c:
             for j, a in enumerate(q):
                 rest[k + j] = rest[k + j] - c * a
-    return trimmed(quotient), trimmed(rest[: len(q) - 1] if len(p) >= len(q) else rest)
-
-
-def at(p: Polynomial, x: Fraction) -> Surd:
-    """The value at a rational number."""
-    total, point = ZERO, Surd.rational(x)
-    for c in reversed(p):
-        total = total * point + c
-    return total
+    return Polynomial.of(quotient), Polynomial.of(rest[: len(q) - 1] if len(p) >= len(q) else rest)
 
 
 def tarski(p: Polynomial, s: Polynomial, between: Interval | None = None) -> int:
     """The sum of the signs of s at the different real roots of p, all of them or those in an interval whose ends are no
     roots (S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*, theorem 2.73). p is not constant."""
-    slope = trimmed([Surd.rational(k) * c for k, c in enumerate(p)][1:])
-    sequence = [p, times(slope, s)]
+    sequence = [p, p.derivative * s]
     while sequence[-1]:
-        sequence.append([-c for c in divided(sequence[-2], sequence[-1])[1]])
+        sequence.append(-divided(sequence[-2], sequence[-1])[1])
     sequence.pop()
     if between is None:
         high = [q[-1].sign() for q in sequence]
         low = [sign * (-1) ** (len(q) - 1) for sign, q in zip(high, sequence, strict=True)]
     else:
-        low, high = ([at(q, x).sign() for q in sequence] for x in between)
+        low, high = ([q.at(x).sign() for q in sequence] for x in between)
     return _variations(low) - _variations(high)
 
 
@@ -198,7 +220,7 @@ def product(a: Interval, b: Interval) -> Interval:
 def enclosure(p: Polynomial, x: Interval, bits: int) -> Interval:
     """An interval around p on x, by Horner's rule."""
     total: Interval = (Fraction(0), Fraction(0))
-    for c in reversed(p):
+    for c in reversed(p.coefficients):
         total = plus(product(total, x), c.interval(bits))
     return total
 
@@ -218,3 +240,107 @@ def outwards(a: Interval, bits: int) -> Interval:
     """A little wider, with ends that are multiples of 2^-bits."""
     low, high = (v * (1 << bits) for v in a)
     return Fraction(floor(low), 1 << bits), Fraction(ceil(high), 1 << bits)
+
+
+Triple = tuple[Surd, ...]
+Motion = tuple[tuple[Triple, Triple, Triple], Triple]
+"""Rows of the rotation, and the shift."""
+
+STILL: Motion = (((ONE, ZERO, ZERO), (ZERO, ONE, ZERO), (ZERO, ZERO, ONE)), (ZERO, ZERO, ZERO))
+
+
+def dot(a: Sequence[Surd], b: Sequence[Surd]) -> Surd:
+    """The scalar product."""
+    return sum((x * y for x, y in zip(a, b, strict=True)), ZERO)
+
+
+def turn(plane: tuple[int, int], angle: tuple[Surd, Surd], shift: Triple) -> Motion:
+    """A turn in the plane of two axes, and a shift along the third one: they commute."""
+    (c, s), (i, j) = angle, plane
+    rows = [list(row) for row in STILL[0]]
+    rows[i][i], rows[i][j], rows[j][i], rows[j][j] = c, -s, s, c
+    return (tuple(rows[0]), tuple(rows[1]), tuple(rows[2])), shift
+
+
+def together(first: Motion, second: Motion) -> Motion:
+    """The second motion, then the first one."""
+    a, b, c = (tuple(dot(row, column) for column in zip(*second[0], strict=True)) for row in first[0])
+    return (a, b, c), image(first, second[1])
+
+
+def image(motion: Motion, point: Sequence[Surd]) -> Triple:
+    """Where a point comes to lie."""
+    return tuple(dot(row, point) + o for row, o in zip(*motion, strict=True))
+
+
+def back(motion: Motion) -> Motion:
+    """The inverse motion: rotations are orthogonal."""
+    rows, shift = motion
+    a, b, c = zip(*rows, strict=True)
+    return (a, b, c), tuple(-dot(row, shift) for row in (a, b, c))
+
+
+def is_motion(motion: Motion) -> bool:
+    """Whether the rows are orthogonal, of length 1 and of determinant 1."""
+    a, b, c = motion[0]
+    across = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    pairs = [(a, a, ONE), (b, b, ONE), (a, b, ZERO)]
+    return across == c and all(dot(x, y) == value for x, y, value in pairs)
+
+
+BITS = (256, 1024)
+MOST_SUMS = 20_000_000
+"""Of the coefficients of all parts that are looked at."""
+
+Ends = list[tuple[int, int]]
+
+
+def constant_sign(p: Polynomial, low: Fraction, high: Fraction) -> int:
+    """1 or -1 if p is proved to have this sign everywhere on [low, high], else 0."""
+    ends = {p.at(x).sign() for x in (low, high)}
+    if len(ends) > 1 or ends == {0}:
+        return 0
+    bernstein = _bernstein(p, low, high)
+    return ends.pop() if any(_is_nonzero(_enclosed(bernstein, bits)) for bits in BITS) else 0
+
+
+def _bernstein(p: Polynomial, low: Fraction, high: Fraction) -> list[Surd]:
+    """b_k = Σ_j C(k,j) / C(n,j) c_j, c the coefficients of p(low + (high - low) u)."""
+    step, composed = Polynomial((Surd.rational(low), Surd.rational(high - low))), Polynomial()
+    for c in reversed(p.coefficients):
+        composed = composed * step + Polynomial.of([c])
+    n = len(p) - 1
+    moved = [*composed, *[ZERO] * (n + 1 - len(composed))]
+    result = []
+    for k in range(n + 1):
+        pairs = [(d, q * Fraction(comb(k, j), comb(n, j))) for j in range(k + 1) for d, q in moved[j].terms]
+        result.append(Surd.of(pairs))
+    return result
+
+
+def _enclosed(values: list[Surd], bits: int) -> Ends:
+    ends = [v.interval(2 * bits) for v in values]
+    unit = max(max(abs(a), abs(b)) for a, b in ends) / (1 << bits)
+    return [(floor(a / unit), ceil(b / unit)) for a, b in ends]
+
+
+def _is_nonzero(whole: Ends) -> bool:
+    parts, count, most = [whole], 0, 200 + MOST_SUMS // len(whole) ** 2
+    while parts:
+        part, count = parts.pop(), count + 1
+        if all(low > 0 for low, _ in part) or all(high < 0 for _, high in part):
+            continue
+        if any(low <= 0 <= high for low, high in (part[0], part[-1])) or count > most:
+            return False
+        parts += _halves(part)
+    return True
+
+
+def _halves(row: Ends) -> tuple[Ends, Ends]:
+    """The coefficients on both halves: after k sums they are 2^k times as large."""
+    left, right, k = [row[0]], [row[-1]], 0
+    while len(row) > 1:
+        row, k = [(a + c, b + d) for (a, b), (c, d) in pairwise(row)], k + 1
+        left.append((row[0][0] >> k, -(-row[0][1] >> k)))
+        right.append((row[-1][0] >> k, -(-row[-1][1] >> k)))
+    return left, right[::-1]

@@ -20,14 +20,13 @@ from fractions import Fraction
 
 from bezier.certify import square_roots as sr
 from bezier.certify.families import Arcs, Position, not_negative
-from bezier.certify.motions import Motion, Triple, back, dot, image
-from bezier.certify.nested_roots import Joint, Nested, Place, angle, nested
-from bezier.certify.square_roots import ONE, ZERO, Interval, Polynomial, Surd
+from bezier.certify.nested_roots import JointValue, Nested, Place, angle, nested
+from bezier.certify.square_roots import ONE, ZERO, Interval, Motion, Polynomial, Surd, Triple, back, dot, image
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry
 
-HALF = Surd.rational(Fraction(1, 2))
+HALF, UNIT = Surd.rational(Fraction(1, 2)), Polynomial((ONE,))
 Linear = tuple[Polynomial, Surd]
 """A part without m, and the factor of m."""
 
@@ -67,16 +66,16 @@ class Positions:
         target = image(back(constants[0]), place)
         stands = is_still(turns, e)
         norm, third, v = _last(constants[2], e, phi, stands)
-        parts = _Parts(constants[1], target, norm, v)
+        parts = _Equations(constants[1], target, norm, v)
         equation, full, square, moved, second = (
             parts.second_turns(turns[0]) if turns[1] else parts.second_slides(turns[0])
         )
         full = 0 if phi is None else full
         if stands and not equation:
-            equation = [ZERO, ONE]
+            equation = Polynomial((ZERO, ONE))
         only_at_roots = not equation
         if only_at_roots:
-            equation, full = square or [], 0 if phi is None else 8
+            equation, full = square or Polynomial(), 0 if phi is None else 8
         while full and len(equation) > 2 and not (divided := sr.divided(equation, norm))[1]:
             equation, full = divided[0], full - 2
         if equation and len(equation) <= full:
@@ -103,25 +102,25 @@ class Positions:
             raise entry.fail(FREE)
         if len(self.equation) == 1:
             return 0
-        roots = sr.tarski(self.equation, [ONE])
+        roots = sr.tarski(self.equation, UNIT)
         if not self.square or self.only_at_roots or not roots:
             return roots
         signs = sr.tarski(self.equation, self.square)
-        nonzero = sr.tarski(self.equation, sr.times(self.square, self.square))
+        nonzero = sr.tarski(self.equation, self.square * self.square)
         return (nonzero + signs) + (roots - nonzero)  # two for each positive one, one where it vanishes
 
     def at_root(self, between: Interval, entry: Entry) -> Iterator[Position]:
         """The positions over the one root in an interval."""
-        ends = [sr.at(self.equation, x) for x in between]
+        ends = [self.equation.at(x) for x in between]
         if not all(ends):
             raise entry.fail("an end is a root")
         if self.only_at_roots and any(end.sign() > 0 for end in ends):
             raise entry.fail(FREE)
-        if len(self.equation) == 1 or sr.tarski(self.equation, [ONE], between) != 1:
+        if len(self.equation) == 1 or sr.tarski(self.equation, UNIT, between) != 1:
             raise entry.fail("expected exactly one root in the interval")
         place = Place.of(self.equation, between)
         nothing = self.square is None or self.only_at_roots
-        square = Nested({}) if nothing else nested(place.value(self.square or []))
+        square = Nested({}) if nothing else nested(place.value(self.square or Polynomial()))
         for m in square.square_roots():
             yield self._position(place, m)
 
@@ -137,14 +136,14 @@ class Positions:
             sum((part.by(c) for c, part in zip(row, moved, strict=True) if c), norm2.by(o))
             for row, o in zip(rows, shift, strict=True)
         ]
-        one, goal = at([ONE]), [at(sr.trimmed([c])) for c in self.target]
-        first = angle(q, goal, (norm2, one)) if self.turns[0] else Joint(norm2 * goal[2] - q[2], None, norm2)
+        one, goal = at(UNIT), [at(Polynomial.of([c])) for c in self.target]
+        first = angle(q, goal, (norm2, one)) if self.turns[0] else JointValue(norm2 * goal[2] - q[2], None, norm2)
         part, factor = self.second
-        second = angle(v, moved, (norm, norm2)) if self.turns[1] else Joint(at(part) + m.by(factor), None, norm2)
+        second = angle(v, moved, (norm, norm2)) if self.turns[1] else JointValue(at(part) + m.by(factor), None, norm2)
         third = None
         if self.third is not None:
             c, *sine = (at(p) for p in self.third)
-            third = Joint(c, sine[0] if sine else None, norm)
+            third = JointValue(c, sine[0] if sine else None, norm)
         joints = [first, second, third]
         return Position(joints, {k: None for k in range(3) if joints[k] is None})
 
@@ -160,38 +159,34 @@ def _last(
     """What all is multiplied by, the third joint, and v."""
     third: tuple[Polynomial, ...] | None
     if stands:
-        norm, third = [ONE], None
-        moved = [[], [], sr.trimmed([e[2]])]
+        norm, third = UNIT, None
+        moved = [Polynomial(), Polynomial(), Polynomial.of([e[2]])]
     elif phi is None:
-        norm, third = [ONE], ([ZERO, ONE],)
-        moved = [sr.trimmed([e[0]]), sr.trimmed([e[1]]), [e[2], ONE]]
+        norm, third = UNIT, (Polynomial((ZERO, ONE)),)
+        moved = [Polynomial.of([e[0]]), Polynomial.of([e[1]]), Polynomial((e[2], ONE))]
     else:
         cosine, sine = third = _circle(*phi)
-        norm = [ONE, ZERO, ONE]
+        norm = Polynomial((ONE, ZERO, ONE))
         moved = [
-            sr.add(sr.scaled(cosine, e[0]), sr.scaled(sine, -e[1])),
-            sr.add(sr.scaled(sine, e[0]), sr.scaled(cosine, e[1])),
-            sr.scaled(norm, e[2]),
+            cosine.by(e[0]) + sine.by(-e[1]),
+            sine.by(e[0]) + cosine.by(e[1]),
+            norm.by(e[2]),
         ]
-    v = [sr.add(_combined(row, moved), sr.scaled(norm, o)) for row, o in zip(*constant, strict=True)]
+    v = [_combined(row, moved) + norm.by(o) for row, o in zip(*constant, strict=True)]
     return norm, third, v
 
 
 def _circle(c: Fraction, s: Fraction) -> tuple[Polynomial, Polynomial]:
     """cos θ3 and sin θ3 times 1 + t²."""
-    cosine, sine = (sr.trimmed([Surd.rational(v) for v in row]) for row in ((c, -2 * s, -c), (s, 2 * c, -s)))
+    cosine, sine = (Polynomial.of(map(Surd.rational, row)) for row in ((c, -2 * s, -c), (s, 2 * c, -s)))
     return cosine, sine
 
 
 def _combined(row: Sequence[Surd], parts: Sequence[Polynomial]) -> Polynomial:
-    total: Polynomial = []
+    total = Polynomial()
     for c, part in zip(row, parts, strict=True):
-        total = sr.add(total, sr.scaled(part, c))
+        total = total + part.by(c)
     return total
-
-
-def _less(p: Polynomial, q: Polynomial) -> Polynomial:
-    return sr.add(p, sr.scaled(q, -ONE))
 
 
 Found = tuple[Polynomial, int, Polynomial | None, tuple[Linear, Linear, Linear], Linear]
@@ -199,7 +194,7 @@ Found = tuple[Polynomial, int, Polynomial | None, tuple[Linear, Linear, Linear],
 
 
 @dataclass(frozen=True, slots=True)
-class _Parts:
+class _Equations:
     """``second``: A1; v over norm."""
 
     second: Motion
@@ -208,7 +203,7 @@ class _Parts:
     v: list[Polynomial]
 
     def _lifted(self, p: Polynomial) -> Polynomial:
-        return sr.times(p, self.norm)
+        return p * self.norm
 
     def _rows(self, first_turns: bool) -> tuple[Triple, Triple]:
         """What the two equations take of M2 v."""
@@ -218,40 +213,38 @@ class _Parts:
     def _distance(self) -> Polynomial:
         """(|p'|² - |o|² - |v|²) norm²."""
         shift = self.second[1]
-        total = sr.scaled(sr.times(self.norm, self.norm), dot(self.target, self.target) - dot(shift, shift))
+        total = (self.norm * self.norm).by(dot(self.target, self.target) - dot(shift, shift))
         for part in self.v:
-            total = _less(total, sr.times(part, part))
+            total = total - part * part
         return total
 
     def _shifted(self, i: int) -> Polynomial:
-        return sr.scaled(sr.times(self.norm, self.norm), self.target[i] - self.second[1][i])
+        return (self.norm * self.norm).by(self.target[i] - self.second[1][i])
 
     def second_turns(self, first_turns: bool) -> Found:
         """u from the two equations, and |u|² = |(v_x, v_y)|²."""
         (g, n), v = self._rows(first_turns), self.v
-        one, two = (
-            (sr.scaled(self._distance(), HALF), self._shifted(2)) if first_turns else map(self._shifted, range(2))
-        )
+        one, two = (self._distance().by(HALF), self._shifted(2)) if first_turns else map(self._shifted, range(2))
         height = self._lifted(v[2])
-        b1, b2 = _less(one, sr.scaled(height, g[2])), _less(two, sr.scaled(height, n[2]))
-        radius = sr.add(sr.times(v[0], v[0]), sr.times(v[1], v[1]))
+        b1, b2 = one - height.by(g[2]), two - height.by(n[2])
+        radius = v[0] * v[0] + v[1] * v[1]
         kappa, determinant = self._lifted(self._lifted(radius)), g[0] * n[1] - g[1] * n[0]
         if determinant:
             over = determinant.inverse()
-            x = _less(sr.scaled(b1, n[1] * over), sr.scaled(b2, g[1] * over))
-            y = _less(sr.scaled(b2, g[0] * over), sr.scaled(b1, n[0] * over))
-            equation = _less(sr.add(sr.times(x, x), sr.times(y, y)), kappa)
-            return equation, 8, None, ((x, ZERO), (y, ZERO), (height, ZERO)), ([], ZERO)
+            x = b1.by(n[1] * over) - b2.by(g[1] * over)
+            y = b2.by(g[0] * over) - b1.by(n[0] * over)
+            equation = x * x + y * y - kappa
+            return equation, 8, None, ((x, ZERO), (y, ZERO), (height, ZERO)), (Polynomial(), ZERO)
         along, d, equation = (b1, g, b2) if g[0] or g[1] else (b2, n, b1)
         length = d[0] * d[0] + d[1] * d[1]
         if not length:
             raise Unable("the first two joints move alike")
         over = length.inverse()
         if g[0] or g[1]:
-            equation = _less(equation, sr.scaled(b1, dot(n[:2], d[:2]) * over))
-        square = _less(sr.scaled(kappa, length), sr.times(along, along))
-        u = (sr.scaled(along, d[0] * over), -d[1] * over), (sr.scaled(along, d[1] * over), d[0] * over)
-        return equation, 4, square, (*u, (height, ZERO)), ([], ZERO)
+            equation = equation - b1.by(dot(n[:2], d[:2]) * over)
+        square = kappa.by(length) - along * along
+        u = (along.by(d[0] * over), -d[1] * over), (along.by(d[1] * over), d[0] * over)
+        return equation, 4, square, (*u, (height, ZERO)), (Polynomial(), ZERO)
 
     def second_slides(self, first_turns: bool) -> Found:
         """d from one of the two equations."""
@@ -259,22 +252,22 @@ class _Parts:
         x, y, z = (self._lifted(part) for part in v)
         full, factor = 8, ZERO
         if not first_turns:
-            b1, b2 = (_less(self._shifted(i), self._lifted(_combined(row, v))) for i, row in enumerate((g, n)))
+            b1, b2 = (self._shifted(i) - self._lifted(_combined(row, v)) for i, row in enumerate((g, n)))
             length = g[2] * g[2] + n[2] * n[2]
             if not length:
                 raise Unable("the first two joints move alike")
-            d = sr.scaled(sr.add(sr.scaled(b1, g[2]), sr.scaled(b2, n[2])), length.inverse())
-            equation, full = _less(sr.scaled(b1, n[2]), sr.scaled(b2, g[2])), 4
+            d = (b1.by(g[2]) + b2.by(n[2])).by(length.inverse())
+            equation, full = b1.by(n[2]) - b2.by(g[2]), 4
         else:
-            height = _less(self._shifted(2), self._lifted(_combined(n, v)))
-            middle = sr.add(z, sr.scaled(sr.times(self.norm, self.norm), g[2]))
+            height = self._shifted(2) - self._lifted(_combined(n, v))
+            middle = z + (self.norm * self.norm).by(g[2])
             # |A1 (v + d e_z)|² = |v|² + |o|² + 2 g·v + d² + 2 d (v_z + g_z)
-            free = _less(self._distance(), sr.scaled(self._lifted(_combined(g, v)), ONE + ONE))
+            free = self._distance() - self._lifted(_combined(g, v)).by(ONE + ONE)
             wanted = self._lifted(self._lifted(free))
             if n[2]:
-                d = sr.scaled(height, n[2].inverse())
-                equation = _less(sr.add(sr.times(d, d), sr.scaled(sr.times(d, middle), ONE + ONE)), wanted)
+                d = height.by(n[2].inverse())
+                equation = d * d + (d * middle).by(ONE + ONE) - wanted
             else:
-                square, factor = sr.add(sr.times(middle, middle), wanted), ONE
-                d, equation, full = sr.scaled(middle, -ONE), height, 4
-        return equation, full, square, ((x, ZERO), (y, ZERO), (sr.add(z, d), factor)), (d, factor)
+                square, factor = middle * middle + wanted, ONE
+                d, equation, full = -middle, height, 4
+        return equation, full, square, ((x, ZERO), (y, ZERO), (z + d, factor)), (d, factor)

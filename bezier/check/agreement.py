@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import zip_longest
 from typing import Any, Never
 
+from bezier.curves.curve import Bezier
 from bezier.input.numbers import shorten
-from qe.errors import CertificateRejected
+from bezier.input.stored import control_points, entry
+from bezier.problem import Problem, from_json
+from qe.errors import CertificateRejected, InputError
 
 SHOWN = 60
 
@@ -28,7 +32,7 @@ def same_data(file: str, stated: Any, expected: Any, place: str = "") -> None:
         if len(stated) != len(expected):
             _reject(file, place, f"expected {len(expected)} entries, found {len(stated)}")
     elif type(stated) is not type(expected) or stated != expected:
-        _reject(file, place, f"expected {_told(expected)}, found {_told(stated)}")
+        _reject(file, place, f"expected {_shown(expected)}, found {_shown(stated)}")
 
 
 def same_rows(file: str, stated: str, expected: str) -> None:
@@ -42,15 +46,15 @@ def same_rows(file: str, stated: str, expected: str) -> None:
         cells = zip_longest(names, one.split(","), other.split(","))
         for name, mine, right in cells if not other.startswith("#") else ():
             if mine != right:
-                _reject(file, f"line {number}, {name}", f"expected {_told(right)}, found {_told(mine)}")
-        _reject(file, f"line {number}", f"expected {_told(other)}, found {_told(one)}")
+                _reject(file, f"line {number}, {name}", f"expected {_shown(right)}, found {_shown(mine)}")
+        _reject(file, f"line {number}", f"expected {_shown(other)}, found {_shown(one)}")
 
 
 def _reject(file: str, place: str, reason: str) -> Never:
     raise CertificateRejected(f"{file}: {place}" if place else file, reason)
 
 
-def _told(value: Any) -> str:
+def _shown(value: Any) -> str:
     match value:
         case None:
             return "nothing"
@@ -63,3 +67,22 @@ def _told(value: Any) -> str:
         case int() if value.bit_length() > 4 * SHOWN:
             return "a huge number"
     return repr(shorten(value, SHOWN)) if isinstance(value, str) else str(value)
+
+
+def stated_problem(stated: Mapping[str, Any], file: str) -> Problem:
+    """The problem that a table read from a file states."""
+    try:
+        return from_json(stated, "problem")
+    except InputError as error:
+        raise CertificateRejected(file, str(error)) from None
+
+
+def stored_path(stated: Mapping[str, Any]) -> tuple[Problem, dict[str, Bezier]]:
+    """The problem and the curves in the table of a ``path.json``."""
+    points = control_points(stated)
+    curves = {}
+    for name, row in entry(stated, "curves", dict, "path.json: ").items():
+        if not isinstance(row, list) or not row or not all(isinstance(p, str) and p in points for p in row):
+            raise CertificateRejected(f"path.json: curves.{name}", "expected names of control points")
+        curves[name] = Bezier.of([points[p] for p in row])
+    return stated_problem(entry(stated, "problem", dict, "path.json: "), "path.json"), curves

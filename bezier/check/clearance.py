@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any
 
 import qe
-from bezier.check.stated import stored_path
+from bezier.check.agreement import stored_path
 from bezier.curves.curve import Bezier
 from bezier.input import stored
-from bezier.input.files import read_text
 from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
@@ -30,40 +28,38 @@ MAX_CONTROL_POINTS = 31
 Curves = Mapping[str, Bezier]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Request:
-    """``source``: a folder of ``bezier plan``, a problem, or a file with ``[[curve]]`` and ``[[obstacle]]`` tables.
+def clearance(
+    channel: Channel,
+    source: FilePath,
+    other: FilePath | None = None,
+    certificate_file: FilePath | None = None,
+    *,
+    as_json: bool = False,
+    timeout: float | None = None,
+) -> str:
+    """What to print. Raises ``InputError`` for bad input, ``Unable`` when a problem has no path to examine.
 
-    ``obstacles``: a file whose obstacles are taken instead. ``certificate``: where to write the certificates.
+    ``source``: a folder of ``bezier plan``, a problem, or a file with ``[[curve]]`` and ``[[obstacle]]`` tables;
+    ``other``: a file whose obstacles are taken instead. ``certificate_file``: where to write the certificates.
     """
-
-    source: FilePath
-    obstacles: FilePath | None = None
-    certificate: FilePath | None = None
-    json: bool = False
-    timeout: float | None = None
-
-
-def clearance(channel: Channel, request: Request) -> str:
-    """What to print. Raises ``InputError`` for bad input, ``Unable`` when a problem has no path to examine."""
-    clock = Clock(limit=request.timeout, listener=channel.event, note=channel.fact)
-    curves, obstacles, answers = _read(request.source, clock)
-    if request.obstacles is not None:
-        obstacles = read_obstacles(Table.parse(read_text(request.obstacles), str(request.obstacles)))
+    clock = Clock(limit=timeout, listener=channel.event, note=channel.fact)
+    curves, obstacles, answers = _read(source, clock)
+    if other is not None:
+        obstacles = read_obstacles(Table.load(other))
     if not obstacles:
-        raise InputError(f"{request.obstacles or request.source}: expected [[obstacle]] tables, found none")
+        raise InputError(f"{other or source}: expected [[obstacle]] tables, found none")
     with clock.step("clearance"):
         findings = survey.survey(curves, obstacles)
     with clock.step("certificates"):
         members = survey.certificates(findings)
-        if request.certificate is not None:
+        if certificate_file is not None:
             derived, _ = derivations.proved({**answers, **derivations.of_obstacles(obstacles)}, clock)
             members += derivations.members(derived)
         certificate = qe.Certificate.bundle(members)
         verdict = qe.verify(certificate) if members else None
-    if request.certificate is not None:
-        _write(request.certificate, certificate.to_json())
-    return _as_json(findings, verdict) if request.json else _in_words(findings, verdict)
+    if certificate_file is not None:
+        _write(certificate_file, certificate.to_json())
+    return _as_json(findings, verdict) if as_json else _in_words(findings, verdict)
 
 
 def _write(path: FilePath, text: str) -> None:
@@ -78,7 +74,7 @@ def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], M
     if source.is_dir():
         problem, curves = stored_path(stored.table(source / "path.json"))
         return curves, problem.obstacles, {}
-    table = Table.parse(read_text(source), str(source))
+    table = Table.load(source)
     if "curve" in table.values:
         table.only(("curve", "obstacle"))
         return _curves(table), read_obstacles(table), {}
@@ -91,31 +87,31 @@ def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], M
 
 def _curves(table: Table) -> dict[str, Bezier]:
     """``[[curve]]``: points, and optionally name."""
-    found: dict[str, Bezier] = {}
+    result: dict[str, Bezier] = {}
     for i, entry in enumerate(table.tables("curve")):
         entry.only(("name", "points"))
         name = entry.values.get("name", f"curve {i + 1}")
-        if not isinstance(name, str) or name in found:
+        if not isinstance(name, str) or name in result:
             raise entry.error("name", "a name of its own for each curve", describe(name))
         raw = entry.required("points", "control points")
         if not isinstance(raw, list) or not 1 <= len(raw) <= MAX_CONTROL_POINTS:
             raise entry.error("points", f"1 to {MAX_CONTROL_POINTS} control points", describe(raw))
-        found[name] = Bezier.of([entry.as_point(f"points[{k}]", p) for k, p in enumerate(raw)])
-    return found
+        result[name] = Bezier.of([entry.as_point(f"points[{k}]", p) for k, p in enumerate(raw)])
+    return result
 
 
 def _as_json(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
-    told: dict[str, Any] = {
+    data: dict[str, Any] = {
         "status": "solved",
         "clear": not survey.contacts(findings),
         "findings": [survey.to_json(finding) for finding in findings],
         "certificates": "none" if verdict is None else "accepted" if verdict.accepted else "rejected",
     }
-    return json.dumps(told, indent=1, ensure_ascii=False)
+    return json.dumps(data, indent=1, ensure_ascii=False)
 
 
 def _in_words(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
-    met = survey.contacts(findings)
-    last = f"{len(met)} of {len(findings)} pairs meet" if met else f"all {len(findings)} pairs are clear"
+    contacts = survey.contacts(findings)
+    last = f"{len(contacts)} of {len(findings)} pairs meet" if contacts else f"all {len(findings)} pairs are clear"
     accepted = "none" if verdict is None else "accepted" if verdict.accepted else "REJECTED"
     return "\n".join([*map(survey.in_words, findings), f"{last}; certificates: {accepted}"])

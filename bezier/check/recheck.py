@@ -16,9 +16,8 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
-from bezier.arm.motions_report import number_in_words
-from bezier.check.agreement import same_data, same_rows
-from bezier.check.stated import stated_problem
+from bezier.arm.path_report import number_in_words
+from bezier.check.agreement import same_data, same_rows, stated_problem
 from bezier.input import stored
 from bezier.obstacles import survey
 from bezier.planner import avoid
@@ -61,20 +60,20 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     channel.event(Event("files", 0, None))
     _check_files(plan, folder)
     _check_summary(plan, stated.summary, folder)
-    return [f"{CERTIFICATE}: accepted", *lines, *_told(plan)]
+    return [f"{CERTIFICATE}: accepted", *lines, *_path_lines(plan)]
 
 
 def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[Plan, tuple[str, ...]]:
     """The plan that the certificates and the stated path prove, and what was checked for that."""
-    found = _of_certificate(lambda: method_for(problem).restore(problem, certificate, stated))
-    plan: Plan = found.plan
+    result = _of_certificate(lambda: method_for(problem).restore(problem, certificate, stated))
+    plan: Plan = result.plan
     if problem.obstacles:
         plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
     larger = stated_radius(stated.summary)
     plan = with_findings(plan, lambda solvable: stated_rule(problem, solvable, larger))
     moving = with_joints(with_quality(plan))
     whole = _of_certificate(lambda: with_stated(moving, certificate))
-    return whole, (*found.lines, *_derived(whole))
+    return whole, (*result.lines, *_derived(whole))
 
 
 def _of_certificate(work: Callable[[], T]) -> T:
@@ -203,16 +202,16 @@ def _check_times(seconds: Mapping[str, Any]) -> None:
 
 def _seconds(value: Any, place: str) -> Fraction:
     text = str(value) if type(value) is int and abs(value) < 10**12 else value
-    found = stored.rational(text, place)
-    if not isinstance(value, int | str) or "/" in str(value) or found < 0:
+    result = stored.rational(text, place)
+    if not isinstance(value, int | str) or "/" in str(value) or result < 0:
         raise CertificateRejected(place, "expected a number of seconds")
-    return found
+    return result
 
 
 # --- for people ----------------------------------------------------------------------------------------------------
 
 
-def _told(plan: Plan) -> list[str]:
+def _path_lines(plan: Plan) -> list[str]:
     """What the checks of the path showed."""
     if plan.path is None:
         inside = "by any method" if ends_inside(plan.problem) else ""

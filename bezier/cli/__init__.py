@@ -1,4 +1,4 @@
-"""The command line: one file for each command, and ``app``, which lists them."""
+"""The command line."""
 
 from bezier.cli.app import main
 

@@ -1,4 +1,4 @@
-"""The command ``bezier``: its commands by name, each from a file of its own.
+"""The command ``bezier`` and its commands: each reads its input here and leaves the work to a worker.
 
 Exit status: 0 answered, 2 bad input, 3 unable or no solution, 4 certificate rejected, 1 a bug. An error is one
 line on stderr.
@@ -8,22 +8,207 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from functools import partial
+from json import dumps
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from bezier.cli.certify_path import certify_path
-from bezier.cli.check import check
-from bezier.cli.clearance import clearance
-from bezier.cli.compare import compare
-from bezier.cli.ik import ik
-from bezier.cli.joints import joints
-from bezier.cli.plan import plan
-from qe.cli.shell import enter, examples
+from bezier.curves.scalar import rational
+from bezier.motion.timelaw import Law, TimeLaw
+from qe.cli.app import check_limits
+from qe.cli.shell import OK, UNABLE, check_writable, enter, examples, limited, write_file
+from qe.errors import InputError, Unable
 
-Command = tuple[str, Callable[..., int], str, str]
+ProblemFile = Annotated[Path, typer.Argument(metavar="PROBLEM.toml", help="The planning problem.", show_default=False)]
+ArmName = Annotated[
+    str, typer.Argument(metavar="ARM", help="ev3-112, ev3-120, … or a file ARM.toml.", show_default=False)
+]
+RouteFile = Annotated[Path, typer.Argument(metavar="PATH.toml", help="[[curve]] tables.", show_default=False)]
+Out = Annotated[Path, typer.Option("--out", help="Folder for the report and all other files.")]
+Evidence = Annotated[Path | None, typer.Option("--certificate", help="Write the certificates here.")]
+Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
+NoPlots = Annotated[bool, typer.Option("--no-plots", help="No pictures.")]
+Timeout = Annotated[float | None, typer.Option("--timeout", help="Seconds; enforced.")]
+Memory = Annotated[int | None, typer.Option("--memory", help="MiB of address space; enforced.")]
 
-COMMANDS: tuple[Command, ...] = (
+
+def coordinate(name: str) -> object:
+    """The type of an argument that is a coordinate."""
+    return typer.Argument(metavar=name, help='Exact, in mm: 3/4, 0.75, "44*sqrt(2)".', show_default=False)
+
+
+def plan(
+    problem: ProblemFile,
+    out: Out,
+    json: Json = False,
+    no_plots: NoPlots = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Plan a path; write report.html, region, path and certificate files into a folder, all or none."""
+    from bezier.planner.outputs import all_or_none
+    from bezier.problem import load_problem
+
+    check_limits(timeout, memory)
+    read = load_problem(problem)
+    with all_or_none(out) as folder:
+        from bezier.planner import command
+
+        work = partial(command.plan, problem=read, folder=folder, target=out)
+        work = partial(work, plots=not no_plots, as_json=json, timeout=timeout)
+        text, is_success = limited(work, timeout=timeout, memory=memory, plain=json)
+    print(text)
+    return OK if is_success else UNABLE
+
+
+def check(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=False)],
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Verify the certificates in a folder written by plan, prove its path again, and compare every entry."""
+    from bezier.check.recheck import recheck
+
+    check_limits(timeout, memory)
+    lines = limited(partial(recheck, folder=folder), timeout=timeout, memory=memory, plain=json)
+    print(dumps({"status": "accepted", "checked": lines}, indent=1, ensure_ascii=False) if json else "\n".join(lines))
+    return OK
+
+
+def clearance(
+    source: Annotated[Path, typer.Argument(metavar="DIR|PROBLEM.toml|CURVES.toml", show_default=False)],
+    obstacles: Annotated[Path | None, typer.Option("--obstacles", help="A file with [[obstacle]] tables.")] = None,
+    certificate: Evidence = None,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Prove each curve clear of each obstacle for all t, or say where it first meets it."""
+    from bezier.check.clearance import clearance as examine
+
+    check_limits(timeout, memory)
+    work = partial(examine, source=source, other=obstacles, certificate_file=certificate, as_json=json, timeout=timeout)
+    print(limited(work, timeout=timeout, memory=memory, plain=json))
+    return OK
+
+
+def compare(
+    problem: ProblemFile,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder for the page, the pictures and the data.")] = None,
+    json: Json = False,
+    no_plots: NoPlots = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Quadratic and cubic curves on one problem, side by side."""
+    from bezier.planner.outputs import all_or_none
+    from bezier.problem import load_problem
+
+    check_limits(timeout, memory)
+    read = load_problem(problem)
+    with nullcontext() if out is None else all_or_none(out) as folder:
+        from bezier.compare import command
+
+        work = partial(command.run, problem=read, folder=folder, target=out)
+        work = partial(work, plots=not no_plots, as_json=json, timeout=timeout)
+        text = limited(work, timeout=timeout, memory=memory, plain=json, lines=True)
+    print(text)
+    return OK
+
+
+def ik(
+    arm: ArmName,
+    x: Annotated[str, coordinate("X")],
+    y: Annotated[str, coordinate("Y")],
+    z: Annotated[str, coordinate("Z")],
+    quaternion: Annotated[
+        tuple[str, str, str, str] | None,
+        typer.Option(metavar="W X Y Z", help="The orientation, of any length: a pose, for six joints or planar arms."),
+    ] = None,
+    certificate: Annotated[
+        Path | None, typer.Option("--certificate", help="Write the certificate that these are all solutions here.")
+    ] = None,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """All real joint positions that put the end effector of ARM at the point (X, Y, Z)."""
+    from bezier.arm.command import inverse
+    from bezier.arm.reader import load_arm, read_exact
+
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    model, point = load_arm(arm), tuple(read_exact(text) for text in (x, y, z))
+    turned = None if quaternion is None else tuple(read_exact(text) for text in quaternion)
+    certified = certificate is not None
+    work = partial(inverse, arm=model, point=point, quaternion=turned, json=json, certified=certified)
+    text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
+    if certificate is not None:
+        write_file(certificate, evidence)
+    print(text)
+    return OK
+
+
+def certify_path(
+    arm: ArmName,
+    path: RouteFile,
+    certificate: Evidence = None,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Prove that ARM can follow the path for all s in [0, 1], or say exactly where it stops; follow all branches."""
+    from bezier.arm.command import certify
+    from bezier.arm.reader import load_arm, load_route
+
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    work = partial(certify, arm=load_arm(arm), curves=load_route(path), json=json)
+    text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
+    print(text)
+    if certificate is not None:
+        if not evidence:
+            raise Unable("there is no joint motion along a part of the path, so there is no certificate")
+        write_file(certificate, evidence)
+    return OK
+
+
+def joints(
+    arm: ArmName,
+    path: RouteFile,
+    out: Out,
+    duration: Annotated[str, typer.Option("--duration", help="Seconds, exactly.")] = "50",
+    law: Annotated[Law, typer.Option("--law", help="How the path is run through.")] = Law.QUINTIC,
+    samples: Annotated[int, typer.Option("--samples", help="Rows of the sequence.")] = 200,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Find the joint sequence of least change, prove joint velocities and accelerations; write data and a moving
+    page."""
+    from bezier.arm.reader import load_arm, load_route, read_exact
+    from bezier.planner.outputs import all_or_none
+
+    check_limits(timeout, memory)
+    seconds = rational(read_exact(duration))
+    if seconds is None or seconds <= 0:
+        raise InputError(f"--duration: a rational number above 0 expected, {duration} found")
+    model, curves = load_arm(arm), load_route(path)
+    with all_or_none(out) as folder:
+        from bezier.planner import arm as planner
+
+        work = partial(planner.joints, arm=model, curves=curves, law=TimeLaw.of(law), duration=seconds)
+        work = partial(work, samples=samples, file=path.name, folder=folder, target=out, as_json=json)
+        text, is_followed = limited(work, timeout=timeout, memory=memory, plain=json)
+    print(text)
+    return OK if is_followed else UNABLE
+
+
+COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
     ("plan", plan, "Plan a path, with its page and proofs.", "examples/three_balls.toml --out out"),
     ("check", check, "Verify the folder of a plan.", "out"),
     ("clearance", clearance, "Curves clear of obstacles, for all t.", "examples/obstacle_curves.toml"),
@@ -32,8 +217,7 @@ COMMANDS: tuple[Command, ...] = (
     ("certify-path", certify_path, "Whether an arm can follow a path.", "ev3-120 examples/arm_curve.toml"),
     ("joints", joints, "The joint sequence of an arm on a path.", "ev3-120 examples/arm_curve.toml --out arm"),
 )
-"""In the order in which the help lists them, each with its line there and an example. A command reads its input here
-and leaves the work to a worker."""
+"""In the order in which the help lists them, each with its line there and an example."""
 
 app = typer.Typer(pretty_exceptions_enable=False, rich_markup_mode=None)
 for _name, _command, _short, _example in COMMANDS:

@@ -14,8 +14,7 @@ import qe
 from bezier.compare import whole_curve
 from bezier.compare.planar import Plane, plane_coordinates
 from bezier.curves.area import convex_area
-from bezier.curves.enclosure import Enclosure
-from bezier.curves.quality import curvature_enclosure, length_enclosure
+from bezier.curves.enclosure import Enclosure, curvature_enclosure, length_enclosure
 from bezier.methods.control.statements import Statement, exists
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.cubic.existence import Existence, existence, sentence
@@ -72,42 +71,41 @@ class Side:
     @property
     def curvature(self) -> Enclosure | None:
         """The largest one on the whole path."""
-        found = list(self.curvatures.values())
-        if not found:
+        result = list(self.curvatures.values())
+        if not result:
             return None
-        tops = [c.high for c in found if c.high is not None]
-        return Enclosure(max(c.low for c in found), max(tops) if len(tops) == len(found) else None)
+        tops = [c.high for c in result if c.high is not None]
+        return Enclosure(max(c.low for c in result), max(tops) if len(tops) == len(result) else None)
 
 
 @dataclass(frozen=True, slots=True)
 class PlanarRegion:
-    """The possible places of Q1 in the plane of the via points. ``formula``: as asked; its free variables are q1u, q1v.
+    """The possible places of Q1 in the plane of the via points.
 
     ``region`` and ``area`` (None: not reached, see ``reason``; the area in the square of the unit of the points).
-    ``answer``: how the region's formula was found, where something was eliminated for it.
     """
 
     formula: str
+    """As asked; its free variables are q1u, q1v."""
     region: qe.Region | None = None
     area: Enclosure | None = None
     reason: str = ""
     answer: qe.Answer | None = None
+    """How the region's formula was found, where something was eliminated for it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Planar:
-    """The planar regions of formula (8), of (8*) for whole curves, and of (7) with Q2 quantified.
-
-    ``contained``: whether the engine proved that the first lies in the second (None: not decided);
-    ``implications``: its answers about that, by what was asked.
-    """
+    """The planar regions of formula (8), of (8*) for whole curves, and of (7) with Q2 quantified."""
 
     plane: Plane
     polygon: PlanarRegion
     whole: PlanarRegion
     cubic: PlanarRegion
     contained: bool | None
+    """Whether the engine proved that the first lies in the second (None: not decided)."""
     implications: Mapping[str, Any] = field(default_factory=dict)
+    """Its answers about that, by what was asked."""
 
     @property
     def named(self) -> dict[str, PlanarRegion]:
@@ -143,12 +141,12 @@ class Comparison:
     @property
     def certificate(self) -> Certificate:
         """The certificates of both plans, each label with the formula's number before it, and the derivations."""
-        found = [
+        result = [
             (f"{NUMBERS[method]} {member.label}", member.certificate)
             for method, side in self.sides.items()
             for member in members_of(side.plan.certificate)
         ]
-        return Certificate.bundle([*found, *derivations.members(self.derivations)])
+        return Certificate.bundle([*result, *derivations.members(self.derivations)])
 
 
 def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = False) -> Comparison:
@@ -177,16 +175,18 @@ def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fals
         theorem = Existence(sentence(), None, "")
     contained = None if answers is None else all(answer.truth for answer in answers.values())
     planar = Planar(regions.plane, polygon, regions.part("(8*)"), cubic_region, contained, answers or {})
-    found: tuple[dict[str, Derived], dict[str, str]] | None = None
+    result: tuple[dict[str, Derived], dict[str, str]] | None = None
     if proofs:
-        asked = {name: answer for side in sides.values() for name, answer in side.plan.eliminations.items()}
-        asked |= planar.implications
+        eliminations = {name: answer for side in sides.values() for name, answer in side.plan.eliminations.items()}
+        eliminations |= planar.implications
         if theorem.truth is not None:
-            asked["the existence theorem of (7)"] = theorem.answer
+            eliminations["the existence theorem of (7)"] = theorem.answer
         # the slowest last: what the limit ends is then only that
-        asked |= {f"the planar region of {n}": r.answer for n, r in planar.named.items() if r.answer is not None}
-        found = parts.take("derivations", 1, lambda left: derivations.proved(asked, Clock(limit=left)), PROOF_SECONDS)
-    known, unproved = found or ({}, {})
+        eliminations |= {f"the planar region of {n}": r.answer for n, r in planar.named.items() if r.answer is not None}
+        result = parts.take(
+            "derivations", 1, lambda limit: derivations.proved(eliminations, Clock(limit=limit)), PROOF_SECONDS
+        )
+    known, unproved = result or ({}, {})
     return Comparison(problem, sides, planar, volume, theorem, dict(watch.seconds), parts.unfinished, known, unproved)
 
 
@@ -208,10 +208,10 @@ class _Parts:
         ``most`` seconds, or what is left of ``COMPARE_SECONDS``. None, with the reason noted."""
         try:
             with self.clock.step(name):
-                left = self.clock.remaining(name)
-                if left is None:
+                remaining = self.clock.remaining(name)
+                if remaining is None:
                     return work(most or max(0.1, COMPARE_SECONDS - (processor_time() - self.begin)))
-                return work(left * (1 - OUTPUT_SHARE) / share)
+                return work(remaining * (1 - OUTPUT_SHARE) / share)
         except Unable as error:
             self.unfinished[name] = str(error)
             self.clock.learn(name, f"not finished: {error}")
@@ -230,14 +230,14 @@ def for_method(problem: Problem, method: PlanMethod) -> Problem:
 
 
 def _side(problem: Problem, method: PlanMethod, clock: Clock) -> Side:
-    own = Clock(limit=clock.remaining(), listener=clock.listener, note=clock.note)
-    made: Plan = method_of(method).make(for_method(problem, method), own)
+    watch = Clock(limit=clock.remaining(), listener=clock.listener, note=clock.note)
+    made: Plan = method_of(method).make(for_method(problem, method), watch)
     plan = avoid.examined(made)
     curves = plan.path.curves if plan.path else {}
-    with own.step("length and curvature"):
+    with watch.step("length and curvature"):
         lengths = {name: length_enclosure(c) for name, c in curves.items()}
         curvatures = {name: curvature_enclosure(c) for name, c in curves.items()}
-    return Side(replace(plan, seconds=dict(own.seconds)), lengths, curvatures)
+    return Side(replace(plan, seconds=dict(watch.seconds)), lengths, curvatures)
 
 
 @dataclass(frozen=True, slots=True)
@@ -254,9 +254,9 @@ class _Regions:
 
     def part(self, name: str) -> PlanarRegion:
         """The region of this formula, or why there is none."""
-        step, asked = f"planar region of {name}", planar_statements(self.problem, self.plane)[name]
-        found = self.parts.take(step, SHARES[name], partial(_region, asked, self.plane, self.parts.clock))
-        return found or PlanarRegion(str(asked), reason=self.parts.unfinished[step])
+        step, question = f"planar region of {name}", planar_statements(self.problem, self.plane)[name]
+        result = self.parts.take(step, SHARES[name], partial(_region, question, self.plane, self.parts.clock))
+        return result or PlanarRegion(str(question), reason=self.parts.unfinished[step])
 
 
 def _contained(problem: Problem, plane: Plane, seconds: float) -> dict[str, Any]:
@@ -274,13 +274,13 @@ def planar_statements(problem: Problem, plane: Plane) -> dict[str, Statement]:
     }
 
 
-def _region(asked: Statement, plane: Plane, clock: Clock, seconds: float) -> PlanarRegion:
+def _region(question: Statement, plane: Plane, clock: Clock, seconds: float) -> PlanarRegion:
     """The region, which is convex: its conditions are convex in Q1 and Q2, for every t; its area if time allows.
 
     ``seconds``: of processor time, where the clock has no limit, so that a busy machine shows as much as another one.
     """
     known = Known()
-    work = partial(_measured, asked.formula, seconds if clock.limit is None else None)
+    work = partial(_measured, question.formula, seconds if clock.limit is None else None)
     patience = seconds if clock.limit is not None else PATIENCE * seconds
     try:
         region, area = run(work, Limits(patience, progress=clock.listener), known=known)
@@ -289,13 +289,13 @@ def _region(asked: Statement, plane: Plane, clock: Clock, seconds: float) -> Pla
         if found is None:
             raise
         answer = cast("qe.Answer | None", known.facts.get("answer"))
-        return PlanarRegion(str(asked), cast("qe.Region", found), None, f"area not found: {error}", answer)
+        return PlanarRegion(str(question), cast("qe.Region", found), None, f"area not found: {error}", answer)
     finally:
         end_idle()  # the processor time of a worker is known when it has ended
     unit = plane.unit_area
     assert area.high is not None and unit.high is not None
     answer = cast("qe.Answer | None", known.facts.get("answer"))
-    return PlanarRegion(str(asked), region, Enclosure(area.low * unit.low, area.high * unit.high), answer=answer)
+    return PlanarRegion(str(question), region, Enclosure(area.low * unit.low, area.high * unit.high), answer=answer)
 
 
 class _Spent(Exception):
@@ -303,7 +303,7 @@ class _Spent(Exception):
 
 
 def _measured(formula: Formula, most: float | None, channel: Channel) -> tuple[qe.Region, Enclosure]:
-    """The region with all that is shown of it, which is told as soon as it is known, and its area.
+    """The region with all that is shown of it, reported as soon as it is known, and its area.
 
     Raises ``BudgetExceeded`` after ``most`` seconds of processor time.
     """

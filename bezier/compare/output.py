@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 from bezier.compare.comparison import METHODS, PAPER, Comparison, PlanarRegion, Side
@@ -20,88 +20,67 @@ DIGITS = 8
 NOT_REACHED = "not reached"
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One line of the comparison; ``cells`` in the order of ``METHODS``."""
-
-    label: str
-    cells: tuple[str, str]
+Row = tuple[str, str, str]
+"""One line of the comparison: its label, and cells in the order of ``METHODS``."""
 
 
-def rows(found: Comparison) -> list[Row]:
+def rows(comparison: Comparison) -> list[Row]:
     """What both methods give, side by side."""
-    sides = [found.sides[method] for method in METHODS]
+    first, second = (comparison.sides[method] for method in METHODS)
+
+    def both(label: str, text: Callable[[Side], str]) -> Row:
+        return label, text(first), text(second)
+
     return [
-        Row("result", _both(sides, _result)),
-        Row("objective, mm²", _both(sides, lambda s: "" if s.plan.objective is None else brief(s.plan.objective))),
-        Row("active conditions", _both(sides, lambda s: ", ".join(s.plan.active) or "none")),
-        Row("joins, proved", _both(sides, _joins)),
-        Row("whole path in the workspace", _both(sides, _inside)),
-        Row("length, mm", _both(sides, lambda s: bracket(s.length))),
-        Row("largest curvature, 1/mm", _both(sides, lambda s: bracket(s.curvature))),
-        Row("certificates", _both(sides, lambda s: "accepted" if s.plan.certified else "not all accepted")),
-        Row(
+        both("result", lambda s: why_not(s.plan) or RESULTS[s.plan.outcome]),
+        both("objective, mm²", lambda s: "" if s.plan.objective is None else brief(s.plan.objective)),
+        both("active conditions", lambda s: ", ".join(s.plan.active) or "none"),
+        both("joins, proved", lambda s: "" if s.plan.path is None else s.plan.path.smoothness.name),
+        both("whole path in the workspace", _inside),
+        both("length, mm", lambda s: bracket(s.length)),
+        both("largest curvature, 1/mm", lambda s: bracket(s.curvature)),
+        both("certificates", lambda s: "accepted" if s.plan.certified else "not all accepted"),
+        (
             "region in space",
-            (f"volume of Q1 {bracket(found.volume) or NOT_REACHED}", "pairs (Q1, Q2) in six dimensions"),
+            f"volume of Q1 {bracket(comparison.volume) or NOT_REACHED}",
+            "pairs (Q1, Q2) in six dimensions",
         ),
-        Row("area of Q1 in the plane, mm²", (_area(found.planar.polygon), _area(found.planar.cubic))),
-        Row("the same, whole curves (8*)", (_area(found.planar.whole), "")),
-        Row("quantifier elimination", _both(sides, lambda s: duration(s.plan.seconds["elimination"]))),
-        Row("  the paper reports", (PAPER[METHODS[0]], PAPER[METHODS[1]])),
-        Row("whole plan", _both(sides, lambda s: duration(sum(s.plan.seconds.values())))),
+        ("area of Q1 in the plane, mm²", _area(comparison.planar.polygon), _area(comparison.planar.cubic)),
+        ("the same, whole curves (8*)", _area(comparison.planar.whole), ""),
+        both("quantifier elimination", lambda s: duration(s.plan.seconds["elimination"])),
+        ("  the paper reports", PAPER[METHODS[0]], PAPER[METHODS[1]]),
+        both("whole plan", lambda s: duration(sum(s.plan.seconds.values()))),
     ]
 
 
-def step_rows(found: Comparison) -> list[Row]:
+def step_rows(comparison: Comparison) -> list[Row]:
     """The time of every step of both plans."""
-    seconds = [found.sides[method].plan.seconds for method in METHODS]
-    names = dict.fromkeys(name for times in seconds for name in times)
-    first, second = ({name: duration(s) for name, s in times.items()} for times in seconds)
-    return [Row(name, (first.get(name, ""), second.get(name, ""))) for name in names]
+    first, second = ({n: duration(s) for n, s in comparison.sides[m].plan.seconds.items()} for m in METHODS)
+    return [(name, first.get(name, ""), second.get(name, "")) for name in first | second]
 
 
-def notes(found: Comparison) -> list[str]:
+def notes(comparison: Comparison) -> list[str]:
     """What the table cannot say."""
-    planar = found.planar
+    planar, (whole, polygon) = comparison.planar, (comparison.planar.whole.area, comparison.planar.polygon.area)
+    is_larger = bool(whole and polygon and polygon.high is not None and whole.low > polygon.high)
     said = {True: "the engine proved that", False: "the engine REFUTED that", None: "it was not decided whether"}
     lines = [
         f"{said[planar.contained]} every Q1 of (8) in the plane is one of (8*): bounding the control points is enough"
-        " to bound the curves" + (", and more than is needed" if _is_larger(planar.whole, planar.polygon) else "")
+        " to bound the curves" + (", and more than is needed" if is_larger else "")
     ]
-    if found.existence.truth:
-        lines.append(f"existence theorem of (7), found by the engine: it always has the solution {_told(found)}")
+    if comparison.existence.truth:
+        lines.append(
+            f"existence theorem of (7), found by the engine: it always has the solution {_witness_text(comparison)}"
+        )
         lines.append("with that choice the path stops and turns round at both joins; the objective rules it out")
     lines += [f"planar region of {name}: {r.reason}" for name, r in planar.named.items() if r.region and r.reason]
-    lines += [f"{name}: not finished, {reason}" for name, reason in found.unfinished.items()]
+    lines += [f"{name}: not finished, {reason}" for name, reason in comparison.unfinished.items()]
     return lines
 
 
-def _told(found: Comparison) -> str:
+def _witness_text(comparison: Comparison) -> str:
     trivial = ", ".join(f"{name} = {value}" for name, value in trivial_witness().items())
-    return "Q1 = Q0, Q2 = R0" if found.existence.witness == trivial else found.existence.witness
-
-
-def _is_larger(one: PlanarRegion, other: PlanarRegion) -> bool:
-    """Whether the area of ``one`` is certainly larger than that of ``other``."""
-    return (
-        one.area is not None
-        and other.area is not None
-        and other.area.high is not None
-        and one.area.low > other.area.high
-    )
-
-
-def _both(sides: list[Side], text: Any) -> tuple[str, str]:
-    first, second = (text(side) for side in sides)
-    return first, second
-
-
-def _result(side: Side) -> str:
-    return why_not(side.plan) or RESULTS[side.plan.outcome]
-
-
-def _joins(side: Side) -> str:
-    return "" if side.plan.path is None else side.plan.path.smoothness.name
+    return "Q1 = Q0, Q2 = R0" if comparison.existence.witness == trivial else comparison.existence.witness
 
 
 def _inside(side: Side) -> str:
@@ -110,18 +89,18 @@ def _inside(side: Side) -> str:
     return "proved" if side.plan.path.is_inside else "it LEAVES the workspace"
 
 
-def _area(found: PlanarRegion) -> str:
-    return bracket(found.area, 5) or NOT_REACHED
+def _area(region: PlanarRegion) -> str:
+    return bracket(region.area, 5) or NOT_REACHED
 
 
-def bracket(found: Enclosure | None, digits: int = DIGITS) -> str:
+def bracket(enclosure: Enclosure | None, digits: int = DIGITS) -> str:
     """An enclosure as text, its ends rounded outwards: ``[10.797249, 10.797250]``; nothing for None."""
-    if found is None:
+    if enclosure is None:
         return ""
-    ends = found.to_json(digits)
+    ends = enclosure.to_json(digits)
     return (
         ends["low"]
-        if found.low == found.high and float(ends["low"]) == found.low
+        if enclosure.low == enclosure.high and float(ends["low"]) == enclosure.low
         else f"[{ends['low']}, {ends['high']}]"
     )
 
@@ -132,26 +111,26 @@ def duration(seconds: float) -> str:
 
 
 # --- the terminal -----------------------------------------------------------------------------------------
-def table(found: Comparison) -> str:
+def table(comparison: Comparison) -> str:
     """The comparison as a table for the terminal."""
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    drawn = Table(title=f"radius r = {found.problem.workspace.radius_text}", title_justify="left")
+    drawn = Table(title=f"radius r = {comparison.problem.workspace.radius_text}", title_justify="left")
     for heading in ("", *TITLES.values()):
         drawn.add_column(heading, overflow="fold")
-    for row in rows(found):
-        drawn.add_row(*(Text(text) for text in (row.label, *row.cells)))
+    for row in rows(comparison):
+        drawn.add_row(*(Text(text) for text in row))
     drawn.add_section()
-    for row in step_rows(found):
-        drawn.add_row(*(Text(text) for text in (f"step: {row.label}", *row.cells)))
+    for row in step_rows(comparison):
+        drawn.add_row(*(Text(text) for text in (f"step: {row[0]}", *row[1:])))
     console = Console(file=io.StringIO(), width=110, color_system=None)
     console.print(drawn)
-    for name, seconds in found.seconds.items():
+    for name, seconds in comparison.seconds.items():
         if name not in {method.value for method in METHODS}:
             console.print(Text(f"{name}: {duration(seconds)}"))
-    for line in notes(found):
+    for line in notes(comparison):
         console.print(Text(line), soft_wrap=True)
     stream = console.file
     assert isinstance(stream, io.StringIO)
@@ -159,25 +138,27 @@ def table(found: Comparison) -> str:
 
 
 # --- JSON -------------------------------------------------------------------------------------------------
-def to_json(found: Comparison, files: list[str]) -> dict[str, Any]:
+def to_json(comparison: Comparison, files: list[str]) -> dict[str, Any]:
     """The object that ``bezier compare --json`` prints: every plan as ``bezier plan --json`` prints it, and more."""
     return {
         "status": "solved",
-        "methods": {method.value: _side_json(found.sides[method], PAPER[method]) for method in METHODS},
-        "region_volume": None if found.volume is None else found.volume.to_json(),
+        "methods": {method.value: _side_json(comparison.sides[method], PAPER[method]) for method in METHODS},
+        "region_volume": None if comparison.volume is None else comparison.volume.to_json(),
         "planar": {
-            "axes": [[str(c) for c in axis] for axis in (found.planar.plane.first, found.planar.plane.second)],
-            "regions": {name: _region_json(r) for name, r in found.planar.named.items()},
-            "polygon_lies_in_whole": found.planar.contained,
+            "axes": [
+                [str(c) for c in axis] for axis in (comparison.planar.plane.first, comparison.planar.plane.second)
+            ],
+            "regions": {name: _region_json(r) for name, r in comparison.planar.named.items()},
+            "polygon_lies_in_whole": comparison.planar.contained,
         },
         "existence": {
-            "sentence": found.existence.sentence,
-            "truth": found.existence.truth,
-            "witness": found.existence.witness,
+            "sentence": comparison.existence.sentence,
+            "truth": comparison.existence.truth,
+            "witness": comparison.existence.witness,
         },
-        "unfinished": dict(found.unfinished),
+        "unfinished": dict(comparison.unfinished),
         "files": files,
-        "seconds": {name: round(s, 6) for name, s in found.seconds.items()},
+        "seconds": {name: round(s, 6) for name, s in comparison.seconds.items()},
     }
 
 
@@ -194,11 +175,11 @@ def _side_json(side: Side, paper: str) -> dict[str, Any]:
     }
 
 
-def _region_json(found: PlanarRegion) -> dict[str, Any]:
-    region = found.region
+def _region_json(planar: PlanarRegion) -> dict[str, Any]:
+    region = planar.region
     return {
-        "formula": found.formula,
+        "formula": planar.formula,
         "cells": None if region is None else [piece.brief() for piece in region.cells],
-        "area": None if found.area is None else found.area.to_json(),
-        "reason": found.reason or None,
+        "area": None if planar.area is None else planar.area.to_json(),
+        "reason": planar.reason or None,
     }

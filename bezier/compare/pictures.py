@@ -11,9 +11,9 @@ from markupsafe import Markup
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES
 from bezier.compare.planar import plane_coordinates
-from bezier.motion.pieces import pieces
+from bezier.motion.motion import pieces
 from bezier.motion.track import Track
-from bezier.pictures import labels, scene
+from bezier.pictures import plot, scene
 from bezier.pictures.mesh import Array
 from bezier.pictures.picture import GRID, INK, Chart, PathPicture, numbers, path_picture
 from bezier.pictures.plot import VIEWS, letter, new_figure, path_view, svg_text
@@ -32,55 +32,57 @@ TONES = {PlanMethod.QUADRATIC: "p", PlanMethod.CUBIC: "q"}
 NAMES = ("P0", "Q0", "R0", "goal")
 
 
-def save(found: Comparison, folder: FilePath, regions: Any) -> list[str]:
+def save(comparison: Comparison, folder: FilePath, regions: Any) -> list[str]:
     """``regions.png`` (of the figure that ``regions_of`` makes) and ``paths.png``."""
     paths = new_figure(11, 8.4)
     for row, method in enumerate(METHODS):
         for column in range(2):
-            _view(paths.add_axes((0.08 + 0.5 * column, 0.56 - 0.5 * row, 0.4, 0.38)), found, method, column)
+            _view(paths.add_axes((0.08 + 0.5 * column, 0.56 - 0.5 * row, 0.4, 0.38)), comparison, method, column)
     for name, figure in (("regions.png", regions), ("paths.png", paths)):
         figure.savefig(folder / name, dpi=120, pil_kwargs={"compress_level": 4})
     return ["regions.png", "paths.png"]
 
 
-def charts(found: Comparison, regions: Any) -> dict[str, tuple[Chart, ...]]:
+def charts(comparison: Comparison, regions: Any) -> dict[str, tuple[Chart, ...]]:
     """The same for the page."""
     paths = []
     for method in METHODS:
         for column, (title, _i, _j) in enumerate(VIEWS[:2]):
             figure = new_figure(5.6, 4.2)
-            _view(figure.add_axes((0.12, 0.14, 0.85, 0.77)), found, method, column)
+            _view(figure.add_axes((0.12, 0.14, 0.85, 0.77)), comparison, method, column)
             paths.append((svg_text(figure), f"{TITLES[method]}: {title} of the path and its control polygons"))
     words = "where Q1 may be, in the plane of O, Q0 and R0"
     return {"regions": ((svg_text(regions), words),), "paths": tuple(paths)}
 
 
-def first(found: Comparison) -> Markup:
+def first(comparison: Comparison) -> Markup:
     """Both paths in one turnable scene; the point moves along the last one that exists."""
-    shown = {method: _picture(found, method) for method in METHODS if found.sides[method].plan.path is not None}
-    given = dict(zip(GIVEN, numbers(list(found.problem.named_points.values())), strict=True))
-    base, track = _picture(found, METHODS[0]), None
+    shown = {
+        method: _picture(comparison, method) for method in METHODS if comparison.sides[method].plan.path is not None
+    }
+    given = dict(zip(GIVEN, numbers(list(comparison.problem.named_points.values())), strict=True))
+    base, track = _picture(comparison, METHODS[0]), None
     for method in shown:
-        path = found.sides[method].plan.path
+        path = comparison.sides[method].plan.path
         assert path is not None
         track = Track.of(pieces(path, None))
     data = scene.path_scene(base, track, timed=False, given=given)
-    reach, own = base.radius, [(TONES[m], curve) for m, picture in shown.items() for curve in picture.curves]
-    data["curves"] = [scene.curve(curve, reach, tone) for tone, curve in own]
+    reach, curves = base.radius, [(TONES[m], curve) for m, picture in shown.items() for curve in picture.curves]
+    data["curves"] = [scene.curve(curve, reach, tone) for tone, curve in curves]
     data["marks"] = data["marks"][: len(given)]
     words = f"the paths of {' and '.join(TITLES[m] for m in shown) or 'neither method'} in the workspace, seen in space"
     legend = [(TITLES[method], f"var(--{TONES[method]})") for method in shown]
     return scene_box(scene.text(data), words, "paths.png", legend, moving=track is not None)
 
 
-def regions_of(found: Comparison) -> Any:
+def regions_of(comparison: Comparison) -> Any:
     """The figure of the planar regions, with axes in mm along and across R0 - Q0."""
-    plane = found.planar.plane
+    plane = comparison.planar.plane
     unit = [float(np.linalg.norm(np.array([float(c) for c in v]))) for v in (plane.first, plane.second)]
-    lines = {name: _scaled(found, name, unit) for name in REGION_COLOURS}
+    lines = {name: _scaled(comparison, name, unit) for name in REGION_COLOURS}
     marks = [
         (text, tuple(float(c) * s for c, s in zip(plane.place(point), unit, strict=True)))
-        for text, point in _marks(found).items()
+        for text, point in _marks(comparison).items()
     ]
     everything = np.concatenate([*lines.values(), np.array([place for _, place in marks])])
     wide, high = np.ptp(everything, axis=0)
@@ -99,14 +101,14 @@ def regions_of(found: Comparison) -> Any:
     axis.set_ylabel("across (mm)")
     axis.grid(color=GRID, linewidth=0.6)
     axis.set_axisbelow(True)
-    labels.place(axis, marks, np.concatenate(list(lines.values())), size=9)
+    plot.place(axis, marks, np.concatenate(list(lines.values())), size=9)
     figure.legend(loc="lower left", bbox_to_anchor=(0.08, 0.0), frameon=False, fontsize=10)
     return figure
 
 
-def _scaled(found: Comparison, name: str, unit: list[float]) -> Array:
+def _scaled(comparison: Comparison, name: str, unit: list[float]) -> Array:
     """The outline of a planar region in mm, first along and then across; no points where there is none."""
-    region = found.planar.named[name].region
+    region = comparison.planar.named[name].region
     if region is None or region.is_empty:
         return np.zeros((0, 2))
     straight = region.order == plane_coordinates("Q1")
@@ -122,32 +124,32 @@ def outline(region: Region) -> Array:
     """
     from qe.regions.sketch import bands
 
-    found = [np.array(band) for band in bands(region)]
-    if not found:
+    result = [np.array(band) for band in bands(region)]
+    if not result:
         return np.zeros((0, 2))
-    whole = np.concatenate([row[:, np.isfinite(row).all(axis=0)] for row in found], axis=1)
+    whole = np.concatenate([row[:, np.isfinite(row).all(axis=0)] for row in result], axis=1)
     values, low, high = whole[:, np.argsort(whole[0], kind="stable")]
     around = np.stack([np.concatenate([values, values[::-1]]), np.concatenate([low, high[::-1]])], axis=1)
     return np.concatenate([around, around[:1]])
 
 
-def _marks(found: Comparison) -> dict[str, Any]:
-    q0, r0 = found.problem.via
+def _marks(comparison: Comparison) -> dict[str, Any]:
+    q0, r0 = comparison.problem.via
     marks = {"Q₀": q0, "R₀": r0}
     for method, sign in zip(METHODS, ("8", "7"), strict=True):
-        path = found.sides[method].plan.path
+        path = comparison.sides[method].plan.path
         if path is not None:
             marks[f"Q₁ of ({sign})"] = path.points["Q1"]
     return marks
 
 
-def _picture(found: Comparison, method: PlanMethod) -> PathPicture:
-    given = dict(zip(NAMES, found.problem.named_points.values(), strict=True))
-    return path_picture(found.problem, found.sides[method].plan.path, given, region=None, hatted_names=False)
+def _picture(comparison: Comparison, method: PlanMethod) -> PathPicture:
+    given = dict(zip(NAMES, comparison.problem.named_points.values(), strict=True))
+    return path_picture(comparison.problem, comparison.sides[method].plan.path, given, region=None, hatted_names=False)
 
 
-def _view(axis: Any, found: Comparison, method: PlanMethod, column: int) -> None:
+def _view(axis: Any, comparison: Comparison, method: PlanMethod, column: int) -> None:
     title, i, j = VIEWS[column]
-    none = "" if found.sides[method].plan.path is not None else ", no path"
-    path_view(axis, _picture(found, method), f"{TITLES[method]}{none}: {title}", i, j)
+    none = "" if comparison.sides[method].plan.path is not None else ", no path"
+    path_view(axis, _picture(comparison, method), f"{TITLES[method]}{none}: {title}", i, j)
     letter(axis, method is PlanMethod.QUADRATIC)

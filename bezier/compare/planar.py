@@ -17,7 +17,7 @@ from math import gcd, lcm
 import qe
 from bezier.curves.enclosure import Enclosure, root_enclosure
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, scale, subtract
-from bezier.methods.control.statements import Name, Product, Statement, Sum, equal, every, exists, names, number
+from bezier.methods.control import statements as st
 from bezier.methods.control.system import coordinates
 from bezier.problem import Problem
 from qe.errors import InternalError
@@ -60,16 +60,16 @@ class Plane:
         square = exactly(dot(self.first, self.first) * dot(self.second, self.second))
         return root_enclosure(square, square)
 
-    def section(self, condition: Statement, free: Sequence[str]) -> Statement:
+    def section(self, condition: st.Statement, free: Sequence[str]) -> st.Statement:
         """A condition on free points that lie in the plane, in their coordinates there (see ``plane_coordinates``)."""
         equations, variables = [], []
         for point in free:
-            place = names(plane_coordinates(point))
+            place = st.names(plane_coordinates(point))
             for name, *axes in zip(coordinates(point), self.first, self.second, strict=True):
-                parts = tuple(Product((number(exactly(a)), c)) for a, c in zip(axes, place, strict=True))
-                equations.append(equal(Name(name), Sum(parts)))
+                parts = tuple(st.Product((st.number(exactly(a)), c)) for a, c in zip(axes, place, strict=True))
+                equations.append(st.equal(st.Name(name), st.Sum(parts)))
                 variables.append(name)
-        return exists(variables, every(*equations, condition))
+        return st.exists(variables, st.every(*equations, condition))
 
 
 def plane_coordinates(point: str) -> tuple[str, str]:
@@ -77,7 +77,7 @@ def plane_coordinates(point: str) -> tuple[str, str]:
     return f"{point.lower()}u", f"{point.lower()}v"
 
 
-def region_of(condition: Statement, *, timeout: float | None = None) -> qe.Region:
+def region_of(condition: st.Statement, *, timeout: float | None = None) -> qe.Region:
     """The region of a formula about Q1 in the plane. Raises ``Unable`` at the limit, which is hard."""
     return qe.Region.from_json(run(partial(_written, condition.formula), Limits(timeout)))
 

@@ -20,21 +20,7 @@ from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly, is_zero, rational, subtract
 from bezier.curves.workspace import Condition
-from bezier.methods.control.statements import (
-    Bracketed,
-    Every,
-    Implies,
-    Name,
-    Power,
-    Product,
-    Statement,
-    Sum,
-    Term,
-    between,
-    every,
-    for_all,
-    number,
-)
+from bezier.methods.control import statements as st
 from bezier.methods.control.system import System, stated
 from bezier.methods.quadratic import formula as quadratic
 from bezier.problem import Problem
@@ -46,59 +32,61 @@ POINT = "Q1"
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """Curves base(t) + sum x * move(t) over parameters x: control points that depend on parameters affinely.
-
-    ``moves``: by the names of the parameters, of the degree of ``base``. All coordinates are rational.
-    """
+    """Curves base(t) + sum x * move(t) over parameters x: control points that depend on parameters affinely."""
 
     base: Bezier
     moves: Mapping[str, Bezier] = field(default_factory=dict)
+    """By the names of the parameters, of the degree of ``base``. All coordinates are rational."""
 
     def __post_init__(self) -> None:
         curves = (self.base, *self.moves.values())
         if any(rational(c) is None for curve in curves for point in curve.points for c in point):
             raise InputError("a family of curves needs rational coordinates")
 
-    def at(self) -> list[Term]:
+    def at(self) -> list[st.Term]:
         """The coordinates of the point at the parameter t."""
         parts = {"": self.base, **self.moves}
         return [_sum((bs.to_power(c.coordinate(i)), name) for name, c in parts.items()) for i in range(3)]
 
-    def control_point(self, k: int) -> list[Term]:
+    def control_point(self, k: int) -> list[st.Term]:
         """The coordinates of a control point."""
         parts = {"": self.base, **self.moves}
         return [_sum(((c.points[k][i],), name) for name, c in parts.items()) for i in range(3)]
 
-    def inside(self, conditions: Iterable[Condition]) -> Statement:
+    def inside(self, conditions: Iterable[Condition]) -> st.Statement:
         """The whole curve satisfies the conditions: a formula in the parameters, or a sentence without any."""
         return _for_all_t(_all(conditions, [self.at()]))
 
-    def polygon_inside(self, conditions: Iterable[Condition]) -> Statement:
+    def polygon_inside(self, conditions: Iterable[Condition]) -> st.Statement:
         """All control points satisfy the conditions."""
         return _all(conditions, [self.control_point(k) for k in range(self.base.degree + 1)])
 
 
-TIME = Name("t")
-WHOLE = between(number(0), TIME, number(1))
+TIME = st.Name("t")
+WHOLE = st.between(st.number(0), TIME, st.number(1))
 
 
-def _for_all_t(body: Statement) -> Statement:
-    return for_all(["t"], Implies(WHOLE, body))
+def _for_all_t(body: st.Statement) -> st.Statement:
+    return st.for_all(["t"], st.Implies(WHOLE, body))
 
 
-def _all(conditions: Iterable[Condition], points: Sequence[Sequence[Term]]) -> Statement:
-    return Every(tuple(stated(c, point) for c in conditions for point in points), bracketed=True)
+def _all(conditions: Iterable[Condition], points: Sequence[Sequence[st.Term]]) -> st.Statement:
+    return st.Every(tuple(stated(c, point) for c in conditions for point in points), bracketed=True)
 
 
-def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> Term:
+def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> st.Term:
     """sum over the parts of (sum_k coefficient_k t^k) * name."""
-    terms: list[Term] = []
+    terms: list[st.Term] = []
     for coefficients, name in parts:
         for k, c in enumerate(coefficients):
             if not is_zero(c):
-                factors = (number(exactly(c)), *([Power(TIME, k)] if k else []), *([Name(name)] if name else []))
-                terms.append(Product(factors))
-    return Bracketed(Sum(tuple(terms or [number(0)])))
+                factors = (
+                    st.number(exactly(c)),
+                    *([st.Power(TIME, k)] if k else []),
+                    *([st.Name(name)] if name else []),
+                )
+                terms.append(st.Product(factors))
+    return st.Bracketed(st.Sum(tuple(terms or [st.number(0)])))
 
 
 def families(problem: Problem, plane: Plane) -> dict[str, Family]:
@@ -120,7 +108,7 @@ def _difference(a: Bezier, b: Bezier) -> Bezier:
     return Bezier(tuple(subtract(p, q) for p, q in zip(a.points, b.points, strict=True)))
 
 
-def statement(problem: Problem, plane: Plane) -> Statement:
+def statement(problem: Problem, plane: Plane) -> st.Statement:
     """(8*) with Q1 in the plane: the variables ``q1u, q1v`` are free."""
     points = [family.at() for family in families(problem, plane).values()]
     return _for_all_t(_all(problem.workspace.conditions, points))
@@ -144,18 +132,20 @@ def implications(problem: Problem, plane: Plane, *, timeout: float | None = None
     """The engine's answers to whether the control polygons bound the curves, up to the first false one, by name."""
     budget = Budget(timeout)
     order = ("t", *plane_coordinates(POINT))
-    found: dict[str, Any] = {}
+    data: dict[str, Any] = {}
     for name, family in families(problem, plane).items():
         for c in problem.workspace.conditions:
-            inside = Implies(every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))
-            answer = qe.eliminate(for_all(order, inside).formula, timeout=budget.time_left("whole curves"), order=order)
+            inside = st.Implies(st.every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))
+            answer = qe.eliminate(
+                st.for_all(order, inside).formula, timeout=budget.time_left("whole curves"), order=order
+            )
             if answer.truth is None:
                 budget.check("whole curves")
                 raise Unable(answer.reason or "it was not decided")
-            found[f"the control points of {name} bound it ({c.name})"] = answer
+            data[f"the control points of {name} bound it ({c.name})"] = answer
             if not answer.truth:
-                return found
-    return found
+                return data
+    return data
 
 
 def curve_inside(curve: Bezier, conditions: Sequence[Condition], *, timeout: float | None = None) -> bool:

@@ -59,7 +59,7 @@ def _refined(
         low, high = (sum((g[side] for g in gaps), Fraction(0)) for side in (0, 1))
         if high - low <= rel * high:
             return Enclosure(low, high)
-        if (left := budget.remaining()) is not None and left <= 0:
+        if (remaining := budget.remaining()) is not None and remaining <= 0:
             raise BudgetExceeded(f"time limit reached: area known only between {float(low):.6g} and {float(high):.6g}")
         worst = heapq.nlargest(max(1, len(gaps) // 4), range(len(gaps)), key=lambda k: gaps[k][1] - gaps[k][0])
         edges = [inner[0], *(h.x for h in heights), inner[1]]
@@ -69,8 +69,8 @@ def _refined(
 
 
 def _height(region: qe.Region, x: Fraction, budget: Budget) -> _Height:
-    left = budget.remaining()
-    intervals = region.fibre({region.order[0]: x}, timeout=None if left is None else max(0.0, left))
+    remaining = budget.remaining()
+    intervals = region.fibre({region.order[0]: x}, timeout=None if remaining is None else max(0.0, remaining))
     if not intervals:
         return _Height(x, Fraction(0), Fraction(0))
     lower, upper = intervals[0]
@@ -83,15 +83,15 @@ def _height(region: qe.Region, x: Fraction, budget: Budget) -> _Height:
 def _gaps(heights: list[_Height], outer: tuple[Fraction, Fraction]) -> list[tuple[Fraction, Fraction]]:
     """Lower and upper bound of the area left of, between and right of the abscissae."""
     mirrored = [_Height(-h.x, h.low, h.high) for h in reversed(heights)]
-    found = [_end(heights, outer[0])]
+    result = [_end(heights, outer[0])]
     for k in range(len(heights) - 1):
         left, right = heights[k], heights[k + 1]
         low = (left.low + right.low) / 2 * (right.x - left.x)
         before = _extension(heights[k - 1], left) if k > 0 else None
         after = _extension(heights[k + 2], right) if k + 2 < len(heights) else None
-        found.append((low, _under(left, right, before, after)))
-    found.append(_end(mirrored, -outer[1]))
-    return found
+        result.append((low, _under(left, right, before, after)))
+    result.append(_end(mirrored, -outer[1]))
+    return result
 
 
 def _extension(far: _Height, near: _Height) -> Fraction:

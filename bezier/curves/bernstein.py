@@ -4,6 +4,11 @@ A polynomial of degree at most n is the tuple (b_0, ..., b_n) with p(t) = sum_k 
 Facts used (Farouki, "The Bernstein polynomial basis: a centennial retrospective", CAGD 2012, sections 3-5):
 p(0) = b_0, p(1) = b_n; the range of p on [0, 1] lies between min b_k and max b_k; the number of sign changes
 of (b_k) bounds the number of roots in (0, 1) and differs from it by an even number.
+
+Bisection of polynomials in Bernstein form where only signs and quotients matter: integers stay integers.
+
+Halving multiplies all coefficients by 2^degree, so that no division is needed; polynomials of one degree keep their
+quotients.
 """
 
 from __future__ import annotations
@@ -11,6 +16,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import pairwise
 from math import comb, lcm
 from typing import Any
 
@@ -97,8 +103,8 @@ def multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     m, n = len(a) - 1, len(b) - 1
     one, other = _whole(a), _whole(b)
     if one is not None and other is not None:
-        left = [comb(m, i) * x for i, x in enumerate(one[0])]
-        sums = _convolved(left, [comb(n, j) * y for j, y in enumerate(other[0])])
+        scaled = [comb(m, i) * x for i, x in enumerate(one[0])]
+        sums = _convolved(scaled, [comb(n, j) * y for j, y in enumerate(other[0])])
         return tuple(Fraction(s, comb(m + n, k) * one[1] * other[1]) for k, s in enumerate(sums))
     out: list[Any] = [Fraction(0)] * (m + n + 1)
     for i, x in enumerate(a):
@@ -240,3 +246,27 @@ def _minus(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     pad = Fraction(0)
     x, y = [*a, *[pad] * (size - len(a))], [*b, *[pad] * (size - len(b))]
     return trim([u - v for u, v in zip(x, y, strict=True)])
+
+
+Numbers = tuple[Any, ...]
+
+
+def halves(b: Numbers) -> tuple[Numbers, Numbers]:
+    """Positive multiples of the Bernstein coefficients on [0, 1/2] and [1/2, 1].
+
+    The factor is 2^degree for integers and 1 for other numbers.
+    """
+    if not all(isinstance(c, int) for c in b):
+        return split(b)
+    n = len(b) - 1
+    row, left, right = list(b), [b[0] << n], [b[-1] << n]
+    for k in range(1, n + 1):
+        row = [x + y for x, y in pairwise(row)]
+        left.append(row[0] << (n - k))
+        right.append(row[-1] << (n - k))
+    return tuple(left), tuple(reversed(right))
+
+
+def exact(b: Numbers) -> Numbers:
+    """The same numbers ready for division: integers as fractions."""
+    return tuple(Fraction(c) if isinstance(c, int) else c for c in b)

@@ -135,16 +135,14 @@ class Smoothness(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Join:
-    """Where one curve ends and the next begins.
-
-    ``smoothness``: the highest of C0, C1, C2 that holds exactly, for the durations of the spans. ``jumps``: the
-    difference of value, first and second derivative with respect to time. ``same_direction``: whether both
-    velocities are non-zero and point the same way (G1).
-    """
+    """Where one curve ends and the next begins."""
 
     smoothness: Smoothness
+    """The highest of C0, C1, C2 that holds exactly, for the durations of the spans."""
     jumps: tuple[Vector, ...]
+    """The difference of value, first and second derivative with respect to time."""
     same_direction: bool
+    """Whether both velocities are non-zero and point the same way (G1)."""
 
 
 def join(first: Bezier, second: Bezier, durations: tuple[Fraction, Fraction] = (Fraction(1), Fraction(1))) -> Join:

@@ -5,6 +5,12 @@ p = t^a (1-t)^b s^2 q is split off, with q square-free and non-zero at both ends
 q has no root in (0, 1) and q(0) > 0, because every root of a square-free q changes its sign. Either q > 0 on
 [0, 1], and the Bernstein coefficients become positive after finitely many bisections (quadratic convergence,
 Farouki 2012, section 5), or q < 0 on an interval, and a bisection point falls into it.
+
+Where several polynomials along one curve change their signs: all roots in [0, 1], in order, with all exact signs.
+
+Each polynomial is isolated by itself and the roots are then separated by halving. Inverses are what is slow in a large
+number field, and greatest common divisors are full of them; so they are left for the cases that halving does not
+settle: a multiple root (the discriminant tells, up to degree 3), and a root that two polynomials seem to share.
 """
 
 from __future__ import annotations
@@ -153,7 +159,7 @@ def isolate(b: Sequence[Any]) -> list[Interval]:
 
 def isolate_simple(b: bs.Coefficients) -> list[Interval]:
     """``isolate`` for a polynomial whose roots in (0, 1) are simple and which does not vanish at 0."""
-    found: list[Interval] = []
+    result: list[Interval] = []
     todo = [(b, Fraction(0), Fraction(1))]
     while todo:
         part, low, high = todo.pop()
@@ -161,14 +167,14 @@ def isolate_simple(b: bs.Coefficients) -> list[Interval]:
         if changes == 0:
             continue
         if changes == 1 and sign(part[0]) and sign(part[-1]):
-            found.append((low, high))
+            result.append((low, high))
             continue
         middle = (low + high) / 2
         left, right = bs.split(part)
         if is_zero(right[0]):
-            found.append((middle, middle))
+            result.append((middle, middle))
         todo += [(left, low, middle), (right, middle, high)]
-    return sorted(found)
+    return sorted(result)
 
 
 def _keeps_sign(b: bs.Coefficients, depth: int) -> bool:
@@ -216,16 +222,16 @@ def _refined(power: Sequence[Any], low: Fraction, high: Fraction, width: Fractio
     """The same for a polynomial over Q on an interval that is mapped to [0, 1]: signs at k/2^n, by integers alone."""
     common = lcm(*(c.denominator for c in power))
     numbers = [c.numerator * (common // c.denominator) for c in reversed(power)]
-    left, depth, wide = 0, 0, high - low
+    place, depth, wide = 0, 0, high - low
     below = sign(numbers[-1]) if numbers else 0
     while wide > width * (1 << depth):
-        left, depth = 2 * left, depth + 1
-        here = _sign_at_dyadic(numbers, left + 1, depth)
+        place, depth = 2 * place, depth + 1
+        here = _sign_at_dyadic(numbers, place + 1, depth)
         if here == 0:
-            middle = low + wide * Fraction(left + 1, 1 << depth)
+            middle = low + wide * Fraction(place + 1, 1 << depth)
             return middle, middle
-        left += here == below
-    return low + wide * Fraction(left, 1 << depth), low + wide * Fraction(left + 1, 1 << depth)
+        place += here == below
+    return low + wide * Fraction(place, 1 << depth), low + wide * Fraction(place + 1, 1 << depth)
 
 
 def _sign_at_dyadic(numbers: Sequence[int], at: int, depth: int) -> int:
@@ -235,3 +241,119 @@ def _sign_at_dyadic(numbers: Sequence[int], at: int, depth: int) -> int:
         total = total * at + (c << shift)
         shift += depth
     return (total > 0) - (total < 0)
+
+
+WIDTH = Fraction(1, 2**80)
+"""To what width a root is refined before a common root is suspected; also the width of what is returned."""
+MAX_DENOMINATOR = 10**6
+"""Rational roots up to this denominator are recognised as such."""
+ZERO, ONE = Fraction(0), Fraction(1)
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A parameter in [0, 1], isolated (equal ends: exactly), with the exact sign of each polynomial there."""
+
+    t: Interval
+    signs: tuple[int, ...]
+
+
+def events_of(forms: Sequence[bs.Coefficients]) -> tuple[Event, ...]:
+    """The ends 0 and 1 and all roots of the polynomials (in Bernstein form) between, ascending and disjoint.
+
+    Between two neighbouring events no polynomial changes its sign. Zero polynomials have no roots here.
+    """
+    result = [(-1, Event((t, t), tuple(sign(bs.value(f, t)) for f in forms))) for t in (ZERO, ONE)]
+    simple = [_simple(form) for form in forms]
+    for i, form in enumerate(simple):
+        for interval in isolate_simple(form):
+            event = _located(i, interval, simple, forms)
+            if not any(event.signs[j] == 0 and len(simple[j]) > 1 for j in range(i)):  # else it is listed with j
+                result.append((i, event))
+    return tuple(_disjoint(result, simple))
+
+
+def _simple(form: bs.Coefficients) -> bs.Coefficients:
+    """A polynomial with the same roots in (0, 1), all simple, and none at 0 or 1."""
+    power = bs.trim(bs.to_power(form))
+    while len(power) > 1 and is_zero(power[0]):
+        power = power[1:]
+    while len(power) > 1 and is_zero(sum(power, ZERO)):
+        power = bs.divide(power, (ONE, -ONE))[0]
+    if len(power) < 2:
+        return (ONE,)
+    if _has_multiple_root(power):
+        power = bs.divide(power, bs.gcd(power, bs.power_derivative(power)))[0]
+    return bs.from_power(power)
+
+
+def _has_multiple_root(power: bs.Coefficients) -> bool:
+    """Whether the discriminant may vanish; exact up to degree 3, "perhaps" above."""
+    if len(power) == 2:
+        return False
+    if len(power) == 3:
+        c, b, a = power
+        return is_zero(b * b - 4 * a * c)
+    if len(power) == 4:
+        d, c, b, a = power
+        return is_zero(18 * a * b * c * d - 4 * b * b * b * d + b * b * c * c - 4 * a * c * c * c - 27 * a * a * d * d)
+    return True
+
+
+def _located(i: int, t: Interval, simple: Sequence[bs.Coefficients], forms: Sequence[bs.Coefficients]) -> Event:
+    """The root of polynomial ``i`` in ``t`` with all signs, refined."""
+    low, high = refine(simple[i], t, WIDTH) if t[0] < t[1] else t
+    if low < high:
+        guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)
+        if low <= guess <= high and is_zero(bs.value(simple[i], guess)):
+            low = high = guess
+    signs = []
+    for j, form in enumerate(forms):
+        if j == i:
+            signs.append(0)
+            continue
+        here, (low, high) = _sign_at(simple[i], (low, high), form)
+        signs.append(here)
+    return Event((low, high), tuple(signs))
+
+
+def _sign_at(root_of: bs.Coefficients, t: Interval, form: bs.Coefficients) -> tuple[int, Interval]:
+    """The sign of a polynomial at the root of another one in ``t``, and ``t`` as far as it was refined."""
+    if t[0] == t[1]:
+        return sign(bs.value(form, t[0])), t
+    has_divisor = False
+    while True:
+        signs = {sign(c) for c in bs.restrict(form, *t)}
+        if len(signs) == 1:
+            return signs.pop(), t
+        if not has_divisor:
+            has_divisor = True
+            common = bs.from_power(bs.gcd(bs.to_power(root_of), bs.trim(bs.to_power(form))))
+            if sign(bs.value(common, t[0])) * sign(bs.value(common, t[1])) < 0:
+                return 0, t
+        t = refine(root_of, t, (t[1] - t[0]) / 2**10)
+        if t[0] == t[1]:
+            return sign(bs.value(form, t[0])), t
+
+
+def _disjoint(listed: Sequence[tuple[int, Event]], simple: Sequence[bs.Coefficients]) -> list[Event]:
+    """The events, all different, each with its polynomial's index: refined until they are in order, with gaps between.
+
+    Also next to the ends 0 and 1, which are no roots of the simple polynomials.
+    """
+    events = list(listed)
+    moved = True
+    while moved:
+        moved = False
+        events.sort(key=lambda item: item[1].t)
+        for k in range(len(events) - 1):
+            (i, one), (j, two) = events[k], events[k + 1]
+            if one.t[1] >= two.t[0]:
+                moved = True
+                events[k], events[k + 1] = (i, _finer(one, simple[i])), (j, _finer(two, simple[j]))
+    return [event for _, event in events]
+
+
+def _finer(event: Event, form: bs.Coefficients) -> Event:
+    low, high = event.t
+    return event if low == high else Event(refine(form, event.t, (high - low) / 2), event.signs)

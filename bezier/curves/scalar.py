@@ -8,6 +8,7 @@ the reader only and decide nothing.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, Protocol, overload
@@ -130,3 +131,26 @@ def _is_fraction(exact: str, decimal: str) -> bool:
 def described(value: Any) -> dict[str, str]:
     """``{"exact": ..., "decimal": ...}``, the form in which numbers leave the program."""
     return {"exact": exact_text(value), "decimal": decimal_text(value)}
+
+
+Terms = dict[tuple[int, ...], Fraction]
+"""A polynomial: coefficients by the exponents of its variables."""
+
+
+def terms_sum(*parts: Terms) -> Terms:
+    """The sum, without zero coefficients."""
+    total: Terms = {}
+    for part in parts:
+        for exponents, coefficient in part.items():
+            total[exponents] = total.get(exponents, Fraction(0)) + coefficient
+    return {e: c for e, c in total.items() if c}
+
+
+def terms_scaled(factor: Fraction | int, terms: Terms) -> Terms:
+    """A multiple."""
+    return {exponents: factor * c for exponents, c in terms.items()}
+
+
+def terms_product(a: Terms, b: Terms) -> Terms:
+    """The product."""
+    return terms_sum(*({tuple(map(operator.add, d, e)): x * y for e, y in b.items()} for d, x in a.items()))

@@ -114,8 +114,8 @@ def _drawn(control: Array, tolerance: float) -> str:
     degree = control.shape[1] - 1
     words = [f"M{_pair(control[0, 0])}"]
     for points in control:
-        own = points if degree in COMMANDS else polyline(points, tolerance)
-        words.append(COMMANDS.get(degree, STRAIGHT) + " ".join(map(_pair, own[1:])))
+        corners = points if degree in COMMANDS else polyline(points, tolerance)
+        words.append(COMMANDS.get(degree, STRAIGHT) + " ".join(map(_pair, corners[1:])))
     return " ".join(words)
 
 

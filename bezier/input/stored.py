@@ -39,12 +39,12 @@ def text(path: FilePath) -> str:
 def table(path: FilePath) -> dict[str, Any]:
     """The JSON object in a file, decimals kept as text."""
     try:
-        found = parsed(text(path))
+        result = parsed(text(path))
     except (ValueError, RecursionError) as error:
         raise CertificateRejected(path.name, f"expected JSON, found: {error}") from None
-    if not isinstance(found, dict):
+    if not isinstance(result, dict):
         raise CertificateRejected(path.name, "expected a JSON object")
-    return found
+    return result
 
 
 def parsed(raw: str) -> Any:
@@ -86,18 +86,18 @@ def numbers(rows: Sequence[Any], field: Mapping[str, Any] | None, place: str) ->
     return tuple(v.as_fraction() if v.is_rational else v for v in values)
 
 
-def control_points(found: Mapping[str, Any]) -> dict[str, Vector]:
+def control_points(stated: Mapping[str, Any]) -> dict[str, Vector]:
     """The control points in the table of a ``path.json``."""
     points = {}
-    for name, listed in entry(found, "points", dict, "path.json: ").items():
+    for name, listed in entry(stated, "points", dict, "path.json: ").items():
         place = f"path.json: points.{name}"
         if not isinstance(listed, list) or len(listed) != DIMENSION or not all(isinstance(c, dict) for c in listed):
             raise CertificateRejected(place, f"expected a point of {DIMENSION} coordinates")
-        points[name] = tuple(_coordinate(c, found, f"{place}[{i}]") for i, c in enumerate(listed))
+        points[name] = tuple(_coordinate(c, stated, f"{place}[{i}]") for i, c in enumerate(listed))
     return points
 
 
-def _coordinate(stated: Mapping[str, Any], found: Mapping[str, Any], place: str) -> Any:
+def _coordinate(stated: Mapping[str, Any], data: Mapping[str, Any], place: str) -> Any:
     if "in_field" not in stated:
         return rational(stated.get("exact"), place)
-    return numbers([stated["in_field"]], entry(found, "field", dict, "path.json: "), place)[0]
+    return numbers([stated["in_field"]], entry(data, "field", dict, "path.json: "), place)[0]

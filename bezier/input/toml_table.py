@@ -13,10 +13,28 @@ from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from enum import Enum
 from fractions import Fraction
+from pathlib import Path
 from typing import Any, TypeVar
 
 from bezier.input.numbers import NUMBER, Literal, NotANumber, describe, read, shorten
 from qe.errors import InputError
+
+MAX_BYTES = 1_000_000
+
+
+def read_text(path: Path) -> str:
+    """The text of a file of at most ``MAX_BYTES``. Raises ``InputError`` when it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)  # some files of devices never end
+        if len(data) > MAX_BYTES:
+            raise InputError(f"{path}: expected a problem of at most {MAX_BYTES} bytes, found more")
+        return data.decode("utf-8-sig")
+    except OSError as error:
+        raise InputError(f"{path}: expected a readable file, found: {error.strerror or error}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: expected UTF-8 text, found byte {data[error.start]:#04x} at {error.start}") from None
+
 
 DIMENSION = 3
 LARGEST = Fraction(10**50)
@@ -28,16 +46,14 @@ Choice = TypeVar("Choice", bound=Enum)
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """One table: its values, the file it came from, and where it stands there (``prefix``, e.g. ``obstacle[0].``).
-
-    ``names``: for values that came from Python, what the keys of the whole file are called there.
-    """
+    """One table: its values, the file it came from, and where it stands there (``prefix``, e.g. ``obstacle[0].``)."""
 
     values: Mapping[str, Any]
     source: str = "<problem>"
     lines: tuple[str, ...] = ()
     prefix: str = ""
     names: Mapping[str, str] = field(default_factory=dict)
+    """For values that came from Python, what the keys of the whole file are called there."""
 
     @staticmethod
     def parse(text: str, source: str) -> Table:
@@ -50,12 +66,17 @@ class Table:
         except (ValueError, RecursionError) as error:
             raise InputError(f"{source}: expected a TOML file, found: {' '.join(str(error).split())}") from None
 
-    def error(self, key: str, expected: str, found: str) -> InputError:
+    @staticmethod
+    def load(file: Path) -> Table:
+        """The table of a file. Raises ``InputError``."""
+        return Table.parse(read_text(file), str(file))
+
+    def error(self, key: str, expected: str, given: str) -> InputError:
         """The one line about a key of this table."""
         place = self.prefix + key
         line = _line_of(place, self.lines)
         return InputError(
-            f"{self.source}{line}: {self._named(place)}: expected {expected}, found {shorten(found, 160)}"
+            f"{self.source}{line}: {self._named(place)}: expected {expected}, found {shorten(given, 160)}"
         )
 
     def _named(self, place: str) -> str:

@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Any
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
 from bezier.interface.work import Work
-from bezier.motion.motion import Motion, Quality, motion_csv
-from bezier.motion.pieces import pieces
+from bezier.motion.motion import Motion, Quality, motion_csv, pieces
 from bezier.obstacles.survey import Finding
 from bezier.paths.path import Path
 from bezier.planner import outputs, words
-from bezier.planner.folder import write_folder
+from bezier.planner.command import write_folder
 from bezier.plans import Clock, Derived, Outcome, Plan
 from bezier.problem import Problem
 from qe import arguments
@@ -207,14 +206,14 @@ class Planned:
     def to_bspline(self) -> BSpline:
         """The motion as a SciPy ``BSpline`` over time. Raises ``Unable`` without SciPy."""
         with wanted():
-            from bezier.exports.splines import bspline
+            from bezier.exports.formats import bspline
 
         return bspline(self._track)
 
     def to_ppoly(self) -> PPoly:
         """The motion as a SciPy ``PPoly`` over time. Raises ``Unable`` without SciPy."""
         with wanted():
-            from bezier.exports.splines import ppoly
+            from bezier.exports.formats import ppoly
 
         return ppoly(self._track)
 
@@ -230,7 +229,7 @@ class Planned:
         if self.motion is None:
             raise InputError("to_ros: a plan with limits= expected, one without a motion in time found")
         with wanted():
-            from bezier.exports.ros import ros_trajectory
+            from bezier.exports.formats import ros_trajectory
 
         return ros_trajectory(
             self._track, frame=arguments.text(frame, "frame"), joints=joints, rows=arguments.whole(rows, "rows")
@@ -297,7 +296,7 @@ class Planned:
 
     def _npz(self) -> bytes:
         with wanted():
-            from bezier.exports.arrays import npz
+            from bezier.exports.formats import npz
 
         return npz(self._track)
 

@@ -7,22 +7,30 @@ In a problem file::
     duration = 50               # seconds; without it the least time that keeps the limits
     max_speed = 20              # mm/s, optional
     max_acceleration = 5        # mm/s^2, optional
+
+A path in time as one chain of Bézier curves: the form in which other programs take it.
+
+Without a motion the time is that of ``path.csv``: each curve takes its duration. With one it is in seconds, and the
+curves composed with the time law are polynomials again, between the breaks of the law and the passages from curve to
+curve. Coordinates and passages that are irrational are replaced by rational numbers next to them (``BITS``).
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
-from bezier.curves.enclosure import Enclosure
-from bezier.curves.quality import curvature_enclosure, length_enclosure
+from bezier.curves import bernstein as bs
+from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import Enclosure, bounds, curvature_enclosure, length_enclosure
 from bezier.curves.scalar import Vector, add, decimal_text, is_zero, scale
 from bezier.input.toml_table import Table
-from bezier.motion.timelaw import Extremes, Law, TimeLaw, extremes, least_duration
+from bezier.motion.timelaw import Extremes, Law, TimeLaw, composed, extremes, least_duration, stretches
 from bezier.paths.path import Path
 
 REL = Fraction(1, 10**6)
@@ -34,50 +42,52 @@ QUARTER = Fraction(1, 4)
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """What a problem asks of the motion. ``duration``: None for the least one. Invariant: a duration or a limit."""
+    """What a problem asks of the motion."""
 
     law: Law
     ramp: Fraction
     duration: Fraction | None
+    """None for the least one. Invariant: a duration or a limit."""
     limits: Mapping[str, Fraction] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, str]:
         """The table of the problem file."""
-        found = {"law": self.law.value, **{key: str(value) for key, value in self.limits.items()}}
+        result = {"law": self.law.value, **{key: str(value) for key, value in self.limits.items()}}
         if self.law is Law.TRAPEZOID:
-            found["ramp"] = str(self.ramp)
+            result["ramp"] = str(self.ramp)
         if self.duration is not None:
-            found["duration"] = str(self.duration)
-        return found
+            result["duration"] = str(self.duration)
+        return result
 
 
 def read_timing(table: Table) -> Timing | None:
     """The table [timing], None when there is none. Raises ``InputError`` naming the key."""
     if "timing" not in table.values:
         return None
-    own = table.inner("timing")
-    raw = own.values
-    own.only(("law", "ramp", "duration", *LIMITS))
-    law = own.choice("law", Law, Law.QUINTIC)
+    section = table.inner("timing")
+    raw = section.values
+    section.only(("law", "ramp", "duration", *LIMITS))
+    law = section.choice("law", Law, Law.QUINTIC)
     if "ramp" in raw and law is not Law.TRAPEZOID:
-        raise own.error("ramp", 'this key with law = "trapezoid" only', f'law = "{law.value}"')
-    ramp = own.positive("ramp", QUARTER)
+        raise section.error("ramp", 'this key with law = "trapezoid" only', f'law = "{law.value}"')
+    ramp = section.positive("ramp", QUARTER)
     if ramp > Fraction(1, 2):
-        raise own.error("ramp", "at most 1/2", str(ramp))
-    duration = own.positive("duration") if "duration" in raw else None
-    limits = {key: own.positive(key) for key in LIMITS if key in raw}
+        raise section.error("ramp", "at most 1/2", str(ramp))
+    duration = section.positive("duration") if "duration" in raw else None
+    limits = {key: section.positive(key) for key in LIMITS if key in raw}
     if duration is None and not limits:
-        raise own.error("duration", "a duration, max_speed or max_acceleration", "none of them")
+        raise section.error("duration", "a duration, max_speed or max_acceleration", "none of them")
     return Timing(law, ramp, duration, limits)
 
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A path in time. ``extremes``: the largest speed (mm/s) and acceleration (mm/s^2) over the whole time."""
+    """A path in time."""
 
     timing: Timing
     duration: Fraction
     extremes: Extremes
+    """The largest speed (mm/s) and acceleration (mm/s^2) over the whole time."""
 
     def __repr__(self) -> str:
         return f"Motion({float(self.duration):.6g} s, {'within' if self.keeps_limits else 'not within'} its limits)"
@@ -96,16 +106,16 @@ class Motion:
     @property
     def enough(self) -> Fraction:
         """A duration with which the same motion is proved to keep all limits."""
-        t, found = self.duration, self.extremes
-        return least_duration(Extremes(_times(found.speed, t), _times(found.acceleration, t * t)), self.timing.limits)
+        t, result = self.duration, self.extremes
+        return least_duration(Extremes(_times(result.speed, t), _times(result.acceleration, t * t)), self.timing.limits)
 
     @property
     def reason(self) -> str:
         """Which limits are not kept, in words; empty when all are."""
-        told = {False: "is EXCEEDED", None: "is closer than the enclosure can tell"}
+        words = {False: "is EXCEEDED", None: "is closer than the enclosure can tell"}
         units = {"max_speed": "mm/s", "max_acceleration": "mm/s^2"}
         broken = [(key, kept) for key, kept in self.kept.items() if kept is not True]
-        parts = [f"{key} = {self.timing.limits[key]} {units[key]} {told[kept]}" for key, kept in broken]
+        parts = [f"{key} = {self.timing.limits[key]} {units[key]} {words[kept]}" for key, kept in broken]
         return f"in {self.duration} s the motion does not keep its limits: {', '.join(parts)}" if parts else ""
 
     @property
@@ -200,7 +210,7 @@ def state(path: Path, motion: Motion, tau: Fraction) -> tuple[str, Fraction, tup
 
 def motion_json(motion: Motion) -> str:
     """``motion.json``: law, duration, rigorous extremes, and whether the limits are kept at all times."""
-    told = {
+    data = {
         "law": motion.timing.law.value,
         "duration": {"exact": str(motion.duration), "decimal": decimal_text(motion.duration)},
         "largest_speed": motion.extremes.speed.to_json(),
@@ -209,7 +219,7 @@ def motion_json(motion: Motion) -> str:
         "kept": motion.kept,
         "units": {"time": "s", "length": "mm"},
     }
-    return json.dumps(told, indent=1) + "\n"
+    return json.dumps(data, indent=1) + "\n"
 
 
 def files(path: Path | None, quality: Quality | None) -> dict[str, str]:
@@ -258,14 +268,67 @@ def json_entries(quality: Quality | None) -> dict[str, Any]:
     """The entries of the JSON summary about quality and motion."""
     if quality is None:
         return {}
-    told: dict[str, Any] = {
+    entries: dict[str, Any] = {
         "length": quality.length.to_json(),
         "lengths": {name: value.to_json() for name, value in quality.lengths.items()},
         "largest_curvatures": {n: None if v is None else v.to_json() for n, v in quality.curvatures.items()},
     }
     if quality.motion is not None:
-        told["motion"] = json.loads(motion_json(quality.motion))
-    found: dict[str, Any] = {"quality": told}
+        entries["motion"] = json.loads(motion_json(quality.motion))
+    data: dict[str, Any] = {"quality": entries}
     if quality.motion is not None and not quality.motion.keeps_limits:
-        found |= {"reason": quality.motion.reason, "suggestion": quality.motion.suggestion}
-    return found
+        data |= {"reason": quality.motion.reason, "suggestion": quality.motion.suggestion}
+    return data
+
+
+BITS = 96
+
+
+@dataclass(frozen=True, slots=True)
+class TimedCurve:
+    """The part of a motion from ``low`` to ``high``: ``curve``, its parameter proportional to time, on ``name``."""
+
+    name: str
+    low: Fraction
+    high: Fraction
+    curve: Bezier
+
+
+def pieces(path: Path, motion: Motion | None) -> tuple[TimedCurve, ...]:
+    """The motion as pieces of one degree, in order, each beginning where and when the one before ends."""
+    curves = {name: Bezier(tuple(tuple(map(near, p)) for p in curve.points)) for name, curve in path.curves.items()}
+    result = tuple(_plain(path, curves) if motion is None else _timed(path, curves, motion))
+    degree = max(piece.curve.degree for piece in result)
+    return tuple(TimedCurve(p.name, p.low, p.high, p.curve.elevate(degree)) for p in result)
+
+
+def near(value: Any) -> Fraction:
+    """The number if it is rational, else a rational one next to it."""
+    low, high = bounds(value, BITS)
+    return (low + high) / 2
+
+
+def _plain(path: Path, curves: dict[str, Bezier]) -> Iterator[TimedCurve]:
+    begin = Fraction(0)
+    for name, curve in curves.items():
+        end = begin + path.duration(name)
+        yield TimedCurve(name, begin, end, curve)
+        begin = end
+
+
+def _timed(path: Path, curves: dict[str, Bezier], motion: Motion) -> Iterator[TimedCurve]:
+    law = TimeLaw.of(motion.timing.law, motion.timing.ramp)
+    certain = [stretch for stretch in stretches(path, law) if stretch.certain]
+    middles = [(a.high + b.low) / 2 for a, b in pairwise(certain)]
+    ends = [Fraction(0), *middles, Fraction(1)]
+    for stretch, (low, high) in zip(certain, pairwise(ends), strict=True):
+        curve, inside = curves[stretch.curve], (low, high - low)
+        rows = [bs.to_power(curve.coordinate(i)) for i in range(curve.dimension)]
+        forms = [bs.from_power(composed(composed(row, stretch.parameter), inside)) for row in rows]
+        yield TimedCurve(stretch.curve, low * motion.duration, high * motion.duration, _curve(forms))
+
+
+def _curve(forms: list[bs.Coefficients]) -> Bezier:
+    """The curve with these coordinates, whose degrees may differ."""
+    degree = max(len(form) for form in forms) - 1
+    return Bezier(tuple(zip(*(bs.elevate(form, degree) for form in forms), strict=True)))

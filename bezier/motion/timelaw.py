@@ -98,20 +98,18 @@ def _value(polynomial: Power, t: Fraction) -> Any:
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
-    """A time interval in which a curve is run through by one polynomial: ``parameter`` is u as a power form of tau.
-
-    ``certain``: whether the curve is on its way in all of it; otherwise the passage to its neighbour lies in it.
-    """
+class TimeStretch:
+    """A time interval in which a curve is run through by one polynomial: ``parameter`` is u as a power form of tau."""
 
     curve: str
     low: Fraction
     high: Fraction
     parameter: Power
     certain: bool
+    """Whether the curve is on its way in all of it; otherwise the passage to its neighbour lies in it."""
 
 
-def stretches(path: Path, law: TimeLaw) -> Iterator[Stretch]:
+def stretches(path: Path, law: TimeLaw) -> Iterator[TimeStretch]:
     """The stretches of a motion in order; neighbours overlap by at most ``PASSAGE_WIDTH``."""
     total = sum((path.duration(name) for name in path.curves), ZERO)
     begin, start = ZERO, (ZERO, ZERO)
@@ -123,7 +121,7 @@ def stretches(path: Path, law: TimeLaw) -> Iterator[Stretch]:
                 if max(low, first) < min(high, last):
                     shifted = (polynomial[0] - begin / total, *polynomial[1:])
                     scaled = tuple(c * total / length for c in shifted)
-                    yield Stretch(name, max(low, first), min(high, last), scaled, certain)
+                    yield TimeStretch(name, max(low, first), min(high, last), scaled, certain)
         begin, start = begin + length, end
 
 
@@ -167,7 +165,7 @@ def composed(outer: Power, inner: Power) -> Power:
     return total
 
 
-def _largest_norm(vector: list[Power], stretch: Stretch, rel: Fraction) -> Enclosure:
+def _largest_norm(vector: list[Power], stretch: TimeStretch, rel: Fraction) -> Enclosure:
     """The largest norm of a vector of polynomials on the stretch."""
     square: bs.Coefficients = (ZERO,)
     for p in vector:

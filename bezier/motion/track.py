@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bezier.motion.pieces import Piece
+from bezier.motion.motion import TimedCurve
 from qe.errors import InputError, Unable
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ class Track:
     control: Array
 
     @staticmethod
-    def of(pieces: Sequence[Piece]) -> Track:
+    def of(pieces: Sequence[TimedCurve]) -> Track:
         """Each number rounded once. Raises ``Unable`` where floating point cannot tell two times apart."""
         try:
             breaks = [float(pieces[0].low), *(float(piece.high) for piece in pieces)]
@@ -67,8 +67,8 @@ class Track:
         given = _times(times)
         outside = ~((given >= 0) & (given <= self.end))  # true for what is not a number as well
         if outside.any():
-            found = given[outside].flat[0]
-            raise InputError(f"t: times from 0 to {self.end:.12g} expected, {found:.12g} found")
+            result = given[outside].flat[0]
+            raise InputError(f"t: times from 0 to {self.end:.12g} expected, {result:.12g} found")
         at = np.clip(np.searchsorted(self.breaks, given, side="right") - 1, 0, len(self.control) - 1)
         low, high = self.breaks[at], self.breaks[at + 1]
         u = ((given - low) / (high - low))[..., None, None]
@@ -80,9 +80,9 @@ class Track:
 
 def _times(times: ArrayLike) -> Array:
     try:
-        found = np.asarray(times)
-        if found.dtype.kind in "iuf" or (found.dtype == object and found.size):
-            return found.astype(np.float64)
+        result = np.asarray(times)
+        if result.dtype.kind in "iuf" or (result.dtype == object and result.size):
+            return result.astype(np.float64)
     except (TypeError, ValueError, OverflowError):
         pass
     raise InputError(f"t: numbers expected, {type(times).__name__} found")

@@ -4,36 +4,123 @@ A piece of an obstacle is an intersection {f_1 >= 0, ..., f_m >= 0}. The curve m
 is negative. Intervals of t are halved, from left to right, until one f_i has negative Bernstein coefficients on the
 whole interval; these intervals are the proof. Where that does not come to an end soon, the real roots of the f_i(P(t))
 that are still open on a short interval decide: signs change only there, so the first contact is the left end of the
-interval or one of the roots. Signs at a root are exact (greatest common divisors), so contact without crossing is told
-from passing close by.
+interval or one of the roots. Signs at a root are exact (greatest common divisors), so contact without crossing is
+distinguished from passing close by.
+
+Polynomials along a curve, ready for signs: f(P(t)) in Bernstein form up to a positive factor.
+
+With p_k = C(n,k) P_k ("scaled" Bernstein coefficients) products of polynomials are plain convolutions, and a rational
+curve can be scaled to integers, so that all work before the sign is integer arithmetic. Curves over a number field go
+the same way with field elements.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
-from itertools import pairwise
+from functools import lru_cache
+from math import comb, lcm
+from typing import Any
 
 from bezier.curves import bernstein as bs
+from bezier.curves.bernstein import Numbers, exact, halves
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds
-from bezier.curves.halving import Numbers, exact, halves
-from bezier.curves.nonnegative import Interval, isolate, refine
+from bezier.curves.nonnegative import MAX_DENOMINATOR, WIDTH, Interval, events_of
 from bezier.curves.scalar import Vector, is_zero, sign
-from bezier.obstacles.along import Along
-from bezier.obstacles.obstacle import Box, Constraint, Obstacle, Piece
+from bezier.obstacles.obstacle import Box, Constraint, Exponents, Obstacle, Piece
+from qe.errors import InputError
+
+
+class Along:
+    """One curve, with its monomials x^i y^j z^k kept as they are needed; coordinates are integers over ``scale``."""
+
+    __slots__ = ("_box", "_monomials", "coordinates", "curve", "scale")
+
+    def __init__(self, curve: Bezier) -> None:
+        if curve.dimension != 3:
+            raise InputError(f"obstacles are in space: expected a curve of dimension 3, found {curve.dimension}")
+        self.curve = curve
+        values = [c for p in curve.points for c in p]
+        known = [c for c in values if isinstance(c, Fraction)]
+        rational = len(known) == len(values)
+        self.scale = lcm(*(c.denominator for c in known)) if rational else 1
+        n = curve.degree
+        self.coordinates = tuple(
+            tuple(_times(p[i], self.scale, rational) * comb(n, k) for k, p in enumerate(curve.points))
+            for i in range(curve.dimension)
+        )
+        self._monomials: dict[Exponents, Numbers] = {(0, 0, 0): (1,)}
+        self._box: Box | None = None
+
+    @property
+    def box(self) -> Box:
+        """A rational axis-parallel box around the control points, hence around the curve."""
+        if self._box is None:
+            ends = [[bounds(p[i]) for p in self.curve.points] for i in range(self.curve.dimension)]
+            low = tuple(min(e[0] for e in column) for column in ends)
+            self._box = low, tuple(max(e[1] for e in column) for column in ends)
+        return self._box
+
+    def form(self, constraint: Constraint) -> Numbers:
+        """A positive multiple of the Bernstein coefficients of f(P(t)), of degree n * deg f; integers if rational."""
+        degree, n = constraint.degree, self.curve.degree
+        common = lcm(*(c.denominator for _, c in constraint.terms)) if constraint.terms else 1
+        total: list[Any] = [0] * (n * degree + 1)
+        for exponents, coefficient in constraint.terms:
+            missing = degree - sum(exponents)
+            factor = int(coefficient * common) * self.scale**missing
+            for k, c in enumerate(_convolved(self._monomial(exponents), _binomials(n * missing))):
+                total[k] = total[k] + factor * c
+        weights = _weights(n * degree)
+        return tuple(c * w for c, w in zip(total, weights, strict=True))
+
+    def _monomial(self, exponents: Exponents) -> Numbers:
+        found = self._monomials.get(exponents)
+        if found is None:
+            axis = next(i for i, e in enumerate(exponents) if e)
+            lower = tuple(e - (i == axis) for i, e in enumerate(exponents))
+            found = _convolved(self._monomial(lower), self.coordinates[axis])
+            self._monomials[exponents] = found
+        return found
+
+
+def _times(value: Any, scale: int, rational: bool) -> Any:
+    return int(value * scale) if rational else value
+
+
+def _convolved(a: Sequence[Any], b: Sequence[Any]) -> Numbers:
+    if len(a) == 1 and isinstance(a[0], int):
+        return tuple(b) if a[0] == 1 else tuple(a[0] * y for y in b)
+    if len(b) == 1 and isinstance(b[0], int):
+        return tuple(a) if b[0] == 1 else tuple(x * b[0] for x in a)
+    out: list[Any] = [0] * (len(a) + len(b) - 1)
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            out[i + j] = out[i + j] + x * y
+    return tuple(out)
+
+
+@lru_cache(maxsize=64)
+def _binomials(n: int) -> tuple[int, ...]:
+    return tuple(comb(n, k) for k in range(n + 1))
+
+
+@lru_cache(maxsize=64)
+def _weights(n: int) -> tuple[int, ...]:
+    """Integers proportional to 1 / C(n, k)."""
+    row = _binomials(n)
+    common = lcm(*row)
+    return tuple(common // c for c in row)
+
 
 SHORT = 8
 """After this many halvings roots are isolated."""
-PLACE_WIDTH = Fraction(1, 2**80)
-"""To what width the parameter of a contact is refined."""
-MAX_DENOMINATOR = 10**6
-"""Rational contact parameters up to this denominator are recognised as such."""
 
 
-class Argument(Enum):
+class ClearanceArgument(Enum):
     """Which argument proved a curve clear; ``value`` is for people. Each includes the ones before it."""
 
     BOXES = "bounding boxes apart"
@@ -53,27 +140,28 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Clear:
-    """The curve never meets the obstacle. ``spans``: for each piece the proof, None where boxes already show it."""
+    """The curve never meets the obstacle."""
 
-    argument: Argument
+    argument: ClearanceArgument
     spans: tuple[tuple[Span, ...] | None, ...]
+    """For each piece the proof, None where boxes already show it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """The curve meets the obstacle; ``t`` is the first parameter, an isolating interval or exactly (equal ends).
-
-    ``place``: P(t) enclosed; ``exact_place``: where t is rational. ``enters``: whether a part of the curve lies in the
-    interior of a piece; if not, the curve only touches. ``attained``: False where the obstacle is not closed (strict
-    inequalities) and the contact begins right after t. ``piece``: the piece met first.
-    """
+    """The curve meets the obstacle; ``t`` is the first parameter, an isolating interval or exactly (equal ends)."""
 
     t: Interval
     place: tuple[Enclosure, ...]
+    """P(t) enclosed."""
     exact_place: Vector | None
+    """Where t is rational."""
     enters: bool
+    """Whether a part of the curve lies in the interior of a piece; if not, the curve only touches."""
     attained: bool
+    """False where the obstacle is not closed (strict inequalities) and the contact begins right after t."""
     piece: int
+    """The piece met first."""
 
     @property
     def is_exact(self) -> bool:
@@ -104,15 +192,14 @@ class Hit:
 
 
 @dataclass(slots=True)
-class Search:
-    """One curve against one piece, from left to right up to the first contact.
-
-    ``roots_after``: so many halvings come before roots are isolated; ``spans``: the proof so far.
-    """
+class ContactSearch:
+    """One curve against one piece, from left to right up to the first contact."""
 
     piece: Piece
     roots_after: int = SHORT
+    """So many halvings come before roots are isolated."""
     spans: list[Span] = field(default_factory=list)
+    """The proof so far."""
 
     def run(self, forms: Sequence[Numbers]) -> Hit | None:
         """The first contact, or None with ``spans`` covering [0, 1]; ``forms``: the constraints along the curve."""
@@ -137,110 +224,35 @@ class Search:
         return None
 
     def _still_open(self, part: _Part) -> tuple[list[tuple[int, Numbers]], int | None]:
-        left_over = []
+        undecided = []
         for i, form in part.open:
             signs = [sign(c) for c in form]
             if max(signs) < 0 or (max(signs) == 0 and self.piece.constraints[i].strict):
                 return [], i
             if min(signs) < 0 or (min(signs) == 0 and self.piece.constraints[i].strict):
-                left_over.append((i, form))
-        return left_over, None
+                undecided.append((i, form))
+        return undecided, None
 
     def _by_roots(self, part: _Part) -> Hit | None:
         """The first contact in a short interval, exactly: at its left end, at a root, or right after one of these."""
         constraints = [self.piece.constraints[i] for i, _ in part.open]
         forms = [exact(form) for _, form in part.open]
-        breaks = critical_values(forms)
-        for at, after in _with_next(breaks.intervals):
-            if all(c.holds(breaks.sign(f, at)) for c, f in zip(constraints, forms, strict=True)):
-                return _located(part, at, breaks.form, True)
-            if after is not None:
-                between = (at[1] + after[0]) / 2
-                if all(c.holds(bs.value(f, between)) for c, f in zip(constraints, forms, strict=True)):
-                    return _located(part, at, breaks.form, False)
+        events = events_of(forms)
+        for event, after in zip(events, [*events[1:], None], strict=True):
+            if all(c.holds(side) for c, side in zip(constraints, event.signs, strict=True)):
+                return _on_curve(part, event.t, True)
+            between = None if after is None else (event.t[1] + after.t[0]) / 2
+            if between is not None and all(
+                c.holds(bs.value(f, between)) for c, f in zip(constraints, forms, strict=True)
+            ):
+                return _on_curve(part, event.t, False)
         return None
 
 
-@dataclass(frozen=True, slots=True)
-class CriticalValues:
-    """All roots in [0, 1] of some polynomials, and the ends 0 and 1, as ascending disjoint intervals.
-
-    ``form``: a square-free polynomial with exactly one root in each interval that is not a single number.
-    """
-
-    form: bs.Coefficients
-    intervals: tuple[Interval, ...]
-
-    def sign(self, b: bs.Coefficients, at: Interval) -> int:
-        """The exact sign of one of the polynomials at the critical value in ``at``."""
-        if at[0] == at[1]:
-            return sign(bs.value(b, at[0]))
-        common = bs.from_power(bs.gcd(bs.to_power(self.form), bs.to_power(b)))
-        if sign(bs.value(common, at[0])) * sign(bs.value(common, at[1])) < 0:
-            return 0
-        low, high = at
-        while True:
-            signs = {sign(c) for c in bs.restrict(b, low, high)}
-            if len(signs) == 1:
-                return signs.pop()
-            low, high = refine(self.form, (low, high), (high - low) / 4)
-            if low == high:
-                return sign(bs.value(b, low))
-
-
-def critical_values(forms: Sequence[bs.Coefficients]) -> CriticalValues:
-    """The critical values of polynomials on [0, 1]; zero polynomials have none."""
-    product: bs.Coefficients = (Fraction(1),)
-    for form in forms:
-        power = bs.to_power(form)
-        if power:
-            product = bs.power_multiply(product, bs.divide(power, bs.gcd(product, power))[0])
-    product = _without_ends(product)
-    common = bs.gcd(product, bs.power_derivative(product)) if len(product) > 1 else (Fraction(1),)
-    square_free = bs.from_power(bs.divide(product, common)[0])
-    inner = [i for i in _apart(square_free, isolate(square_free)) if i[1] > 0 and i[0] < 1]
-    zero, one = Fraction(0), Fraction(1)
-    return CriticalValues(square_free, ((zero, zero), *inner, (one, one)))
-
-
-def _without_ends(power: bs.Coefficients) -> bs.Coefficients:
-    """Without the roots 0 and 1: next to them an isolating interval would never leave the end that it touches."""
-    while len(power) > 1 and is_zero(power[0]):
-        power = power[1:]
-    while len(power) > 1 and is_zero(sum(power, Fraction(0))):
-        power = bs.divide(power, (Fraction(1), Fraction(-1)))[0]
-    return power
-
-
-def _apart(b: bs.Coefficients, intervals: Sequence[Interval]) -> Iterator[Interval]:
-    """The intervals shrunk until they neither share ends with each other nor reach 0 or 1."""
-    taken = {Fraction(0), Fraction(1), *(i[0] for i in intervals if i[0] == i[1])}
-    ends = [Fraction(0), *(e for i in intervals for e in i), Fraction(1)]
-    shared = taken | {a for a, b in pairwise(ends) if a == b}
-    for low, high in intervals:
-        while low < high and (low in shared or high in shared):
-            low, high = refine(b, (low, high), (high - low) / 2)
-        yield low, high
-
-
-def _with_next(intervals: Sequence[Interval]) -> Iterator[tuple[Interval, Interval | None]]:
-    yield from zip(intervals, [*intervals[1:], None], strict=True)
-
-
-def _located(part: _Part, at: Interval, form: bs.Coefficients, attained: bool) -> Hit:
-    """A root on a part, refined and moved to the parameter of the whole curve."""
-    low, high = at if at[0] == at[1] else refine(form, at, PLACE_WIDTH)
-    return _recognised(part, low, high, form, attained)
-
-
-def _recognised(part: _Part, low: Fraction, high: Fraction, form: bs.Coefficients, attained: bool) -> Hit:
-    """The contact at the root in [low, high] of a form on a part; a simple rational root is recognised."""
-    if low < high:
-        guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)
-        if low <= guess <= high and is_zero(bs.value(form, guess)):
-            low = high = guess
+def _on_curve(part: _Part, t: Interval, attained: bool) -> Hit:
+    """A contact at the only critical value in ``t``, a parameter of a part, as one of the whole curve."""
     wide = part.high - part.low
-    return Hit((part.low + wide * low, part.low + wide * high), attained)
+    return Hit((part.low + wide * t[0], part.low + wide * t[1]), attained)
 
 
 def _crosses_up(form: Numbers) -> bool:
@@ -252,7 +264,7 @@ def _crossing(part: _Part, *, attained: bool) -> Hit:
     """The contact where the only open constraint crosses zero once."""
     form = piece = part.open[0][1]
     low, high = Fraction(0), Fraction(1)
-    while high - low > PLACE_WIDTH:
+    while high - low > WIDTH:
         middle = (low + high) / 2
         left, right = halves(piece)
         here = sign(right[0])
@@ -262,7 +274,10 @@ def _crossing(part: _Part, *, attained: bool) -> Hit:
             piece, high = left, middle
         else:
             piece, low = right, middle
-    return _recognised(part, low, high, exact(form), attained)
+    if low < high:
+        guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)
+        low, high = (guess, guess) if low <= guess <= high and is_zero(bs.value(exact(form), guess)) else (low, high)
+    return _on_curve(part, (low, high), attained)
 
 
 def _halved(part: _Part) -> list[_Part]:
@@ -276,15 +291,15 @@ def _halved(part: _Part) -> list[_Part]:
 def examine(curve: Bezier | Along, obstacle: Obstacle) -> Outcome:
     """Prove the whole curve clear of the obstacle, or find the first contact. Complete."""
     along = curve if isinstance(curve, Along) else Along(curve)
-    if _boxes_apart(along.box, obstacle.box):
-        return Clear(Argument.BOXES, (None,) * len(obstacle.pieces))
+    if _are_disjoint(along.box, obstacle.box):
+        return Clear(ClearanceArgument.BOXES, (None,) * len(obstacle.pieces))
     first: Hit | None = None
     spans: list[tuple[Span, ...] | None] = []
     for k, piece in enumerate(obstacle.pieces):
-        if _boxes_apart(along.box, piece.box):
+        if _are_disjoint(along.box, piece.box):
             spans.append(None)
             continue
-        search = Search(piece)
+        search = ContactSearch(piece)
         hit = search.run([along.form(c) for c in piece.constraints])
         spans.append(tuple(search.spans))
         if hit is not None:
@@ -295,16 +310,16 @@ def examine(curve: Bezier | Along, obstacle: Obstacle) -> Outcome:
     return _contact(along, obstacle, first)
 
 
-def _argument(spans: Sequence[tuple[Span, ...] | None]) -> Argument:
+def _argument(spans: Sequence[tuple[Span, ...] | None]) -> ClearanceArgument:
     shown = [span for piece in spans if piece is not None for span in piece]
     if any(span.constraint is None for span in shown):
-        return Argument.ROOTS
+        return ClearanceArgument.ROOTS
     if any(span.high - span.low < 1 for span in shown):
-        return Argument.SUBDIVISION
-    return Argument.POLYGON if shown else Argument.BOXES
+        return ClearanceArgument.SUBDIVISION
+    return ClearanceArgument.POLYGON if shown else ClearanceArgument.BOXES
 
 
-def _boxes_apart(a: Box | None, b: Box | None) -> bool:
+def _are_disjoint(a: Box | None, b: Box | None) -> bool:
     """Whether two closed boxes have no common point."""
     if a is None or b is None:
         return False
@@ -336,8 +351,8 @@ def enters(curve: Bezier | Along, obstacle: Obstacle) -> bool:
     """Whether some point of the curve lies in the interior of a piece: f_i > 0 for all its constraints."""
     along = curve if isinstance(curve, Along) else Along(curve)
     for piece in obstacle.pieces:
-        if not _boxes_apart(along.box, piece.box):
+        if not _are_disjoint(along.box, piece.box):
             strict = tuple(Constraint(c.terms, True) for c in piece.constraints)
-            if Search(Piece(strict)).run([along.form(c) for c in strict]) is not None:
+            if ContactSearch(Piece(strict)).run([along.form(c) for c in strict]) is not None:
                 return True
     return False

@@ -14,13 +14,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
+from math import lcm
 from typing import Any
 
-from bezier.curves.scalar import dot, sign, subtract
+from bezier.curves.scalar import Terms, Vector, dot, exactly, sign, subtract, terms_product, terms_scaled, terms_sum
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.polyhedron import Facet, Point, Polytope
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj
+from qe.formula.syntax import Formula, Relation
+from qe.proof.certificate import Certificate
 
-Exponents = tuple[int, int, int]
+Exponents = tuple[int, ...]
 Box = tuple[Point, Point]
 ZERO, ONE = Fraction(0), Fraction(1)
 
@@ -74,20 +79,23 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:
-    """The union of ``pieces``. ``body``: the convex body it is, where it is one; ``box``: a box around everything.
+    """The union of ``pieces``.
 
-    ``margin`` is already included in the pieces and in the body. ``stated``: the table of the problem file, with exact
-    numbers. ``elimination``: the engine's answer to the formula that it is given by, where that has quantifiers.
+    ``margin`` is already included in the pieces and in the body.
     """
 
     name: str
     kind: ObstacleKind
     pieces: tuple[Piece, ...]
     body: Body | None = None
+    """The convex body it is, where it is one."""
     box: Box | None = None
+    """A box around everything."""
     margin: Fraction = ZERO
     stated: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    """The table of the problem file, with exact numbers."""
     elimination: Any = field(default=None, compare=False, repr=False)
+    """The engine's answer to the formula that it is given by, where that has quantifiers."""
 
     @property
     def top(self) -> Fraction | None:
@@ -142,43 +150,22 @@ def ring(centre: Sequence[Fraction], height: Fraction, radius: Fraction, margin:
     With R^2 = x^2 + y^2 about the centre, (R - radius)^2 + (z - height)^2 <= margin^2 means A <= 2 radius R for
     A = R^2 + (z - height)^2 + radius^2 - margin^2: A <= 0, which needs margin >= radius, or A^2 <= 4 radius^2 R^2.
     """
-    across = _add(_square((ONE, ZERO, ZERO), -centre[0]), _square((ZERO, ONE, ZERO), -centre[1]))
-    a = _add(across, _square((ZERO, ZERO, ONE), -height), {(0, 0, 0): radius * radius - margin * margin})
-    scaled = {e: 4 * radius * radius * c for e, c in across.items()}
-    torus = Constraint.of(_add(scaled, {e: -c for e, c in _product(a, a).items()}))
-    return [torus, Constraint.of({e: -c for e, c in a.items()})] if margin >= radius else [torus]
+    across = terms_sum(_square((ONE, ZERO, ZERO), -centre[0]), _square((ZERO, ONE, ZERO), -centre[1]))
+    a = terms_sum(across, _square((ZERO, ZERO, ONE), -height), {(0, 0, 0): radius * radius - margin * margin})
+    torus = Constraint.of(terms_sum(terms_scaled(4 * radius * radius, across), terms_scaled(-1, terms_product(a, a))))
+    return [torus, Constraint.of(terms_scaled(-1, a))] if margin >= radius else [torus]
 
 
 def _less_square(rows: Sequence[tuple[Sequence[Fraction], Fraction]], bound: Fraction) -> Constraint:
     """sum of (row . p + constant)^2 <= bound."""
-    total = _add(*(_square(row, constant) for row, constant in rows))
-    return Constraint.of(_add({(0, 0, 0): bound}, {e: -c for e, c in total.items()}))
-
-
-Terms = dict[Exponents, Fraction]
+    total = terms_sum(*(_square(row, constant) for row, constant in rows))
+    return Constraint.of(terms_sum({(0, 0, 0): bound}, terms_scaled(-1, total)))
 
 
 def _square(row: Sequence[Fraction], constant: Fraction) -> Terms:
     a, b, c = row
     form: Terms = {(0, 0, 0): constant, (1, 0, 0): a, (0, 1, 0): b, (0, 0, 1): c}
-    return _product(form, form)
-
-
-def _product(a: Terms, b: Terms) -> Terms:
-    found: Terms = {}
-    for (i, j, k), x in a.items():
-        for (l, m, n), y in b.items():
-            key = (i + l, j + m, k + n)
-            found[key] = found.get(key, ZERO) + x * y
-    return found
-
-
-def _add(*parts: Mapping[Exponents, Fraction]) -> Terms:
-    found: Terms = {}
-    for part in parts:
-        for key, value in part.items():
-            found[key] = found.get(key, ZERO) + value
-    return found
+    return terms_product(form, form)
 
 
 # --- bodies as pieces -------------------------------------------------------------------------------
@@ -199,8 +186,8 @@ def pieces_of(body: Body) -> tuple[Piece, ...]:
 def _rounded(core: Polytope, radius: Fraction) -> list[Piece]:
     pieces = []
     if core.facets:
-        walls = tuple(half_space(f.normal, f.offset) for f in core.facets)
-        pieces.append(Piece(walls, _hull(core.corners, ZERO)))
+        boundaries = tuple(half_space(f.normal, f.offset) for f in core.facets)
+        pieces.append(Piece(boundaries, _hull(core.corners, ZERO)))
     if not radius:
         return pieces
     for facet in core.facets:
@@ -218,7 +205,7 @@ def _rounded(core: Polytope, radius: Fraction) -> list[Piece]:
 
 
 def _prism(core: Polytope, facet: Facet, radius: Fraction) -> Piece:
-    sides = tuple(half_space(normal, offset) for normal, offset in facet.walls)
+    sides = tuple(half_space(normal, offset) for normal, offset in facet.boundaries)
     corners = [core.corners[i] for i in facet.corners]
     return Piece((slab(facet.normal, facet.offset, radius), *sides), _hull(corners, radius))
 
@@ -229,8 +216,8 @@ def _cylinder(body: Cylinder) -> list[Piece]:
     up, down = (ZERO, ZERO, ONE), (ZERO, ZERO, -ONE)
 
     def between(extra: Fraction) -> list[Constraint]:
-        found = [] if body.top is None else [half_space(up, body.top + extra)]
-        return found if body.bottom is None else [*found, half_space(down, extra - body.bottom)]
+        result = [] if body.top is None else [half_space(up, body.top + extra)]
+        return result if body.bottom is None else [*result, half_space(down, extra - body.bottom)]
 
     pieces = [Piece((vertical_tube(centre, body.tube_radius + m), *between(ZERO)), body.box)]
     rims = [h for h in (body.bottom, body.top) if h is not None]
@@ -251,3 +238,49 @@ def from_body(
 ) -> Obstacle:
     """The obstacle that is this body (which already includes the margin)."""
     return Obstacle(name, kind, pieces_of(body), body, body.box, margin, stated or {})
+
+
+AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True, slots=True)
+class PointInside:
+    """The given point ``name`` at ``place`` belongs to a piece of the obstacle."""
+
+    name: str
+    place: tuple[Fraction, ...]
+    obstacle: Obstacle
+    piece: int
+
+    @property
+    def label(self) -> str:
+        """Of the certificate."""
+        return f"{self.name} in {self.obstacle.name}"
+
+    def in_words(self) -> str:
+        """As a clause."""
+        return f"the {self.name} ({', '.join(map(str, self.place))}) lies in the obstacle {self.obstacle.name}"
+
+    def certificate(self) -> Certificate:
+        """That the conditions of the piece hold at the place."""
+        constraints = self.obstacle.pieces[self.piece].constraints
+        return Certificate.witness(conj(map(_formula, constraints)), AXES, self.place)
+
+
+def inside(points: Mapping[str, Vector], obstacles: Sequence[Obstacle]) -> tuple[PointInside, ...]:
+    """Every point with every obstacle that it belongs to, exactly; touching a closed obstacle is belonging to it."""
+    result = []
+    for name, point in points.items():
+        place = tuple(map(exactly, point))
+        for obstacle in obstacles:
+            held = (all(c.holds(c.value(place)) for c in piece.constraints) for piece in obstacle.pieces)
+            number = next((k for k, holds in enumerate(held) if holds), None)
+            if number is not None:
+                result.append(PointInside(name, place, obstacle, number))
+    return tuple(result)
+
+
+def _formula(constraint: Constraint) -> Formula:
+    scale = lcm(*(c.denominator for _, c in constraint.terms))
+    poly = Ring.of(AXES).from_terms({exponents: int(c * scale) for exponents, c in constraint.terms})
+    return atom(poly, Relation.GT if constraint.strict else Relation.GE)

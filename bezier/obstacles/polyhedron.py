@@ -26,13 +26,13 @@ class Facet:
     """A face of dimension 2: ``normal`` . p <= ``offset`` holds in the body, with equality exactly at ``corners``.
 
     ``normal`` has coprime integer entries and points outwards; ``corners`` are indices, in order around the facet.
-    ``walls``: (n, c) for each side; n . p <= c says that p is on the facet's side of the upright plane there.
     """
 
     normal: Point
     offset: Fraction
     corners: tuple[int, ...]
-    walls: tuple[tuple[Point, Fraction], ...]
+    boundaries: tuple[tuple[Point, Fraction], ...]
+    """(n, c) for each side; n . p <= c says that p is on the facet's side of the upright plane there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,19 +60,19 @@ class Polytope:
         return min((*self.corners, *self._on_edges(p)), key=lambda q: dot(subtract(p, q), subtract(p, q)))
 
     def _on_edges(self, p: Point) -> list[Point]:
-        found = []
+        result = []
         for i, j in self.edges:
             a, along = self.corners[i], subtract(self.corners[j], self.corners[i])
             share = dot(subtract(p, a), along) / dot(along, along)
             if 0 < share < 1:
-                found.append(tuple(x + share * d for x, d in zip(a, along, strict=True)))
-        return found
+                result.append(tuple(x + share * d for x, d in zip(a, along, strict=True)))
+        return result
 
     def _on_facet(self, p: Point) -> Point | None:
         """The projection of an outer point to a facet right below it; then no other point of the body is as near."""
         for facet in self.facets:
             excess = dot(facet.normal, p) - facet.offset
-            if excess > 0 and all(dot(n, p) <= c for n, c in facet.walls):
+            if excess > 0 and all(dot(n, p) <= c for n, c in facet.boundaries):
                 share = excess / dot(facet.normal, facet.normal)
                 return tuple(x - share * n for x, n in zip(p, facet.normal, strict=True))
         return None
@@ -89,17 +89,17 @@ def segment(a: Point, b: Point) -> Polytope:
 
 
 def parallelepiped(corner: Point, sides: Sequence[Point]) -> Polytope:
-    """The body corner + [0, 1] s_1 + [0, 1] s_2 + [0, 1] s_3. Raises ``InputError`` if it is flat."""
-    found = []
+    """The body corner + [0, 1] s_1 + [0, 1] s_2 + [0, 1] s_3. Raises ``InputError`` if it lies in a plane."""
+    result = []
     for used in itertools.product((0, 1), repeat=3):
-        found.append(tuple(c + sum(u * s[i] for u, s in zip(used, sides, strict=True)) for i, c in enumerate(corner)))
-    return from_corners(found)
+        result.append(tuple(c + sum(u * s[i] for u, s in zip(used, sides, strict=True)) for i, c in enumerate(corner)))
+    return from_corners(result)
 
 
 def from_half_spaces(half_spaces: Sequence[tuple[Point, Fraction]]) -> Polytope:
     """The body {p : n . p <= c for all (n, c)}.
 
-    Raises ``InputError`` when it is empty, flat or unbounded. A pointed polyhedron is bounded iff no direction
+    Raises ``InputError`` when it is empty, in a plane or unbounded. A pointed polyhedron is bounded iff no direction
     +-(n_i x n_j), the only candidates for extreme rays, satisfies n . d <= 0 for all n.
     """
     normals = [n for n, _ in half_spaces]
@@ -108,19 +108,19 @@ def from_half_spaces(half_spaces: Sequence[tuple[Point, Fraction]]) -> Polytope:
         for ray in (axis, tuple(-x for x in axis)):
             if any(ray) and all(dot(n, ray) <= 0 for n in normals):
                 raise InputError("an unbounded set of half-spaces")
-    found: list[Point] = []
+    result: list[Point] = []
     for planes in itertools.combinations(half_spaces, 3):
         p = _common_point(planes)
-        if p is not None and p not in found and all(dot(n, p) <= c for n, c in half_spaces):
-            found.append(p)
-    if not found:
+        if p is not None and p not in result and all(dot(n, p) <= c for n, c in half_spaces):
+            result.append(p)
+    if not result:
         pointed = any(_determinant(*three) for three in itertools.combinations(normals, 3))
         raise InputError("an empty set of half-spaces" if pointed else "an unbounded set of half-spaces")
-    return from_corners(found)
+    return from_corners(result)
 
 
 def from_corners(points: Sequence[Point]) -> Polytope:
-    """The convex hull of points. Raises ``InputError`` when it is flat."""
+    """The convex hull of points. Raises ``InputError`` when it lies in a plane."""
     distinct = sorted(set(points))
     scale = lcm(*(c.denominator for p in distinct for c in p))
     whole = [tuple(int(c * scale) for c in p) for p in distinct]
@@ -136,11 +136,11 @@ def from_corners(points: Sequence[Point]) -> Polytope:
             continue
         on = tuple(n for n, height in enumerate(heights) if height == 0)
         if len(on) == len(distinct):
-            raise InputError("a flat set of corners")
+            raise InputError("a set of corners in one plane")
         outward = _primitive(normal if max(heights) == 0 else tuple(-x for x in normal))
         planes[outward, Fraction(dot(outward, distinct[i]))] = on
     if not planes:
-        raise InputError("a flat set of corners")
+        raise InputError("a set of corners in one plane")
     return _with_edges(distinct, planes)
 
 
@@ -156,31 +156,33 @@ def _with_edges(points: list[Point], planes: dict[tuple[Point, Fraction], tuple[
     for (normal, offset), on in planes.items():
         sides = [(i, j) for i, j in pairs if i in on and j in on]
         loop = _around(sides)
-        facets.append(Facet(normal, offset, tuple(place[i] for i in loop), _walls(normal, [points[i] for i in loop])))
+        facets.append(
+            Facet(normal, offset, tuple(place[i] for i in loop), _boundaries(normal, [points[i] for i in loop]))
+        )
     corners = tuple(points[i] for i in extreme)
     return Polytope(corners, tuple((place[i], place[j]) for i, j in pairs), tuple(facets))
 
 
 def _around(sides: list[tuple[int, int]]) -> list[int]:
     """The corners of a polygon in order, from its sides."""
-    order, left = list(sides[0]), sides[1:]
-    while left:
-        following = next(side for side in left if order[-1] in side)
-        left.remove(following)
+    order, rest = list(sides[0]), sides[1:]
+    while rest:
+        following = next(side for side in rest if order[-1] in side)
+        rest.remove(following)
         order.append(following[0] if following[1] == order[-1] else following[1])
     return order[:-1]
 
 
-def _walls(normal: Point, corners: Sequence[Point]) -> tuple[tuple[Point, Fraction], ...]:
+def _boundaries(normal: Point, corners: Sequence[Point]) -> tuple[tuple[Point, Fraction], ...]:
     """The upright planes over the sides of a facet, its inner side where n . p <= c."""
-    found = []
+    result = []
     for k, a in enumerate(corners):
         b, inner = corners[(k + 1) % len(corners)], corners[(k + 2) % len(corners)]
         n = cross(subtract(b, a), normal)
         if dot(n, inner) > dot(n, a):
             n = tuple(-x for x in n)
-        found.append((n, Fraction(dot(n, a))))
-    return tuple(found)
+        result.append((n, Fraction(dot(n, a))))
+    return tuple(result)
 
 
 def cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:

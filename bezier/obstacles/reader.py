@@ -10,20 +10,28 @@ too) and ``above`` (control points that have to lie at the height of its top or 
     capsule     start, end, radius
     polyhedron  half_spaces ([a, b, c, d] for a x + b y + c z <= d)  |  vertices
     formula     formula (text in x, y, z)
+
+Via points for a problem that names only obstacles.
+
+The rule. Seen from above, the way from start to goal is a straight segment. Obstacles are in the way if their bounding
+boxes, seen from above, meet it; obstacles without a bounding box are left to the proof at the end. Q0 and R0 are the
+points of the segment where the boxes in the way begin and end, at the height of the highest of them and a tenth of that
+box's height (``lift``) more. With no obstacle in the way they are the points at a third and two thirds of the way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import itertools
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from bezier.curves.scalar import dot
+import qe
+from bezier.curves.scalar import Vector, add, dot, exactly, scale, subtract
 from bezier.input.numbers import Literal, NotANumber, describe, read, shorten
 from bezier.input.toml_table import POINT, Table
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
-from bezier.obstacles.formula import formula_pieces
-from bezier.obstacles.obstacle import Obstacle, ObstacleKind, from_body
+from bezier.obstacles.obstacle import Box, Constraint, Exponents, Obstacle, ObstacleKind, Piece, from_body
 from bezier.obstacles.polyhedron import (
     MAX_PARTS,
     Point,
@@ -34,7 +42,140 @@ from bezier.obstacles.polyhedron import (
     point,
     segment,
 )
-from qe.errors import InputError
+from qe.errors import InputError, Unable
+from qe.formula.normal import nnf
+from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
+from qe.formula.traverse import is_quantifier_free
+from qe.io.text import read as read_formula
+
+LIFT = Fraction(1, 10)
+
+
+def via_over(
+    start: Vector, goal: Vector, obstacles: Sequence[Obstacle], lift: Fraction = LIFT
+) -> tuple[Vector, Vector]:
+    """The two via points. Raises ``InputError`` when the start or the goal lies below or above a box in the way."""
+    along = subtract(goal, start)
+    boxes = [o.box for o in obstacles if o.box is not None and _shadow(start, along, o.box) is not None]
+    if not boxes:
+        return via_at_thirds(start, goal)
+    spans = [span for box in boxes if (span := _shadow(start, along, box)) is not None]
+    first, last = min(s for s, _ in spans), max(s for _, s in spans)
+    if first <= 0 or last >= 1 or first == last:
+        raise InputError("an obstacle above, below or around the start or the goal; give via points")
+    low, high = max(((box[0][2], box[1][2]) for box in boxes), key=lambda ends: ends[1])
+    height = high + lift * (high - low)
+    q0, r0 = add(start, scale(first, along)), add(start, scale(last, along))
+    return (*q0[:2], height), (*r0[:2], height)
+
+
+def via_at_thirds(start: Vector, goal: Vector) -> tuple[Vector, Vector]:
+    """The points at a third and two thirds of the way."""
+    along = subtract(goal, start)
+    return add(start, scale(Fraction(1, 3), along)), add(start, scale(Fraction(2, 3), along))
+
+
+def _shadow(start: Vector, along: Vector, box: Box) -> tuple[Fraction, Fraction] | None:
+    """The part [a, b] of [0, 1] in which start + s along, seen from above, lies in the box; None when it never does."""
+    low, high = Fraction(0), Fraction(1)
+    for i in range(2):
+        begin, step = exactly(start[i]), exactly(along[i])
+        if not step:
+            if not box[0][i] <= begin <= box[1][i]:
+                return None
+            continue
+        ends = sorted(((box[0][i] - begin) / step, (box[1][i] - begin) / step))
+        low, high = max(low, ends[0]), min(high, ends[1])
+    return (low, high) if low <= high else None
+
+
+NAMES = ("x", "y", "z")
+MAX_PIECES = 200
+ELIMINATION_SECONDS = 20.0
+Constraints = tuple[Constraint, ...]
+
+
+def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
+    """The pieces of the obstacle ``formula = "..."``. Raises ``InputError`` naming the key.
+
+    Quantifiers are eliminated first (the answer is the second result, None without any); then the disjunctive normal
+    form gives the pieces.
+    """
+    raw = table.required("formula", "a formula in x, y, z")
+    if not isinstance(raw, str):
+        raise table.error("formula", "a formula in x, y, z", describe(raw))
+    try:
+        formula = read_formula(raw, source="formula")
+    except InputError as error:
+        raise table.error("formula", "a formula in x, y, z", str(error)) from None
+    others = [name for name in formula.free if name not in NAMES]
+    if others:
+        raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
+    try:
+        answer = None if is_quantifier_free(formula) else _answer(formula)
+        pieces = _pieces(nnf(formula if answer is None else answer.formula))
+    except (InputError, Unable) as error:
+        raise table.error("formula", "a formula that can be used", str(error)) from None
+    if not pieces:
+        raise table.error("formula", "a set that is not empty", "one that no point satisfies")
+    return tuple(Piece(piece) for piece in pieces), answer
+
+
+def _answer(formula: Formula) -> Any:
+    answer = qe.eliminate(formula, timeout=ELIMINATION_SECONDS)
+    if answer.formula is None:
+        raise Unable(answer.reason or "its quantifiers were not eliminated")
+    return answer
+
+
+def _pieces(formula: Formula) -> list[Constraints]:
+    """The disjunctive normal form; at most ``MAX_PIECES`` conjunctions."""
+    match formula:
+        case Constant(value):
+            return [()] if value else []
+        case Atom():
+            return _of_atom(formula)
+        case Or(args):
+            result = [piece for arg in args for piece in _pieces(arg)]
+        case And(args):
+            result = [()]
+            for arg in args:
+                pairs = itertools.product(result, _pieces(arg))
+                result = list(dict.fromkeys(tuple(dict.fromkeys((*a, *b))) for a, b in pairs))
+                _check_number(result)
+        case _:
+            raise InputError("root expressions cannot be part of an obstacle")
+    _check_number(result)
+    return result
+
+
+def _check_number(pieces: list[Constraints]) -> None:
+    if len(pieces) > MAX_PIECES:
+        raise InputError(f"the formula has more than {MAX_PIECES} pieces")
+
+
+def _of_atom(atom: Atom) -> list[Constraints]:
+    up = _terms(atom)
+    down = {e: -c for e, c in up.items()}
+    match atom.relation:
+        case Relation.GE | Relation.GT:
+            return [(Constraint.of(up, atom.relation is Relation.GT),)]
+        case Relation.LE | Relation.LT:
+            return [(Constraint.of(down, atom.relation is Relation.LT),)]
+        case Relation.EQ:
+            return [(Constraint.of(up), Constraint.of(down))]
+    return [(Constraint.of(up, True),), (Constraint.of(down, True),)]
+
+
+def _terms(atom: Atom) -> dict[Exponents, Fraction]:
+    names = atom.poly.ring.names
+    result: dict[Exponents, Fraction] = {}
+    for exponents, coefficient in atom.poly.terms():
+        powers = dict(zip(names, exponents, strict=True))
+        key = powers.get("x", 0), powers.get("y", 0), powers.get("z", 0)
+        result[key] = result.get(key, Fraction(0)) + coefficient
+    return result
+
 
 COMMON = ("kind", "name", "margin", "above")
 MAX_OBSTACLES = 200
@@ -46,12 +187,12 @@ def read_obstacles(table: Table) -> tuple[Obstacle, ...]:
     entries = table.tables("obstacle")
     if len(entries) > MAX_OBSTACLES:
         raise table.error("obstacle", f"at most {MAX_OBSTACLES} obstacles", str(len(entries)))
-    found = [_obstacle(entry, i) for i, entry in enumerate(entries)]
-    names = [item.name for item in found]
+    result = [_obstacle(entry, i) for i, entry in enumerate(entries)]
+    names = [item.name for item in result]
     for i, name in enumerate(names):
         if name in names[:i]:
             raise entries[i].error("name", "a name of its own for each obstacle", f'"{name}" again')
-    return tuple(found)
+    return tuple(result)
 
 
 def _obstacle(table: Table, index: int) -> Obstacle:
@@ -164,13 +305,13 @@ def _rows(table: Table, key: str, size: int, what: str) -> list[Point]:
         raise table.error(key, what, describe(raw))
     if len(raw) > MAX_PARTS:
         raise table.error(key, f"at most {MAX_PARTS} entries", str(len(raw)))
-    found = []
+    result = []
     for i, row in enumerate(raw):
         try:
-            found.append(tuple(read(entry) for entry in row))
+            result.append(tuple(read(entry) for entry in row))
         except NotANumber as error:
             raise table.error(f"{key}[{i}]", f"{size} exact numbers", str(error)) from None
-    return found
+    return result
 
 
 Reader = Callable[[Table, Fraction], Body] | None

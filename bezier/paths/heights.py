@@ -7,6 +7,10 @@ is positive, as the paper has it.
 
 Signs of x(t) - a, b - x(t) and h - y(t) change only at their roots in t, and these are isolated: the answer holds
 for all t, and a stretch below the height is given by the roots at its ends.
+
+Does the path go through the origin O? The paper leaves O out of the reachable set, so it is worth a note.
+
+A curve goes through O where its three coordinates vanish together: at events at which all three signs are zero.
 """
 
 from __future__ import annotations
@@ -18,13 +22,12 @@ from itertools import pairwise
 from typing import Any
 
 from bezier.curves import bernstein as bs
+from bezier.curves.bernstein import exact
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
-from bezier.curves.events import Event, events_of
-from bezier.curves.halving import exact
-from bezier.curves.nonnegative import Interval
+from bezier.curves.nonnegative import Event, Interval, events_of
 from bezier.curves.scalar import brief, decimal_text, sign
-from bezier.obstacles.along import Along
+from bezier.obstacles.clearance import Along
 from bezier.obstacles.obstacle import Constraint
 from bezier.paths.path import Path
 
@@ -51,7 +54,7 @@ class Strip:
 
 
 @dataclass(frozen=True, slots=True)
-class End:
+class StretchEnd:
     """Where a stretch begins or ends: ``t`` isolates the parameter (equal ends: exactly), ``at`` says what is there."""
 
     t: Interval
@@ -61,16 +64,14 @@ class End:
 
 @dataclass(frozen=True, slots=True)
 class Below:
-    """A whole stretch of parameters on which a curve is in the strip and below a height.
-
-    ``sample``: the curve's coordinate at a rational parameter of it; None when the stretch is a single irrational one.
-    """
+    """A whole stretch of parameters on which a curve is in the strip and below a height."""
 
     curve: str
     axis: str
-    begin: End
-    end: End
+    begin: StretchEnd
+    end: StretchEnd
     sample: tuple[Fraction, Any] | None
+    """The curve's coordinate at a rational parameter of it; None when the stretch is a single irrational one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,12 +91,12 @@ def heights_of(strip: Strip | None, path: Path) -> Heights:
     """Decide the height condition on every curve of a path. Complete: it holds, or all stretches below are found."""
     if strip is None:
         return Heights(None, ())
-    found = []
+    result = []
     for name, curve in path.curves.items():
         along = Along(curve)
         for axis in strip.heights:
-            found += _below(name, along, strip, axis)
-    return Heights(strip, tuple(found))
+            result += _below(name, along, strip, axis)
+    return Heights(strip, tuple(result))
 
 
 def _below(name: str, along: Along, strip: Strip, axis: str) -> list[Below]:
@@ -140,10 +141,10 @@ def _runs(at: Sequence[bool], between: Sequence[bool]) -> list[tuple[int, int]]:
     return runs
 
 
-def _end(event: Event, strip: Strip, axis: str, included: bool) -> End:
+def _end(event: Event, strip: Strip, axis: str, included: bool) -> StretchEnd:
     named = (f"x = {strip.low}", f"x = {strip.high}", f"{axis} = {strip.heights[axis]}")
     zero = [name for name, here in zip(named, event.signs, strict=True) if here == 0]
-    return End(event.t, " and ".join(zero) or "end of the curve", included)
+    return StretchEnd(event.t, " and ".join(zero) or "end of the curve", included)
 
 
 def _sample(curve: Bezier, axis: str, first: Interval, last: Interval) -> tuple[Fraction, Any] | None:
@@ -157,16 +158,16 @@ def _sample(curve: Bezier, axis: str, first: Interval, last: Interval) -> tuple[
 # --- for people and machines ----------------------------------------------------------------------------
 
 
-def summary_lines(found: Heights) -> list[str]:
+def summary_lines(heights: Heights) -> list[str]:
     """One line for the whole path, and one for each stretch below."""
-    if found.strip is None:
+    if heights.strip is None:
         return []
-    strip = found.strip
-    asked = " and ".join(f"{axis} >= {brief(height)}" for axis, height in strip.heights.items())
-    where = f"{asked} wherever {brief(strip.low)} <= x <= {brief(strip.high)}"
-    if found.hold:
+    strip = heights.strip
+    bounds = " and ".join(f"{axis} >= {brief(height)}" for axis, height in strip.heights.items())
+    where = f"{bounds} wherever {brief(strip.low)} <= x <= {brief(strip.high)}"
+    if heights.hold:
         return [f"heights: {where}: holds on all curves, for all t"]
-    return [f"heights: {where}: DOES NOT HOLD", *(in_words(item) for item in found.below)]
+    return [f"heights: {where}: DOES NOT HOLD", *(in_words(item) for item in heights.below)]
 
 
 def in_words(item: Below) -> str:
@@ -184,25 +185,47 @@ def _parameter(t: Interval) -> str:
     return f"about {float((t[0] + t[1]) / 2):.8g}"
 
 
-def to_json(found: Heights) -> dict[str, Any]:
+def to_json(heights: Heights) -> dict[str, Any]:
     """The condition, whether it holds, and every stretch below with the roots at its ends, enclosed."""
-    if found.strip is None:
+    if heights.strip is None:
         return {"condition": None, "holds": True, "below": []}
-    strip = found.strip
+    strip = heights.strip
     return {
         "condition": {
             "from_x": str(strip.low),
             "to_x": str(strip.high),
             "at_least": {axis: str(height) for axis, height in strip.heights.items()},
         },
-        "holds": found.hold,
+        "holds": heights.hold,
         "below": [
             {"curve": item.curve, "axis": item.axis, "from": _stated(item.begin), "to": _stated(item.end)}
-            for item in found.below
+            for item in heights.below
         ],
     }
 
 
-def _stated(end: End) -> dict[str, Any]:
+def _stated(end: StretchEnd) -> dict[str, Any]:
     value = {"exact": str(end.t[0])} if end.t[0] == end.t[1] else Enclosure(*end.t).to_json()
     return {"t": value, "where": end.at, "included": end.included}
+
+
+START, END = (Fraction(0), Fraction(0)), (Fraction(1), Fraction(1))
+
+
+def through_origin(curve: Bezier) -> tuple[Interval, ...]:
+    """The parameters with P(t) = O, ascending, each isolated (equal ends: exactly)."""
+    rows = [curve.coordinate(i) for i in range(curve.dimension)]
+    if any({sign(c) for c in row} in ({1}, {-1}) for row in rows):
+        return ()
+    return tuple(event.t for event in events_of(rows) if not any(event.signs))
+
+
+def remarks(path: Path) -> tuple[str, ...]:
+    """A note for each place inside a curve where the path goes through O; given points in O have notes of their own."""
+    result = []
+    for name, curve in path.curves.items():
+        for low, high in through_origin(curve):
+            if (low, high) not in (START, END):
+                t = str(low) if low == high else f"about {float((low + high) / 2):.8g}"
+                result.append(f"the path goes through the origin O ({name} at t = {t}), which the paper excludes")
+    return tuple(result)

@@ -8,10 +8,11 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from bezier.curves.containment import Inside, Leaves, Outcome, examine_all
+from bezier.curves.containment import Inside, Leaves, Outcome, containment, examine_all
 from bezier.curves.curve import Bezier, Join, Smoothness, join
-from bezier.curves.evidence import containment
-from bezier.curves.scalar import Vector, scale
+from bezier.curves.enclosure import Enclosure, maximum, root_above, root_below
+from bezier.curves.nonnegative import UNIT, Interval, isolate, located
+from bezier.curves.scalar import Vector, is_zero, scale
 from bezier.curves.workspace import Condition, Workspace
 from qe.proof.certificate import Certificate
 
@@ -40,16 +41,14 @@ class Proof:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The curves in order, the control points by name, the joins, and the containment proofs.
-
-    ``durations``: the time that a curve takes, where it is not 1.
-    """
+    """The curves in order, the control points by name, the joins, and the containment proofs."""
 
     curves: Mapping[str, Bezier]
     points: Mapping[str, Vector]
     joins: tuple[ProvedJoin, ...]
     proofs: tuple[Proof, ...]
     durations: Mapping[str, Fraction] = field(default_factory=dict)
+    """The time that a curve takes, where it is not 1."""
 
     def __repr__(self) -> str:
         curves = ", ".join(f"{name} of degree {curve.degree}" for name, curve in self.curves.items())
@@ -101,20 +100,55 @@ def prove(curves: Mapping[str, Bezier], conditions: tuple[Condition, ...]) -> tu
 
 def speed_at_joins(path: Path) -> dict[str, Vector]:
     """The common velocity at each join that is at least C1, by the name of the join."""
-    found: dict[str, Any] = {}
+    data: dict[str, Any] = {}
     for item in path.joins:
         if item.join.smoothness >= Smoothness.C1:
             slope = path.curves[item.second].derivative(1, Fraction(0))
-            found[f"{item.first}-{item.second}"] = scale(1 / path.duration(item.second), slope)
-    return found
+            data[f"{item.first}-{item.second}"] = scale(1 / path.duration(item.second), slope)
+    return data
 
 
 def path_certificates(path: Path) -> list[tuple[str, Certificate]]:
     """A labelled certificate for each containment proof that has this form."""
-    found = []
+    result = []
     for proof in path.proofs:
         if isinstance(proof.outcome, Inside):
             certificate = containment(path.curves[proof.curve], proof.outcome)
             if certificate is not None:
-                found.append((f"{proof.curve} in {proof.condition.name}", certificate))
-    return found
+                result.append((f"{proof.curve} in {proof.condition.name}", certificate))
+    return result
+
+
+REL = Fraction(1, 10**6)
+"""Relative width of the enclosure of the squared speed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Slowest:
+    """The least speed of a curve in mm per unit of time."""
+
+    least: Enclosure
+    """It lies in this enclosure, which is 0 when the curve stops."""
+    stops: tuple[Interval, ...]
+    """Where, as intervals of the parameter with one zero of the speed each (equal ends: exactly there)."""
+
+
+def slowest(curve: Bezier, duration: Fraction = Fraction(1)) -> Slowest:
+    """The least of |P'(t)| / duration over [0, 1]."""
+    squared = curve.hodograph().norm_squared()
+    zero = Enclosure(Fraction(0), Fraction(0))
+    if all(map(is_zero, squared)):
+        return Slowest(zero, (UNIT,))
+    ends = [(t, t) for t, value in zip(UNIT, (squared[0], squared[-1]), strict=True) if is_zero(value)]
+    stops = sorted([*ends, *(located(squared, interval) for interval in isolate(squared))])
+    if stops:
+        return Slowest(zero, tuple(stops))
+    # the least of p > 0 is one over the largest of 1/p
+    top = maximum((Fraction(1),), squared, REL)
+    assert top.high is not None
+    return Slowest(Enclosure(root_below(1 / top.high) / duration, root_above(1 / top.low) / duration), ())
+
+
+def slowest_of(path: Path) -> Mapping[str, Slowest]:
+    """``slowest`` for each curve of a path, with respect to time."""
+    return {name: slowest(curve, path.duration(name)) for name, curve in path.curves.items()}

@@ -25,7 +25,7 @@ Indices = NDArray[np.int64]
 class RegionMesh:
     """A closed surface: ``vertices`` (n, 3), ``faces`` (m, 3), ``owner`` (m,): index of the bounding condition.
 
-    ``normals`` (m, 3): outward, those of the boundary surface itself. ``edges``: polylines where two of these meet.
+    ``normals`` (m, 3): outward, those of the boundary surface itself.
     """
 
     vertices: Array
@@ -33,6 +33,7 @@ class RegionMesh:
     owner: Indices
     normals: Array
     edges: tuple[Array, ...]
+    """Polylines where two of these meet."""
 
 
 Shape = tuple[str, Array, float]
@@ -90,11 +91,11 @@ def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh |
 
 def _normals(shapes: Sequence[Shape], owner: Indices, middles: Array) -> Array:
     """The outward unit normals of the surfaces to which the faces belong: a thin triangle's own one tells little."""
-    found = np.zeros_like(middles)
+    result = np.zeros_like(middles)
     for k, (kind, vector, _number) in enumerate(shapes):
         mine = owner == k
-        found[mine] = middles[mine] - vector if kind == "ball" else -vector
-    return np.asarray(found / (np.linalg.norm(found, axis=1, keepdims=True) + 1e-30))
+        result[mine] = middles[mine] - vector if kind == "ball" else -vector
+    return np.asarray(result / (np.linalg.norm(result, axis=1, keepdims=True) + 1e-30))
 
 
 def _cast(shapes: Sequence[Shape], centre: Array, directions: Array) -> Array:
@@ -181,17 +182,17 @@ class _Circle:
         return np.asarray(self.centre + np.cos(a) * self.u + np.sin(a) * self.v)
 
 
-def _edges(shapes: Sequence[Shape], scale: float, count: int = 720) -> tuple[Array, ...]:
+def _edges(shapes: Sequence[Shape], scale: float) -> tuple[Array, ...]:
     """The parts of the circles in which two boundary surfaces meet that bound the region."""
-    found: list[Array] = []
+    result: list[Array] = []
     for i, first in enumerate(shapes):
         for second in shapes[i + 1 :]:
             circle = _meeting(first, second)
             if circle is None:
                 continue
             others = [s for s in shapes if s is not first and s is not second]
-            found += [circle.at(angles) for angles in _runs(circle, others, -1e-9 * scale, count)]
-    return tuple(found)
+            result += [circle.at(angles) for angles in _runs(circle, others, -1e-9 * scale)]
+    return tuple(result)
 
 
 def _meeting(a: Shape, b: Shape) -> _Circle | None:
@@ -217,8 +218,9 @@ def _meeting(a: Shape, b: Shape) -> _Circle | None:
     return _Circle(centre + along * normal, u, np.cross(normal, u))
 
 
-def _runs(circle: _Circle, others: Sequence[Shape], tolerance: float, count: int) -> list[Array]:
+def _runs(circle: _Circle, others: Sequence[Shape], tolerance: float) -> list[Array]:
     """Ascending angles of each maximal arc on which all other conditions hold; the ends found by bisection."""
+    count = 720
 
     def inside(angles: Array) -> NDArray[np.bool_]:
         good = np.ones(len(angles), dtype=bool)

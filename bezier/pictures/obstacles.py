@@ -33,18 +33,18 @@ class ObstaclePicture:
 
 def obstacle_pictures(obstacles: Sequence[Obstacle], reach: float) -> tuple[ObstaclePicture, ...]:
     """All obstacles as far as they lie within ``reach`` of the origin; those that do not are left out."""
-    found = []
+    result = []
     for k, obstacle in enumerate(obstacles):
         colour = COLOURS[k % len(COLOURS)]
         if obstacle.body is None:
             inside = _cloud(obstacle, reach)
             if len(inside):
-                found.append(ObstaclePicture(obstacle.name, colour, inside, None))
+                result.append(ObstaclePicture(obstacle.name, colour, inside, None))
             continue
         points = _surface(obstacle.body, reach)
         if len(points):
-            found.append(ObstaclePicture(obstacle.name, colour, points, _faces(points)))
-    return tuple(found)
+            result.append(ObstaclePicture(obstacle.name, colour, points, _faces(points)))
+    return tuple(result)
 
 
 def _faces(points: Array) -> Indices | None:
@@ -106,5 +106,5 @@ def _cloud(obstacle: Obstacle, reach: float) -> Array:
         for constraint in piece.constraints:
             held &= sum(float(c) * np.prod(grid ** np.array(e), axis=1) for e, c in constraint.terms) >= 0
         inside |= held
-    found: Array = grid[inside]
-    return found
+    result: Array = grid[inside]
+    return result

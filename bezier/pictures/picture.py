@@ -62,30 +62,32 @@ class RegionPicture:
 
 @dataclass(frozen=True, slots=True)
 class PathPicture:
-    """The path in its workspace. ``marks``: named points; ``hatted_names``: whether their names get hats."""
+    """The path in its workspace."""
 
     radius: float
     has_floor: bool
     curves: tuple[CurvePicture, ...]
     marks: Mapping[str, Array]
+    """Named points."""
     region: RegionPicture | None = None
     extra: Mapping[str, RegionPicture] = field(default_factory=dict)
     hatted_names: bool = True
+    """Whether their names get hats."""
     obstacles: tuple[ObstaclePicture, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """The pictures of a plan: what the page shows, and the files written.
-
-    ``views``: the coordinate views; ``charts``: further drawings; ``clearance``: heights, distances to the obstacles.
-    """
+    """The pictures of a plan: what the page shows, and the files written."""
 
     picture: PathPicture
     files: tuple[str, ...]
     views: tuple[Chart, ...] = ()
+    """The coordinate views."""
     charts: tuple[Chart, ...] = ()
+    """Further drawings."""
     clearance: tuple[Chart, ...] = ()
+    """Heights, distances to the obstacles."""
 
 
 def path_picture(

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from bezier.pictures import labels
 from bezier.pictures.mesh import Array, best_view, hull
 from bezier.pictures.obstacles import ObstaclePicture
 from bezier.pictures.picture import (
@@ -26,6 +27,63 @@ from bezier.pictures.picture import (
     written,
 )
 from qe.regions.space import direction
+
+GAP, PLACES = 4.0, 16
+"""Pixels between a point and its name; directions that are tried."""
+REACHES = (7.0, 14.0, 26.0, 40.0)
+"""Distances that are tried, in pixels."""
+COVERING, OUTSIDE, CROSSING, FAR = 4.0, 20.0, 40.0, 0.6
+"""What a place costs: for each square pixel of another name, or outside of the frame, for each point drawn, and for
+each pixel of distance. Found by looking at the examples; only their order matters."""
+
+
+def place(axis: Any, labels: Sequence[tuple[str, Sequence[float]]], drawn: Array, size: float = 8) -> None:
+    """Write each text near its point (in the data of ``axis``); ``drawn``: (n, 2), points of the lines drawn."""
+    if not labels:
+        return
+    axis.apply_aspect()
+    renderer = axis.figure.canvas.get_renderer()
+    frame = axis.get_window_extent(renderer).extents
+    busy = axis.transData.transform(drawn) if len(drawn) else np.zeros((0, 2))
+    points = axis.transData.transform(np.array([point for _, point in labels], dtype=float))
+    taken = [np.concatenate([p - GAP, p + GAP]) for p in points]
+    for (text, point), at in zip(labels, points, strict=True):
+        note = axis.annotate(text, point, xytext=(0, 0), textcoords="offset points", fontsize=size)
+        note.set(ha="center", va="center")
+        box = note.get_window_extent(renderer)
+        half = np.array([box.width, box.height]) / 2
+        centres = np.array([at + _step(k, reach, half) for reach, k in product(REACHES, range(PLACES))])
+        best = centres[np.argmin(_costs(centres, half, frame, np.array(taken), busy, at))]
+        taken.append(np.concatenate([best - half, best + half]))
+        note.set_position(tuple((best - at) * 72 / axis.figure.dpi))
+        if np.linalg.norm(np.maximum(np.abs(best - at) - half, 0)) > 2 * REACHES[0]:
+            thin = {"arrowstyle": "-", "linewidth": 0.5, "color": note.get_color()}
+            towards = tuple((best - at) * 72 / axis.figure.dpi * 0.7)
+            axis.annotate("", point, xytext=towards, textcoords="offset points", arrowprops=thin)
+
+
+def _step(k: int, reach: float, half: Array) -> Array:
+    angle = np.pi / 2 - 2 * np.pi * k / PLACES
+    way = np.array([np.cos(angle), np.sin(angle)])
+    return np.asarray(way * (reach + np.abs(way) * half))
+
+
+def _costs(centres: Array, half: Array, frame: Array, taken: Array, busy: Array, at: Array) -> Array:
+    """What each of the places costs."""
+    low, high = centres - half, centres + half
+    over = sum(_shared(low, high, other) for other in taken)
+    covered = (busy >= low[:, None]) & (busy <= high[:, None])
+    outside = np.prod(2 * half) - _shared(low, high, frame)
+    away = np.linalg.norm(centres - at, axis=1)
+    crossed = covered.all(axis=2).sum(axis=1)
+    return np.asarray(COVERING * over + OUTSIDE * outside + CROSSING * crossed + FAR * away)
+
+
+def _shared(low: Array, high: Array, other: Array) -> Array:
+    """The areas that rectangles have in common with one (low, high)."""
+    sides = np.minimum(high, other[2:]) - np.maximum(low, other[:2])
+    return np.asarray(np.maximum(sides, 0.0).prod(axis=1))
+
 
 VIEWS = (("top view", 0, 1), ("front view", 0, 2), ("side view", 1, 2))
 AXES = ("x", "y", "z")
@@ -91,13 +149,13 @@ def save_path(picture: PathPicture, path: Path) -> None:
 
 def views(picture: PathPicture) -> tuple[Chart, ...]:
     """The three coordinate views for the page."""
-    found = []
+    result = []
     for title, i, j in VIEWS:
         figure = new_figure(4.4, 3.7)
         path_view(figure.add_axes((0.16, 0.14, 0.81, 0.77)), picture, title, i, j)
         letter(figure, picture.hatted_names)
-        found.append((svg_text(figure), f"{title} ({AXES[i]}{AXES[j]}): {WORDS[title]}"))
-    return tuple(found)
+        result.append((svg_text(figure), f"{title} ({AXES[i]}{AXES[j]}): {WORDS[title]}"))
+    return tuple(result)
 
 
 VARIABLES = {INK: "ink", PALE: "pale", GRID: "grid", SHADE: "shade", FLOOR: "floor", "#ffffff": "paper"}
@@ -112,7 +170,7 @@ def svg_text(figure: Any) -> str:
     FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     named = {**VARIABLES, **{colour: letter.lower() for letter, colour in COLOURS.items()}}
-    text = re.sub("|".join(named), lambda found: f"var(--{named[found[0]]})", text[text.index("<svg") :])
+    text = re.sub("|".join(named), lambda match: f"var(--{named[match[0]]})", text[text.index("<svg") :])
     return re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
 
 
@@ -224,14 +282,14 @@ def _name_in_space(axis: Any, picture: PathPicture) -> None:
 
     drawn = [seen(part) for curve in picture.curves for part in (curve.points, _along(curve.polygon))]
     texts = [(written(name), tuple(seen(point[None, :])[0])) for name, point in picture.marks.items()]
-    labels.place(axis, texts, np.concatenate(drawn) if drawn else np.zeros((0, 2)), size=10)
+    place(axis, texts, np.concatenate(drawn) if drawn else np.zeros((0, 2)), size=10)
 
 
 def _along(polygon: Array) -> Array:
     """Points on the sides of a polygon."""
     share = np.linspace(0.0, 1.0, 9)[:, None, None]
-    found: Array = (polygon[:-1] * (1 - share) + polygon[1:] * share).reshape(-1, polygon.shape[1])
-    return found
+    result: Array = (polygon[:-1] * (1 - share) + polygon[1:] * share).reshape(-1, polygon.shape[1])
+    return result
 
 
 def _region_view(axis: Any, region: RegionPicture, title: str, i: int, j: int) -> None:
@@ -266,7 +324,7 @@ def path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> No
     if not picture.curves:
         axis.plot(*np.array(list(picture.marks.values()))[:, [i, j]].T, "o", color=INK, markersize=3)
     drawn = [part[:, [i, j]] for curve in picture.curves for part in (curve.points, _along(curve.polygon))]
-    labels.place(axis, _grouped(picture, i, j), np.concatenate([rim, *drawn]))
+    place(axis, _grouped(picture, i, j), np.concatenate([rim, *drawn]))
 
 
 def _grouped(picture: PathPicture, i: int, j: int) -> list[tuple[str, tuple[float, float]]]:

@@ -124,5 +124,5 @@ def _motion(track: Track, size: float, timed: bool) -> dict[str, Any]:
 def _flat(values: NDArray[np.float64], size: float) -> list[float]:
     """All numbers in a row, rounded to five digits of ``size``."""
     digits = 5 - int(np.ceil(np.log10(size)))
-    found: list[float] = np.round(np.asarray(values, dtype=float).reshape(-1), digits).tolist()
-    return found
+    result: list[float] = np.round(np.asarray(values, dtype=float).reshape(-1), digits).tolist()
+    return result

@@ -7,14 +7,17 @@ rounded to multiples of ``GRAIN``; a Bézier curve moves by no more than its con
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from math import ceil, hypot
+from pathlib import Path
 from typing import Any
 
+from bezier.arm import evidence
 from bezier.arm import joint_plan as plans
-from bezier.arm.evidence import certificates, without_certificate
+from bezier.arm.evidence import Labelled, certificates, without_certificate
 from bezier.arm.inverse import solve
 from bezier.arm.joint_plan import JointPlan, joint_plan
 from bezier.arm.model import Arm
@@ -29,6 +32,8 @@ from bezier.plans import Outcome, Plan
 from bezier.problem import Problem
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
+from qe.kernel.verdict import Verdict
+from qe.processes.channel import Channel
 from qe.proof.certificate import Certificate
 
 GRAIN = Fraction(1, 1 << 34)
@@ -36,7 +41,7 @@ AWAY = "1e-10"
 SAMPLES = 200
 USUAL_DURATION = Fraction(50)
 """Seconds, where the problem does not say: that of arXiv 2305.12451."""
-FILES = ("joints.csv", "joints.json", "joints_certificate.json")
+FILES, PAGE = ("joints.csv", "joints.json", "joints_certificate.json"), "joints.html"
 
 
 def check_arm(problem: Problem) -> Problem:
@@ -59,8 +64,8 @@ def _within_reach(problem: Problem, arm: Arm) -> Problem:
     points = {"start": problem.start, "via[0]": problem.via[0], "via[1]": problem.via[1], "goal": problem.goal}
     for name, point in points.items():
         if not solve(arm, point).allowed_count:
-            told = ", ".join(map(str, point))
-            raise InputError(f"{name}: a point that {arm.name} reaches expected, found ({told})")
+            text = ", ".join(map(str, point))
+            raise InputError(f"{name}: a point that {arm.name} reaches expected, found ({text})")
     if not problem.radius_is_auto:
         return problem
     a, c, radius = reachable_set(arm).numbers
@@ -78,17 +83,17 @@ def with_joints(plan: Plan) -> Plan:
     law = TimeLaw.of(Law.QUINTIC) if timing is None else TimeLaw.of(timing.law, timing.ramp)
     duration = USUAL_DURATION if motion is None else motion.duration
     try:
-        found = joint_plan(load_arm(plan.problem.arm), curves, law, duration, SAMPLES, parts=parts)
+        result = joint_plan(load_arm(plan.problem.arm), curves, law, duration, SAMPLES, parts=parts)
     except Unable as error:
         if isinstance(error, BudgetExceeded):
             raise
         return replace(plan, remarks=(*plan.remarks, f"the joints are not planned: {error}"))
     outcome = plan.outcome
-    if outcome.is_success and not found.is_followed:
+    if outcome.is_success and not result.is_followed:
         outcome = Outcome.OUT_OF_REACH
-    elif outcome.is_success and found.motion is not None and not found.motion.keeps_limits:
+    elif outcome.is_success and result.motion is not None and not result.motion.keeps_limits:
         outcome = Outcome.TOO_FAST
-    return replace(plan, joints=found, outcome=outcome)
+    return replace(plan, joints=result, outcome=outcome)
 
 
 def rounded(curve: Bezier) -> Bezier:
@@ -112,33 +117,48 @@ def files(plan: Plan) -> dict[str, str]:
 
 
 @lru_cache(maxsize=2)
-def _texts(found: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
-    table, data, evidence = FILES
-    listed = certificates(found.path)
-    certificate = Certificate.bundle(listed)
-    verdict = verify(certificate)
-    if certificate.payload and not verdict.accepted:
-        raise CertificateRejected(f"{evidence}: {verdict.step}", verdict.reason)
-    told = {**plans.to_json(found), "rounded": is_rounded}
-    told["without_certificate"] = without_certificate(found.path, listed)
-    texts = {data: json.dumps(told, indent=1, ensure_ascii=False) + "\n", evidence: certificate.to_json()}
-    if found.sequence is not None:
-        texts[table] = plans.to_csv(found)
-    return tuple(texts.items())
+def _texts(plan: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
+    written = _Written.of(plan, lambda accepted: {"rounded": is_rounded})
+    if written.listed and not written.verdict.accepted:
+        raise CertificateRejected(f"{FILES[2]}: {written.verdict.step}", written.verdict.reason)
+    return tuple(written.texts.items())
+
+
+@dataclass(frozen=True, slots=True)
+class _Written:
+    """The files about joints by name, what ``joints.json`` says, the certificates, and whether they are accepted."""
+
+    texts: dict[str, str]
+    data: dict[str, Any]
+    listed: Labelled
+    verdict: Verdict
+
+    @staticmethod
+    def of(plan: JointPlan, more: Callable[[bool], Mapping[str, Any]]) -> _Written:
+        table, summary, certificate = FILES
+        listed = certificates(plan.path)
+        bundle = Certificate.bundle(listed)
+        verdict = verify(bundle)
+        data = {**plans.to_json(plan), **more(verdict.accepted)}
+        data["without_certificate"] = without_certificate(plan.path, listed)
+        texts = {summary: json.dumps(data, indent=1, ensure_ascii=False) + "\n", certificate: bundle.to_json()}
+        if plan.sequence is not None:
+            texts[table] = plans.to_csv(plan)
+        return _Written(texts, data, listed, verdict)
 
 
 def json_entries(plan: Plan) -> dict[str, Any]:
     """What the summary says of the joints."""
     if plan.joints is None:
         return {}
-    found = plan.joints
+    result = plan.joints
     return {
         "joints": {
-            "arm": found.path.arm.name,
-            "reachable": found.path.is_reachable,
-            "continuous_motions": found.path.allowed_count,
-            "run": None if found.sequence is None else found.sequence.run,
-            "limits": {} if found.motion is None else found.motion.kept,
+            "arm": result.path.arm.name,
+            "reachable": result.path.is_reachable,
+            "continuous_motions": result.path.allowed_count,
+            "run": None if result.sequence is None else result.sequence.run,
+            "limits": {} if result.motion is None else result.motion.kept,
             "rounded": is_rounded(plan),
         }
     }
@@ -152,3 +172,39 @@ def summary_lines(plan: Plan) -> list[str]:
     if is_rounded(plan):
         lines.append(f"arm: the joints follow the path with control points rounded: within {AWAY} mm of it")
     return lines
+
+
+# --- bezier joints --------------------------------------------------------------------------------------------------
+
+
+def joints(
+    channel: Channel,
+    arm: Arm,
+    curves: Mapping[str, Bezier],
+    *,
+    law: TimeLaw,
+    duration: Fraction,
+    samples: int,
+    file: str,
+    folder: Path,
+    target: Path,
+    as_json: bool = False,
+) -> tuple[str, bool]:
+    """Plan the joints along the curves of ``file``, write the files into ``folder``, whose place will be ``target``;
+    what to print, and whether the arm follows."""
+    plan = plans.joint_plan(arm, curves, law, duration, samples)
+    written = _Written.of(plan, lambda accepted: {"certified": accepted})
+    for name, text in {**written.texts, PAGE: render(plan, file)}.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    if as_json:
+        return json.dumps(written.data, indent=1, ensure_ascii=False), plan.is_followed
+    lines = [*plans.in_words(plan), *evidence.in_words(plan.path, written.listed, written.verdict)]
+    return "\n".join([*lines, f"open {target / PAGE}"]), plan.is_followed
+
+
+def render(plan: JointPlan, file: str) -> str:
+    """The page of ``bezier joints``: one file that needs nothing from elsewhere."""
+    from bezier.report.html import document
+    from bezier.report.joints import page
+
+    return document(page(plan, file))

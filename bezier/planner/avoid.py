@@ -22,7 +22,7 @@ from bezier.curves.enclosure import root_below
 from bezier.curves.scalar import Vector, add
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
-from bezier.obstacles.clearance import Argument, Clear
+from bezier.obstacles.clearance import Clear, ClearanceArgument
 from bezier.obstacles.survey import Finding
 from bezier.planner.table import method_for
 from bezier.plans import Attempt, Clock, Outcome, Plan
@@ -80,9 +80,9 @@ def examined(plan: Plan) -> Plan:
     findings = survey.survey(plan.path.curves, plan.problem.obstacles)
     if survey.contacts(findings):
         return replace(plan, findings=findings, outcome=Outcome.BLOCKED)
-    found = survey.certificates(findings)
-    checks = {**plan.checks, "clearance": qe.verify(qe.Certificate.bundle(found))} if found else plan.checks
-    certificate = qe.Certificate.bundle([*_members(plan.certificate), *found])
+    result = survey.certificates(findings)
+    checks = {**plan.checks, "clearance": qe.verify(qe.Certificate.bundle(result))} if result else plan.checks
+    certificate = qe.Certificate.bundle([*_members(plan.certificate), *result])
     remarks = plan.remarks + tuple(_polygon_remark(f) for f in findings if _needed_more(f))
     return replace(plan, findings=findings, certificate=certificate, checks=checks, remarks=remarks)
 
@@ -95,7 +95,7 @@ def _members(certificate: qe.Certificate) -> list[tuple[str, qe.Certificate]]:
 
 def _needed_more(finding: Finding) -> bool:
     outcome = finding.outcome
-    return isinstance(outcome, Clear) and outcome.argument in (Argument.SUBDIVISION, Argument.ROOTS)
+    return isinstance(outcome, Clear) and outcome.argument in (ClearanceArgument.SUBDIVISION, ClearanceArgument.ROOTS)
 
 
 def _polygon_remark(finding: Finding) -> str:
@@ -128,8 +128,8 @@ def _alternatives(problem: Problem, first: Plan) -> Iterator[tuple[str, Problem]
 
 def _height(problem: Problem, plan: Plan) -> Fraction:
     """The height of the highest obstacle met, or of the highest one at all; without any, a tenth of the radius."""
-    met = [finding.obstacle for finding in survey.contacts(plan.findings)]
-    heights = [o.box[1][2] - o.box[0][2] for o in met or problem.obstacles if o.box is not None]
+    hit = [finding.obstacle for finding in survey.contacts(plan.findings)]
+    heights = [o.box[1][2] - o.box[0][2] for o in hit or problem.obstacles if o.box is not None]
     return max(heights, default=root_below(problem.workspace.radius_squared, bits=10) / 10)
 
 
@@ -168,16 +168,16 @@ def with_stated_attempts(plan: Plan, stated: Any) -> Plan:
     """
     if not isinstance(stated, list) or not stated:
         raise CertificateRejected("summary.json: attempts", "expected a list of attempts")
-    told = [_attempt(item, f"summary.json: attempts[{i}]") for i, item in enumerate(stated)]
-    outcomes = [item.outcome for item in told]
-    own = outcomes.index(plan.outcome) if plan.outcome in outcomes else 0
+    attempts = [_attempt(item, f"summary.json: attempts[{i}]") for i, item in enumerate(stated)]
+    outcomes = [item.outcome for item in attempts]
+    last = outcomes.index(plan.outcome) if plan.outcome in outcomes else 0
     solved = plan.outcome.is_success
     best = next((o for o in ENDS if o in outcomes), None)
-    if best is not plan.outcome or (solved and own != len(told) - 1) or outcomes[0] is None:
+    if best is not plan.outcome or (solved and last != len(attempts) - 1) or outcomes[0] is None:
         raise CertificateRejected("summary.json: attempts", f"these do not end with {plan.outcome.value}")
-    what = told[own].what if own else AS_GIVEN
-    told[own] = Attempt(what, plan.outcome, _detail(plan))
-    return replace(plan, attempts=tuple(told))
+    what = attempts[last].what if last else AS_GIVEN
+    attempts[last] = Attempt(what, plan.outcome, _detail(plan))
+    return replace(plan, attempts=tuple(attempts))
 
 
 def _attempt(stated: Any, place: str) -> Attempt:

@@ -3,49 +3,80 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+import time
+from dataclasses import replace
 from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
 
-from bezier.planner.folder import write_folder
-from bezier.planner.outputs import REPORT
+from bezier.planner import derivations
+from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data
 from bezier.planner.planning import make_plan
+from bezier.planner.table import method_for
 from bezier.planner.words import lines
 from bezier.plans import Clock, Plan
 from bezier.problem import Problem
-from qe.cli.shell import OK, UNABLE
 from qe.processes.channel import Channel
 
-
-@dataclass(frozen=True, slots=True)
-class Reply:
-    """``text`` for stdout and the exit status."""
-
-    text: str
-    code: int
+if TYPE_CHECKING:
+    from bezier.pictures.picture import Drawing
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Request:
-    """What the command line asked for; ``folder`` is where the files are written first."""
-
-    problem: Problem
-    folder: FilePath
-    target: FilePath
-    plots: bool = True
-    json: bool = False
-    timeout: float | None = None
+CLEARANCE = "clearance.png"
 
 
-def plan(channel: Channel, request: Request) -> Reply:
-    """``bezier plan``: all files into ``request.folder``, and what to print."""
-    clock = Clock(limit=request.timeout, listener=channel.event, note=channel.fact)
-    made = make_plan(request.problem, clock, proofs=True)
-    files, told = write_folder(made, request.folder, request.target, clock, plots=request.plots)
-    text = json.dumps(told, indent=1, ensure_ascii=False)
-    code = OK if made.outcome.is_success else UNABLE
-    return Reply(text if request.json else in_words(made, request.target, files, told["seconds"]["total"]), code)
+def write_folder(
+    made: Plan, folder: FilePath, target: FilePath, clock: Clock, *, plots: bool
+) -> tuple[list[str], dict[str, Any]]:
+    """All files into ``folder``, whose place will be ``target``; their names, and what the summary says."""
+    method = method_for(made.problem)
+    files = write_data(made, folder)
+    drawing = None
+    if plots:
+        with clock.step("pictures"):
+            drawing = method.draw(made, folder)
+            if made.findings:
+                drawing = _with_clearances(drawing, made, folder)
+        files += drawing.files
+    with clock.step("report"):
+        from bezier.report.page import render
+
+        page = render(made, method, drawing)
+        (folder / REPORT).write_text(page, encoding="utf-8")
+        pages = derivations.pages(made)
+        for name, text in pages.items():
+            (folder / name).write_text(text, encoding="utf-8")
+    files = sorted([*files, *pages, REPORT, SUMMARY])
+    entries = summary(made, [str(target / name) for name in files], time.perf_counter() - clock.start)
+    text = json.dumps(entries, indent=1, ensure_ascii=False)
+    (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
+    return files, entries
 
 
-def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> str:
-    """The short summary for people."""
-    return "\n".join([*lines(made), f"{len(files)} files in {target} ({seconds:.2f} s): open {target / REPORT}"])
+def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:
+    """The drawing with the chart of heights and distances to the obstacles."""
+    from bezier.pictures import charts
+
+    panels = charts.clearance(made.findings, drawing.picture.obstacles)
+    return replace(drawing, clearance=charts.saved(panels, folder / CLEARANCE), files=(*drawing.files, CLEARANCE))
+
+
+def plan(
+    channel: Channel,
+    problem: Problem,
+    folder: FilePath,
+    target: FilePath,
+    *,
+    plots: bool = True,
+    as_json: bool = False,
+    timeout: float | None = None,
+) -> tuple[str, bool]:
+    """``bezier plan``: all files into ``folder``, whose place will be ``target``; what to print, and whether
+    there is a path to use."""
+    clock = Clock(limit=timeout, listener=channel.event, note=channel.fact)
+    made = make_plan(problem, clock, proofs=True)
+    files, facts = write_folder(made, folder, target, clock, plots=plots)
+    good = made.outcome.is_success
+    if as_json:
+        return json.dumps(facts, indent=1, ensure_ascii=False), good
+    last = f"{len(files)} files in {target} ({facts['seconds']['total']:.2f} s): open {target / REPORT}"
+    return "\n".join([*lines(made), last]), good

@@ -33,20 +33,20 @@ def label(name: str) -> str:
 
 def with_derivations(plan: Plan, clock: Clock) -> Plan:
     """The plan with the derivations of all its eliminations, in its certificate too, as far as each step is checked."""
-    found, unproved = proved({**plan.eliminations, **_of_radius(plan), **of_obstacles(plan.problem.obstacles)}, clock)
-    return replace(_with(plan, found), unproved=unproved)
+    result, unproved = proved({**plan.eliminations, **_of_radius(plan), **of_obstacles(plan.problem.obstacles)}, clock)
+    return replace(_with(plan, result), unproved=unproved)
 
 
 def proved(answers: Mapping[str, Any], clock: Clock) -> tuple[dict[str, Derived], dict[str, str]]:
     """The derivations of answers by their names, checked; for the others why they are not."""
-    found, unproved = {}, {}
+    result, unproved = {}, {}
     for name, answer in answers.items():
         checked = with_derivation(answer, clock.remaining("derivations"))
         if checked.certificate is None:
             unproved[name] = checked.why_unchecked
         else:
-            found[name] = Derived(checked.certificate, answer)
-    return found, unproved
+            result[name] = Derived(checked.certificate, answer)
+    return result, unproved
 
 
 def pages(plan: Plan) -> dict[str, str]:
@@ -59,8 +59,8 @@ def page(name: str, item: Derived, file: str = CERTIFICATE, title: str = "") -> 
     """A derivation as a page; ``file``: where its evidence is; ``title``: of the elimination of what the name says,
     where it has none."""
     heading = title or f"The elimination of {name}"
-    found: str = item.answer.derivation.to_html(title=heading, note=CHECKED.format(file))
-    return found
+    result: str = item.answer.derivation.to_html(title=heading, note=CHECKED.format(file))
+    return result
 
 
 def members(derivations: Mapping[str, Derived]) -> list[tuple[str, Certificate]]:
@@ -81,10 +81,10 @@ def _of_radius(plan: Plan) -> Mapping[str, Any]:
     return {} if plan.radius_rule is None else plan.radius_rule.answers
 
 
-def _with(plan: Plan, found: Mapping[str, Derived]) -> Plan:
+def _with(plan: Plan, derived: Mapping[str, Derived]) -> Plan:
     """The plan with these derivations, in its certificate too."""
     listed = [(m.label, m.certificate) for m in members_of(plan.certificate)]
-    return replace(plan, derivations=found, certificate=Certificate.bundle([*listed, *members(found)]))
+    return replace(plan, derivations=derived, certificate=Certificate.bundle([*listed, *members(derived)]))
 
 
 def members_of(certificate: Certificate) -> tuple[Labelled, ...]:
@@ -102,13 +102,13 @@ def with_stated(plan: Plan, certificate: Certificate) -> Plan:
     The derivations themselves are accepted with the certificate. Raises ``CertificateRejected`` for one about another
     question.
     """
-    asked, found = questions(plan), {}
+    known, result = questions(plan), {}
     for member in certificate.payload if isinstance(certificate.payload, tuple) else ():
         if member.label.startswith(PREFIX):
             name = member.label.removeprefix(PREFIX)
-            _check_question(member, asked.get(name))
-            found[name] = Derived(member.certificate)
-    return _with(plan, found)
+            _check_question(member, known.get(name))
+            result[name] = Derived(member.certificate)
+    return _with(plan, result)
 
 
 def questions(plan: Plan) -> dict[str, Formula]:

@@ -17,7 +17,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
-from bezier.curves.evidence import field_json
+from bezier.curves.containment import field_json
 from bezier.curves.scalar import decimal_text, described, rational, scale
 from bezier.motion import motion
 from bezier.paths import heights
@@ -95,13 +95,13 @@ def _move(fresh: FilePath, target: FilePath) -> None:
 
 def _stale(fresh: FilePath, target: FilePath) -> list[str]:
     """The files in ``target`` that an earlier run of the same command wrote, says so, and this one does not replace."""
-    found = []
+    result = []
     for listing, names in LISTED_IN.items():
         if (fresh / listing).is_file():
             listed = _listed(target / listing)
-            own = {*names, *(name for name in listed if DERIVATION.fullmatch(name))}
-            found += [name for name in sorted(own & listed) if not (fresh / name).exists()]
-    return found
+            ours = {*names, *(name for name in listed if DERIVATION.fullmatch(name))}
+            result += [name for name in sorted(ours & listed) if not (fresh / name).exists()]
+    return result
 
 
 def _listed(listing: FilePath) -> set[str]:
@@ -123,7 +123,7 @@ def facts(plan: Plan) -> dict[str, Any]:
     """What the summary says of a plan: all that ``bezier check`` finds again, but for what is named under
     ``not_certified``."""
     problem, method = plan.problem, method_for(plan.problem)
-    found: dict[str, Any] = {
+    data: dict[str, Any] = {
         "status": plan.outcome.value,
         "method": problem.method.value,
         "workspace": problem.workspace.kind.value,
@@ -145,12 +145,12 @@ def facts(plan: Plan) -> dict[str, Any]:
         "not_certified": list(plan.not_certified),
     }
     if plan.derivations:
-        found["derivations"] = {name: list(item.rules) for name, item in plan.derivations.items()}
+        data["derivations"] = {name: list(item.rules) for name, item in plan.derivations.items()}
     if plan.bound is not None:
-        found["bound"] = described(plan.bound)
-    if not plan.outcome.is_success and not found.get("reason"):
-        found["reason"] = why_not(plan)
-    return found
+        data["bound"] = described(plan.bound)
+    if not plan.outcome.is_success and not data.get("reason"):
+        data["reason"] = why_not(plan)
+    return data
 
 
 def problem_json(problem: Problem) -> str:
@@ -160,12 +160,12 @@ def problem_json(problem: Problem) -> str:
 
 def _decided(plan: Plan) -> dict[str, Any]:
     """What was decided about the radius and the heights."""
-    found: dict[str, Any] = {}
+    data: dict[str, Any] = {}
     if plan.radius_rule is not None:
-        found["radius_rule"] = plan.radius_rule.to_json()
+        data["radius_rule"] = plan.radius_rule.to_json()
     if plan.heights is not None:
-        found["heights"] = heights.to_json(plan.heights)
-    return found
+        data["heights"] = heights.to_json(plan.heights)
+    return data
 
 
 def path_json(plan: Plan, path: Path) -> dict[str, Any]:
@@ -203,10 +203,10 @@ def _name(path: Path, point: Any) -> str:
 
 
 def _coordinate(value: Any) -> dict[str, Any]:
-    found: dict[str, Any] = described(value)
+    data: dict[str, Any] = described(value)
     if rational(value) is None and hasattr(value, "coefficients"):
-        found["in_field"] = [str(c) for c in value.coefficients]
-    return found
+        data["in_field"] = [str(c) for c in value.coefficients]
+    return data
 
 
 def _field(path: Path) -> dict[str, Any] | None:

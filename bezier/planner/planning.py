@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from bezier.motion.motion import quality_of
-from bezier.paths import heights, origin
+from bezier.paths import heights
 from bezier.planner import radius_rule
 from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
@@ -55,7 +55,8 @@ def finish_plan(begun: Begun, clock: Clock, *, proofs: bool = False) -> Plan:
 def _completed(plan: Plan, watch: Clock, proofs: bool) -> Plan:
     """The plan with what is decided about every path."""
     with watch.step("radius and heights"):
-        plan = _with_findings(plan, watch)
+        made = plan
+        plan = with_findings(made, lambda solvable: radius_rule.radius_rule(made.problem, solvable, watch.remaining))
     with watch.step("quality"):
         plan = with_quality(plan)
     if plan.problem.arm is not None:
@@ -80,29 +81,25 @@ def _telling(watch: Clock) -> Iterator[None]:
         raise BudgetExceeded(f"{error}; known so far: {known}", limit=limit) from None
 
 
-def _with_findings(plan: Plan, clock: Clock) -> Plan:
-    """The plan with what the radius forces, the height condition, and a note where the path goes through the origin."""
-    return with_findings(plan, lambda solvable: radius_rule.radius_rule(plan.problem, solvable, clock.remaining))
-
-
 def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan:
-    """The same, with what ``rule`` says of the radius, which is asked whether the problem has a solution."""
-    found, remarks = plan, []
+    """The plan with what the radius forces (``rule`` is given whether the problem has a solution), the height
+    condition, and a note where the path goes through the origin."""
+    result, remarks = plan, []
     try:
         solvable = plan.outcome is not Outcome.INFEASIBLE
         forced = None if ends_inside(plan.problem) else rule(solvable)
         if forced is not None:
-            found = replace(found, radius_rule=forced)
+            result = replace(result, radius_rule=forced)
             remarks += [forced.in_words()] if solvable else []  # else it is part of the reason
         remarks += [] if plan.bound is None else [NEAR]
         if plan.path is not None:
-            found = replace(found, heights=heights.heights_of(plan.problem.strip, plan.path))
-            remarks += origin.remarks(plan.path)
+            result = replace(result, heights=heights.heights_of(plan.problem.strip, plan.path))
+            remarks += heights.remarks(plan.path)
     except Unable as error:
         if isinstance(error, BudgetExceeded):
             raise
         remarks.append(f"what the radius forces and the heights are not all decided: {error}")
-    return replace(found, remarks=(*found.remarks, *remarks))
+    return replace(result, remarks=(*result.remarks, *remarks))
 
 
 def with_quality(plan: Plan) -> Plan:

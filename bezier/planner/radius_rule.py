@@ -19,19 +19,7 @@ import qe
 from bezier.curves.enclosure import root_above, root_below
 from bezier.curves.scalar import Vector, dot, exactly, same
 from bezier.curves.workspace import Workspace
-from bezier.methods.control.statements import (
-    Implies,
-    Product,
-    Statement,
-    at_most,
-    difference,
-    equal,
-    every,
-    for_all,
-    names,
-    number,
-    squares,
-)
+from bezier.methods.control import statements as st
 from bezier.methods.control.system import System, coordinates
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
@@ -62,16 +50,18 @@ def on_sphere(problem: Problem) -> dict[str, str]:
     return {name: free for name, via, free in pairs if exactly(dot(via, via)) == square}
 
 
-def sentence(problem: Problem, via: str, free: str) -> Statement:
+def sentence(problem: Problem, via: str, free: str) -> st.Statement:
     """The theorem with this problem's numbers: the norm conditions beside a via point force the free point."""
     at = [exactly(c) for c in dict(zip(("Q0", "R0"), problem.via, strict=True))[via]]
-    square, k = number(problem.workspace.radius_squared), problem.ratio
+    square, k = st.number(problem.workspace.radius_squared), problem.ratio
     listed = coordinates(free)
-    point = names(listed)
-    other = [difference(number((1 + k) * v), Product((number(k), c))) for v, c in zip(at, point, strict=True)]
-    norms = (at_most(squares(row), square) for row in (point, other))
-    same_place = (equal(c, number(v)) for c, v in zip(point, at, strict=True))
-    return for_all(listed, Implies(every(*norms), every(*same_place)))
+    point = st.names(listed)
+    other = [
+        st.difference(st.number((1 + k) * v), st.Product((st.number(k), c))) for v, c in zip(at, point, strict=True)
+    ]
+    norms = (st.at_most(st.squares(row), square) for row in (point, other))
+    same_place = (st.equal(c, st.number(v)) for c, v in zip(point, at, strict=True))
+    return st.for_all(listed, st.Implies(st.every(*norms), st.every(*same_place)))
 
 
 def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) -> RadiusRule | None:
@@ -82,18 +72,18 @@ def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) 
     forced = on_sphere(problem)
     if not forced:
         return None
-    asked, answers = questions(problem), {}
-    for name, statement in asked.items():
+    statements, answers = questions(problem), {}
+    for name, statement in statements.items():
         answers[name] = qe.eliminate(statement.formula, timeout=remaining())
         if answers[name].truth is False:
             raise InternalError("the engine refutes that a via point on the sphere forces its neighbour")
         if answers[name].truth is None:
             raise Unable("the engine did not decide what the radius forces")
-    told = tuple(map(str, asked.values()))
-    return RadiusRule(problem.method, forced, told, solvable, larger_radius(problem, remaining), answers)
+    sentences = tuple(map(str, statements.values()))
+    return RadiusRule(problem.method, forced, sentences, solvable, larger_radius(problem, remaining), answers)
 
 
-def questions(problem: Problem) -> dict[str, Statement]:
+def questions(problem: Problem) -> dict[str, st.Statement]:
     """What is asked of the engine, by name."""
     return {
         f"what the radius forces at {via}": sentence(problem, via, free) for via, free in on_sphere(problem).items()
@@ -130,9 +120,9 @@ def _short_decimal(low: Fraction, high: Fraction) -> Fraction:
     """The least number in [low, high], low > 0, with as few decimal places (or as many final zeros) as possible."""
     power = Fraction(10) ** len(str(int(high)))
     while True:
-        found = ceil(low / power) * power
-        if found <= high:
-            return found
+        result = ceil(low / power) * power
+        if result <= high:
+            return result
         power /= 10
 
 

@@ -17,29 +17,29 @@ NONE = "no path exists"
 def lines(made: Plan) -> list[str]:
     """The summary for people, but for the files."""
     problem, method = made.problem, method_for(made.problem)
-    found = [f"radius r = {problem.workspace.radius_text}, {problem.workspace.kind.value}"]
-    found += [f"note: {note}" for note in (*problem.notes, *made.remarks)]
+    result = [f"radius r = {problem.workspace.radius_text}, {problem.workspace.kind.value}"]
+    result += [f"note: {note}" for note in (*problem.notes, *made.remarks)]
     if made.outcome is Outcome.INFEASIBLE:
-        found.append(why_not(made) or "")
-    found += method.summary_lines(made)
+        result.append(why_not(made) or "")
+    result += method.summary_lines(made)
     if made.objective is not None:
         below = "" if made.bound is None else f", never below {decimal_text(made.bound, 12)}"
-        found.append(f"objective {brief(made.objective)}{below}, active: {', '.join(made.active) or 'nothing'}")
+        result.append(f"objective {brief(made.objective)}{below}, active: {', '.join(made.active) or 'nothing'}")
     if made.path is not None:
         inside = "proved to lie in the workspace" if made.path.is_inside else "which LEAVES the workspace"
         joins = f"{made.path.smoothness.name} at both joins, " if made.path.joins else ""
-        found.append(f"path: {joins}{inside}")
+        result.append(f"path: {joins}{inside}")
     if made.heights is not None:
-        found += heights.summary_lines(made.heights)
-    found += motion.summary_lines(made.quality)
-    found += avoid.summary_lines(made)
-    found += arm.summary_lines(made)
+        result += heights.summary_lines(made.heights)
+    result += motion.summary_lines(made.quality)
+    result += avoid.summary_lines(made)
+    result += arm.summary_lines(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())
-    found.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")
+    result.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")
     if made.derivations:
-        found.append(f"derivations: every step checked of {', '.join(made.derivations)}")
-    found += [f"derivation of {name}: not every step checked: {why}" for name, why in made.unproved.items()]
-    return found
+        result.append(f"derivations: every step checked of {', '.join(made.derivations)}")
+    result += [f"derivation of {name}: not every step checked: {why}" for name, why in made.unproved.items()]
+    return result
 
 
 def why_not(made: Plan) -> str | None:
@@ -50,11 +50,11 @@ def why_not(made: Plan) -> str | None:
         case Outcome.INFEASIBLE:
             return f"{NONE}: {method_for(made.problem).reason(made)}"
         case Outcome.BLOCKED:
-            met = "; ".join(map(survey.in_words, survey.contacts(made.findings)))
-            return f"{avoid.NOT_FOUND} ({met}); a path may exist all the same"
+            contacts = "; ".join(map(survey.in_words, survey.contacts(made.findings)))
+            return f"{avoid.NOT_FOUND} ({contacts}); a path may exist all the same"
         case Outcome.OUT_OF_REACH:
             return f"the arm cannot follow the path: {'; '.join(arm.summary_lines(made))}"
-    motion_found = None if made.quality is None else made.quality.motion
-    if motion_found is not None and motion_found.reason:
-        return f"{motion_found.reason}; kept at all times with {motion_found.suggestion}"
+    moving = None if made.quality is None else made.quality.motion
+    if moving is not None and moving.reason:
+        return f"{moving.reason}; kept at all times with {moving.suggestion}"
     return "; ".join(made.joints.remarks if made.joints is not None else ()) or "limits of the joints are not kept"

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.scalar import decimal_text
-from bezier.motion.pieces import pieces
+from bezier.motion.motion import pieces
 from bezier.plans import Outcome, Plan
 from bezier.report import html
 from bezier.report.html import Card, Text
@@ -35,24 +35,24 @@ CURVES = {"P": "first curve", "Q": "second curve", "R": "third curve"}
 
 def cards(plan: Plan) -> list[Card]:
     """Whether it is proved, and length, clearance, least time and curvature where the problem has them."""
-    found = [Card("result", RESULTS[plan.outcome], html.tone(plan.outcome.is_success), _proved(plan))]
+    result = [Card("result", RESULTS[plan.outcome], html.tone(plan.outcome.is_success), _proved(plan))]
     if plan.path is None:
-        found.append(Card("radius", f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
+        result.append(Card("radius", f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
     if plan.quality is not None:
-        found.append(Card("length", f"{plan.quality.length.shown()} mm"))
+        result.append(Card("length", f"{plan.quality.length.shown()} mm"))
     if plan.findings:
-        found.append(_clearance(plan))
+        result.append(_clearance(plan))
     if plan.quality is not None:
-        found += _motion(plan)
+        result += _motion(plan)
         bends = [bend for bend in plan.quality.curvatures.values() if bend is not None]
-        found.append(_curvature(bends))
+        result.append(_curvature(bends))
     if plan.radius_rule is not None and plan.path is not None:
-        found.append(Card("the radius forces", f"a stop at {' and '.join(plan.radius_rule.forced)}", "bad"))
+        result.append(Card("the radius forces", f"a stop at {' and '.join(plan.radius_rule.forced)}", "bad"))
     if plan.heights is not None and plan.heights.strip is not None:
         kept = plan.heights.hold
         said = "kept on all curves" if kept else "not kept on all curves"
-        found.append(Card("heights for a ≤ x ≤ b", said, html.tone(kept)))
-    return [*found, _computed(plan)]
+        result.append(Card("heights for a ≤ x ≤ b", said, html.tone(kept)))
+    return [*result, _computed(plan)]
 
 
 def _proved(plan: Plan) -> str:
@@ -81,10 +81,10 @@ def _motion(plan: Plan) -> list[Card]:
     motion = plan.quality.motion
     if motion is None:
         return []
-    asked = motion.timing.duration is not None
+    is_given = motion.timing.duration is not None
     kept = motion.keeps_limits
     limits = "" if not motion.timing.limits else "limits kept at all times, proved" if kept else "limits NOT kept"
-    label = "duration asked for" if asked else "least time"
+    label = "duration asked for" if is_given else "least time"
     tone = "" if not motion.timing.limits else html.tone(kept)
     return [
         Card(

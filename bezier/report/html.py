@@ -1,7 +1,7 @@
 """The building blocks of every page: text, tables, pictures, and the page that holds them as a list of sections.
 
 A section is a title with its content, so that a page is data until ``document`` writes it. Text is escaped where it
-is put in; what is already HTML is ``Markup``.
+is inserted; what is already HTML is ``Markup``.
 """
 
 from __future__ import annotations
@@ -57,8 +57,8 @@ def document(page: Page) -> str:
     contents = [page.first or "", *(section.content for section in page.sections)]
     scripts = ["print.js", *(["scene.js"] if any("data-scene" in content for content in contents) else [])]
     script = Markup("".join(map(_shipped, scripts)))
-    found: str = _template().render(page=page, style=Markup(_shipped("style.css")), script=script)
-    return found
+    result: str = _template().render(page=page, style=Markup(_shipped("style.css")), script=script)
+    return result
 
 
 @lru_cache(maxsize=1)

@@ -7,9 +7,9 @@ from typing import Any
 
 from bezier.arm import joint_plan as plans
 from bezier.arm.joint_plan import JointPlan
-from bezier.arm.model import Motion
+from bezier.arm.model import JointKind
 from bezier.arm.motion import JointMotion
-from bezier.arm.motions_report import excesses_in_words, number_in_words
+from bezier.arm.path_report import excesses_in_words, number_in_words
 from bezier.report import html
 from bezier.report.first import scene_box
 from bezier.report.html import Card, Page, Section, Text, toned
@@ -21,8 +21,8 @@ def moving(plan: JointPlan | None) -> dict[str, Any] | None:
     """The arm's frames for a scene; None where nothing moves."""
     if plan is None or plan.sequence is None:
         return None
-    found: dict[str, Any] = json.loads(plans.animation(plan))
-    return found
+    data: dict[str, Any] = json.loads(plans.animation(plan))
+    return data
 
 
 def section(plan: JointPlan) -> Section:
@@ -75,24 +75,26 @@ def page(plan: JointPlan, file: str) -> Page:
 
 def _cards(plan: JointPlan) -> list[Card]:
     reached = plan.path.is_reachable
-    told = ("reached", "proved for all s in [0, 1]") if reached else ("not reached", "see below where it stops")
-    found = [Card("path", told[0], html.tone(reached), told[1])]
-    found.append(Card("duration asked for", f"{float(plan.duration):.6g} s"))
+    words = ("reached", "proved for all s in [0, 1]") if reached else ("not reached", "see below where it stops")
+    result = [Card("path", words[0], html.tone(reached), words[1])]
+    result.append(Card("duration asked for", f"{float(plan.duration):.6g} s"))
     if plan.sequence is None:
-        found.append(Card("joint sequence", "none", "bad", "see below why"))
+        result.append(Card("joint sequence", "none", "bad", "see below why"))
     else:
         count = len(plan.sequence.samples)
-        found.append(Card("joint sequence", f"{count} positions", note=f"{len(plan.path.arm.joints)} joints"))
+        result.append(Card("joint sequence", f"{count} positions", note=f"{len(plan.path.arm.joints)} joints"))
     if plan.motion is not None and plan.motion.kept:
         kept = plan.motion.keeps_limits
-        found.append(Card("limits of the joints", "kept, proved" if kept else "not proved to be kept", html.tone(kept)))
-    return found
+        result.append(
+            Card("limits of the joints", "kept, proved" if kept else "not proved to be kept", html.tone(kept))
+        )
+    return result
 
 
 def _motions(plan: JointPlan) -> str:
     run = plan.sequence.run if plan.sequence is not None else None
-    told = f"{number_in_words(plan.path)} from start to goal"
-    return told + (f"; motion {run} has the least total change" if run else "")
+    text = f"{number_in_words(plan.path)} from start to goal"
+    return text + (f"; motion {run} has the least total change" if run else "")
 
 
 def _extremes(motion: JointMotion) -> list[tuple[Text, ...]]:
@@ -103,7 +105,7 @@ def _extremes(motion: JointMotion) -> list[tuple[Text, ...]]:
         ]
         worst = next((k for k in (False, None) if k in kept), True)
         said = toned(WORDS[worst], worst is True) if kept else "none given"
-        unit = "rad" if joint.motion is Motion.REVOLUTE else "mm"
+        unit = "rad" if joint.motion is JointKind.REVOLUTE else "mm"
         tops = (float(bound.high) * (1 + 1e-5) for bound in (v, a))
         bounds = (f"at most {top:.5g} {unit}/{per}" for top, per in zip(tops, ("s", "s²"), strict=True))
         rows.append((joint.name, *bounds, said))

@@ -17,7 +17,7 @@ from bezier.methods.control.system import Combination, OnPoint, System
 from bezier.methods.control.terms import named_multipliers
 from bezier.paths.path import Path
 from bezier.plans import Derived, Plan
-from bezier.report import html, mathml, mathml_cells
+from bezier.report import html, mathml
 from bezier.report.html import Section, Text
 
 DIGITS = 8
@@ -126,10 +126,10 @@ def _condition(item: OnPoint) -> str:
     return f"{point}<mo>∈</mo><mtext>{escape(condition.name)}</mtext>"
 
 
-def contradiction(system: System, found: Any, reason: str, *more: Text) -> Section:
+def contradiction(system: System, certified: Any, reason: str, *more: Text) -> Section:
     """Why there is no path, with the multipliers that prove it."""
     content = [html.paragraph(html.strong(f"{reason[0].upper()}{reason[1:]}.")), *more]
-    proof = multipliers(system, found)
+    proof = multipliers(system, certified)
     if proof:
         content += [html.heading("The proof"), html.paragraph(CONTRADICTION), proof]
     return Section("none", "Why there is no path", html.joined(*content))
@@ -153,7 +153,7 @@ def multipliers(system: System, optimum: Any, what: str = "condition") -> Markup
     return html.table((what, "multiplier"), rows)
 
 
-def optimum(plan: Plan, system: System, found: Any, title: Text, free_minimum: str) -> Section | None:
+def optimum(plan: Plan, system: System, certified: Any, title: Text, free_minimum: str) -> Section | None:
     """The best free control points and those that follow; ``free_minimum`` describes the unconstrained minimum."""
     if plan.path is None:
         return None
@@ -168,7 +168,7 @@ def optimum(plan: Plan, system: System, found: Any, title: Text, free_minimum: s
         least(plan),
         control_points(plan.path),
         html.paragraph(active),
-        multipliers(system, found, "active condition"),
+        multipliers(system, certified, "active condition"),
         html.note(field_text(plan.path)) if field_text(plan.path) else None,
     )
     return Section("best", title, html.joined(*content), short="optimum")
@@ -243,7 +243,7 @@ def condition_name(condition: Condition) -> str:
     return {"ball": "‖·‖ ≤ r", "floor": "z ≥ 0"}.get(condition.name, condition.name)
 
 
-def asked(plan: Plan, name: str, lines: Iterable[Text], counts: str) -> Markup:
+def question_with_answer(plan: Plan, name: str, lines: Iterable[Text], counts: str) -> Markup:
     """The question in the paper's notation and the quantifier-free answer, both also as text, with a link to its
     derivation; ``name``: what the plan calls the question."""
     formula, answer = plan.formula, plan.answer.formula
@@ -268,9 +268,9 @@ def derived(plan: Plan, name: str) -> Markup | None:
     return html.paragraph(html.joined("How it was found:", link))
 
 
-def derivation_link(found: Derived, file: str) -> Markup:
+def derivation_link(item: Derived, file: str) -> Markup:
     """A link to the page with the derivation of an answer."""
-    count = len(found.rules)
+    count = len(item.rules)
     few = ("no step was needed, checked", "1 step, with its theorem, checked")
     words = few[count] if count < len(few) else f"{count} steps, each with its theorem, all checked"
     return Markup('<a href="{}">{}</a>').format(file, words)
@@ -278,4 +278,4 @@ def derivation_link(found: Derived, file: str) -> Markup:
 
 def cells(region: Any) -> list[Markup]:
     """The cells of the region, one line per variable."""
-    return [html.formula(Markup(line) for line in mathml_cells.cell(piece)) for piece in region.cells]
+    return [html.formula(Markup(line) for line in mathml.cell(piece)) for piece in region.cells]

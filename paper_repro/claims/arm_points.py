@@ -218,8 +218,7 @@ def mean_errors() -> Iterator[Evidence]:
     if logged := published.rows("queries_L120"):
         names = ("c1", "s1", "c4", "s4", "c7", "s7")
         off = [
-            [_away(120, [row[c] for c in "xyz"], [s[n] for n in names], 40) for s in row["solutions"]]
-            for row in logged
+            [_away(120, [row[c] for c in "xyz"], [s[n] for n in names], 40) for s in row["solutions"]] for row in logged
         ]
         first, every = [o[0] for o in off], [e for o in off for e in o]
         yield Table(

@@ -13,8 +13,7 @@ from bezier.arm.evidence import certificates
 from bezier.arm.inverse import solve
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.kinematics import wrapped
-from bezier.arm.reader import load_arm
-from bezier.arm.route import natural_spline
+from bezier.arm.reader import load_arm, natural_spline
 from bezier.arm.study import study
 from bezier.curves.curve import Smoothness, join
 from bezier.motion.timelaw import Law, TimeLaw

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Iterator
 from fractions import Fraction
 
-from bezier.arm.route import natural_spline
+from bezier.arm.reader import natural_spline
 from bezier.curves.containment import Leaves, examine
 from bezier.curves.curve import Smoothness, join
 from bezier.curves.workspace import Workspace, WorkspaceKind

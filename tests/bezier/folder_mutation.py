@@ -51,8 +51,7 @@ class Quiet:
 def planned(problem: Path, folder: Path) -> Path:
     """The folder with all files of a plan, without pictures."""
     folder.mkdir(parents=True, exist_ok=True)
-    request = command.Request(problem=load_problem(problem), folder=folder, target=folder, plots=False)
-    command.plan(Quiet(), request)
+    command.plan(Quiet(), load_problem(problem), folder, folder, plots=False)
     return folder
 
 

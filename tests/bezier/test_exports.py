@@ -18,11 +18,10 @@ from hypothesis import strategies as st
 
 import bezier
 import qe
+from bezier.exports.formats import ppoly
 from bezier.exports.plane import polyline
-from bezier.exports.splines import ppoly
 from bezier.interface.work import Work
-from bezier.motion.motion import state
-from bezier.motion.pieces import pieces
+from bezier.motion.motion import pieces, state
 from bezier.motion.track import Track
 
 BALL = {"kind": "ball", "name": "a <ball> & co", "centre": [0, 2, 1], "radius": 1.5}

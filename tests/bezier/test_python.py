@@ -18,7 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import bezier
-import bezier.cli.plan
+import bezier.cli.app
 import bezier.plans
 import qe
 from bezier.cli import main

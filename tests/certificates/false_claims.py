@@ -15,7 +15,7 @@ from itertools import pairwise, product
 from typing import Any
 
 from bezier.curves.curve import Bezier
-from bezier.obstacles.evidence import clearance_certificate
+from bezier.obstacles.survey import clearance_certificate
 from qe.certify.claims import claim_of
 from qe.convex.optimum import NotConvex, minimize
 from qe.elimination.cad import certificate_for

@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 from bezier.arm.continuous import continuous_motions
-from bezier.arm.motions_evidence import motions_certificate
+from bezier.arm.evidence import motions_certificate
 from bezier.arm.reader import load_arm, read_arm
 from bezier.curves.curve import Bezier
 from qe.errors import QEError, Unable

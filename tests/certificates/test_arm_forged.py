@@ -16,8 +16,7 @@ from bezier.arm.inverse import solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
 from bezier.arm.model import Arm
-from bezier.arm.reader import load_arm
-from bezier.arm.route import read_route
+from bezier.arm.reader import load_arm, read_route
 from bezier.curves.curve import Bezier
 from qe.certify.verify import verify_json
 from tests.certificates.mutation import Path, leaves, lists, other_numbers, replaced, without

@@ -13,8 +13,8 @@ from bezier.curves.bernstein import from_power
 from bezier.curves.curve import Bezier
 from bezier.obstacles.bodies import HalfSpaceBody, Rounded
 from bezier.obstacles.clearance import Contact, examine
-from bezier.obstacles.evidence import clearance_certificate, contact_certificate
 from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
+from bezier.obstacles.survey import clearance_certificate, contact_certificate
 from qe.certify.verify import verify, verify_json
 from qe.exact.field import NumberField
 from qe.proof.certificate import Certificate

@@ -19,7 +19,7 @@ from bezier.arm.choices import Choice
 from bezier.arm.inverse import Inverse, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.kinematics import pose
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
 from bezier.certify.families import bounded
@@ -242,7 +242,7 @@ SLIDING: dict[str, Arm] = {
 @given(st.lists(st.fractions(-4, 4, max_denominator=3), min_size=6, max_size=6))
 def test_poses_that_joints_made(name: str, numbers: list[Fraction]) -> None:
     arm = SLIDING[name]
-    pairs = [v if j.motion is Motion.REVOLUTE else 7 * t for v, t, j in zip(pairs_of(numbers), numbers, arm.joints)]
+    pairs = [v if j.motion is JointKind.REVOLUTE else 7 * t for v, t, j in zip(pairs_of(numbers), numbers, arm.joints)]
     m = pose(arm, dict(zip((j.name for j in arm.joints), pairs)))
     try:
         found = solve_pose(arm, [row[3] for row in m], [row[:3] for row in m])

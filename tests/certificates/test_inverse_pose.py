@@ -17,11 +17,11 @@ from bezier.arm import inverse_evidence
 from bezier.arm.inverse import Inverse, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.kinematics import position
-from bezier.arm.model import Motion
+from bezier.arm.model import JointKind
 from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm
 from bezier.certify.nested_roots import Nested, Place, nested, turns
-from bezier.certify.square_roots import ONE, Surd, times
+from bezier.certify.square_roots import ONE, Polynomial, Surd
 from qe.certify.claims import claim_of
 from qe.certify.verify import verify
 from qe.errors import Unable
@@ -66,14 +66,14 @@ def test_poses_that_joints_made(arm: Any, tangents: list[Fraction]) -> None:
 @settings(max_examples=2)
 @given(st.lists(st.integers(-7, 7), min_size=3, max_size=3), st.integers(-1, 1))
 def test_points_of_arms_with_joints_that_slide(arm: Any, numbers: list[int], aside: int) -> None:
-    values = [pair(k) if j.motion is Motion.REVOLUTE else Fraction(7 * k, 2) for k, j in zip(numbers, arm.joints)]
+    values = [pair(k) if j.motion is JointKind.REVOLUTE else Fraction(7 * k, 2) for k, j in zip(numbers, arm.joints)]
     point = position(arm, dict(zip((j.name for j in arm.joints), values)))
     try:
         found = solve(arm, [c + 20 * aside for c in point])
     except Unable as error:
         assert "slide along one direction" in str(error)
         return
-    if all(arm.joints[c.joint].motion is Motion.REVOLUTE for s in found.solutions for c in s.choices):
+    if all(arm.joints[c.joint].motion is JointKind.REVOLUTE for s in found.solutions for c in s.choices):
         made(found)
 
 
@@ -217,8 +217,8 @@ def test_a_nested_root_that_is_none() -> None:
 def test_signs_over_a_root_of_a_polynomial(k: list[int]) -> None:
     """t = sqrt 2 + sqrt 3 as a root of t^4 - 10 t^2 + 1."""
     one, zero = ONE, Surd(())
-    place = Place.of([one, zero, Surd.rational(-10), zero, one], (Fraction(3), Fraction(4)))
-    t = nested(place.value([zero, one]))
+    place = Place.of(Polynomial((one, zero, Surd.rational(-10), zero, one)), (Fraction(3), Fraction(4)))
+    t = nested(place.value(Polynomial((zero, one))))
     m = root(t * t + t.unit)
     value = t.unit.by(Surd.rational(k[0])) + t.by(Surd.rational(k[1])) + (t * t * t).by(Surd.rational(k[2]))
     value = value * m.by(Surd.rational(k[3])) + t.by(Surd.rational(k[4])) + m.by(Surd.rational(k[5]))
@@ -231,9 +231,9 @@ def test_signs_over_a_root_of_a_polynomial(k: list[int]) -> None:
 
 def test_zero_over_a_root_that_intervals_do_not_tell() -> None:
     one, zero = ONE, Surd(())
-    squared = times([Surd.rational(-2), zero, one], [Surd.rational(5), one])
+    squared = Polynomial((Surd.rational(-2), zero, one)) * Polynomial((Surd.rational(5), one))
     place = Place.of(squared, (Fraction(1), Fraction(2)))  # sqrt 2, though the modulus is not irreducible
-    gap = nested(place.value([Surd.rational(-2), zero, one]))
+    gap = nested(place.value(Polynomial((Surd.rational(-2), zero, one))))
     assert gap.sign() == 0 and next(iter(gap.square_roots())).sign() == 0
 
 

@@ -12,14 +12,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bezier.arm.exact_text import read_exact
 from bezier.arm.inverse import solve
 from bezier.arm.inverse_evidence import _parameter, _roots, inverse_certificate
 from bezier.arm.kinematics import position
-from bezier.arm.reader import load_arm, read_arm
-from bezier.arm.square_roots import square_roots
+from bezier.arm.reader import load_arm, read_arm, read_exact
+from bezier.arm.roots_of_squares import square_roots
 from bezier.certify import square_roots as sr
-from bezier.certify.square_roots import ONE, Surd
+from bezier.certify.square_roots import ONE, Polynomial, Surd
 from qe.certify.verify import verify, verify_json
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
@@ -221,11 +220,11 @@ def test_a_sign_that_is_hard_to_see() -> None:
 @settings(max_examples=15)
 @given(st.lists(st.integers(-4, 4), min_size=1, max_size=4), st.lists(st.integers(-4, 4), min_size=1, max_size=3))
 def test_tarskis_query(roots: list[int], other: list[int]) -> None:
-    p, s = [ONE], [ONE]
+    p, s = Polynomial((ONE,)), Polynomial((ONE,))
     for r in roots:
-        p = sr.times(p, [Surd.rational(-r), ONE])
+        p = p * Polynomial((Surd.rational(-r), ONE))
     for r in other:
-        s = sr.times(s, [Surd.of([(2, Fraction(-r))]), ONE])
+        s = s * Polynomial((Surd.of([(2, Fraction(-r))]), ONE))
 
     def sign(x: int) -> int:
         values = [x - r * sqrt(2) for r in other]
@@ -235,7 +234,7 @@ def test_tarskis_query(roots: list[int], other: list[int]) -> None:
     inside = {r for r in roots if r > -1}
     half = Fraction(-1, 2), Fraction(9, 2)
     assert sr.tarski(p, s, half) == sum(map(sign, inside))
-    assert sr.tarski(sr.times(p, [ONE, Surd(()), ONE]), [ONE]) == len(set(roots))
+    assert sr.tarski(p * Polynomial((ONE, Surd(()), ONE)), Polynomial((ONE,))) == len(set(roots))
 
 
 def test_a_large_square_under_a_square_root() -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from bezier.cli import main as bezier_main
-from bezier.input import files, stored
+from bezier.input import stored, toml_table
 from qe.cli.app import main as qe_main
 from qe.cli.shell import check_writable, write_file
 from qe.cli.source import read_text
@@ -144,7 +144,7 @@ def test_a_file_without_an_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr("qe.cli.source.MOST_BYTES", 1000)
     with pytest.raises(InputError, match="/dev/zero: at most 1,000 bytes expected, more found"):
         read_text(Path("/dev/zero"))
-    for read in (files.read_text, stored.text):
+    for read in (toml_table.read_text, stored.text):
         monkeypatch.setattr(f"{read.__module__}.MAX_BYTES", 1000)
         with pytest.raises(InputError, match=r"/dev/zero: expected .*at most 1000 bytes"):
             read(Path("/dev/zero"))

@@ -11,17 +11,18 @@ import qe
 from bezier.curves.containment import Inside
 from bezier.curves.scalar import Vector
 from bezier.input.stored import numbers
-from bezier.methods.control.claims import (
+from bezier.methods.control.statements import Statement
+from bezier.methods.control.system import System
+from bezier.methods.control.terms import (
     check_bound_of,
     check_optimum_of,
     has_member,
     member,
+    named_multipliers,
     near_points,
     optimal_points,
+    proof_of,
 )
-from bezier.methods.control.statements import Statement
-from bezier.methods.control.system import System
-from bezier.methods.control.terms import named_multipliers, proof_of
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
 from bezier.plans import Begun, Clock, Outcome, Plan
 from bezier.problem import Problem
@@ -63,16 +64,14 @@ def least(system: System, answer: Any, clock: Clock) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class Certified:
-    """What the certificate of an optimum shows about a system: its point and the multipliers of its constraints.
-
-    ``points``: all control points, None when the conditions contradict each other. ``bound``: the objective is not
-    below it, where the point is only near the optimum.
-    """
+    """What the certificate of an optimum shows about a system: its point and the multipliers of its constraints."""
 
     certificate: qe.Certificate
     points: Mapping[str, Vector] | None
+    """All control points, None when the conditions contradict each other."""
     multipliers: Vector
     bound: Fraction | None = None
+    """The objective is not below it, where the point is only near the optimum."""
 
     @staticmethod
     def of(system: System, certificate: qe.Certificate) -> Certified:
@@ -86,7 +85,7 @@ class Certified:
         return Certified(certificate, points, multipliers[:-1], bound)
 
 
-def found_optimum(system: System, certificate: qe.Certificate) -> Certified:
+def certified_optimum(system: System, certificate: qe.Certificate) -> Certified:
     """The optimum that planning goes on with: read from its certificate, so that checking it meets the same numbers."""
     try:
         return Certified.of(system, certificate)
@@ -116,26 +115,24 @@ def optimum_members(certificate: qe.Certificate) -> Members:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class SystemPlan(Plan):
-    """The plan of a method with a system of control points.
-
-    ``optimum``: what the engine's minimisation found, or its certificate shows: a point or a contradiction.
-    """
+    """The plan of a method with a system of control points."""
 
     system: System
     optimum: Any
+    """What the engine's minimisation found, or its certificate shows: a point or a contradiction."""
 
 
-def drawn(problem: Problem, system: System, found: Certified) -> dict[str, Any]:
+def drawn(problem: Problem, system: System, certified: Certified) -> dict[str, Any]:
     """What follows from the optimum of a system, as fields of its plan: the path through it, if there is one, the
     labels of the active conditions (near an optimum: of those that bound it) and the value of the objective."""
-    points, near = found.points, found.bound is not None
-    close = [label for label, _ in named_multipliers(system, found)] if near else []
+    points, near = certified.points, certified.bound is not None
+    close = [label for label, _ in named_multipliers(system, certified)] if near else []
     return {
         "problem": problem,
         "system": system,
         "formula": str(system.statement()),
         "outcome": Outcome.INFEASIBLE if points is None else Outcome.NEAR_OPTIMAL if near else Outcome.SOLVED,
-        "bound": found.bound,
+        "bound": certified.bound,
         "path": None if points is None else path_through(problem, system, points),
         "active": tuple(close) if near else () if points is None else system.active(points),
         "objective": None if points is None else system.objective_at(points),
@@ -159,15 +156,15 @@ def begun(problem: Problem, system: System, clock: Clock) -> Begun:
         optimum = least(system, answer, clock)
     clock.learn("optimum", optimum.status.value)
     with clock.step("curves and proofs"):
-        fields = drawn(problem, system, found_optimum(system, optimum.certificate))
-    found = Drawn(system, answer, optimum, fields)
-    return Begun(problem=problem, outcome=fields["outcome"], path=fields["path"], found=found, seconds=clock.seconds)
+        fields = drawn(problem, system, certified_optimum(system, optimum.certificate))
+    result = Drawn(system, answer, optimum, fields)
+    return Begun(problem=problem, outcome=fields["outcome"], path=fields["path"], found=result, seconds=clock.seconds)
 
 
-def restored(fields: Mapping[str, Any], found: Certified, members: Members) -> dict[str, Any]:
+def restored(fields: Mapping[str, Any], certified: Certified, members: Members) -> dict[str, Any]:
     """All fields of the plan that certificates prove: nothing was asked of the engine, and the time is not known."""
     certificate = bundled(members, fields["path"])
-    return {**fields, "optimum": found, "certificate": certificate, "answer": None, "checks": {}, "seconds": {}}
+    return {**fields, "optimum": certified, "certificate": certificate, "answer": None, "checks": {}, "seconds": {}}
 
 
 def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
@@ -183,12 +180,12 @@ def durations(problem: Problem) -> dict[str, Fraction]:
 
 def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, ...]:
     """A condition on all inner points of a curve holds on the whole curve if its ends satisfy it too."""
-    found: list[Proof] = []
+    result: list[Proof] = []
     for item in problem.point_conditions:
         for name, listed in system.shape.curves.items():
             if set(listed) & set(system.shape.inner) <= set(item.points):
-                found += prove({name: path.curves[name]}, (item.half_space,))
-    return tuple(proof for proof in found if isinstance(proof.outcome, Inside))
+                result += prove({name: path.curves[name]}, (item.half_space,))
+    return tuple(proof for proof in result if isinstance(proof.outcome, Inside))
 
 
 def body_of(statement: Statement, order: tuple[str, ...]) -> Formula:
@@ -199,7 +196,7 @@ def body_of(statement: Statement, order: tuple[str, ...]) -> Formula:
 
 def elimination(system: System) -> tuple[str, qe.Certificate]:
     """That the joins, which are linear equations, eliminate the dependent points: the printed formula is equivalent to
-    the conditions with those points put in."""
+    the conditions with those points substituted."""
     shape = system.shape
     order = (*shape.variables, *shape.quantified)
     equations = [body_of(join, order) for join in system.joins()]

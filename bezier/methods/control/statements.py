@@ -189,7 +189,7 @@ def _factor(term: Term) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison(Statement):
+class Atomic(Statement):
     """left relation right."""
 
     left: Term
@@ -229,24 +229,24 @@ class Quantified(Statement):
     body: Statement
 
 
-def equal(left: Term, right: Term) -> Comparison:
+def equal(left: Term, right: Term) -> Atomic:
     """left = right."""
-    return Comparison(left, Relation.EQ, right)
+    return Atomic(left, Relation.EQ, right)
 
 
-def at_most(left: Term, right: Term) -> Comparison:
+def at_most(left: Term, right: Term) -> Atomic:
     """left <= right."""
-    return Comparison(left, Relation.LE, right)
+    return Atomic(left, Relation.LE, right)
 
 
-def at_least(left: Term, right: Term) -> Comparison:
+def at_least(left: Term, right: Term) -> Atomic:
     """left >= right."""
-    return Comparison(left, Relation.GE, right)
+    return Atomic(left, Relation.GE, right)
 
 
-def below(left: Term, right: Term) -> Comparison:
+def below(left: Term, right: Term) -> Atomic:
     """left < right."""
-    return Comparison(left, Relation.LT, right)
+    return Atomic(left, Relation.LT, right)
 
 
 def between(low: Term, middle: Term, high: Term, *, bracketed: bool = False) -> Every:
@@ -274,7 +274,7 @@ def for_all(listed: Sequence[str], body: Statement) -> Quantified:
 
 def _lowered(statement: Statement, ring: Ring) -> Formula:
     match statement:
-        case Comparison(left, relation, right):
+        case Atomic(left, relation, right):
             return build.atom(_value(difference(left, right), ring)[0], relation)
         case Every(parts):
             return build.conj([_lowered(part, ring) for part in parts])
@@ -289,7 +289,7 @@ def _lowered(statement: Statement, ring: Ring) -> Formula:
 
 def _stated(statement: Statement) -> str:
     match statement:
-        case Comparison(left, relation, right):
+        case Atomic(left, relation, right):
             return f"{left} {relation.value} {right}"
         case Every(parts, bracketed):
             text = " and ".join(_part(part) for part in parts)
@@ -325,7 +325,7 @@ def _ring(whole: Term | Statement) -> Ring:
             case Sum(parts) | Product(parts) | Every(parts) | Some(parts):
                 for each in parts:
                     visit(each, scope)
-            case Comparison(left, _, right) | Implies(left, right):
+            case Atomic(left, _, right) | Implies(left, right):
                 visit(left, scope)
                 visit(right, scope)
             case Quantified(_, listed, body):

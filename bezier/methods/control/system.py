@@ -2,7 +2,7 @@
 
 A ``Shape`` says which control points a method leaves free and how the joins fix the others; a ``System`` adds the
 given points and the conditions of one problem. From it come the formula for the engine, the conditions with the
-dependent points put in, and the exact points and curves for a choice of the free ones. Variables: ``p1x, p1y,
+dependent points substituted, and the exact points and curves for a choice of the free ones. Variables: ``p1x, p1y,
 p1z`` for the control point P1, and so on. A norm condition ||v|| <= r is written v.v <= r^2, which is the same for
 r >= 0; with symbolic r the condition r >= 0 is written down too.
 """
@@ -18,31 +18,13 @@ from typing import Any
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, add, dot, exactly, scale, sign, subtract
 from bezier.curves.workspace import Ball, Condition, HalfSpace
-from bezier.methods.control.statements import (
-    Bracketed,
-    Name,
-    Power,
-    Product,
-    Statement,
-    Sum,
-    Term,
-    at_least,
-    at_most,
-    combined,
-    difference,
-    equal,
-    every,
-    exists,
-    names,
-    number,
-    squares,
-)
+from bezier.methods.control import statements as st
 from qe.errors import InternalError
 
 AXES = "xyz"
 Combination = tuple[tuple[Fraction, str], ...]
 """sum of coefficient * point."""
-At = Callable[[str, int], Term]
+At = Callable[[str, int], st.Term]
 """Coordinate i of a point."""
 
 
@@ -72,20 +54,20 @@ class OnPoint:
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A method's control points.
-
-    ``free``: those to be chosen; ``follows``: the others inside the curves, from the given and the free ones;
-    ``inner``: free and dependent ones in the order in which the formula bounds them; ``curves``: the control points
-    of each curve; ``ends``: the last points of curves that are given points under another name; ``route``: the
-    objective is the sum of |b - a|^2 over its consecutive points a, b.
-    """
+    """A method's control points."""
 
     free: tuple[str, ...]
+    """Those to be chosen."""
     follows: Mapping[str, Combination]
+    """The others inside the curves, from the given and the free ones."""
     inner: tuple[str, ...]
+    """Free and dependent ones in the order in which the formula bounds them."""
     curves: Mapping[str, tuple[str, ...]]
+    """The control points of each curve."""
     ends: Mapping[str, str]
+    """The last points of curves that are given points under another name."""
     route: tuple[str, ...]
+    """The objective is the sum of |b - a|^2 over its consecutive points a, b."""
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -101,24 +83,24 @@ class Shape:
         """Any control point in terms of the given and the free ones."""
         return self.follows.get(point, ((Fraction(1), point),))
 
-    def symbolic(self) -> Statement:
+    def symbolic(self) -> st.Statement:
         """The formula with the given points and r left as parameters ``q0x``, ..., ``r``."""
-        radius = Name("r")
-        norms = [at_most(squares(names(coordinates(point))), Power(radius, 2)) for point in self.inner]
-        joins = self.joins(lambda point, i: Name(coordinates(point)[i]))
-        return self.closed([at_least(radius, number(0)), *joins, *norms])
+        radius = st.Name("r")
+        norms = [st.at_most(st.squares(st.names(coordinates(point))), st.Power(radius, 2)) for point in self.inner]
+        joins = self.joins(lambda point, i: st.Name(coordinates(point)[i]))
+        return self.closed([st.at_least(radius, st.number(0)), *joins, *norms])
 
-    def joins(self, at: At) -> list[Statement]:
+    def joins(self, at: At) -> list[st.Statement]:
         """The joins: each coordinate of each dependent point; ``at`` gives a coordinate of another point."""
         return [
-            equal(Name(variable), _combination(terms, i, at))
+            st.equal(st.Name(variable), _combination(terms, i, at))
             for point, terms in self.follows.items()
             for i, variable in enumerate(coordinates(point))
         ]
 
-    def closed(self, parts: Sequence[Statement]) -> Statement:
+    def closed(self, parts: Sequence[st.Statement]) -> st.Statement:
         """The conjunction of the parts with the dependent points existentially quantified."""
-        return exists(self.quantified, every(*parts))
+        return st.exists(self.quantified, st.every(*parts))
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,39 +113,39 @@ class System:
 
     # --- formulas ----------------------------------------------------------------------------------
 
-    def statement(self) -> Statement:
+    def statement(self) -> st.Statement:
         """The problem's formula: joins and conditions, the dependent points quantified."""
         return self.shape.closed([*self.joins(), *(statement for _, statement in self.labelled())])
 
-    def labelled(self) -> list[tuple[str, Statement]]:
+    def labelled(self) -> list[tuple[str, st.Statement]]:
         """Each condition on its control point, under its label."""
-        return [(item.label, stated(item.condition, names(coordinates(item.point)))) for item in self.conditions]
+        return [(item.label, stated(item.condition, st.names(coordinates(item.point)))) for item in self.conditions]
 
-    def in_free_points(self) -> Statement:
-        """The conditions with the dependent points put in terms of the free ones."""
-        return every(*(stated(item.condition, self._in_free(item.point)) for item in self.conditions))
+    def in_free_points(self) -> st.Statement:
+        """The conditions with the dependent points in terms of the free ones."""
+        return st.every(*(stated(item.condition, self._in_free(item.point)) for item in self.conditions))
 
-    def joins(self) -> list[Statement]:
+    def joins(self) -> list[st.Statement]:
         """One equation for each coordinate of each dependent point, in the order of ``Shape.quantified``."""
         return self.shape.joins(self._at)
 
-    def coordinate(self, point: str, i: int) -> Term:
+    def coordinate(self, point: str, i: int) -> st.Term:
         """Coordinate ``i`` of an inner control point in the free coordinates."""
         return self._in_free(point)[i]
 
-    def objective(self) -> Term:
+    def objective(self) -> st.Term:
         """The paper's objective in the free coordinates."""
         pairs = pairwise(self.shape.route)
-        return squares(difference(self._at(b, i), self._at(a, i)) for a, b in pairs for i in range(3))
+        return st.squares(st.difference(self._at(b, i), self._at(a, i)) for a, b in pairs for i in range(3))
 
-    def _at(self, point: str, i: int) -> Term:
+    def _at(self, point: str, i: int) -> st.Term:
         """A coordinate: a number for a given point, a variable otherwise."""
-        return number(exactly(self.given[point][i])) if point in self.given else Name(coordinates(point)[i])
+        return st.number(exactly(self.given[point][i])) if point in self.given else st.Name(coordinates(point)[i])
 
-    def _in_free(self, point: str) -> list[Term]:
+    def _in_free(self, point: str) -> list[st.Term]:
         terms = self.shape.combination(point)
-        found = [_combination(terms, i, self._at) for i in range(3)]
-        return found if point in self.shape.free else [Bracketed(term) for term in found]
+        result = [_combination(terms, i, self._at) for i in range(3)]
+        return result if point in self.shape.free else [st.Bracketed(term) for term in result]
 
     # --- exact numbers ---------------------------------------------------------------------------
 
@@ -203,31 +185,35 @@ class System:
         A point w X + a lies in B(c, r) iff X lies in B((c - a)/w, r/|w|), and in {n.p + k >= 0} iff
         w n.X + (n.a + k) >= 0. Conditions that do not depend on the point are left out.
         """
-        found = []
+        result = []
         for item in self.conditions:
             terms = self.shape.combination(item.point)
             weight = sum((c for c, name in terms if name == free), Fraction(0))
             if weight:
                 rest = _combined([(c, name) for c, name in terms if name != free], points)
-                found.append(_moved(item, weight, rest))
-        return tuple(found)
+                result.append(_moved(item, weight, rest))
+        return tuple(result)
 
 
-def _combination(terms: Combination, i: int, at: At) -> Term:
+def _combination(terms: Combination, i: int, at: At) -> st.Term:
     """Coordinate i of a combination."""
-    return combined((coefficient, at(point, i)) for coefficient, point in terms)
+    return st.combined((coefficient, at(point, i)) for coefficient, point in terms)
 
 
-def stated(condition: Condition, point: Sequence[Term]) -> Statement:
+def stated(condition: Condition, point: Sequence[st.Term]) -> st.Statement:
     """The condition about a point with these coordinates."""
     if isinstance(condition, Ball):
-        away = [difference(c, number(exactly(o))) if o else c for c, o in zip(point, condition.centre, strict=True)]
-        return at_most(squares(away), number(exactly(condition.radius_squared)))
+        away = [
+            st.difference(c, st.number(exactly(o))) if o else c for c, o in zip(point, condition.centre, strict=True)
+        ]
+        return st.at_most(st.squares(away), st.number(exactly(condition.radius_squared)))
     if isinstance(condition, HalfSpace):
         parts = [
-            c if n == 1 else Product((number(exactly(n)), c)) for n, c in zip(condition.normal, point, strict=True) if n
+            c if n == 1 else st.Product((st.number(exactly(n)), c))
+            for n, c in zip(condition.normal, point, strict=True)
+            if n
         ]
-        return at_least(parts[0] if len(parts) == 1 else Sum(tuple(parts)), number(exactly(-condition.offset)))
+        return st.at_least(parts[0] if len(parts) == 1 else st.Sum(tuple(parts)), st.number(exactly(-condition.offset)))
     raise InternalError(f"no atom for the condition {condition.name}")
 
 

@@ -1,4 +1,9 @@
-"""The conditions of a system as polynomials: how the entries of a certificate are matched with those of the problem."""
+"""The conditions of a system as polynomials: how the entries of a certificate are matched with those of the problem.
+
+What the certificates of a folder claim: each has to be about the conditions of one system of control points.
+
+Everything raises ``CertificateRejected`` naming the entry that is wrong.
+"""
 
 from __future__ import annotations
 
@@ -7,16 +12,13 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from bezier.curves.scalar import exactly, sign
+from bezier.curves.scalar import Terms, Vector, exactly, sign, terms_product, terms_scaled, terms_sum
 from bezier.curves.workspace import Ball, HalfSpace
+from bezier.input.stored import DIMENSION, numbers
 from bezier.methods.control.system import OnPoint, System
-from qe.errors import InternalError
-from qe.proof.certificate import Certificate
-
-Terms = dict[tuple[int, ...], Fraction]
-"""Coefficient by exponents of the free coordinates, in the order of ``Shape.variables``."""
-Linear = tuple[Fraction, tuple[Fraction, ...]]
-"""A constant and the coefficients of the free coordinates."""
+from qe.convex.near_optimum import GAP
+from qe.errors import CertificateRejected, InternalError
+from qe.proof.certificate import Certificate, Kind
 
 
 def terms_of(listed: Sequence[Any]) -> Terms:
@@ -26,79 +28,38 @@ def terms_of(listed: Sequence[Any]) -> Terms:
 
 def objective_terms(system: System) -> Terms:
     """The objective: the sum of |b - a|^2 along the route."""
-    squares = []
-    for a, b in pairwise(system.shape.route):
-        for i in range(3):
-            squares.append(_squared(_minus(_coordinate(system, b, i), _coordinate(system, a, i))))
-    return _total(squares)
+    route = pairwise(system.shape.route)
+    steps = [
+        terms_sum(coordinate_terms(system, b, i), terms_scaled(-1, coordinate_terms(system, a, i)))
+        for a, b in route
+        for i in range(3)
+    ]
+    return terms_sum(*(terms_product(step, step) for step in steps))
 
 
 def condition_terms(system: System, item: OnPoint) -> Terms:
     """The polynomial p with p <= 0 exactly on the condition."""
-    condition = item.condition
-    at = [_coordinate(system, item.point, i) for i in range(3)]
+    condition, one = item.condition, _origin(system)
+    at = [coordinate_terms(system, item.point, i) for i in range(3)]
     if isinstance(condition, Ball):
-        squares = [_squared((c - exactly(o), w)) for (c, w), o in zip(at, condition.centre, strict=True)]
-        return _total([*squares, _affine((-condition.radius_squared, _zeros(system)))])
+        away = [terms_sum(c, {one: -exactly(o)}) for c, o in zip(at, condition.centre, strict=True)]
+        return terms_sum(*(terms_product(c, c) for c in away), {one: -condition.radius_squared})
     if isinstance(condition, HalfSpace):
-        parts = [_affine((-n * c, tuple(-n * k for k in w))) for n, (c, w) in zip(condition.normal, at, strict=True)]
-        return _total([*parts, _affine((-condition.offset, _zeros(system)))])
+        parts = (terms_scaled(-exactly(n), c) for n, c in zip(condition.normal, at, strict=True))
+        return terms_sum(*parts, {one: -condition.offset})
     raise InternalError(f"no polynomial for the condition {condition.name}")
 
 
 def coordinate_terms(system: System, point: str, i: int) -> Terms:
-    """Coordinate i of a control point as a polynomial in the free coordinates."""
-    return _total([_affine(_coordinate(system, point, i))])
-
-
-def _coordinate(system: System, point: str, i: int) -> Linear:
-    """Coordinate i of a control point as a linear function of the free coordinates."""
-    constant, weights = Fraction(0), list(_zeros(system))
+    """Coordinate i of a control point as a polynomial in the free coordinates, in the order of ``Shape.variables``."""
+    free, parts = system.shape.free, list[Terms]()
     for coefficient, name in system.shape.combination(point):
-        if name in system.shape.free:
-            weights[3 * system.shape.free.index(name) + i] += coefficient
+        if name in free:
+            place = 3 * free.index(name) + i
+            parts.append({tuple(int(k == place) for k in range(3 * len(free))): coefficient})
         else:
-            constant += coefficient * exactly(system.given[name][i])
-    return constant, tuple(weights)
-
-
-def _zeros(system: System) -> tuple[Fraction, ...]:
-    return (Fraction(0),) * len(system.shape.variables)
-
-
-def _minus(a: Linear, b: Linear) -> Linear:
-    return a[0] - b[0], tuple(x - y for x, y in zip(a[1], b[1], strict=True))
-
-
-def _affine(form: Linear) -> Terms:
-    constant, weights = form
-    size = len(weights)
-    return {_power(size): constant} | {_power(size, k): w for k, w in enumerate(weights)}
-
-
-def _squared(form: Linear) -> Terms:
-    constant, weights = form
-    size = len(weights)
-    found: Terms = {_power(size): constant * constant}
-    for k, w in enumerate(weights):
-        if w:
-            found |= {_power(size, k): 2 * constant * w, _power(size, k, k): w * w}
-            found |= {_power(size, k, m): 2 * w * weights[m] for m in range(k + 1, size)}
-    return found
-
-
-def _power(size: int, *variables: int) -> tuple[int, ...]:
-    """The exponents of a product of variables."""
-    return tuple(variables.count(k) for k in range(size))
-
-
-def _total(parts: Iterable[Mapping[tuple[int, ...], Fraction]]) -> Terms:
-    """The sum, without zero coefficients."""
-    found: Terms = {}
-    for part in parts:
-        for exponents, coefficient in part.items():
-            found[exponents] = found.get(exponents, Fraction(0)) + coefficient
-    return {e: c for e, c in found.items() if c}
+            parts.append({_origin(system): coefficient * exactly(system.given[name][i])})
+    return terms_sum(*parts)
 
 
 def multiple_of(a: Terms, b: Terms) -> Fraction | None:
@@ -117,25 +78,25 @@ def fixed_values(constraints: Sequence[Mapping[str, Any]]) -> dict[int, Fraction
 
 def fixed_by(constraints: Iterable[tuple[Terms, str]]) -> dict[int, Fraction]:
     """``fixed_values`` for polynomials with their relations to zero."""
-    found = {}
+    result = {}
     for terms, relation in constraints:
         if relation == "=" and all(sum(exponents) <= 1 for exponents in terms):
             used = [exponents for exponents in terms if any(exponents)]
             if len(used) == 1:
                 constant = terms.get((0,) * len(used[0]), Fraction(0))
-                found[used[0].index(1)] = -constant / terms[used[0]]
-    return found
+                result[used[0].index(1)] = -constant / terms[used[0]]
+    return result
 
 
 def reduced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
     """The polynomial with fixed variables replaced by their values."""
     parts = []
     for exponents, coefficient in terms.items():
-        left = tuple(0 if i in fixed else k for i, k in enumerate(exponents))
+        kept = tuple(0 if i in fixed else k for i, k in enumerate(exponents))
         for i, value in fixed.items():
             coefficient = coefficient * value ** exponents[i]
-        parts.append({left: coefficient})
-    return _total(parts)
+        parts.append({kept: coefficient})
+    return terms_sum(*parts)
 
 
 def proof_of(certificate: Certificate) -> Any:
@@ -153,11 +114,133 @@ def named_multipliers(system: System, optimum: Any) -> list[tuple[str, Any]]:
     known = [(item.label, condition_terms(system, item)) for item in system.conditions]
     stated = proof_of(optimum.certificate)["problem"]["constraints"][: len(optimum.multipliers)]
     fixed = fixed_values(stated)
-    found = []
+    result = []
     for constraint, value in zip(stated, optimum.multipliers, strict=True):
         if sign(value):
             terms, at = terms_of(constraint["terms"]), {} if constraint["relation"] == "=" else fixed
             matches = ((label, multiple_of(reduced(terms, at), reduced(other, at))) for label, other in known)
             label, ratio = next(((name, c) for name, c in matches if c is not None), ("another condition", Fraction(1)))
-            found.append((label, ratio * value))
-    return found
+            result.append((label, ratio * value))
+    return result
+
+
+def member(certificate: Certificate, label: str, kind: Kind) -> Any:
+    """The payload of the member with this label and kind."""
+    if isinstance(certificate.payload, tuple):
+        for item in certificate.payload:
+            if item.label == label and item.certificate.kind == kind:
+                return item.certificate.payload
+    raise CertificateRejected("certificate.json", f"no certificate of kind {kind.value} with the label {label!r}")
+
+
+def optimal_points(system: System, payload: Mapping[str, Any]) -> dict[str, Vector] | None:
+    """The control points that the certificate of an optimum fixes, None when it shows that there are none.
+
+    Raises ``CertificateRejected`` when they do not satisfy all conditions.
+    """
+    if payload["status"] != "optimal":
+        return None
+    if tuple(payload["problem"]["variables"]) != system.shape.variables:
+        raise CertificateRejected("optimum: problem.variables", f"expected {', '.join(system.shape.variables)}")
+    coordinates = numbers(payload["point"], payload["field"], "optimum.point")
+    points = system.points([coordinates[i : i + DIMENSION] for i in range(0, len(coordinates), DIMENSION)])
+    for label in system.violated(points):
+        raise CertificateRejected("optimum.point", f"violates the condition {label}")
+    return points
+
+
+def has_member(certificate: Certificate, label: str) -> bool:
+    """Whether a bundle has a member with this label."""
+    return isinstance(certificate.payload, tuple) and any(item.label == label for item in certificate.payload)
+
+
+def near_points(
+    system: System, payload: Mapping[str, Any], reached: Mapping[str, Any]
+) -> tuple[dict[str, Vector], Fraction]:
+    """The control points of a witness, and the bound on the objective that a contradiction proves (``check_bound_of``).
+
+    Raises ``CertificateRejected`` when they violate a condition, or are not as near to each other as they have to be.
+    """
+    bound = objective_terms(system).get(_origin(system), Fraction(0)) - _last(system, payload).get(
+        _origin(system), Fraction(0)
+    )
+    if tuple(reached["order"]) != system.shape.variables:
+        raise CertificateRejected("optimum: point: order", f"expected {', '.join(system.shape.variables)}")
+    coordinates = numbers(reached["values"], None, "optimum: point: values")
+    points = system.points([coordinates[i : i + DIMENSION] for i in range(0, len(coordinates), DIMENSION)])
+    for label in system.violated(points):
+        raise CertificateRejected("optimum: point", f"violates the condition {label}")
+    value = exactly(system.objective_at(points))
+    if value - bound > GAP * abs(value):
+        raise CertificateRejected("optimum: bound", "not as near to the objective as it has to be")
+    return points, bound
+
+
+def check_bound_of(system: System, payload: Mapping[str, Any], label: str) -> None:
+    """The certificate shows that the objective of the system has no value below some number under its conditions."""
+    *conditions, last = payload["problem"]["constraints"]
+    terms, goal = _last(system, payload), objective_terms(system)
+    slopes = [{e: c for e, c in result.items() if any(e)} for result in (terms, goal)]
+    if payload["status"] != "infeasible" or last["relation"] != "<" or slopes[0] != slopes[1]:
+        raise CertificateRejected(f"{label}: problem.constraints", "the last one is no bound of the objective")
+    weaker = {**payload, "problem": {**payload["problem"], "constraints": conditions}}
+    check_optimum_of(system, weaker, label)
+
+
+def _last(system: System, payload: Mapping[str, Any]) -> Terms:
+    """The last condition of a certificate."""
+    stated = payload["problem"]
+    if not stated["constraints"] or sorted(stated["variables"]) != sorted(system.shape.variables):
+        raise CertificateRejected("optimum: bound: problem", "not about the control points of this problem")
+    order = [stated["variables"].index(name) for name in system.shape.variables]
+    return _ordered(stated["constraints"][-1]["terms"], order)
+
+
+def _origin(system: System) -> tuple[int, ...]:
+    return (0,) * len(system.shape.variables)
+
+
+def check_optimum_of(system: System, payload: Mapping[str, Any], label: str, minimise: Terms | None = None) -> None:
+    """The certificate minimises this objective (None: the system's) under conditions of this system only.
+
+    So a point that satisfies all conditions is the optimum of the system, a lower bound is one of the system, and a
+    contradiction is one of the system.
+    """
+    stated = payload["problem"]
+    if payload["status"] not in ("optimal", "infeasible"):
+        raise CertificateRejected(f"{label}: status", "expected an optimum or a contradiction")
+    variables = system.shape.variables
+    if sorted(stated["variables"]) != sorted(variables):
+        raise CertificateRejected(f"{label}: problem.variables", f"expected {', '.join(variables)}")
+    order = [stated["variables"].index(name) for name in variables]
+    if _ordered(stated["minimise"], order) != (objective_terms(system) if minimise is None else minimise):
+        raise CertificateRejected(f"{label}: problem.minimise", "not the objective of this problem")
+    constraints = [(_ordered(item["terms"], order), item["relation"]) for item in stated["constraints"]]
+    wrong = foreign(system, constraints, fixed_by(constraints))
+    if wrong is not None:
+        raise CertificateRejected(f"{label}: problem.constraints[{wrong}]", "not a condition of this problem")
+
+
+def _ordered(listed: Sequence[Any], order: Sequence[int]) -> Terms:
+    """A polynomial of a certificate with its variables in this order."""
+    return {tuple(exponents[i] for i in order): c for exponents, c in terms_of(listed).items()}
+
+
+def foreign(system: System, constraints: Sequence[tuple[Terms, str]], fixed: Mapping[int, Fraction]) -> int | None:
+    """The first of these constraints (``<=`` or ``=``) that is none of the system's conditions, None if all are.
+
+    ``fixed``: the variables that equations among the constraints fix; the other constraints may use that.
+    """
+    allowed = [condition_terms(system, item) for item in system.conditions]
+
+    def known(terms: Terms, fixed: Mapping[int, Fraction]) -> bool:
+        return any(multiple_of(reduced(terms, fixed), reduced(other, fixed)) is not None for other in allowed)
+
+    for i, (terms, relation) in enumerate(constraints):
+        opposite = {exponents: -coefficient for exponents, coefficient in terms.items()}
+        needed = {"<=": (terms,), "=": (terms, opposite)}.get(relation, ())
+        # an equation needs both of its halves among the conditions; the others may use it
+        usable = fixed if relation == "<=" else {}
+        if not needed or not all(known(half, usable) for half in needed):
+            return i
+    return None

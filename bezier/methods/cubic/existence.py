@@ -11,20 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import qe
-from bezier.methods.control.statements import (
-    Implies,
-    Name,
-    Power,
-    Statement,
-    at_least,
-    at_most,
-    every,
-    exists,
-    for_all,
-    names,
-    number,
-    squares,
-)
+from bezier.methods.control import statements as st
 from bezier.methods.control.system import coordinates
 from bezier.methods.cubic import formula as cubic
 
@@ -33,24 +20,22 @@ GIVEN = ("Q0", "R0")
 
 @dataclass(frozen=True, slots=True)
 class Existence:
-    """The sentence, the engine's verdict (None: not reached), and the witness it found: terms in the parameters.
-
-    ``answer``: the engine's, None where it was not asked.
-    """
+    """The sentence, the engine's verdict (None: not reached), and the witness it found: terms in the parameters."""
 
     sentence: str
     truth: bool | None
     witness: str
     answer: Any = field(default=None, compare=False, repr=False)
+    """The engine's, None where it was not asked."""
 
 
-def question() -> Statement:
+def question() -> st.Statement:
     """For all Q0, R0, r with |Q0|, |R0| <= r there are Q1, Q2 that satisfy formula (7) as printed."""
-    shape, radius = cubic.shape(), Name("r")
+    shape, radius = cubic.shape(), st.Name("r")
     parameters = [name for point in GIVEN for name in coordinates(point)]
-    inside = [at_most(squares(names(coordinates(point))), Power(radius, 2)) for point in GIVEN]
-    given = every(*inside, at_least(radius, number(0)))
-    return for_all([*parameters, "r"], Implies(given, exists(shape.variables, shape.symbolic())))
+    inside = [st.at_most(st.squares(st.names(coordinates(point))), st.Power(radius, 2)) for point in GIVEN]
+    given = st.every(*inside, st.at_least(radius, st.number(0)))
+    return st.for_all([*parameters, "r"], st.Implies(given, st.exists(shape.variables, shape.symbolic())))
 
 
 def sentence() -> str:
@@ -66,10 +51,10 @@ def trivial_witness() -> dict[str, str]:
 
 def existence(*, timeout: float | None = None) -> Existence:
     """Ask the engine."""
-    asked = question()
-    answer = qe.eliminate(asked.formula, timeout=timeout)
-    told = next((line for line in answer.stats.get("plan", ()) if line.startswith(WITNESS)), "")
-    return Existence(str(asked), answer.truth, told.removeprefix(WITNESS), answer)
+    statement = question()
+    answer = qe.eliminate(statement.formula, timeout=timeout)
+    witness = next((line for line in answer.stats.get("plan", ()) if line.startswith(WITNESS)), "")
+    return Existence(str(statement), answer.truth, witness.removeprefix(WITNESS), answer)
 
 
 WITNESS = "witness in the parameters: "

@@ -2,20 +2,255 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
+from markupsafe import Markup
+
 from bezier.curves.scalar import brief, described
+from bezier.methods.control.optimal_path import (
+    Drawn,
+    Members,
+    SystemPlan,
+    begun,
+    drawn,
+    elimination,
+    optimum_members,
+    path_through,
+    restored,
+    restored_optimum,
+    verified,
+)
+from bezier.methods.control.system import System
 from bezier.methods.control.terms import named_multipliers
-from bezier.methods.cubic import plan as cubic_plan
-from bezier.methods.cubic import report as cubic_report
-from bezier.methods.cubic.plan import CubicPlan
-from bezier.plans import Method, Restored, Stated
+from bezier.methods.cubic import formula as cubic
+from bezier.paths.path import Path, Slowest, slowest_of
+from bezier.plans import Begun, Clock, Method, Restored, Stated, Story
 from bezier.problem import Problem
+from bezier.report import html, mathml, parts
+from bezier.report.first import region_box
+from bezier.report.html import Section, toned
+from bezier.report.page import curve_name
+from bezier.report.parts import shown
+from qe.formula.syntax import Formula
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
+
+
+FORMULA = "formula (7)"
+"""What the engine is asked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trivial:
+    """The choice Q1 = Q0, Q2 = R0, which always satisfies formula (7) as printed."""
+
+    path: Path
+    """Through it."""
+    violated: tuple[str, ...]
+    """The problem's further conditions that it violates."""
+    slowest: Mapping[str, Slowest]
+    """Each curve's least speed, which is zero at the joins."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class CubicPlan(SystemPlan):
+    """``slowest``: of each curve of the path (empty without a path)."""
+
+    slowest: Mapping[str, Slowest]
+    trivial: Trivial
+
+
+def begin(problem: Problem, clock: Clock) -> Begun:
+    """The path of formula (7)."""
+    return begun(problem, cubic.system(problem), clock)
+
+
+def finish(given: Begun, clock: Clock) -> CubicPlan:
+    """The plan with formula (7)."""
+    result: Drawn = given.found
+    with clock.step("speed"):
+        fields = {**result.fields, **_speed_fields(given.problem, result.system, given.path)}
+    with clock.step("verification"):
+        certificate, checks = verified(_members(result.system, result.optimum.certificate), given.path)
+    return CubicPlan(
+        **fields,
+        answer=result.answer,
+        optimum=result.optimum,
+        certificate=certificate,
+        checks=checks,
+        seconds=clock.seconds,
+        eliminations={FORMULA: result.answer},
+    )
+
+
+def questions(problem: Problem) -> dict[str, Formula]:
+    """What is asked of the engine about a problem."""
+    return {FORMULA: cubic.system(problem).statement().formula}
+
+
+def restored_plan(problem: Problem, certificate: Certificate) -> CubicPlan:
+    """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
+    system = cubic.system(problem)
+    optimum = restored_optimum(system, certificate)
+    fields = drawn(problem, system, optimum)
+    fields |= _speed_fields(problem, system, fields["path"])
+    return CubicPlan(**restored(fields, optimum, _members(system, optimum.certificate)))
+
+
+def _members(system: System, certificate: Certificate) -> Members:
+    return [elimination(system), *optimum_members(certificate)]
+
+
+def _speed_fields(problem: Problem, system: System, path: Path | None) -> dict[str, Any]:
+    """What only the plan of this method has."""
+    slowest = slowest_of(path) if path else {}
+    return {"slowest": slowest, "trivial": _trivial(problem, system), "remarks": _remarks(problem)}
+
+
+def _remarks(problem: Problem) -> tuple[str, ...]:
+    result = []
+    if problem.ratio != 1:
+        result.append(f"the outer curves take {problem.ratio} of the time of the middle one")
+    if problem.join_speed:
+        result.append(
+            f"a speed of at least {problem.join_speed} mm per unit of time at both joins is required, in the form of a"
+            " speed in the direction from Q0 to R0"
+        )
+    return tuple(result)
+
+
+def _trivial(problem: Problem, system: System) -> Trivial:
+    points = system.points(cubic.trivial_choice(problem))
+    path = path_through(problem, system, points)
+    return Trivial(path, system.violated(points), slowest_of(path))
+
+
+NAMES = ("P0", "Q0", "R0", "R3")
+REPORTED = (
+    "The paper reports that quantifier elimination for formula (7) was computationally expensive and had not yet been"
+    " successful."
+)
+INTERIOR = "the unconstrained minimum, Q1 = (2 Q0 + R0)/3 and Q2 = (Q0 + 2 R0)/3"
+
+
+def story(plan: CubicPlan, drawing: Drawing | None) -> Story:
+    """What the page says in this method's own words."""
+    solved, names = plan.path is not None, parts.names()
+    further = len(plan.system.conditions) - len(plan.system.shape.inner)
+    counts = "18 variables, 12 of them quantified, 12 equations, 6 norm conditions"
+    more = f", {further} further conditions" if further else ""
+    formulas = parts.question_with_answer(plan, FORMULA, parts.question(plan, plan.system), counts + more)
+    title = Markup("The best {} and {}").format(names["Q1"], names["Q2"])
+    sections = (
+        Section("question", "The question", _intro(plan) + formulas),
+        _region(drawing),
+        parts.optimum(plan, plan.system, plan.optimum, title, INTERIOR),
+        _stops(plan, drawing) if solved else None,
+        _cusp(plan),
+    )
+    claim = "The chosen Q1 and Q2 are the global optimum"
+    return Story(
+        kind="three cubic Bézier curves",
+        place="4.2",
+        given=NAMES,
+        claims={"optimum": claim if solved else "The conditions on Q1 and Q2 contradict each other"},
+        none=None if solved else parts.contradiction(plan.system, plan.optimum, reason(plan)),
+        sections=tuple(section for section in sections if section is not None),
+        reported=REPORTED,
+    )
+
+
+def reason(plan: CubicPlan) -> str:
+    """Why there are no control points, in one sentence."""
+    used = ", ".join(label for label, _ in named_multipliers(plan.system, plan.optimum))
+    shown = f"no control points exist: the conditions on {used} contradict each other (the certificate shows it)"
+    return shown if plan.radius_rule is None else f"{shown}; {plan.radius_rule.in_words()}"
+
+
+def speed_text(slow: Slowest) -> str:
+    """The least speed of a curve in words."""
+    if slow.stops:
+        return f"stops at t = {', '.join(str(low) if low == high else f'{float(low):.6g}' for low, high in slow.stops)}"
+    return f"never slower than {slow.least.to_json(6)['low']}"
+
+
+def _intro(plan: CubicPlan) -> Markup:
+    text = Markup(
+        "Formula (7) of the paper: which {Q1} and {Q2} leave room for {P1}, {P2}, {R1} and {R2} such that both joins"
+        " are C² and all six control points stay in the workspace?"
+    ).format(**parts.names())
+    if plan.problem.ratio != 1:
+        text += Markup(
+            " The outer curves take {} of the time of the middle one; velocity and acceleration with respect to time"
+            " are what agrees at the joins."
+        ).format(parts.number(plan.problem.ratio))
+    return html.paragraph(text)
+
+
+def _region(drawing: Drawing | None) -> Section | None:
+    if drawing is None or drawing.picture.region is None:
+        return None
+    names = parts.names()
+    said = Markup(
+        "The conditions leave a convex set of pairs ({Q1}, {Q2}) in six dimensions. Its slice with {Q2} at the optimum"
+        " is a set of {Q1}, bounded by spheres and planes:"
+    ).format(**names)
+    box = region_box(drawing.picture.region, "the places of the first free control point, seen in space")
+    return Section(
+        "region", Markup("Room around the best {}").format(names["Q1"]), html.paragraph(said) + box, "region"
+    )
+
+
+def _stops(plan: CubicPlan, drawing: Drawing | None) -> Section:
+    said = (
+        'Where a path stops, it may turn on the spot, and "C²" says nothing about its direction. Least speed of each'
+        " curve, proved for all t (mm per unit of time):"
+    )
+    content = [html.paragraph(said), _speeds(plan.slowest)]
+    if plan.problem.join_speed:
+        required = Markup(
+            "Required at both joins: a speed of at least {} in the direction from {} to {}, hence at least this speed."
+        ).format(plan.problem.join_speed, parts.names()["Q0"], parts.names()["R0"])
+        content.append(html.paragraph(required))
+    content.append(html.figures(drawing.charts if drawing else (), wide=True))
+    return Section("stops", "Does it ever stop?", html.joined(*content), "stops")
+
+
+def _speeds(speeds: Mapping[str, Slowest]) -> Markup:
+    rows = [(curve_name(name), toned(speed_text(slow), not slow.stops)) for name, slow in speeds.items()]
+    return html.table(("curve", "least speed"), rows)
+
+
+def _cusp(plan: CubicPlan) -> Section:
+    """The choice Q1 = Q0, Q2 = R0 with this problem's numbers."""
+    result = plan.trivial
+    if result.violated:
+        allowed = f"Here further conditions forbid it: {', '.join(map(parts.on_point, result.violated))}."
+    elif plan.radius_rule is not None:
+        allowed = f"Here it satisfies every condition, and in part it is forced: {plan.radius_rule.in_words()}."
+    else:
+        allowed = "Here it satisfies every condition, so control points exist; the objective is what avoids it."
+    said = Markup(
+        "With {Q1} = {Q0} and {Q2} = {R0} all other control points are {Q0}, {R0} or lie between them (for outer curves"
+        " that do not take longer than the middle one), so formula (7) as printed always has a solution. But then the"
+        " velocity vanishes at both joins: the first curve comes back to {Q0} from the direction of {R0}, stops there,"
+        " and the second one leaves in the direction of {R0} again. Value and both derivatives agree, and yet the path"
+        " turns round: a cusp."
+    ).format(**parts.names())
+    points = [(shown(mathml.name(name)), parts.point(result.path.points[name])) for name in plan.system.shape.inner]
+    content = (
+        html.paragraph(said),
+        html.paragraph(html.strong(allowed)),
+        html.table(("control point", "in the trivial choice"), points),
+        html.note(f"Joins: {parts.SMOOTHNESS[result.path.smoothness]}."),
+        _speeds(result.slowest),
+    )
+    return Section("cusp", "Why the objective matters: the cusp", html.joined(*content), "cusp")
 
 
 def summary_lines(plan: CubicPlan) -> list[str]:
@@ -23,7 +258,7 @@ def summary_lines(plan: CubicPlan) -> list[str]:
     if plan.path is None:
         return []
     best = [f"best {name} = ({', '.join(map(brief, plan.path.points[name]))})" for name in plan.system.shape.free]
-    return [*best, *(f"{name}: {cubic_report.speed_text(slow)}" for name, slow in plan.slowest.items())]
+    return [*best, *(f"{name}: {speed_text(slow)}" for name, slow in plan.slowest.items())]
 
 
 def json_entries(plan: CubicPlan) -> dict[str, Any]:
@@ -35,11 +270,6 @@ def json_entries(plan: CubicPlan) -> dict[str, Any]:
         "joins": [item.join.smoothness.name for item in plan.path.joins] if plan.path else [],
         "trivial_choice": {"violates": list(plan.trivial.violated), "smoothness": plan.trivial.path.smoothness.name},
     }
-
-
-def files(plan: CubicPlan) -> dict[str, str]:
-    """None beyond those of every method."""
-    return {}
 
 
 def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
@@ -58,15 +288,15 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
     written = ("region.png", "path.png")
     if plan.path is None:
         return Drawing(picture, written, plot.views(picture))
-    from bezier.pictures import plot_motion
+    from bezier.pictures import charts
 
-    plot_motion.save(plan.path, folder / "motion.png")
-    return Drawing(picture, (*written, "motion.png"), plot.views(picture), plot_motion.charts(plan.path))
+    over_time = charts.saved(charts.motion(plan.path), folder / "motion.png")
+    return Drawing(picture, (*written, "motion.png"), plot.views(picture), over_time)
 
 
 def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[CubicPlan]:
     """The plan that the certificates of a folder prove; nothing else in the folder is needed for it."""
-    plan = cubic_plan.restore(problem, certificate)
+    plan = restored_plan(problem, certificate)
     lines = [
         "the elimination belongs to formula (7) of this problem",
         "the optimum belongs to formula (7) of this problem",
@@ -77,15 +307,13 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 
 
 CUBIC: Method[CubicPlan] = Method(
-    begin=cubic_plan.begin,
-    finish=cubic_plan.finish,
-    reason=cubic_report.reason,
+    begin=begin,
+    finish=finish,
+    reason=reason,
     summary_lines=summary_lines,
     json_entries=json_entries,
-    files=files,
     draw=draw,
-    hatted_names=False,
-    story=cubic_report.story,
+    story=story,
     restore=restore,
-    questions=cubic_plan.questions,
+    questions=questions,
 )

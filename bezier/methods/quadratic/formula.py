@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from bezier.curves.scalar import dot, subtract
 from bezier.curves.workspace import Condition, Workspace, WorkspaceKind, root_text
-from bezier.methods.control.statements import Name, Some, Statement, below, every, exists, number
+from bezier.methods.control import statements as st
 from bezier.methods.control.system import OnPoint, Shape, System, combination, coordinates
 from bezier.problem import Problem
 
@@ -49,12 +49,12 @@ def corrected(problem: Problem) -> System:
     return system(replace(problem, workspace=replace(problem.workspace, kind=WorkspaceKind.HEMISPHERE)))
 
 
-def leaving(problem: Problem) -> Statement:
+def leaving(problem: Problem) -> st.Statement:
     """The sentence: some control points allowed by the printed formula (8) lie below the table."""
     allowed = printed(problem)
-    heights = Some(tuple(below(Name(coordinates(point)[2]), number(0)) for point in SHAPE.inner))
+    heights = st.Some(tuple(st.below(st.Name(coordinates(point)[2]), st.number(0)) for point in SHAPE.inner))
     parts = [*allowed.joins(), *(statement for _, statement in allowed.labelled()), heights]
-    return exists((*FREE, *QUANTIFIED), every(*parts))
+    return st.exists((*FREE, *QUANTIFIED), st.every(*parts))
 
 
 def as_conditions_on_q1(system: System) -> tuple[Condition, ...]:

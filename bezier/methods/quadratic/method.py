@@ -1,23 +1,269 @@
-"""The quadratic method for the rest of the program: words, files, pictures and checks around its plan."""
+"""The quadratic method for the rest of the program: words, files, pictures and checks around its plan.
+
+Reading balls and half-spaces back out of a quantifier-free answer, for pictures and tables.
+
+The engine's answer is a formula about Q1. Where it is a conjunction of spheres and planes, each atom is a
+``Condition``; anything else is reported as not recognised, and the picture is then left out, never guessed.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
+from markupsafe import Markup
+
 from bezier.curves.containment import Leaves
-from bezier.curves.scalar import exact_text
+from bezier.curves.scalar import decimal_text, exact_text, with_decimal
+from bezier.curves.workspace import Ball, Condition, HalfSpace, root_text
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic import plan as quadratic_plan
-from bezier.methods.quadratic import report as quadratic_report
-from bezier.methods.quadratic import restore as quadratic_restore
-from bezier.methods.quadratic.plan import QuadraticPlan
-from bezier.plans import Method, Restored, Stated
+from bezier.methods.quadratic.plan import FORMULA, QuadraticPlan, above_label
+from bezier.plans import Method, Restored, Stated, Story
 from bezier.problem import Problem
+from bezier.report import html, mathml, parts
+from bezier.report.first import region_box
+from bezier.report.html import Section, Text, toned
+from bezier.report.parts import norm, shown
+from qe.exact import quadratic_form
+from qe.exact.quadratic_form import Quadratic
+from qe.exact.ring import Ring
+from qe.formula.syntax import Atom, Constant, Formula, Relation
+from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
+
+
+def as_conditions(formula: Formula, variables: Sequence[str]) -> tuple[Condition, ...] | None:
+    """The conditions whose intersection the formula describes (up to strictness), or None."""
+    if isinstance(formula, Constant):
+        return () if formula.value else None
+    result = [_condition(part, variables) for part in conjuncts(formula)]
+    return None if any(c is None for c in result) else tuple(c for c in result if c is not None)
+
+
+def _condition(part: Formula, variables: Sequence[str]) -> Condition | None:
+    if not isinstance(part, Atom) or part.relation not in (Relation.LE, Relation.LT, Relation.GE, Relation.GT):
+        return None
+    poly = part.poly if part.relation in (Relation.GE, Relation.GT) else -part.poly
+    if any(poly.ring.names[i] not in variables for i in poly.variables):
+        return None
+    form = quadratic_form.quadratic(poly.convert(Ring.of(variables)), range(len(variables)))
+    return None if form is None else _set_of(form)
+
+
+def _set_of(form: Quadratic) -> Condition | None:
+    """The set where the form is at least 0 as a half-space, or as a ball, for lead*|p - c|^2/2 + d."""
+    if form.is_linear:
+        return HalfSpace(form.gradient, form.constant)
+    lead = form.hessian[0][0]
+    sphere = tuple(tuple(lead * (i == j) for j in range(form.size)) for i in range(form.size))
+    if lead >= 0 or form.hessian != sphere:
+        return None
+    centre = tuple(-c / lead for c in form.gradient)
+    return Ball(centre, sum((c * c for c in centre), Fraction(0)) - 2 * form.constant / lead)
+
+
+REPORTED = (
+    "The paper reports about 15.4 s for formula (8) with a general computer algebra system on a laptop of 2018 (other"
+    " points, other machine)."
+)
+NAMES = ("P0", "Q0", "R0", "R2")
+
+
+def story(plan: QuadraticPlan, drawing: Drawing | None) -> Story:
+    """What the page says in this method's own words."""
+    names = parts.names()
+    further = len(plan.system.conditions) - len(quadratic.SHAPE.inner)
+    counts = "9 variables, 6 of them quantified, 6 equations, 3 norm conditions"
+    more = f", {further} further conditions" if further else ""
+    intro = Markup(
+        "Formula (8) of the paper: which {Q1} leave room for {P1} and {R1} such that both joins are C¹ and all three"
+        " control points stay in the workspace?"
+    ).format(**names)
+    formulas = parts.question_with_answer(plan, FORMULA, parts.question(plan, plan.system), counts + more)
+    title, free = Markup("The best {}").format(names["Q1"]), "the unconstrained minimum, the midpoint of the via points"
+    sections = (
+        Section("question", "The question", html.paragraph(intro) + formulas),
+        _region(plan, drawing),
+        parts.optimum(plan, plan.system, plan.optimum, title, free),
+        _table(plan, drawing),
+    )
+    return Story(
+        kind="three quadratic Bézier curves",
+        place="4.2.1",
+        given=NAMES,
+        claims=_claims(plan),
+        none=None if plan.path else _infeasibility(plan),
+        sections=tuple(section for section in sections if section is not None),
+        reported=REPORTED,
+    )
+
+
+def reason(plan: QuadraticPlan) -> str:
+    """Why there is no control point, in one sentence with the numbers, and what the radius has to do with it."""
+    return "; ".join([_balls_reason(plan), *([plan.radius_rule.in_words()] if plan.radius_rule else [])])
+
+
+def _balls_reason(plan: QuadraticPlan) -> str:
+    balls = plan.balls
+    radius = plan.problem.workspace.radius_text
+    if balls.meet:
+        return (
+            "no control point exists: the three balls meet, but nowhere do all control points also satisfy the other"
+            " conditions (the certificate shows it)"
+        )
+    shape = "acute" if balls.is_acute else "right or obtuse or flat"
+    return (
+        f"no control point exists: the balls of radius r = {_root(radius, balls.radius_squared)} about O, 2 Q0 and"
+        f" 2 R0 have no common point; the triangle O, Q0, R0 is {shape}, so r would have to be at least"
+        f" {_root(balls.needed_text, balls.needed_squared)}"
+    )
+
+
+def _root(exact: str, square: Fraction) -> str:
+    return with_decimal(exact, f"{float(square) ** 0.5:.6g}")
+
+
+def _claims(plan: QuadraticPlan) -> dict[str, str]:
+    return {
+        "region": "The answer describes exactly the region: every cell has the truth value stated",
+        "optimum": "The chosen Q1 is the global optimum" if plan.path else "The conditions on Q1 contradict each other",
+        "below the table": "The printed formula allows the example below the table",
+        **{above_label(point): f"The printed formula keeps {point} above the table" for point in quadratic.SHAPE.inner},
+    }
+
+
+def _region(plan: QuadraticPlan, drawing: Drawing | None) -> Section:
+    """The region of Q1: its picture, its bounds and its cells."""
+    name = parts.names()["Q1"]
+    content: list[Text] = [html.paragraph(_region_sentence(plan))]
+    if drawing is not None and drawing.picture.region is not None:
+        content.append(region_box(drawing.picture.region, "the possible places of Q1, seen in space"))
+    bounds, cells = parts.bounds(plan.region, quadratic.FREE), parts.cells(plan.region)
+    if bounds:
+        content += [html.heading("Bounds"), bounds]
+    if cells:
+        said = (
+            f"Every point of the region lies in exactly one of these {len(cells)} cells; each bound depends only on the"
+            " variables above it."
+        )
+        count = f"{len(cells)} cell{'s' * (len(cells) != 1)}"
+        content += [html.heading("Cylindrical description"), html.folded(count, html.note(said), *cells)]
+    return Section("region", Markup("The region of {}").format(name), html.joined(*content), "region")
+
+
+def _region_sentence(plan: QuadraticPlan) -> str:
+    """What kind of set the region is."""
+    region = plan.region
+    if region.is_empty:
+        return "The region is empty, proved by a cylindrical algebraic decomposition."
+    shape = {0: "points", 1: "a curve", 2: "a surface", 3: "a solid"}.get(region.dimension, "a set")
+    count = len(region.cells)
+    return (
+        f"The region is not empty and has dimension {region.dimension}: {shape}."
+        f" A cylindrical algebraic decomposition describes it by {count} cell{'s' if count != 1 else ''}."
+    )
+
+
+def _infeasibility(plan: QuadraticPlan) -> Section:
+    """Why there is no control point."""
+    balls = plan.balls
+    labels = ("|Q0|²", "|R0|²", "|Q0 − R0|²")
+    rows: list[tuple[Text, Text]] = [
+        (label, parts.number(v)) for label, v in zip(labels, balls.sides_squared, strict=True)
+    ]
+    for label, square in (("radius r", balls.radius_squared), ("least radius that would do", balls.needed_squared)):
+        exact, decimal = root_text(square), f"{float(square) ** 0.5:.8g}"
+        folded = html.folded(decimal, shown(mathml.number_text(exact)))
+        rows.append((label, decimal if exact == decimal else folded))
+    text = (
+        "Q1 has to lie in the three balls of radius r about O, 2 Q0 and 2 R0. They have a common point exactly when the"
+        " smallest circle around the triangle O, Q0, R0 has a radius of at most r/2. "
+    )
+    text += (
+        "The triangle is acute, so that circle goes through all three corners."
+        if balls.is_acute
+        else "The triangle has no acute shape, so its longest side is the diameter of that circle."
+    )
+    if balls.meet:
+        text = "The three balls of radius r about O, 2 Q0 and 2 R0 meet, but not where the other conditions hold."
+    suggestion = (
+        'Try method = "cubic": with three cubic curves, formula (7), control points always exist (Q1 = Q0, Q2 = R0 is'
+        " one choice)."
+    )
+    more = (html.paragraph(suggestion), html.paragraph(text), html.table(("", "value"), rows))
+    return parts.contradiction(plan.system, plan.optimum, reason(plan), *more)
+
+
+def _table(plan: QuadraticPlan, drawing: Drawing | None) -> Section:
+    """The hemisphere question."""
+    result, names = plan.gap, parts.names()
+    content: list[Text] = [
+        html.paragraph(
+            "The printed formula keeps the control points in the ball, not in the hemisphere: it has no condition on z."
+        )
+    ]
+    if result.example is None:
+        said = (
+            "For this problem it makes no difference: no allowed control point lies below the table"
+            " (decided by elimination)."
+        )
+        content.append(html.paragraph(html.strong(said)))
+    else:
+        radius = plan.problem.workspace.radius_text
+        said = f"For this problem that matters: with r = {radius}, it allows control points below the table."
+        rows = [
+            (shown(mathml.name(name)), toned(parts.point(p), False if float(p[2]) < 0 else None), norm(p))
+            for name, p in result.example.items()
+        ]
+        content += [
+            html.paragraph(html.strong(said)),
+            html.table(("example", "coordinates (mm)", "distance from the origin (mm)"), rows),
+        ]
+    content.append(html.paragraph(_chosen(plan)) if _chosen(plan) else "")
+    if _corrected(plan):
+        content += [html.heading("The corrected region"), html.paragraph(_corrected(plan))]
+    extra = {} if drawing is None else drawing.picture.extra
+    if "corrected" in extra and "printed" in extra:
+        above = Markup("with z ≥ 0 for {P1}, {Q1} and {R1}").format(**names)
+        pair = [
+            region_box(
+                extra["printed"], "the region as printed, seen in space", "the ball conditions only, as printed"
+            ),
+            region_box(extra["corrected"], "the corrected region, seen from the same side", above, extra["printed"]),
+        ]
+        content.append(Markup('<div class="views wide">{}</div>').format(html.joined(*pair)))
+    return Section("table", "Above the table?", html.joined(*content), "table")
+
+
+def _chosen(plan: QuadraticPlan) -> str:
+    if not plan.gap.chosen:
+        return ""
+    bad = [p for p in plan.gap.chosen if isinstance(p.outcome, Leaves)]
+    if not bad:
+        return "The chosen path itself stays above the table: z ≥ 0 is proved along all three curves."
+    places = ", ".join(f"{p.curve} at t = {p.outcome.t}" for p in bad if isinstance(p.outcome, Leaves))
+    return f"The chosen path goes below the table: {places}."
+
+
+def _corrected(plan: QuadraticPlan) -> str:
+    region = plan.gap.region
+    if region is None:
+        return ""
+    if region.is_empty:
+        return "With z ≥ 0 added for all three control points, nothing is left: the corrected region is empty."
+    low, high = region.bounds(quadratic.FREE[2])
+    ends = " and ".join(f"{decimal_text(v, 6)}" for v in (low, high))
+    count = len(region.cells)
+    return (
+        "With z ≥ 0 added for all three control points the region becomes smaller:"
+        f" {count} cell{'s' if count != 1 else ''}, dimension {region.dimension}, z between {ends}."
+    )
 
 
 def summary_lines(plan: QuadraticPlan) -> list[str]:
@@ -38,10 +284,10 @@ def summary_lines(plan: QuadraticPlan) -> list[str]:
 def json_entries(plan: QuadraticPlan) -> dict[str, Any]:
     """The entries of the JSON summary that only this method has."""
     dips = any(isinstance(proof.outcome, Leaves) for proof in plan.gap.chosen)
-    found: dict[str, Any] = {"leaves_hemisphere": {"allowed": plan.gap.can_leave, "chosen": dips}}
+    data: dict[str, Any] = {"leaves_hemisphere": {"allowed": plan.gap.can_leave, "chosen": dips}}
     if plan.path is None:
-        found["suggestion"] = 'method = "cubic"'
-    return found
+        data["suggestion"] = 'method = "cubic"'
+    return data
 
 
 def files(plan: QuadraticPlan) -> dict[str, str]:
@@ -53,7 +299,6 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
     """The region of Q1, the path, and the region with z >= 0 where that makes a difference."""
     from bezier.pictures import plot
     from bezier.pictures.picture import Drawing, path_picture, region_picture
-    from bezier.report.recognise import as_conditions
 
     named = quadratic.as_conditions_on_q1(plan.system)
     chosen = plan.path.points["Q1"] if plan.path else None
@@ -74,7 +319,7 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
 
 def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[QuadraticPlan]:
     """The plan that the certificates of a folder prove; nothing else in the folder is needed for it."""
-    plan = quadratic_restore.restore(problem, certificate)
+    plan = quadratic_plan.restore(problem, certificate)
     lines = ("the region belongs to formula (8) of this problem", "the optimum belongs to this problem")
     return Restored(plan, lines)
 
@@ -82,13 +327,13 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 QUADRATIC: Method[QuadraticPlan] = Method(
     begin=quadratic_plan.begin,
     finish=quadratic_plan.finish,
-    reason=quadratic_report.reason,
+    reason=reason,
     summary_lines=summary_lines,
     json_entries=json_entries,
     files=files,
     draw=draw,
     hatted_names=True,
-    story=quadratic_report.story,
+    story=story,
     restore=restore,
     questions=quadratic_plan.questions,
 )

@@ -8,8 +8,9 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.curves.scalar import Vector, rational, sign
+from bezier.curves.scalar import Terms, Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.input.stored import numbers
 from bezier.methods.control.optimal_path import (
     Drawn,
     Members,
@@ -17,17 +18,34 @@ from bezier.methods.control.optimal_path import (
     answered,
     begun,
     body_of,
+    drawn,
     elimination,
     optimum_members,
+    restored,
+    restored_optimum,
     verified,
 )
 from bezier.methods.control.system import System
+from bezier.methods.control.terms import (
+    check_optimum_of,
+    condition_terms,
+    coordinate_terms,
+    fixed_by,
+    foreign,
+    member,
+    reduced,
+)
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
 from bezier.plans import Begun, Clock
 from bezier.problem import Problem
-from qe.errors import InternalError, Unable
-from qe.formula.syntax import Formula
+from qe.errors import CertificateRejected, InternalError, Unable
+from qe.exact.ring import Ring
+from qe.formula.build import conj
+from qe.formula.syntax import FALSE, And, Atom, Formula, Relation
+from qe.proof.cells_json import CellEvidence
+from qe.proof.certificate import Certificate, Kind
+from qe.proof.entry import Entry, formula_from_json
 
 REGION, BELOW = "region", "below the table"
 """Labels of certificates."""
@@ -44,19 +62,18 @@ def above_label(point: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """Whether control points that the printed formula (8) allows can lie below the table {z = 0}.
-
-    ``example``: control points that the formula allows, one of them below the table, or None when there are none.
-    ``region``: the region with z >= 0 added for all control points, where there is a gap. ``chosen``: what was
-    found out about z >= 0 along the curves of the chosen path. ``certificates``: of the example, or that the formula
-    keeps each control point above the table. ``answers``: of the engine, by what was asked.
-    """
+    """Whether control points that the printed formula (8) allows can lie below the table {z = 0}."""
 
     example: Mapping[str, Vector] | None
+    """Control points that the formula allows, one of them below the table, or None when there are none."""
     region: Any | None
+    """The region with z >= 0 added for all control points, where there is a gap."""
     chosen: tuple[Proof, ...]
+    """What was found out about z >= 0 along the curves of the chosen path."""
     certificates: tuple[tuple[str, qe.Certificate], ...] = ()
+    """Of the example, or that the formula keeps each control point above the table."""
     answers: Mapping[str, Any] = field(default_factory=dict)
+    """Of the engine, by what was asked."""
 
     @property
     def can_leave(self) -> bool:
@@ -80,8 +97,8 @@ def begin(problem: Problem, clock: Clock) -> Begun:
 
 def finish(given: Begun, clock: Clock) -> QuadraticPlan:
     """The plan with formula (8)."""
-    found: Drawn = given.found
-    problem, system, answer, optimum = given.problem, found.system, found.answer, found.optimum
+    result: Drawn = given.found
+    problem, system, answer, optimum = given.problem, result.system, result.answer, result.optimum
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else "not empty")
@@ -93,7 +110,7 @@ def finish(given: Begun, clock: Clock) -> QuadraticPlan:
         members = certificates(system, region, optimum, gap)
         certificate, checks = verified(members, given.path)
     return QuadraticPlan(
-        **found.fields,
+        **result.fields,
         region=region,
         gap=gap,
         balls=quadratic.three_balls(problem),
@@ -108,15 +125,15 @@ def finish(given: Begun, clock: Clock) -> QuadraticPlan:
 
 def questions(problem: Problem) -> dict[str, Formula]:
     """What is asked of the engine about a problem."""
-    asked = {FORMULA: quadratic.system(problem).statement(), TABLE: quadratic.leaving(problem)}
-    asked[CORRECTED] = quadratic.corrected(problem).statement()
-    return {name: statement.formula for name, statement in asked.items()}
+    statements = {FORMULA: quadratic.system(problem).statement(), TABLE: quadratic.leaving(problem)}
+    statements[CORRECTED] = quadratic.corrected(problem).statement()
+    return {name: statement.formula for name, statement in statements.items()}
 
 
 def certificates(system: System, region: qe.Region, optimum: Any, gap: Gap) -> Members:
     """The labelled certificates of a plan, those of its path left out."""
-    found = [elimination(system), (REGION, region.certificate)]
-    return [*found, *optimum_members(optimum.certificate), *gap.certificates]
+    result = [elimination(system), (REGION, region.certificate)]
+    return [*result, *optimum_members(optimum.certificate), *gap.certificates]
 
 
 def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
@@ -124,24 +141,24 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
 
     ``region``: the problem's own region, which is the corrected one for a hemisphere.
     """
-    asked = answered(qe.eliminate(quadratic.leaving(problem).formula, timeout=clock.remaining()))
+    leaves = answered(qe.eliminate(quadratic.leaving(problem).formula, timeout=clock.remaining()))
     floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
     chosen = prove(path.curves, (floor,)) if path else ()
-    if asked.truth is False:
-        return Gap(None, None, chosen, tuple(above_certificates(problem, clock)), {TABLE: asked})
-    if asked.truth is not True or asked.witness is None:
+    if leaves.truth is False:
+        return Gap(None, None, chosen, tuple(above_certificates(problem, clock)), {TABLE: leaves})
+    if leaves.truth is not True or leaves.witness is None:
         raise InternalError("the hemisphere question got neither a witness nor a refutation")
     printed = quadratic.printed(problem)
-    points = printed.points([tuple(asked.witness.get(name, Fraction(0)) for name in quadratic.FREE)])
+    points = printed.points([tuple(leaves.witness.get(name, Fraction(0)) for name in quadratic.FREE)])
     example = {name: points[name] for name in quadratic.SHAPE.inner}
     if printed.violated(points) or all(sign(point[2]) >= 0 for point in example.values()):
         raise InternalError("the engine's example does not show what it should")
-    shown = ((BELOW, example_certificate(problem, example, asked.certificate)),)
+    shown = ((BELOW, example_certificate(problem, example, leaves.certificate)),)
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
-        return Gap(example, region, chosen, shown, {TABLE: asked})
+        return Gap(example, region, chosen, shown, {TABLE: leaves})
     answer = answered(qe.eliminate(quadratic.corrected(problem).statement().formula, timeout=clock.remaining()))
     smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
-    return Gap(example, smaller, chosen, shown, {TABLE: asked, CORRECTED: answer})
+    return Gap(example, smaller, chosen, shown, {TABLE: leaves, CORRECTED: answer})
 
 
 def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe.Certificate]]:
@@ -162,7 +179,7 @@ def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe
 
 
 def example_certificate(
-    problem: Problem, example: Mapping[str, Vector], found: qe.Certificate | None
+    problem: Problem, example: Mapping[str, Vector], certificate: qe.Certificate | None
 ) -> qe.Certificate:
     """The witness that the printed formula allows the example. ``found``: the engine's own, for irrational examples."""
     values = [rational(c) for name in EXAMPLE_ORDER for c in example[name]]
@@ -170,6 +187,123 @@ def example_certificate(
     if len(known) == len(values):
         order = quadratic.FREE + quadratic.QUANTIFIED
         return qe.Certificate.witness(body_of(quadratic.leaving(problem), order), order, known)
-    if found is None:
+    if certificate is None:
         raise InternalError("an irrational example without a certificate")
-    return found
+    return certificate
+
+
+def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
+    """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
+    system = quadratic.system(problem)
+    optimum = restored_optimum(system, certificate)
+    fields = drawn(problem, system, optimum)
+    region = _region(system, certificate, infeasible=fields["path"] is None)
+    gap = _restored_gap(problem, certificate, fields["path"])
+    fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
+    return QuadraticPlan(**restored(fields, optimum, certificates(system, region, optimum, gap)))
+
+
+def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:
+    """The region of Q1: the cell table is about the conditions of this system."""
+    payload = member(certificate, REGION, Kind.CELLS)
+    table = payload.table if isinstance(payload, CellEvidence) and payload.table.is_decomposition else None
+    if table is None or table.order != quadratic.FREE or any(table.quantifiers) or payload.answer is not None:
+        raise CertificateRejected(REGION, f"expected the table of a region of {', '.join(quadratic.FREE)}")
+    region = qe.Region(table.matrix, table, table.order)
+    if region.is_empty != infeasible:
+        raise CertificateRejected(REGION, "the region and the optimum disagree about the existence of a control point")
+    if not _says_the_same(system, table.matrix, infeasible=infeasible):
+        raise CertificateRejected(REGION, "the cell table is about another formula")
+    return region
+
+
+def _says_the_same(system: System, matrix: Formula, *, infeasible: bool) -> bool:
+    """Whether the formula says what the conditions of the system say.
+
+    Each atom is one of the conditions, and each condition is an atom or weaker than one (a smaller constant); variables
+    that are fixed by equations may have been replaced. Where the engine has rewritten the conditions further, it
+    decides the equivalence of two formulas without quantifiers. ``infeasible``: the conditions are known to have no
+    solution, and neither has the formula; then only the atoms need to be conditions of this system.
+    """
+    stated = [_at_most_zero(part) for part in (matrix.args if isinstance(matrix, And) else (matrix,))]
+    known = [item for item in stated if item is not None]
+    fixed = fixed_by(known)
+    ours = len(known) == len(stated) and foreign(system, known, fixed) is None
+    if infeasible:
+        return ours or matrix == FALSE
+    if ours and all(_follows(condition_terms(system, item), known, fixed) for item in system.conditions):
+        return True
+    return qe.equivalent(system.in_free_points().formula, matrix)
+
+
+def _at_most_zero(part: Formula) -> tuple[Terms, str] | None:
+    """An atom as a polynomial that is at most zero, or zero; None for anything else."""
+    if not isinstance(part, Atom) or part.relation not in (Relation.LE, Relation.GE, Relation.EQ):
+        return None
+    side = -1 if part.relation is Relation.GE else 1
+    terms: Terms = {exponents: Fraction(side * c) for exponents, c in part.poly.terms()}
+    return terms, "=" if part.relation is Relation.EQ else "<="
+
+
+def _follows(terms: Terms, known: list[tuple[Terms, str]], fixed: dict[int, Any]) -> bool:
+    """Whether p <= 0 follows from one of the atoms s <= 0 (or s = 0): p = c s - d with c > 0 and d >= 0."""
+    goal = reduced(terms, fixed)
+    if all(not any(exponents) for exponents in goal):
+        return all(c <= 0 for c in goal.values())
+    for other, relation in known:
+        atom = reduced(other, fixed)
+        for side in (1, -1) if relation == "=" else (1,):
+            if _weaker(goal, {exponents: side * c for exponents, c in atom.items()}):
+                return True
+    return False
+
+
+def _weaker(goal: Terms, atom: Terms) -> bool:
+    """Whether goal = c atom - d with c > 0 and d >= 0."""
+    slopes = {e: c for e, c in goal.items() if any(e)}
+    others = {e: c for e, c in atom.items() if any(e)}
+    if slopes.keys() != others.keys():
+        return False
+    key = next(iter(slopes))
+    ratio = slopes[key] / others[key]
+    zero = (0,) * len(key)
+    same = ratio > 0 and all(slopes[e] == ratio * others[e] for e in slopes)
+    return same and goal.get(zero, 0) <= ratio * atom.get(zero, 0)
+
+
+# --- the question of the table -------------------------------------------------------------------------------------
+
+
+def _restored_gap(problem: Problem, certificate: Certificate, path: Path | None) -> Gap:
+    """Whether the printed formula lets a control point fall below the table, by its certificates."""
+    floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
+    chosen = prove(path.curves, (floor,)) if path else ()
+    labels = [item.label for item in certificate.payload] if isinstance(certificate.payload, tuple) else []
+    if BELOW in labels:
+        payload: Any = member(certificate, BELOW, Kind.WITNESS)
+        _check_example(problem, payload)
+        return Gap({}, None, chosen, ((BELOW, Certificate(Kind.WITNESS, payload)),))
+    printed, result = quadratic.printed(problem), []
+    for point in quadratic.SHAPE.inner:
+        label = above_label(point)
+        payload = member(certificate, label, Kind.OPTIMUM)
+        check_optimum_of(printed, payload, label, coordinate_terms(printed, point, 2))
+        if payload["status"] == "optimal" and sign(numbers([payload["value"]], payload["field"], label)[0]) < 0:
+            raise CertificateRejected(f"{label}: value", "the control point can lie below the table")
+        result.append((label, Certificate(Kind.OPTIMUM, payload)))
+    return Gap(None, None, chosen, tuple(result))
+
+
+def _check_example(problem: Problem, payload: dict[str, Any]) -> None:
+    """The witness is about the question of this problem."""
+    order = quadratic.FREE + quadratic.QUANTIFIED
+    if tuple(payload["order"]) != order:
+        raise CertificateRejected(f"{BELOW}: order", f"expected {', '.join(order)}")
+    stated = formula_from_json(Entry(payload["matrix"], f"{BELOW}: matrix"), Ring.of(order))
+    if _parts(stated) != _parts(body_of(quadratic.leaving(problem), order)):
+        raise CertificateRejected(f"{BELOW}: matrix", "not the question of this problem")
+
+
+def _parts(formula: Formula) -> frozenset[Formula]:
+    whole = conj([formula])
+    return frozenset(whole.args if isinstance(whole, And) else (whole,))

@@ -7,12 +7,11 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 import qe
-from bezier.obstacles.inside import Inside
+from bezier.obstacles.obstacle import PointInside
 from bezier.plans import Begun, Clock, Method, Outcome, Plan, Restored, Stated, Story
 from bezier.problem import Problem, ends_inside
 from bezier.report import html
 from bezier.report.html import Section
-from qe.formula.syntax import Formula
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 class RefutedPlan(Plan):
     """``inside``: the ends of the path that lie in obstacles, one at least."""
 
-    inside: tuple[Inside, ...]
+    inside: tuple[PointInside, ...]
 
 
 def begin(problem: Problem, clock: Clock) -> Begun:
@@ -43,7 +42,7 @@ def finish(given: Begun, clock: Clock) -> RefutedPlan:
 
 def _plan(problem: Problem) -> RefutedPlan:
     """What follows from the problem alone."""
-    found = ends_inside(problem)
+    result = ends_inside(problem)
     return RefutedPlan(
         problem=problem,
         outcome=Outcome.INFEASIBLE,
@@ -52,10 +51,10 @@ def _plan(problem: Problem) -> RefutedPlan:
         objective=None,
         path=None,
         active=(),
-        certificate=Certificate.bundle((item.label, item.certificate()) for item in found),
+        certificate=Certificate.bundle((item.label, item.certificate()) for item in result),
         checks={},
         seconds={},
-        inside=found,
+        inside=result,
     )
 
 
@@ -64,23 +63,13 @@ def reason(plan: RefutedPlan) -> str:
     return "; ".join(item.in_words() for item in plan.inside)
 
 
-def summary_lines(plan: RefutedPlan) -> list[str]:
-    """None beyond the reason."""
-    return []
-
-
 def json_entries(plan: RefutedPlan) -> dict[str, Any]:
     """The ends in obstacles, with their places."""
-    found = [
+    result = [
         {"point": item.name, "obstacle": item.obstacle.name, "place": list(map(str, item.place))}
         for item in plan.inside
     ]
-    return {"inside": found}
-
-
-def files(plan: RefutedPlan) -> dict[str, str]:
-    """None beyond those of every method."""
-    return {}
+    return {"inside": result}
 
 
 def draw(plan: RefutedPlan, folder: FilePath) -> Drawing:
@@ -114,21 +103,12 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
     return Restored(plan, tuple(item.in_words() for item in plan.inside))
 
 
-def questions(problem: Problem) -> dict[str, Formula]:
-    """Nothing is asked of the engine."""
-    return {}
-
-
 REFUTED: Method[RefutedPlan] = Method(
     begin=begin,
     finish=finish,
     reason=reason,
-    summary_lines=summary_lines,
     json_entries=json_entries,
-    files=files,
     draw=draw,
-    hatted_names=False,
     story=story,
     restore=restore,
-    questions=questions,
 )

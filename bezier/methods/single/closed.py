@@ -28,8 +28,8 @@ from bezier.methods.single.simplex import (
     Duals,
     LinearOptimum,
     LinearProgram,
+    LinearRow,
     Outcome,
-    Row,
     certificate,
     solve,
 )
@@ -47,15 +47,14 @@ SIMPLE_STEPS = 5
 
 @dataclass(frozen=True, slots=True)
 class ProvedCurve:
-    """A curve for which everything is proved for all t. ``value``: its sum over p+1..q of all raised axes.
-
-    ``bound``: no curve has a smaller sum, by ``certificate`` about the linear program of (4) and ``cuts``.
-    """
+    """A curve for which everything is proved for all t."""
 
     values: dict[str, Values]
     curve: Bezier
     value: Fraction
+    """Its sum over p+1..q of all raised axes."""
     bound: Fraction
+    """No curve has a smaller sum, by ``certificate`` about the linear program of (4) and ``cuts``."""
     cuts: tuple[Cut, ...]
     certificate: Certificate
     rounds: int
@@ -119,14 +118,14 @@ class _Search:
         best = inner
         for _ in self.counted():
             outcome = self.optimum()
-            found = self.violations(outcome.point)
-            if not found:
+            result = self.violations(outcome.point)
+            if not result:
                 return outcome.point, outcome
             candidate, outside = self.last_feasible(inner, outcome)
             best = min(best, candidate, key=self.sum_of)
             if self.sum_of(best) <= _enough(outcome):
                 return best, outcome
-            self.cuts += [*found, *outside]
+            self.cuts += [*result, *outside]
         return best, self.optimum()
 
     def inner_point(self) -> Values | Contradiction:
@@ -135,10 +134,10 @@ class _Search:
             outcome = solve(self.program(), [self.slack], check=self.check)
             if isinstance(outcome, Contradiction):
                 return outcome
-            found = self.violations(outcome.point)
-            if not found:
+            result = self.violations(outcome.point)
+            if not result:
                 return outcome.point
-            self.cuts += found
+            self.cuts += result
             if outcome.value == 0:
                 self.rigid |= self.tight(outcome)
         raise BudgetExceeded(f"Method 1*: no curve proved or excluded after {MAX_ROUNDS} rounds", limit="rounds")
@@ -162,10 +161,10 @@ class _Search:
 
     def optimum(self) -> LinearOptimum:
         """The least sum, then the largest slack, of a program that is known to have a point."""
-        found = solve(self.program(), [self.model.costs, self.slack], check=self.check)
-        if isinstance(found, Contradiction):
+        result = solve(self.program(), [self.model.costs, self.slack], check=self.check)
+        if isinstance(result, Contradiction):
             raise InternalError("a linear program without the point that was proved to satisfy it")
-        return found
+        return result
 
     def violations(self, point: Sequence[Fraction]) -> list[Cut]:
         """New cuts against this point; none if its curve is proved to satisfy everything."""
@@ -185,9 +184,9 @@ class _Search:
         middle = _short((most - enough) / fall) if most > enough else low
         cuts: list[Cut] = []
         for _ in range(BISECTIONS):
-            found = self.violations(_between(inner, outer, middle))
-            if found:
-                high, cuts = middle, found
+            result = self.violations(_between(inner, outer, middle))
+            if result:
+                high, cuts = middle, result
             else:
                 low = middle
                 if most - low * fall <= enough:
@@ -215,7 +214,7 @@ class _Search:
 def plain_program(model: Model, cuts: Sequence[Cut]) -> tuple[LinearProgram, Values]:
     """The program of (4) and the cuts without the slack, and its objective."""
     whole = model.program(cuts)
-    rows = tuple(Row(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:-1])
+    rows = tuple(LinearRow(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:-1])
     return LinearProgram(whole.names[:-1], whole.lower[:-1], rows), model.costs[:-1]
 
 
@@ -247,14 +246,14 @@ def _rounded(task: Task, point: Values, step: Fraction) -> Values | None:
 
     None where that breaks a lower bound of (4). The last entry, the slack, becomes zero.
     """
-    found: list[Fraction] = []
+    result: list[Fraction] = []
     size = task.degree - 1
-    beside = [i for i in (task.p, task.q + 1, task.p - 1, task.q) if 1 <= i <= size][:2]
+    neighbours = [i for i in (task.p, task.q + 1, task.p - 1, task.q) if 1 <= i <= size][:2]
     for k, axis in enumerate(task.raised):
         base = program(task, axis)
         given = zip(point[k * size : (k + 1) * size], base.lower, strict=True)
         values = [low if v == low else max(low, round(v / step) * step) for v, low in given]
-        i, j = (index - 1 for index in beside)
+        i, j = (index - 1 for index in neighbours)
         values[i] = values[j] = Fraction(0)
         first, second = base.rows
         a, b, c, d = (row.coefficients[index] for row in (first, second) for index in (i, j))
@@ -262,5 +261,5 @@ def _rounded(task: Task, point: Values, step: Fraction) -> Values | None:
         values[i], values[j] = (u * d - b * v) / (a * d - b * c), (a * v - u * c) / (a * d - b * c)
         if any(v < low for v, low in zip(values, base.lower, strict=True)):
             return None
-        found += values
-    return (*found, Fraction(0))
+        result += values
+    return (*result, Fraction(0))

@@ -26,7 +26,7 @@ from bezier.curves.scalar import Vector, dot, scale, sign
 from bezier.curves.workspace import Workspace
 from bezier.input.task import Axis, Task, Values
 from bezier.methods.single.program import curve, objective, program, weights_at
-from bezier.methods.single.simplex import LinearProgram, Row
+from bezier.methods.single.simplex import LinearProgram, LinearRow
 
 ZERO, ONE = Fraction(0), Fraction(1)
 GRID = 32
@@ -58,17 +58,16 @@ class Cut:
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """The conditions of Method 1* for this task and ball, and their cuts as rows over the unknowns and s.
-
-    ``ends``: P(0) and P(1); ``via``: P(t_a) and P(t_b), which (4) fixes; ``touches``: which of the four parameters
-    0, 1, t_a, t_b have P on the sphere. ``Model.of`` finds them.
-    """
+    """The conditions of Method 1* for this task and ball, and their cuts as rows over the unknowns and s."""
 
     task: Task
     workspace: Workspace
     ends: tuple[Vector, Vector]
+    """P(0) and P(1)."""
     via: tuple[Vector, Vector]
+    """P(t_a) and P(t_b), which (4) fixes."""
     touches: tuple[bool, bool, bool, bool]
+    """Which of the four parameters 0, 1, t_a, t_b have P on the sphere. ``Model.of`` finds them."""
 
     @staticmethod
     def of(task: Task, workspace: Workspace) -> Model:
@@ -106,11 +105,11 @@ class Model:
         rows = []
         for k, part in enumerate(single):
             before, after = (ZERO,) * (size * k), (ZERO,) * (size * (len(axes) - 1 - k) + 1)
-            rows += [Row((*before, *row.coefficients, *after), row.bound, True) for row in part.rows]
+            rows += [LinearRow((*before, *row.coefficients, *after), row.bound, True) for row in part.rows]
         for cut in (*self.tangents, *cuts):
             row = self.row(cut)
             rows.append(replace(row, coefficients=(*row.coefficients[:-1], ZERO)) if cut.axis in rigid else row)
-        rows.append(Row((*(ZERO,) * (size * len(axes)), ONE), ONE))
+        rows.append(LinearRow((*(ZERO,) * (size * len(axes)), ONE), ONE))
         return LinearProgram(self.names, (*(v for part in single for v in part.lower), ZERO), tuple(rows))
 
     # --- the sphere ----------------------------------------------------------------------------------------------
@@ -130,7 +129,7 @@ class Model:
 
     # --- rows ----------------------------------------------------------------------------------------------------
 
-    def row(self, cut: Cut) -> Row:
+    def row(self, cut: Cut) -> LinearRow:
         """The cut over the unknowns and s."""
         match cut.kind:
             case CutKind.HEIGHT:
@@ -150,7 +149,7 @@ class Model:
                 slope = prod(factor for factor in self.factors(cut.t) if factor)  # |w'| at its simple zero
                 return self._plane_row(normal, weights, ZERO, self.workspace.radius_squared * slope)
 
-    def _height_row(self, cut: Cut) -> Row:
+    def _height_row(self, cut: Cut) -> LinearRow:
         """h - P(t) + s h (t - t_a)(t_b - t) <= 0, or, at t_a and t_b, its derivative inwards."""
         height = next(Fraction(axis.height or 0) for axis in self.task.raised if axis.name == cut.axis)
         down = (ZERO, *(Fraction(-(axis.name == cut.axis)) for axis in self.task.axes))
@@ -163,25 +162,25 @@ class Model:
 
     def _plane_row(
         self, normal: Vector, weights: Values, bound: Fraction, slack: Fraction, equation: bool = False
-    ) -> Row:
+    ) -> LinearRow:
         """normal . (sum weights_i P_i) + slack s <= bound."""
         straight = curve(self.task, {axis.name: _ends_only(self.task, axis) for axis in self.task.raised})
         fixed = [dot(weights, straight.coordinate(i)) for i in range(straight.dimension)]
         factors = [normal[1 + self.task.axes.index(axis)] for axis in self.task.raised]
         coefficients = [factor * w for factor in factors for w in weights[1:-1]]
-        return Row((*coefficients, slack), bound - dot(normal, fixed), equation)
+        return LinearRow((*coefficients, slack), bound - dot(normal, fixed), equation)
 
     # --- violations ----------------------------------------------------------------------------------------------
 
     def initial(self) -> list[Cut]:
         """Cuts to begin with: heights at the ends of [t_a, t_b], the sphere where P is on it or beyond it."""
-        found = [Cut(CutKind.HEIGHT, t, axis.name) for axis in self.task.raised for t in self.task.times]
+        result = [Cut(CutKind.HEIGHT, t, axis.name) for axis in self.task.raised for t in self.task.times]
         kinds = (Cut(CutKind.START, ZERO), Cut(CutKind.GOAL, ONE))
-        found += [cut for cut, there in zip(kinds, self.touches, strict=False) if there]
+        result += [cut for cut, there in zip(kinds, self.touches, strict=False) if there]
         for t, place in zip(self.task.times, self.via, strict=True):
             if sign(self.workspace.ball.margin(place)) < 0:
-                found.append(Cut(CutKind.BALL, t, plane=place))
-        return found
+                result.append(Cut(CutKind.BALL, t, plane=place))
+        return result
 
     def height_margin(self, path: Bezier, axis: Axis) -> bs.Coefficients:
         """S on [t_a, t_b] in Bernstein form of degree n-2, times a positive constant."""
@@ -205,13 +204,13 @@ class Model:
         """Cuts that exclude this curve; none exactly when the whole curve satisfies all conditions (and (4))."""
         path = curve(self.task, values)
         t_a, t_b = self.task.times
-        found = []
+        result = []
         for axis in self.task.raised:
             for u in violated(self.height_margin(path, axis)):
-                found.append(Cut(CutKind.HEIGHT, t_a + u * (t_b - t_a), axis.name))
+                result.append(Cut(CutKind.HEIGHT, t_a + u * (t_b - t_a), axis.name))
         for t in violated(self.ball_margin(path)):
-            found.append(self.ball_cut(path, t))
-        return found
+            result.append(self.ball_cut(path, t))
+        return result
 
     def ball_cut(self, path: Bezier, t: Fraction) -> Cut:
         """A cut at t that excludes the curve, which is outside there: its plane touches the sphere nearly."""
@@ -261,14 +260,14 @@ def violated(b: bs.Coefficients) -> list[Fraction]:
     """
     numbers = [float(c) for c in b]
     floor = -NOISE * max(map(abs, numbers), default=0.0)
-    found = []
+    result = []
     for k in range(GRID + 1):
         here = bs.value(numbers, k / GRID)
         if here < floor and all(here <= bs.value(numbers, j / GRID) for j in (k - 1, k + 1) if 0 <= j <= GRID):
             around = range(max(0, (k - 1) * GRID), min(GRID * GRID, (k + 1) * GRID) + 1)
             best = min(around, key=lambda j: float(bs.value(numbers, j / GRID**2)))
-            found.append(Fraction(best, GRID * GRID))
-    proved = [t for t in found if sign(bs.value(b, t)) < 0]
+            result.append(Fraction(best, GRID * GRID))
+    proved = [t for t in result if sign(bs.value(b, t)) < 0]
     if proved:
         return proved
     outcome = decide(b)

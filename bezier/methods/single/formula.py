@@ -13,30 +13,7 @@ from typing import Any
 import qe
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.task import Axis, Task
-from bezier.methods.control.statements import (
-    Bracketed,
-    Comparison,
-    Every,
-    Implies,
-    Name,
-    Power,
-    Product,
-    Statement,
-    Sum,
-    Term,
-    at_least,
-    at_most,
-    below,
-    between,
-    difference,
-    equal,
-    every,
-    exists,
-    for_all,
-    names,
-    number,
-    squares,
-)
+from bezier.methods.control import statements as st
 from bezier.methods.single.program import variables
 from qe.errors import Unable
 from qe.exact.ring import Ring
@@ -60,30 +37,35 @@ class Symbol(Enum):
     GOAL = "n"
 
 
-def linearity(degree: int) -> Statement:
+def linearity(degree: int) -> st.Statement:
     """(2) as a sentence: with equally spaced x_i, P_x(t) = (1-t) x_0 + t x_n for all x_0, x_n and t."""
-    first, last, t = names(("x0", "xn", "t"))
+    first, last, t = st.names(("x0", "xn", "t"))
     spaced = [
-        Product((number(Fraction(1, degree)), Sum((Product((number(degree - i), first)), Product((number(i), last))))))
+        st.Product(
+            (
+                st.number(Fraction(1, degree)),
+                st.Sum((st.Product((st.number(degree - i), first)), st.Product((st.number(i), last)))),
+            )
+        )
         for i in range(degree + 1)
     ]
-    return for_all(("x0", "xn", "t"), equal(_at(spaced, t), _between(first, last, t)))
+    return st.for_all(("x0", "xn", "t"), st.equal(_at(spaced, t), _between(first, last, t)))
 
 
-def inverse() -> Statement:
+def inverse() -> st.Statement:
     """(3) as a sentence: t = (x - x_0) / (x_n - x_0) is the one solution of (2) for t."""
-    first, last, x, t = names(("x0", "xn", "x", "t"))
-    here = equal(x, _between(first, last, t))
-    solved = equal(Product((difference(last, first), t)), difference(x, first))
-    same = Every((Implies(here, solved), Implies(solved, here)), bracketed=True)
-    return for_all(("x0", "xn", "x", "t"), Implies(Comparison(first, Relation.NE, last), same))
+    first, last, x, t = st.names(("x0", "xn", "x", "t"))
+    here = st.equal(x, _between(first, last, t))
+    solved = st.equal(st.Product((st.difference(last, first), t)), st.difference(x, first))
+    same = st.Every((st.Implies(here, solved), st.Implies(solved, here)), bracketed=True)
+    return st.for_all(("x0", "xn", "x", "t"), st.Implies(st.Atomic(first, Relation.NE, last), same))
 
 
-def _between(first: Term, last: Term, t: Term) -> Term:
-    return Sum((Product((difference(number(1), t), first)), Product((t, last))))
+def _between(first: st.Term, last: st.Term, t: st.Term) -> st.Term:
+    return st.Sum((st.Product((st.difference(st.number(1), t), first)), st.Product((t, last))))
 
 
-def identities(degree: int) -> dict[str, Statement]:
+def identities(degree: int) -> dict[str, st.Statement]:
     """(2) for this degree and (3), by name."""
     return {"identity (2)": linearity(degree), "identity (3)": inverse()}
 
@@ -99,54 +81,57 @@ def identities_hold(degree: int) -> bool:
     return all(answer.truth is True for answer in proved_identities(degree).values())
 
 
-def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> list[Statement]:
+def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> list[st.Statement]:
     """The conditions of (4); with a or b symbolic also the index condition that p and q stand for."""
-    height: Term = Name("h") if Symbol.HEIGHT in symbols else _number(axis.height or Fraction(0))
-    start: Term = Name(f"{axis.name}0") if Symbol.START in symbols else _number(axis.start)
-    goal: Term = Name(f"{axis.name}n") if Symbol.GOAL in symbols else _number(axis.goal)
-    points = [start, *names(variables(given, axis)), goal]
+    height: st.Term = st.Name("h") if Symbol.HEIGHT in symbols else _number(axis.height or Fraction(0))
+    start: st.Term = st.Name(f"{axis.name}0") if Symbol.START in symbols else _number(axis.start)
+    goal: st.Term = st.Name(f"{axis.name}n") if Symbol.GOAL in symbols else _number(axis.goal)
+    points = [start, *st.names(variables(given, axis)), goal]
     times = [
         _time(given, symbol.value) if symbol in symbols else _number(t)
         for symbol, t in zip((Symbol.A, Symbol.B), given.times, strict=True)
     ]
-    found: list[Statement] = [equal(_at(points, t), height) for t in times]
+    result: list[st.Statement] = [st.equal(_at(points, t), height) for t in times]
     bounds = [start] * given.p + [height] * (given.q - given.p) + [goal] * (given.degree - 1 - given.q)
-    found += [at_least(point, bound) for point, bound in zip(points[1:-1], bounds, strict=True)]
+    result += [st.at_least(point, bound) for point, bound in zip(points[1:-1], bounds, strict=True)]
     xs = [_number(x) for x in given.abscissae]
-    a, b = names((Symbol.A.value, Symbol.B.value))
+    a, b = st.names((Symbol.A.value, Symbol.B.value))
     if Symbol.A in symbols:
-        found += [below(xs[given.p], a), at_most(a, xs[given.p + 1])]
+        result += [st.below(xs[given.p], a), st.at_most(a, xs[given.p + 1])]
     if Symbol.B in symbols:
-        found += [at_most(xs[given.q], b), below(b, xs[given.q + 1])]
-    return found
+        result += [st.at_most(xs[given.q], b), st.below(b, xs[given.q + 1])]
+    return result
 
 
-def _number(value: Fraction) -> Term:
-    return Bracketed(number(value))
+def _number(value: Fraction) -> st.Term:
+    return st.Bracketed(st.number(value))
 
 
-def _time(given: Task, name: str) -> Term:
+def _time(given: Task, name: str) -> st.Term:
     low, high = given.x_ends
-    return Bracketed(Product((_number(1 / (high - low)), difference(Name(name), _number(low)))))
+    return st.Bracketed(st.Product((_number(1 / (high - low)), st.difference(st.Name(name), _number(low)))))
 
 
-def _at(points: Sequence[Term], t: Term) -> Term:
+def _at(points: Sequence[st.Term], t: st.Term) -> st.Term:
     """The value at t of the polynomial with these Bernstein coefficients."""
-    n, rest = len(points) - 1, difference(number(1), t)
-    return Sum(
-        tuple(Product((number(comb(n, i)), Power(t, i), Power(rest, n - i), point)) for i, point in enumerate(points))
+    n, rest = len(points) - 1, st.difference(st.number(1), t)
+    return st.Sum(
+        tuple(
+            st.Product((st.number(comb(n, i)), st.Power(t, i), st.Power(rest, n - i), point))
+            for i, point in enumerate(points)
+        )
     )
 
 
-def total(given: Task, axis: Axis) -> Term:
+def total(given: Task, axis: Axis) -> st.Term:
     """The sum of (4)."""
-    return Sum(names(f"{axis.name}{i}" for i in given.middle))
+    return st.Sum(st.names(f"{axis.name}{i}" for i in given.middle))
 
 
-def attainable(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> Statement:
+def attainable(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> st.Statement:
     """The formula whose free variables are v and the symbols: some solution of (4) has the sum v."""
-    matrix = every(equal(Name(VALUE), total(given, axis)), *constraints(given, axis, symbols))
-    return exists(variables(given, axis), matrix)
+    matrix = st.every(st.equal(st.Name(VALUE), total(given, axis)), *constraints(given, axis, symbols))
+    return st.exists(variables(given, axis), matrix)
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,21 +163,21 @@ def answered(question: Formula, timeout: float | None) -> Any:
     return answer
 
 
-def closed(given: Task, workspace: Workspace) -> Statement:
+def closed(given: Task, workspace: Workspace) -> st.Statement:
     """Method 1* for one raised axis as one formula in v: (4), and for all t the height, the ball and z >= 0."""
     (axis,) = given.raised
-    columns: list[list[Term]] = [[_number(x) for x in given.abscissae]]
+    columns: list[list[st.Term]] = [[_number(x) for x in given.abscissae]]
     for other in given.axes:
-        inner = names(variables(given, axis)) if other == axis else ()
+        inner = st.names(variables(given, axis)) if other == axis else ()
         columns.append([_number(other.start), *inner, _number(other.goal)])
-    t, zero = Name("t"), number(0)
+    t, zero = st.Name("t"), st.number(0)
     at = [_at(column, t) for column in columns]
     low, high = (_number(time) for time in given.times)
-    kept = at_least(at[1 + given.axes.index(axis)], _number(axis.height or Fraction(0)))
-    inside: Statement = at_most(squares(at), _number(workspace.radius_squared))
+    kept = st.at_least(at[1 + given.axes.index(axis)], _number(axis.height or Fraction(0)))
+    inside: st.Statement = st.at_most(st.squares(at), _number(workspace.radius_squared))
     if workspace.kind is WorkspaceKind.HEMISPHERE:
-        inside = Every((inside, at_least(at[-1], zero)), bracketed=True)
-    parts = [equal(Name(VALUE), total(given, axis)), *constraints(given, axis)]
-    parts.append(for_all(["t"], Implies(between(low, t, high, bracketed=True), kept)))
-    parts.append(for_all(["t"], Implies(between(zero, t, number(1), bracketed=True), inside)))
-    return exists(variables(given, axis), every(*parts))
+        inside = st.Every((inside, st.at_least(at[-1], zero)), bracketed=True)
+    parts = [st.equal(st.Name(VALUE), total(given, axis)), *constraints(given, axis)]
+    parts.append(st.for_all(["t"], st.Implies(st.between(low, t, high, bracketed=True), kept)))
+    parts.append(st.for_all(["t"], st.Implies(st.between(zero, t, st.number(1), bracketed=True), inside)))
+    return st.exists(variables(given, axis), st.every(*parts))

@@ -9,9 +9,8 @@ from functools import lru_cache
 from typing import Any
 
 import qe
-from bezier.curves.containment import Inside, Leaves, examine_closely
+from bezier.curves.containment import Inside, Leaves, containment, examine_closely
 from bezier.curves.curve import Bezier
-from bezier.curves.evidence import containment
 from bezier.curves.scalar import Vector
 from bezier.curves.workspace import HalfSpace
 from bezier.input.task import Task, Values
@@ -39,19 +38,18 @@ ELIMINATION_DEGREE = 4
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """The curve that (4) as printed gives: ``dips`` below a height in (t_a, t_b), ``leaving`` the workspace.
-
-    ``lowest``: of the curves that (4) allows just as well, with the same least sums, the one that is lowest halfway
-    between t_a and t_b, ``lower`` its coordinates by axis; ``allowed``: where that one dips.
-    """
+    """The curve that (4) as printed gives: ``dips`` below a height in (t_a, t_b), ``leaving`` the workspace."""
 
     values: Mapping[str, Values]
     curve: Bezier
     dips: tuple[Dip, ...]
     leaving: tuple[Proof, ...]
     lowest: Bezier
+    """Of the curves that (4) allows just as well, with the same least sums, the one that is lowest halfway between
+    t_a and t_b, ``lower`` its coordinates by axis."""
     lower: Mapping[str, Values]
     allowed: tuple[Dip, ...]
+    """Where that one dips."""
 
     @property
     def holds(self) -> bool:
@@ -94,8 +92,8 @@ class SinglePlan(Plan):
     @property
     def not_certified(self) -> tuple[str, ...]:
         """Also how ties were broken, the least sum for every height, and how Method 1* came to its cuts."""
-        found = (*super(SinglePlan, self).not_certified, "tie_break", "piecewise")
-        return (*found, "closed.rounds", "closed.attainable") if isinstance(self.closed, ProvedCurve) else found
+        result = (*super(SinglePlan, self).not_certified, "tie_break", "piecewise")
+        return (*result, "closed.rounds", "closed.attainable") if isinstance(self.closed, ProvedCurve) else result
 
 
 def begin(problem: Problem, clock: Clock) -> Begun:
@@ -171,10 +169,10 @@ def taken(printed: Printed | None, closed: ProvedCurve | NoCurve | None) -> Mapp
 def questions(problem: Problem) -> dict[str, Formula]:
     """What may be asked of the engine about a problem."""
     given = task_of(problem)
-    asked = {SUMS: single_formula.attainable(given, given.raised[0]), **single_formula.identities(given.degree)}
+    statements = {SUMS: single_formula.attainable(given, given.raised[0]), **single_formula.identities(given.degree)}
     if _is_eliminated(given):
-        asked[CLOSED_SUMS] = single_formula.closed(given, problem.workspace)
-    return {name: statement.formula for name, statement in asked.items()}
+        statements[CLOSED_SUMS] = single_formula.closed(given, problem.workspace)
+    return {name: statement.formula for name, statement in statements.items()}
 
 
 def task_of(problem: Problem) -> Task:
@@ -254,15 +252,15 @@ def points_of(drawn: Bezier) -> dict[str, Vector]:
 
 def heights_proved(given: Task, drawn: Bezier) -> dict[str, Inside]:
     """The proofs that the curve is not below the heights for t in [t_a, t_b], by axis, for that part of the curve."""
-    found = {}
+    result = {}
     part = drawn.segment(*given.times)
     for axis in given.raised:
         normal = tuple(Fraction(int(name == axis.name)) for name in "xyz")
         outcome = examine_closely(part, HalfSpace(normal, -Fraction(axis.height or 0), f"{axis.name} >= h"))
         if not isinstance(outcome, Inside):
             raise InternalError(f"the chosen curve dips below the height of {axis.name}")
-        found[axis.name] = outcome
-    return found
+        result[axis.name] = outcome
+    return result
 
 
 def sum_of(given: Task, values: Mapping[str, Values]) -> Fraction:
@@ -305,17 +303,17 @@ def labelled(
 ) -> list[tuple[str, qe.Certificate]]:
     """(4) solved or contradicted on each axis, the other curve that it allows, the bound or the contradiction of
     Method 1*, and the heights of the path."""
-    found = [(of_axis(item.axis.name), certificate(item.program, item.objective, item.outcome)) for item in chosen]
+    result = [(of_axis(item.axis.name), certificate(item.program, item.objective, item.outcome)) for item in chosen]
     for item in chosen if printed is not None else ():
         if printed is not None and isinstance(item.outcome, LinearOptimum):
             other = replace(item.outcome, point=printed.lower[item.axis.name][1:-1])
-            found.append((lowest_label(item.axis.name), certificate(item.program, item.objective, other)))
+            result.append((lowest_label(item.axis.name), certificate(item.program, item.objective, other)))
     if closed is not None:
-        found.append((CLOSED, closed.certificate))
+        result.append((CLOSED, closed.certificate))
     if path is not None:
         part = path.curves[NAME].segment(*given.times)
         for name, inside in above.items():
             proved = containment(part, inside)
             if proved is not None:
-                found.append((above_label(name), proved))
-    return found
+                result.append((above_label(name), proved))
+    return result

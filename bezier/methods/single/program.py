@@ -17,7 +17,7 @@ from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import Negative, decide
 from bezier.input.task import Axis, Task, Values, equally_spaced
-from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, Row, solve
+from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, LinearRow, solve
 
 TIE_BREAK = (
     "among the minima of the sum the one whose largest |coordinate| is least, then the lexicographically smallest"
@@ -61,7 +61,7 @@ def program(given: Task, axis: Axis) -> LinearProgram:
     for t in given.times:
         first, *inner, last = weights_at(given.degree, t)
         bound = Fraction(axis.height or 0) - first * axis.start - last * axis.goal
-        rows.append(Row(tuple(inner), bound, equation=True))
+        rows.append(LinearRow(tuple(inner), bound, equation=True))
     lower = tuple(given.lower_bound(axis, i) for i in range(1, given.degree))
     return LinearProgram(variables(given, axis), lower, tuple(rows))
 
@@ -77,11 +77,11 @@ def choose(given: Task, axis: Axis) -> Chosen:
     size = len(cost)
     unit = [tuple(Fraction(int(i == j)) for i in range(size + 1)) for j in range(size + 1)]
     signed = [(side, j) for side in (1, -1) for j in range(size) if side > 0 or base.lower[j] < 0]
-    at_most = [Row((*(side * v for v in unit[j][:-1]), Fraction(-1)), Fraction(0)) for side, j in signed]
+    at_most = [LinearRow((*(side * v for v in unit[j][:-1]), Fraction(-1)), Fraction(0)) for side, j in signed]
     wider = LinearProgram(
         (*base.names, f"{axis.name}max"),
         (*base.lower, Fraction(0)),
-        (*(Row((*row.coefficients, Fraction(0)), row.bound, row.equation) for row in base.rows), *at_most),
+        (*(LinearRow((*row.coefficients, Fraction(0)), row.bound, row.equation) for row in base.rows), *at_most),
     )
     outcome = solve(wider, [(*cost, Fraction(0)), unit[-1], *unit[:-1]])
     duals = Duals(outcome.duals.rows[: len(base.rows)], outcome.duals.bounds[:size])
@@ -114,12 +114,12 @@ class Dip:
 
 def dips(given: Task, path: Bezier) -> tuple[Dip, ...]:
     """One proved dip for each raised axis that has any: complete, by ``bezier.curves.nonnegative``."""
-    found = []
+    result = []
     low, high = given.times
     for axis in given.raised:
         height = Fraction(axis.height or 0)
         margin = bs.restrict(path.coordinate(1 + given.axes.index(axis)), low, high)
         outcome = decide([c - height for c in margin])
         if isinstance(outcome, Negative):
-            found.append(Dip(axis, low + outcome.t * (high - low), outcome.value + height))
-    return tuple(found)
+            result.append(Dip(axis, low + outcome.t * (high - low), outcome.value + height))
+    return tuple(result)

@@ -16,8 +16,8 @@ from bezier.curves.containment import Leaves
 from bezier.curves.curve import Bezier
 from bezier.input import stored
 from bezier.input.task import Axis, Task, Values
-from bezier.methods.control.claims import member
 from bezier.methods.control.optimal_path import bundled
+from bezier.methods.control.terms import member
 from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import NoCurve, ProvedCurve, plain_program
 from bezier.methods.single.cuts import Cut, CutKind, Model
@@ -54,12 +54,12 @@ class Told:
     least: str
 
 
-def restore(problem: Problem, found: Certificate, stated: Stated) -> SinglePlan:
+def restore(problem: Problem, evidence: Certificate, stated: Stated) -> SinglePlan:
     """The plan that the files of a folder prove. Raises ``CertificateRejected``."""
     given = task_of(problem)
-    chosen = tuple(_chosen(given, axis, of_axis(axis.name), found) for axis in given.raised)
-    printed = _printed(problem, given, chosen, found)
-    closed, attainable = _closed(problem, given, printed, found, stated)
+    chosen = tuple(_chosen(given, axis, of_axis(axis.name), evidence) for axis in given.raised)
+    printed = _printed(problem, given, chosen, evidence)
+    closed, attainable = _closed(problem, given, printed, evidence, stated)
     values = taken(printed, closed)
     path = None if values is None else path_of(problem, given, values)
     above = {} if path is None else heights_proved(given, path.curves[NAME])
@@ -87,15 +87,15 @@ def restore(problem: Problem, found: Certificate, stated: Stated) -> SinglePlan:
 # --- linear programs -----------------------------------------------------------------------------------------------
 
 
-def _chosen(given: Task, axis: Axis, label: str, found: Certificate) -> Chosen:
+def _chosen(given: Task, axis: Axis, label: str, evidence: Certificate) -> Chosen:
     """Problem (4) of an axis with the answer in its certificate."""
     base, cost = program(given, axis), objective(given)
-    return Chosen(axis, base, cost, _outcome(base, cost, label, found))
+    return Chosen(axis, base, cost, _outcome(base, cost, label, evidence))
 
 
-def _outcome(base: LinearProgram, cost: Values, label: str, found: Certificate) -> LinearOptimum | Contradiction:
+def _outcome(base: LinearProgram, cost: Values, label: str, evidence: Certificate) -> LinearOptimum | Contradiction:
     """The outcome in the certificate with this label, which has to be about this program."""
-    payload: Any = member(found, label, Kind.OPTIMUM)
+    payload: Any = member(evidence, label, Kind.OPTIMUM)
     status = payload["status"]
     if status not in ("optimal", "infeasible"):
         raise CertificateRejected(f"{label}: status", "expected an optimum or a contradiction")
@@ -122,11 +122,11 @@ def _numbers(rows: Any, label: str) -> Values:
     return tuple(stored.rational(row[0], label) for row in rows)
 
 
-def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...], found: Certificate) -> Printed | None:
+def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...], evidence: Certificate) -> Printed | None:
     """The curve of (4), and the other curve with the same sums that the certificates hold."""
     if any(isinstance(item.outcome, Contradiction) for item in chosen):
         return None
-    others = [_chosen(given, item.axis, lowest_label(item.axis.name), found) for item in chosen]
+    others = [_chosen(given, item.axis, lowest_label(item.axis.name), evidence) for item in chosen]
     lower = {item.axis.name: item.values for item in others if item.values is not None}
     if len(lower) < len(others):
         raise CertificateRejected(lowest_label(chosen[0].axis.name), "expected an optimum")
@@ -137,7 +137,7 @@ def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...], found: C
 
 
 def _closed(
-    problem: Problem, given: Task, printed: Printed | None, found: Certificate, stated: Stated
+    problem: Problem, given: Task, printed: Printed | None, evidence: Certificate, stated: Stated
 ) -> tuple[ProvedCurve | NoCurve | None, str]:
     """What Method 1* found, and its formula of all sums; (None, "") where it was not needed."""
     if printed is None or printed.holds:
@@ -146,14 +146,14 @@ def _closed(
     cuts = tuple(_cut(model, item, f"summary.json: cuts[{i}]") for i, item in enumerate(_cuts(stated.summary)))
     base, cost = plain_program(model, cuts)
     try:
-        outcome = _outcome(base, cost, CLOSED, found)
+        outcome = _outcome(base, cost, CLOSED, evidence)
     except CertificateRejected as error:
         raise CertificateRejected(f"certificate.json and summary.json, cuts: {error.step}", error.reason) from None
     proof = certificate(base, cost, outcome)
     if isinstance(outcome, Contradiction):
         return NoCurve(cuts, proof, 0), ""
-    told = stored.entry(stated.summary, "closed", dict, "summary.json: ")
-    rounds, attainable = told.get("rounds"), told.get("attainable")
+    entry = stored.entry(stated.summary, "closed", dict, "summary.json: ")
+    rounds, attainable = entry.get("rounds"), entry.get("attainable")
     if type(rounds) is not int or rounds < 0 or not isinstance(attainable, str):
         raise CertificateRejected("summary.json: closed", "expected rounds and the attainable sums")
     drawn, values = certified_curve(problem, given, stated)
@@ -161,8 +161,8 @@ def _closed(
 
 
 def _cuts(summary: Mapping[str, Any]) -> list[Any]:
-    found = stored.entry(summary, "cuts", list, "summary.json: ")
-    return list(found)
+    result = stored.entry(summary, "cuts", list, "summary.json: ")
+    return list(result)
 
 
 def _cut(model: Model, stated: Any, place: str) -> Cut:
@@ -221,5 +221,5 @@ def _pieces(given: Task, stated: Stated) -> dict[str, Any]:
     """The formulas of the least sum for every height, as stated."""
     if given.degree > PIECEWISE_DEGREE:
         return {}
-    told = stored.entry(stated.summary, "piecewise", dict, "summary.json: ")
-    return {axis.name: Told(stored.entry(told, axis.name, str, "summary.json: piecewise.")) for axis in given.raised}
+    entries = stored.entry(stated.summary, "piecewise", dict, "summary.json: ")
+    return {axis.name: Told(stored.entry(entries, axis.name, str, "summary.json: piecewise.")) for axis in given.raised}

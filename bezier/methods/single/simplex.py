@@ -23,7 +23,7 @@ Check = Callable[[], object]
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class LinearRow:
     """coefficients . x <= bound, or = bound for an ``equation``."""
 
     coefficients: Numbers
@@ -41,7 +41,7 @@ class LinearProgram:
 
     names: tuple[str, ...]
     lower: Numbers
-    rows: tuple[Row, ...]
+    rows: tuple[LinearRow, ...]
 
     def __post_init__(self) -> None:
         if any(len(numbers) != len(self.names) for numbers in (self.lower, *(row.coefficients for row in self.rows))):
@@ -60,15 +60,15 @@ class Duals:
 class LinearOptimum:
     """``point`` minimises the first objective c, among those points the second one, and so on.
 
-    ``duals`` prove it for the first: c.x + sum rows_i (a_i.x - b_i) + sum bounds_j (lower_j - x_j) = ``value`` for
-    all x.
-    ``unique``: whether no other point minimises the first objective; False also when that is not known.
+    ``duals`` prove it for the first: c.x + sum rows_i (a_i.x - b_i) + sum bounds_j (lower_j - x_j) = ``value`` for all
+    x.
     """
 
     value: Fraction
     point: Numbers
     duals: Duals
     unique: bool
+    """Whether no other point minimises the first objective; False also when that is not known."""
 
 
 @dataclass(frozen=True, slots=True)

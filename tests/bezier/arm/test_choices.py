@@ -14,7 +14,7 @@ from bezier.arm import command
 from bezier.arm.choices import Choice, spans
 from bezier.arm.inverse import Inverse, Solution, solve
 from bezier.arm.kinematics import pose
-from bezier.arm.model import Arm, Joint, Motion
+from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
 from tests.bezier.arm.test_pose import SIX, SKEW_FREE, arm_of
@@ -138,7 +138,7 @@ def test_the_first_joint_of_parallel_axes(quaternion: tuple[int, ...], height: i
 
 # --- limits --------------------------------------------------------------------------------------------------------
 def limited(low: str, high: str) -> Joint:
-    return Joint("q", Motion.REVOLUTE, (Fraction(low), Fraction(high)))
+    return Joint("q", JointKind.REVOLUTE, (Fraction(low), Fraction(high)))
 
 
 def shown(joint: Joint, choice: Choice) -> list[tuple[float, float]]:
@@ -172,7 +172,7 @@ def test_arcs_between_limits() -> None:
 def test_an_arc_through_half_a_turn() -> None:
     found = solve_pose(SKEW_WRIST, (17, 0, 100), rotation_of((1, 0, 1, 0)))
     (arc,) = [s.choices[0] for s in found.solutions if float(s.angles[1] or 0) < 1]
-    ((low, high),) = shown(Joint("q", Motion.REVOLUTE), arc)
+    ((low, high),) = shown(Joint("q", JointKind.REVOLUTE), arc)
     assert low < pi < high < low + 2 * pi
     assert np.allclose(shown(limited("-3", "3"), arc), [(-3, high - 2 * pi), (low, 3)])
     assert np.allclose(shown(limited("3", "7/2"), arc), [(3, 3.5)])

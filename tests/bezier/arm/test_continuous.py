@@ -14,21 +14,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from bezier.arm.arm_json import arm_json
 from bezier.arm.command import certify
 from bezier.arm.continuous import ContinuousMotions, continuous_motions
-from bezier.arm.evidence import certificates
+from bezier.arm.evidence import arm_json, certificates, motions_certificate
 from bezier.arm.inverse import solve
 from bezier.arm.joint_path import joint_path
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.model import Arm
-from bezier.arm.motions_evidence import motions_certificate
-from bezier.arm.motions_report import in_words
+from bezier.arm.path_report import in_words
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.study import study
 from bezier.arm.vertical import vertical_arm
-from bezier.certify.constant_sign import constant_sign
-from bezier.certify.square_roots import Surd, times
+from bezier.certify.square_roots import Polynomial, Surd, constant_sign
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.errors import Unable
@@ -311,11 +308,11 @@ def test_a_whole_curve_on_the_axis_is_refused() -> None:
 def test_a_constant_sign_is_proved_iff_there_is_no_zero(roots: list[F], at: tuple[F, F], shift: int) -> None:
     """Factors s - a and s - a ± √2/3; the squares of others, which stay positive, do not matter."""
     low, high = at[0], at[0] + at[1]
-    p, inside, side = [Surd.rational(2)], False, 1
+    p, inside, side = Polynomial((Surd.rational(2),)), False, 1
     for a in roots:
         zero = Surd.rational(a) + Surd.of([(2, F(shift, 3))])
-        p = times(p, [-zero, Surd.rational(1)])
-        p = times(p, [Surd.rational(a * a + F(1, 10**6)), Surd.rational(-2 * a), Surd.rational(1)])
+        p = p * Polynomial((-zero, Surd.rational(1)))
+        p = p * Polynomial((Surd.rational(a * a + F(1, 10**6)), Surd.rational(-2 * a), Surd.rational(1)))
         ends = [(Surd.rational(x) - zero).sign() for x in (low, high)]
         inside, side = inside or ends[0] != ends[1] or 0 in ends, side * ends[0]
     assert constant_sign(p, low, high) == (0 if inside else side)

@@ -11,9 +11,8 @@ import pytest
 
 import qe
 from bezier.arm.critical import Reason
-from bezier.arm.exact_text import read_exact
 from bezier.arm.inverse import solve
-from bezier.arm.reader import load_arm, read_arm
+from bezier.arm.reader import load_arm, read_arm, read_exact
 from bezier.arm.study import study
 from bezier.cli import main
 from bezier.curves.curve import Bezier

@@ -16,13 +16,11 @@ from hypothesis import strategies as st
 from bezier.arm import inverse
 from bezier.arm.command import in_words, to_json
 from bezier.arm.elimination import TURNS, Geometry
-from bezier.arm.exact_text import read_exact
-from bezier.arm.inverse import solve
+from bezier.arm.inverse import confirm, solve
 from bezier.arm.kinematics import positions
 from bezier.arm.model import Arm
 from bezier.arm.ratio import variable
-from bezier.arm.reader import load_arm, read_arm
-from bezier.arm.substitute_back import confirm
+from bezier.arm.reader import load_arm, read_arm, read_exact
 from qe.errors import InputError, InternalError, Unable
 from qe.exact.ring import Ring
 

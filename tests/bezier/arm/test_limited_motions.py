@@ -20,7 +20,7 @@ from bezier.arm.inverse import solve
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.kinematics import wrapped
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.reader import load_arm
 from bezier.arm.vertical import Label, vertical_arm
 from bezier.curves.curve import Bezier
@@ -132,7 +132,7 @@ def test_an_elbow_is_forbidden_on_one_side_of_a_tangent() -> None:
 
 def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path: Path) -> None:
     """Only the text of certify-path said it."""
-    from bezier.planner.joints import Request, joints
+    from bezier.planner.arm import joints
 
     curves = curves_of([(150, 20, 120), (170, 60, 150), (150, 90, 120)])
     free = joint_path(limited(E), curves)
@@ -152,11 +152,9 @@ def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path
     data = json.loads(certify(Channel(print), arm, curves, json=True)[0])
     assert data["without_certificate"] == missing
     law = TimeLaw.of(Law.QUINTIC)
-    request = Request(
-        arm=arm, curves=curves, file="path.toml", folder=tmp_path, target=tmp_path, law=law, duration=F(50), samples=4
-    )
-    text, code = joints(Channel(print), request)
-    assert code == 0 and all(f"none of motion {n}: a joint comes closer" in text for n in missing)
+    places = {"file": "path.toml", "folder": tmp_path, "target": tmp_path}
+    text, is_followed = joints(Channel(print), arm, curves, law=law, duration=F(50), samples=4, **places)
+    assert is_followed and all(f"none of motion {n}: a joint comes closer" in text for n in missing)
     assert json.loads((tmp_path / "joints.json").read_text())["without_certificate"] == missing
 
 
@@ -187,7 +185,7 @@ def along(found: JointPath, motion: ContinuousMotion, samples: list[tuple[int, S
         row = by_label[motion.labels[k]]
         if rows:
             pairs = zip(found.arm.joints, rows[-1], row, strict=True)
-            row = [a + wrapped(b - a) if j.motion is Motion.REVOLUTE else b for j, a, b in pairs]
+            row = [a + wrapped(b - a) if j.motion is JointKind.REVOLUTE else b for j, a, b in pairs]
         rows.append(row)
     return rows
 
@@ -206,7 +204,7 @@ def keeps(arm: Arm, rows: Sequence[Sequence[float]]) -> bool | None:
         if joint.limits is None:
             continue
         low, high = min(r[k] for r in rows), max(r[k] for r in rows)
-        shifts = [0.0] if joint.motion is Motion.PRISMATIC else [tau * n for n in range(-9, 10)]
+        shifts = [0.0] if joint.motion is JointKind.PRISMATIC else [tau * n for n in range(-9, 10)]
         ends = tuple(map(float, joint.limits))
         spare = max(min(low + x - ends[0], ends[1] - high - x) for x in shifts)
         verdicts.append(None if abs(spare) < 0.02 else spare > 0)
@@ -245,7 +243,9 @@ def check_random(seed: int) -> int:
         wide = random.choice(
             [random.uniform(0.5, 3), random.uniform(2, 6), random.uniform(5, 9), random.uniform(9, 14)]
         )
-        ends = (low, low + wide) if joint.motion is Motion.REVOLUTE else (30 * low + 100, 30 * (low + 3 * wide) + 100)
+        ends = (
+            (low, low + wide) if joint.motion is JointKind.REVOLUTE else (30 * low + 100, 30 * (low + 3 * wide) + 100)
+        )
         listed = (round(F(ends[0]), 3), round(F(ends[1]), 3))
         limits.append(listed if random.random() < 0.6 else None)
     found = joint_path(limited(name, *limits), curves_of(*curves))

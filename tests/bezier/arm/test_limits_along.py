@@ -21,10 +21,9 @@ from bezier.arm.inverse import solve
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.kinematics import positions
-from bezier.arm.limit_places import ends_of
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.reader import load_arm
-from bezier.arm.study import study
+from bezier.arm.study import ends_of, study
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify
@@ -145,7 +144,7 @@ def test_solutions_within_the_limits_are_counted_for_every_s(rng: random.Random)
     limits: list[Limits] = []
     for joint in arm.joints:
         ends = sorted(rng.sample(choices, 2))
-        scale = 1 if joint.motion is Motion.REVOLUTE else 60
+        scale = 1 if joint.motion is JointKind.REVOLUTE else 60
         limits.append(rng.choice((None, (scale * ends[0], scale * ends[1]))))
     try:
         found = study(limited(arm, limits), curve_near(arm, rng))
@@ -159,7 +158,7 @@ def test_solutions_within_the_limits_are_counted_for_every_s(rng: random.Random)
 
 def curve_near(arm: Arm, rng: random.Random) -> Bezier:
     """A curve near a point that the arm reaches; sometimes in the plane y = 0 or at one height."""
-    q = [rng.uniform(-3, 3) if j.motion is Motion.REVOLUTE else rng.uniform(40, 300) for j in arm.joints]
+    q = [rng.uniform(-3, 3) if j.motion is JointKind.REVOLUTE else rng.uniform(40, 300) for j in arm.joints]
     centre = [round(float(c)) for c in positions(arm, [q])[0]]
     points = [[c + rng.randint(-60, 60) for c in centre] for _ in range(rng.choice((2, 3, 3, 4)))]
     still = rng.choice((None, None, None, 1, 2))
@@ -203,7 +202,7 @@ def close_passes(rng: random.Random) -> int:
     if not free.whole_runs:
         return 0
     run = rng.choice(free.whole_runs)
-    turns = arm.joints[joint].motion is Motion.REVOLUTE
+    turns = arm.joints[joint].motion is JointKind.REVOLUTE
     top = greatest(arm, curve, run.parts[0][1], joint)
     if top is None or abs(top) > 20:
         return 0
@@ -237,22 +236,14 @@ def test_closeness_to_a_limit_is_decided_on_many_paths(part: int) -> None:
 
 def test_the_files_of_a_path_beyond_its_limits(tmp_path: Path) -> None:
     """A page and data are written, without certificates."""
-    from bezier.planner.joints import Request, joints
+    from bezier.planner.arm import joints
 
     curves = path(CYLINDER, (20, -300, 100), (20, -200, 700), (20, -300, 100)).curves
-    request = Request(
-        arm=CYLINDER,
-        curves=curves,
-        file="path.toml",
-        folder=tmp_path,
-        target=tmp_path,
-        law=TimeLaw.of(Law.QUINTIC),
-        duration=Fraction(50),
-        samples=4,
-    )
-    text, code = joints(None, request)  # type: ignore[arg-type]
+    wanted = {"law": TimeLaw.of(Law.QUINTIC), "duration": Fraction(50), "samples": 4}
+    places = {"file": "path.toml", "folder": tmp_path, "target": tmp_path}
+    text, is_followed = joints(None, CYLINDER, curves, **wanted, **places)  # type: ignore[arg-type]
     assert (
-        code == 3
+        not is_followed
         and "(none of motions held by boxes" in text
         and "lift &gt; 250" in (tmp_path / "joints.html").read_text()
     )

@@ -18,8 +18,7 @@ from bezier.arm.follow import ONE, ZERO, follow, whole
 from bezier.arm.inverse import solve
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.kinematics import positions
-from bezier.arm.reader import load_arm
-from bezier.arm.route import natural_spline, read_route
+from bezier.arm.reader import load_arm, natural_spline, read_route
 from bezier.arm.study import study
 from bezier.curves.curve import Bezier
 from qe.certify.verify import verify, verify_json

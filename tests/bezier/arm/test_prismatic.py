@@ -14,16 +14,15 @@ from hypothesis import strategies as st
 from bezier.arm.command import in_words, to_json
 from bezier.arm.elimination import TURNS, Geometry
 from bezier.arm.evidence import certificates
-from bezier.arm.inverse import NAMES, solve
+from bezier.arm.inverse import NAMES, confirm, solve
 from bezier.arm.joint_path import joint_path
 from bezier.arm.joint_plan import in_words as plan_in_words
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.kinematics import jacobians, position, positions
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.ratio import variable
 from bezier.arm.reader import read_arm
 from bezier.arm.study import study
-from bezier.arm.substitute_back import confirm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify
@@ -59,7 +58,7 @@ def pair(k: int) -> tuple[Fraction, Fraction]:
 
 
 def found_again(arm: Arm, numbers: list[int]) -> None:
-    values = [pair(k) if j.motion is Motion.REVOLUTE else Fraction(7 * k, 2) for k, j in zip(numbers, arm.joints)]
+    values = [pair(k) if j.motion is JointKind.REVOLUTE else Fraction(7 * k, 2) for k, j in zip(numbers, arm.joints)]
     point = position(arm, dict(zip((j.name for j in arm.joints), values)))
     found = solve(arm, point)
     assert found.is_reachable
@@ -103,7 +102,7 @@ def test_no_solution_is_missed_by_newton(arm: Arm, start: list[float]) -> None:
     inverse = solve(arm, point)
     assert inverse.solutions and not inverse.free
     found = np.array([s.angles for s in inverse.solutions])
-    turning = np.array([j.motion is Motion.REVOLUTE for j in arm.joints])
+    turning = np.array([j.motion is JointKind.REVOLUTE for j in arm.joints])
     q = np.array(start) * np.where(turning, 1, 20)
     for _ in range(40):
         step = positions(arm, [q])[0] - [float(c) for c in point]
@@ -155,7 +154,8 @@ def test_paths(kinds: str) -> None:
     arm = arm_of(kinds)
     near, far = (
         position(
-            arm, {j.name: pair(k) if j.motion is Motion.REVOLUTE else Fraction(3 * k) for k, j in zip(ks, arm.joints)}
+            arm,
+            {j.name: pair(k) if j.motion is JointKind.REVOLUTE else Fraction(3 * k) for k, j in zip(ks, arm.joints)},
         )
         for ks in ((1, 2, 1), (2, 1, 2))
     )

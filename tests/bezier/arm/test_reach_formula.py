@@ -11,8 +11,8 @@ import pytest
 import qe
 from bezier.arm.inverse import solve
 from bezier.arm.kinematics import position
-from bezier.arm.model import Arm, Motion
-from bezier.arm.reach_formula import question, reachable_formula
+from bezier.arm.model import Arm, JointKind
+from bezier.arm.reachable import question, reachable_formula
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.robot import Robot
 from qe.errors import Unable
@@ -54,7 +54,7 @@ def joints_of(arm: Arm, random: Random) -> dict[str, object]:
     for joint, pair in zip(arm.joints, pairs_of(tangents)):
         low, high = joint.limits or (Fraction(0), Fraction(1))
         share = Fraction(random.randint(0, 8), 8)
-        found[joint.name] = pair if joint.motion is Motion.REVOLUTE else low + share * (high - low)
+        found[joint.name] = pair if joint.motion is JointKind.REVOLUTE else low + share * (high - low)
     return found
 
 
@@ -76,7 +76,7 @@ def test_what_satisfies_the_formula_is_reached(name: str) -> None:
         if name == "scara":
             point = (*point[:2], point[2] / 5)
         holds = holds_at(formula, dict(zip("xyz", point, strict=True)))
-        slides = [k for k, j in enumerate(arm.joints) if j.motion is Motion.PRISMATIC]
+        slides = [k for k, j in enumerate(arm.joints) if j.motion is JointKind.PRISMATIC]
         reached = any(
             all(low <= (s.angles[k] or 0) <= high for k in slides for low, high in [arm.joints[k].limits or (0, 0)])
             for s in solve(arm, point).solutions

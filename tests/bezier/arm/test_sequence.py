@@ -19,7 +19,7 @@ from bezier.arm.sequence import joint_sequence, samples_of
 from bezier.cli.app import main
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
-from bezier.planner.joints import render
+from bezier.planner.arm import render
 from qe.errors import InputError, Unable
 
 ARM = load_arm("ev3-120")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from bezier.arm.kinematics import positions
-from bezier.arm.model import Arm, Motion
+from bezier.arm.model import Arm, JointKind
 from bezier.arm.reader import load_arm
 from qe.errors import InputError, Unable
 
@@ -66,7 +66,7 @@ def test_joints_and_limits(arm: Arm) -> None:
     assert [j.name for j in arm.joints] == ["waist_1", "shoulder", "reach"]
     assert (first.limits, float(first.max_velocity or 0)) == (None, 2.5)
     assert [float(v) for v in second.limits or ()] == [-1.5, 1.5]
-    assert third.motion is Motion.PRISMATIC and third.limits == (0, 200) and third.max_velocity == 100
+    assert third.motion is JointKind.PRISMATIC and third.limits == (0, 200) and third.max_velocity == 100
 
 
 AXES = {"1 0 0": (1, 0, 0), "-1 0 0": (-1, 0, 0), "0 1 0": (0, 1, 0), "0 -1 0": (0, -1, 0), "0 0 -1": (0, 0, -1)}

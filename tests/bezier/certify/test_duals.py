@@ -8,9 +8,9 @@ from fractions import Fraction
 import pytest
 from flint import arb
 
-from bezier.certify import duals, motions
+from bezier.certify import duals
 from bezier.certify.duals import Dual
-from bezier.certify.square_roots import ONE, ZERO, Surd
+from bezier.certify.square_roots import ONE, ZERO, Surd, turn
 
 
 def floats(d: Dual) -> tuple[float, ...]:
@@ -34,7 +34,7 @@ def test_values_and_derivatives_of_sums_products_and_angles() -> None:
 
 def test_motions() -> None:
     x, y, z = variables(Fraction(1), Fraction(2), Fraction(3))
-    half = motions.turn((1, 2), (Surd.of([(3, Fraction(1, 2))]), Surd.rational(Fraction(1, 2))), (ONE, ZERO, ZERO))
+    half = turn((1, 2), (Surd.of([(3, Fraction(1, 2))]), Surd.rational(Fraction(1, 2))), (ONE, ZERO, ZERO))
     root = math.sqrt(3) / 2
     found = [floats(v) for v in duals.rigid(half)([x, y, z])]
     expected = [(2, 1, 0, 0), (2 * root - 1.5, 0, root, -0.5), (1 + 3 * root, 0, 0.5, root)]

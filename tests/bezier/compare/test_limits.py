@@ -9,9 +9,9 @@ import pytest
 
 import qe
 from bezier.compare import comparison
+from bezier.compare.command import render
 from bezier.compare.comparison import Comparison, _Parts, compare
 from bezier.compare.output import NOT_REACHED, notes, rows, table, to_json
-from bezier.compare.page import render
 from bezier.plans import Clock
 from bezier.problem import read_problem
 from qe.errors import BudgetExceeded, Unable
@@ -56,7 +56,7 @@ def test_every_form_shows_them_and_says_why_the_rest_is_missing(found):
     assert data["unfinished"].keys() == found.unfinished.keys() >= {"planar region of (7)", "planar region of (8*)"}
     page = render(found, {})
     assert "path found" in page and "not finished" in page
-    cells = {row.label: row.cells for row in rows(found)}
+    cells = {label: cells for label, *cells in rows(found)}
     assert cells["area of Q1 in the plane, mm²"][1] == NOT_REACHED
     assert any(line.startswith("planar region of (8*): not finished") for line in notes(found))
 

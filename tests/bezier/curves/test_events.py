@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bezier.curves import bernstein as bs
-from bezier.curves.events import events_of
+from bezier.curves.nonnegative import events_of
 from bezier.curves.scalar import sign
 from qe.exact.field import NumberField
 
@@ -74,3 +74,11 @@ def test_a_root_next_to_the_start_is_apart_from_it(degree):
             (1,),
         )
     )
+
+
+def test_ends_and_roots_are_disjoint_and_have_exact_signs():
+    a = (Fraction(-1), Fraction(0), Fraction(1))  # 2t - 1
+    b = (Fraction(-2), Fraction(-2), Fraction(2))  # 4t^2 - 2, root sqrt(2)/2
+    found = events_of([a, b])
+    assert found[0].t == (0, 0) and found[-1].t == (1, 1) and len(found) == 4
+    assert [event.signs for event in found] == [(-1, -1), (0, -1), (1, 0), (1, 1)]

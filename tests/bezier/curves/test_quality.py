@@ -10,8 +10,15 @@ from hypothesis import strategies as st
 
 from bezier.curves.bernstein import elevate, multiply
 from bezier.curves.curve import Bezier, curvature_squared
-from bezier.curves.enclosure import Enclosure, maximum, root_above, root_below
-from bezier.curves.quality import curvature_enclosure, is_regular, length_enclosure
+from bezier.curves.enclosure import (
+    Enclosure,
+    curvature_enclosure,
+    is_regular,
+    length_enclosure,
+    maximum,
+    root_above,
+    root_below,
+)
 from bezier.curves.scalar import dot, subtract
 from qe.errors import InputError
 from qe.exact.field import NumberField

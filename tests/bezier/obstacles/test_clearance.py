@@ -8,11 +8,10 @@ from hypothesis import strategies as st
 
 from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import Nonnegative, decide
-from bezier.curves.scalar import sign
 from bezier.obstacles.bodies import HalfSpaceBody, Rounded
-from bezier.obstacles.clearance import Argument, Clear, Contact, critical_values, enters, examine
-from bezier.obstacles.evidence import clearance_certificate
+from bezier.obstacles.clearance import Clear, ClearanceArgument, Contact, enters, examine
 from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
+from bezier.obstacles.survey import clearance_certificate
 from qe.certify.verify import verify
 from qe.errors import InputError
 from qe.exact.field import NumberField
@@ -132,9 +131,9 @@ def test_arguments_are_named_by_what_was_needed():
         assert isinstance(found, Clear)
         return found.argument
 
-    assert argument(ball((9, 9, 9), 1)) is Argument.BOXES
-    assert argument(obstacle(HalfSpaceBody(at(1, 0, 1), Fraction(-5)))) is Argument.POLYGON
-    assert argument(ball((0, 0, 0), 1)) is Argument.SUBDIVISION
+    assert argument(ball((9, 9, 9), 1)) is ClearanceArgument.BOXES
+    assert argument(obstacle(HalfSpaceBody(at(1, 0, 1), Fraction(-5)))) is ClearanceArgument.POLYGON
+    assert argument(ball((0, 0, 0), 1)) is ClearanceArgument.SUBDIVISION
 
 
 @settings(max_examples=35, deadline=None)
@@ -192,12 +191,3 @@ def test_one_convex_condition_agrees_with_the_containment_test():
         upper = obstacle(HalfSpaceBody(at(0, 0, -1), -height))
         stays_below = isinstance(below, Nonnegative) and not below.touches
         assert isinstance(examine(ARCH, upper), Clear) == stays_below
-
-
-def test_critical_values_are_disjoint_and_have_exact_signs():
-    a = (Fraction(-1), Fraction(0), Fraction(1))  # 2t - 1
-    b = (Fraction(-2), Fraction(-2), Fraction(2))  # 4t^2 - 2, root sqrt(2)/2
-    found = critical_values([a, b])
-    assert found.intervals[0] == (0, 0) and found.intervals[-1] == (1, 1) and len(found.intervals) == 4
-    signs = [[sign(found.sign(f, at)) for at in found.intervals] for f in (a, b)]
-    assert signs == [[-1, 0, 1, 1], [-1, -1, 0, 1]]

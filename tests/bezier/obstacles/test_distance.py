@@ -7,9 +7,8 @@ from hypothesis import given, settings
 
 from bezier.curves.curve import Bezier
 from bezier.obstacles import survey
-from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded
+from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded, distance_at, distance_enclosure
 from bezier.obstacles.clearance import Clear, examine
-from bezier.obstacles.distance import distance_at, distance_enclosure
 from bezier.obstacles.obstacle import Obstacle, ObstacleKind, Piece, from_body, half_space
 from bezier.obstacles.polyhedron import point
 from qe.exact.field import NumberField

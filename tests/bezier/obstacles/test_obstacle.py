@@ -92,7 +92,7 @@ WALLS = [(at(*n), Fraction(1)) for n in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -
         ([UP, DOWN], "unbounded"),
         ([*WALLS[:2], UP, DOWN], "unbounded"),
         ([*WALLS, UP, (at(0, 0, -1), Fraction(-2))], "empty"),
-        ([*WALLS, UP, (at(0, 0, -1), Fraction(-1))], "flat"),
+        ([*WALLS, UP, (at(0, 0, -1), Fraction(-1))], "in one plane"),
     ],
 )
 def test_bad_half_spaces(half_spaces, said):
@@ -102,7 +102,7 @@ def test_bad_half_spaces(half_spaces, said):
 
 def test_flat_corners_are_refused():
     for corners in ([at(0, 0, 0), at(1, 0, 0), at(0, 1, 0), at(1, 1, 0)], [at(0, 0, 0), at(1, 1, 1), at(2, 2, 2)]):
-        with pytest.raises(InputError, match="flat"):
+        with pytest.raises(InputError, match="in one plane"):
             from_corners(corners)
 
 

@@ -1,15 +1,17 @@
 """``[[obstacle]]`` tables: every kind, formulas with and without quantifiers, and one clear line for bad ones."""
 
+from __future__ import annotations
+
 from fractions import Fraction
 
 import pytest
 
 from bezier.input.toml_table import Table
 from bezier.obstacles.obstacle import ObstacleKind
-from bezier.obstacles.reader import read_obstacles
+from bezier.obstacles.reader import read_obstacles, via_over
 from bezier.problem import from_json, read_problem, to_json
 from qe.errors import InputError
-from tests.bezier.bodies import at
+from tests.bezier.bodies import at, ball
 
 
 def read(text: str):
@@ -82,7 +84,7 @@ BALL = 'kind="ball"\ncentre=[0,0,0]\n'
         ('kind="cylinder"\ncentre=[0,0,0]\nradius=1', "centre: expected the x and y of the axis"),
         ('kind="capsule"\nstart=[0,0,0]\nend=[0,0,0]\nradius=1', "end: expected a point other than start"),
         ('kind="polyhedron"\nhalf_spaces=[[0,0,1,1],[0,0,-1,1]]', "expected a bounded polyhedron with interior"),
-        ('kind="polyhedron"\nvertices=[[0,0,0],[1,0,0],[0,1,0]]', "found a flat set of corners"),
+        ('kind="polyhedron"\nvertices=[[0,0,0],[1,0,0],[0,1,0]]', "found a set of corners in one plane"),
         ('kind="polyhedron"', "expected either half_spaces or vertices"),
         ('kind="polyhedron"\nhalf_spaces=[[0,0,0,1]]', "a half-space with normal zero"),
         ('kind="formula"\nformula="x >"', "formula: expected a formula in x, y, z, found formula:1:4"),
@@ -147,3 +149,29 @@ def test_a_problem_with_obstacles_survives_json():
     found = read_problem(PROBLEM)
     again = from_json(to_json(found), "stored")
     assert (again.obstacles, again.via, again.above) == (found.obstacles, found.via, found.above)
+
+
+START, GOAL = at(0, 0, 0), at(12, 0, 0)
+
+
+def test_without_anything_in_the_way_thirds() -> None:
+    thirds = (at(4, 0, 0), at(8, 0, 0))
+    assert via_over(START, GOAL, []) == thirds
+    assert via_over(START, GOAL, [ball((6, 5, 0), 1)]) == thirds  # beside the way
+    assert via_over(START, at(0, 0, 9), []) == (at(0, 0, 3), at(0, 0, 6))
+
+
+def test_over_one_and_over_two_boxes() -> None:
+    """A tenth of the height of the highest box above it, where the boxes begin and end."""
+    q0, r0 = via_over(START, GOAL, [ball((6, 0, 0), 1)])
+    assert (q0, r0) == ((5, 0, Fraction(6, 5)), (7, 0, Fraction(6, 5)))
+    q0, r0 = via_over(START, GOAL, [ball((9, 0, 1), 2), ball((3, 0, 0), 1)])
+    assert (q0, r0) == ((2, 0, 3 + Fraction(4, 10)), (11, 0, 3 + Fraction(4, 10)))
+    q0, _ = via_over(START, GOAL, [ball((6, 0, 0), 1)], Fraction(1))
+    assert q0[2] == 3
+
+
+@pytest.mark.parametrize("centre", [(0, 0, 5), (12, 0, 0), (1, 0, 0), (11, 0, -7)])
+def test_nothing_may_stand_over_the_ends(centre: tuple[int, int, int]) -> None:
+    with pytest.raises(InputError, match="give via points"):
+        via_over(START, GOAL, [ball(centre, 1)])

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
+from bezier.curves.nonnegative import events_of
 from bezier.curves.workspace import Workspace, WorkspaceKind
-from bezier.obstacles.clearance import critical_values
-from bezier.paths import heights, origin
+from bezier.paths import heights
 from bezier.paths.path import Path, assemble
 from bezier.planner.planning import make_plan
 from bezier.problem import PlanMethod, Problem, read_problem
@@ -114,21 +114,21 @@ def test_roots_at_the_ends_of_a_curve_were_isolated_for_ever(other, field):
     product = bs.power_multiply((Fraction(0), one), (-one, one))
     product = bs.power_multiply(product, (-one * other * other, one * 0, one))
     form = bs.from_power(product)
-    found = critical_values([form])
-    assert len(found.intervals) == 3
-    low, high = found.intervals[1]
+    found = events_of([form])
+    assert len(found) == 3
+    low, high = found[1].t
     assert 0 < low <= other <= high < 1
-    assert [found.sign(form, at) for at in found.intervals] == [0, 0, 0]
+    assert [event.signs for event in found] == [(0,)] * 3
 
 
 def test_a_path_through_the_origin_is_noted():
     through = path_of(Bezier.of([(-1, 0, 0), (1, 0, 0)]))
-    assert origin.remarks(through) == ("the path goes through the origin O (P at t = 1/2), which the paper excludes",)
+    assert heights.remarks(through) == ("the path goes through the origin O (P at t = 1/2), which the paper excludes",)
     # t^2 = 1/2: an irrational parameter; and three coordinates that vanish one after the other only
     half = Bezier.of([(-1, 1, 0), (-1, 1, 0), (1, -1, 0)])
-    assert "t = about 0.70710678" in origin.remarks(path_of(half))[0]
-    assert origin.remarks(path_of(Bezier.of([(-1, -2, 0), (1, 1, 0)]))) == ()
-    assert origin.remarks(path_of(Bezier.of([(0, 0, 0), (1, 1, 0)]))) == ()
+    assert "t = about 0.70710678" in heights.remarks(path_of(half))[0]
+    assert heights.remarks(path_of(Bezier.of([(-1, -2, 0), (1, 1, 0)]))) == ()
+    assert heights.remarks(path_of(Bezier.of([(0, 0, 0), (1, 1, 0)]))) == ()
 
 
 @settings(max_examples=20)
@@ -138,6 +138,6 @@ def test_paths_moved_onto_the_origin_are_noted(control, k):
     t = Fraction(k, 8)
     away = curve.point(t)
     moved = Bezier.of([[c - a for c, a in zip(p, away, strict=True)] for p in control])
-    hits = origin.through_origin(moved)
+    hits = heights.through_origin(moved)
     assert any(low <= t <= high for low, high in hits)
-    assert bool(origin.remarks(path_of(moved))) == any(h not in (origin.START, origin.END) for h in hits)
+    assert bool(heights.remarks(path_of(moved))) == any(h not in (heights.START, heights.END) for h in hits)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot
-from bezier.paths.speed import slowest
+from bezier.paths.path import slowest
 from tests.bezier.numbers import control_points, unit
 
 

@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from bezier.curves.workspace import Ball, HalfSpace
 from bezier.methods.quadratic import formula as quadratic
-from bezier.pictures import labels, mesh, plot, scene
+from bezier.methods.quadratic.method import as_conditions
+from bezier.pictures import mesh, plot, scene
 from bezier.pictures.picture import INK, PathPicture, RegionPicture, curve_pictures, numbers, region_picture
 from bezier.problem import load_problem
 from bezier.report import mathml
 from bezier.report.parts import GIVEN
-from bezier.report.recognise import as_conditions
 from qe.io import text
 
 ORIGIN = (Fraction(0),) * 3
@@ -130,7 +130,7 @@ def test_names_cover_neither_each_other_nor_the_frame(points):
     figure = plot.new_figure(5, 4)
     axis = figure.add_axes((0.1, 0.1, 0.85, 0.85))
     axis.set(xlim=(-13, 27), ylim=(-13, 27))
-    labels.place(axis, [(f"Q{i}", point) for i, point in enumerate(points)], np.array(points, dtype=float))
+    plot.place(axis, [(f"Q{i}", point) for i, point in enumerate(points)], np.array(points, dtype=float))
     texts = [text for text in axis.texts if text.get_text()]
     boxes = [text.get_window_extent() for text in texts]
     assert len(boxes) == len(points) and not crossing(boxes)

@@ -8,13 +8,13 @@ import pytest
 
 from bezier.input.toml_table import Table
 from bezier.obstacles.reader import read_obstacles
+from bezier.pictures import charts
 from bezier.pictures.obstacles import obstacle_pictures
-from bezier.pictures.plot_clearance import save_chart
 from bezier.planner import avoid
-from bezier.planner.command import in_words
 from bezier.planner.outputs import summary
 from bezier.planner.planning import make_plan
 from bezier.planner.table import method_of
+from bezier.planner.words import lines
 from bezier.plans import Clock, Outcome
 from bezier.problem import PlanMethod, read_problem
 from bezier.report.page import render
@@ -71,7 +71,7 @@ def test_a_path_over_the_obstacle_is_accepted_though_its_polygon_is_no_proof(ove
 
 
 def test_what_is_said_about_it(over_the_crate, tmp_path):
-    words = in_words(over_the_crate, tmp_path, [], 1.0)
+    words = "\n".join(lines(over_the_crate))
     assert "P: clear of crate for all t (Bernstein coefficients after subdivision)" in words and "length 8.66" in words
     told = summary(over_the_crate, [], 1.0)
     assert told["status"] == "solved" and len(told["clearance"]) == 3 and told["attempts"][0]["outcome"] == "solved"
@@ -128,7 +128,7 @@ def test_where_nothing_helps_the_path_is_blocked_and_all_methods_were_tried(tmp_
     assert plan.outcome is Outcome.BLOCKED and not plan.certified and plan.path is not None
     assert {'method "cubic"', 'method "single"'} <= {a.what for a in plan.attempts}
     assert all(a.outcome is not Outcome.SOLVED for a in plan.attempts)
-    words = in_words(plan, tmp_path, [], 1.0)
+    words = "\n".join(lines(plan))
     assert "no path found: every path that was tried MEETS an obstacle" in words
     assert "tried: as given: P: enters wall" in words
     assert "an obstacle is in the way" in render(plan, method_of(plan.problem.method), None)
@@ -203,6 +203,7 @@ def test_every_kind_is_drawn_where_it_is():
 
 def test_the_chart_of_clearances(over_the_crate, tmp_path):
     pictures = obstacle_pictures(over_the_crate.problem.obstacles, 6.0)
-    charts = save_chart(over_the_crate.findings, pictures, tmp_path / "clearance.png")
-    assert charts and all(text.startswith("<svg") and words for text, words in charts)
+    panels = charts.clearance(over_the_crate.findings, pictures)
+    drawn = charts.saved(panels, tmp_path / "clearance.png")
+    assert drawn and all(text.startswith("<svg") and words for text, words in drawn)
     assert (tmp_path / "clearance.png").stat().st_size > 5000

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import bezier
 import qe
 from bezier.check.recheck import recheck
-from bezier.planner.folder import write_folder
+from bezier.planner.command import write_folder
 from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
 from bezier.plans import Clock, Outcome
@@ -105,9 +105,7 @@ def test_python_tells_them_apart() -> None:
 
 
 def test_every_status_without_success_has_a_reason() -> None:
-    contradiction = "".join(
-        f'[[half_space]]\nnormal = [{n}, 0, 0]\noffset = 1\npoints = ["Q1"]\n' for n in (1, -1)
-    )
+    contradiction = "".join(f'[[half_space]]\nnormal = [{n}, 0, 0]\noffset = 1\npoints = ["Q1"]\n' for n in (1, -1))
     fast = '[timing]\nlaw = "quintic"\nduration = 1\nmax_speed = "1/10"\n'
     for more, status in ((contradiction, "infeasible"), (fast, "limits_not_kept"), (CRATE, "solved")):
         told = facts(make_plan(read_problem(problem_text("[-4, 2, 1]", "[4, 2, 1]", more))))

@@ -66,7 +66,7 @@ def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
 
 def test_a_half_space_for_a_quadratic_plan(root):
     from bezier.curves.workspace import HalfSpace
-    from bezier.methods.quadratic.restore import restore
+    from bezier.methods.quadratic.plan import restore
     from bezier.problem import PointCondition
 
     problem = load_problem(root / "examples" / "three_balls.toml")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from bezier.planner.folder import write_folder
+from bezier.planner.command import write_folder
 from bezier.planner.planning import make_plan
 from bezier.plans import Clock
 from bezier.problem import load_problem

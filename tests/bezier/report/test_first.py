@@ -19,7 +19,7 @@ from bezier.planner.planning import make_plan
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Plan
 from bezier.problem import load_problem, read_problem
-from bezier.report import first, mathml_cells
+from bezier.report import first, mathml
 from bezier.report.page import page_of, render
 
 START = 'start = [-4, 2, 1]\nvia = [[-1, 2, "5/2"], [1, 2, "5/2"]]\ngoal = [4, 2, 1]\nradius = 6\n'
@@ -98,5 +98,5 @@ def test_the_scene_moves_with_the_motion(tmp_path: FilePath) -> None:
 )
 def test_a_bound_of_degree_two_is_a_radical_over_a_number_above_one(poly: str, shape: str) -> None:
     (cell,) = qe.region(f"{poly} < 0 and a > 0 and a < 10", order=("a", "x")).cells[-1:]
-    written = mathml_cells.cell(cell)[-1]
+    written = mathml.cell(cell)[-1]
     assert shape in written and "<msqrt>" in written and ("<mfrac>" in written) is (shape == "<mfrac>")

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import qe
 from bezier.methods.control.statements import (
+    Atomic,
     Bracketed,
-    Comparison,
     Every,
     Implies,
     Minus,
@@ -51,7 +51,7 @@ def _larger(inner: st.SearchStrategy[Term]) -> st.SearchStrategy[Term]:
 
 
 TERMS = st.recursive(st.one_of(NUMBERS.map(Number), NAMES.map(Name)), _larger, max_leaves=8)
-ATOMS = st.builds(Comparison, TERMS, st.sampled_from(Relation), TERMS)
+ATOMS = st.builds(Atomic, TERMS, st.sampled_from(Relation), TERMS)
 
 
 def _joined(inner: st.SearchStrategy[Statement]) -> st.SearchStrategy[Statement]:

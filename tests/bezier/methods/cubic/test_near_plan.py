@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from bezier.check.recheck import recheck
-from bezier.planner.command import Request, plan
+from bezier.planner.command import plan
 from bezier.problem import read_problem
 from qe.errors import CertificateRejected
 from tests.bezier.folder_mutation import Quiet
@@ -27,8 +27,7 @@ radius="448381/100000"
 
 def summary(text: str, folder: Path) -> dict:
     folder.mkdir()
-    reply = plan(Quiet(), Request(problem=read_problem(text), folder=folder, target=folder, plots=False))  # type: ignore[arg-type]
-    assert reply.code == 0
+    assert plan(Quiet(), read_problem(text), folder, folder, plots=False)[1]  # type: ignore[arg-type]
     recheck(Quiet(), folder)  # type: ignore[arg-type]
     return json.loads((folder / "summary.json").read_text())
 

@@ -250,7 +250,7 @@ def test_a_via_point_on_the_sphere_leaves_only_the_cusp():
     st.lists(st.tuples(POINT.filter(any), COORDINATE, st.sampled_from(INNER[PlanMethod.CUBIC])), max_size=2),
 )
 def test_many_plans_and_what_their_certificates_show(via, more, kind, ratio, speed, half_spaces):
-    from bezier.methods.cubic.plan import restore
+    from bezier.methods.cubic.method import restored_plan as restore
     from qe.proof.certificate import Certificate
 
     if kind is WorkspaceKind.HEMISPHERE:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 import qe
-from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, Row, certificate, solve
+from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, LinearRow, certificate, solve
 from qe.errors import InternalError, Unable
 
 NUMBER = st.fractions(-3, 3, max_denominator=3)
@@ -19,7 +19,7 @@ def programs(draw):
     """A small program with an objective; equations, repeated rows and zero rows included."""
     size = draw(st.integers(1, 5))
     numbers = st.tuples(*[NUMBER] * size)
-    rows = draw(st.lists(st.builds(Row, numbers, NUMBER, st.booleans()), max_size=6))
+    rows = draw(st.lists(st.builds(LinearRow, numbers, NUMBER, st.booleans()), max_size=6))
     if rows and draw(st.booleans()):
         rows.append(draw(st.sampled_from(rows)))
     names = tuple(f"x{i}" for i in range(size))
@@ -52,8 +52,8 @@ def is_point_of(program, x):
 
 
 @given(programs())
-@example((LinearProgram(("x",), (Fraction(0),), (Row((Fraction(0),), Fraction(1), True),)), (Fraction(1),)))
-@example((LinearProgram(("x",), (Fraction(0),), (Row((Fraction(1),), Fraction(-1)),)), (Fraction(1),)))
+@example((LinearProgram(("x",), (Fraction(0),), (LinearRow((Fraction(0),), Fraction(1), True),)), (Fraction(1),)))
+@example((LinearProgram(("x",), (Fraction(0),), (LinearRow((Fraction(1),), Fraction(-1)),)), (Fraction(1),)))
 def test_answers_are_proved_and_agree_with_a_numerical_solver(case):
     program, cost = case
     numerical = numerically(program, cost)
@@ -84,7 +84,7 @@ def test_the_second_objective_decides_among_the_minima_of_the_first(case, second
         assert isinstance(first, Contradiction)
         return
     assert found.value == first.value and is_point_of(program, found.point)
-    fixed = LinearProgram(program.names, program.lower, (*program.rows, Row(cost, first.value, True)))
+    fixed = LinearProgram(program.names, program.lower, (*program.rows, LinearRow(cost, first.value, True)))
     best = solve(fixed, [second])
     assert best.value == sum(c * x for c, x in zip(second, found.point, strict=True))
     if first.unique:
@@ -94,9 +94,9 @@ def test_the_second_objective_decides_among_the_minima_of_the_first(case, second
 def test_the_example_on_which_other_pivot_rules_cycle():
     """Beale (1955): degenerate at the origin; the largest-coefficient rule comes back to it for ever."""
     rows = (
-        Row(tuple(map(Fraction, ("1/4", "-8", "-1", "9"))), Fraction(0)),
-        Row(tuple(map(Fraction, ("1/2", "-12", "-1/2", "3"))), Fraction(0)),
-        Row(tuple(map(Fraction, (0, 0, 1, 0))), Fraction(1)),
+        LinearRow(tuple(map(Fraction, ("1/4", "-8", "-1", "9"))), Fraction(0)),
+        LinearRow(tuple(map(Fraction, ("1/2", "-12", "-1/2", "3"))), Fraction(0)),
+        LinearRow(tuple(map(Fraction, (0, 0, 1, 0))), Fraction(1)),
     )
     program = LinearProgram(("a", "b", "c", "d"), (Fraction(0),) * 4, rows)
     found = solve(program, [tuple(map(Fraction, ("-3/4", "20", "-1/2", "6")))])
@@ -104,7 +104,9 @@ def test_the_example_on_which_other_pivot_rules_cycle():
 
 
 def test_altered_proofs_are_rejected():
-    program = LinearProgram(("x", "y"), (Fraction(0), Fraction(0)), (Row((Fraction(-1), Fraction(-2)), Fraction(-3)),))
+    program = LinearProgram(
+        ("x", "y"), (Fraction(0), Fraction(0)), (LinearRow((Fraction(-1), Fraction(-2)), Fraction(-3)),)
+    )
     cost = (Fraction(1), Fraction(1))
     good = certificate(program, cost, solve(program, [cost]))
     assert qe.verify(good).accepted
@@ -123,13 +125,13 @@ def test_an_objective_without_bound_is_refused():
 
 def test_rows_of_different_lengths_are_refused():
     with pytest.raises(InternalError):
-        LinearProgram(("x",), (Fraction(0),), (Row((), Fraction(0)),))
+        LinearProgram(("x",), (Fraction(0),), (LinearRow((), Fraction(0)),))
 
 
 def test_the_limit_stops_the_work():
     def stop():
         raise Unable("stopped")
 
-    program = LinearProgram(("x",), (Fraction(0),), (Row((Fraction(-1),), Fraction(-1)),))
+    program = LinearProgram(("x",), (Fraction(0),), (LinearRow((Fraction(-1),), Fraction(-1)),))
     with pytest.raises(Unable, match="stopped"):
         solve(program, [(Fraction(1),)], check=stop)
