@@ -15,7 +15,7 @@ import qe
 from qe.errors import Unable
 from qe.io.text import read
 from qe.proof.certificate import Certificate, Kind
-from qe.proof.coq import to_coq
+from qe.coq.export import to_coq
 from qe.proof.coq_squares import read_form, squares
 
 FORMULAS = [
