@@ -12,27 +12,29 @@ from fractions import Fraction
 from typing import Any
 
 from qe.coq.signs import Identity, Tree
-from qe.coq.text import Text, identifiers
+from qe.coq.text import Text
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
-from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Not, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import conjuncts, disjuncts
 from qe.kernel.block import existential, opened
 from qe.kernel.derivation import replaced
 from qe.kernel.elimination_points import read_points
 from qe.kernel.elimination_set import block_of, start
-from qe.kernel.linear_equation import Pivot, _pivot, substituted
+from qe.kernel.linear_equation import Pivot, pivot_of, substituted
 from qe.kernel.lowered_degree import lowered
 from qe.kernel.negation import negation, normal
 from qe.kernel.signs import Line, read_lemma, read_polynomials
 from qe.kernel.step import Claim, Context, outside
+from qe.kernel.substitution import mapped
+from qe.kernel.terms import Terms, at_terms, block_opened, terms_of
 from qe.proof.entry import Entry, formula_from_json
 
 _SIGNS = {1: Relation.LT, 2: Relation.EQ, 4: Relation.GT}
 
 
-def derivation(payload: Mapping[str, Any], prefix: str) -> Iterator[str]:
+def derivation(payload: dict[str, Any], prefix: str) -> Iterator[str]:
     """The lines of a derivation; ``Unable`` where it has what cannot be written."""
     order, question, steps, answer = Entry(payload, "payload").fields("order", "start", "steps", "answer")
     ring = Ring.of(order.names())
@@ -41,9 +43,8 @@ def derivation(payload: Mapping[str, Any], prefix: str) -> Iterator[str]:
     lemma, last = _Steps(text).run(steps, before, ())
     assert last == after
     names = [v for v in ring.names if v in before.free or v in after.free]
-    words = dict(zip(ring.names, identifiers(ring.names), strict=True))
-    values = "; ".join(words[v] if v in names else "0" for v in reversed(ring.names))
-    every = f"forall {' '.join(words[v] for v in names)} : R, " if names else ""
+    values = "; ".join(text.words[v] if v in names else "0" for v in reversed(ring.names))
+    every = f"forall {' '.join(text.words[v] for v in names)} : R, " if names else ""
     yield from text.lines
     yield f"Theorem {prefix} : {every}({text.said(before)}) <-> ({text.said(after)})."
     yield f"Proof. intros. exact (said _ _ (env_of [{values}]) {lemma}). Qed."
@@ -236,8 +237,7 @@ class _Steps:
         self, context: Context, kind: type[And | Or], pairs: Sequence[tuple[Formula, Formula, str]], goal: Formula
     ) -> tuple[Formula, str]:
         """The conjunction (disjunction) of the first formulas, and the lemma that it is the goal."""
-        one, two = (_joined(kind, [pair[k] for pair in pairs]) for k in (0, 1))
-        assert isinstance(one, Formula) and isinstance(two, Formula)
+        one, two = _joined(kind, [pair[0] for pair in pairs]), _joined(kind, [pair[1] for pair in pairs])
         if not pairs:
             return one, self.same(context, one, goal)
         theorem = "and_both" if kind is And else "or_both"
@@ -274,17 +274,16 @@ class _Steps:
             piece = formula_from_json(body, self.ring, quantified=True)
             listed |= set(conjuncts(piece))
             first = block_of(names, conj((*(beside if together.truth() else ()), piece)), self.ring)
-            lemma, last = self.run(steps, first, context)
-            pairs.append((first, last, lemma))
+            lemma, end = self.run(steps, first, context)
+            pairs.append((first, end, lemma))
         others = [m for m in members if m not in beside and m not in listed]
         if others:  # a piece is false
             rest = block_of(names, conj(others), self.ring)
             pairs.append((rest, rest, self.same(context, rest, rest)))
         found = _joined(And, [pair[1] for pair in pairs])
         middle, lemma = self.joined(context, And, pairs, found)
-        formulas = (claim.before, middle, found, claim.after)
-        last = self.equal(context, found, claim.after)
-        return self.chain(context, formulas, (self.moved(context, claim.before, middle), lemma, last))
+        lemmas = (self.moved(context, claim.before, middle), lemma, self.equal(context, found, claim.after))
+        return self.chain(context, (claim.before, middle, found, claim.after), lemmas)
 
     def no_exception(self, claim: Claim, context: Context) -> str:
         entries, found = claim.evidence.fields("exceptions")[0].items(), []
@@ -344,7 +343,7 @@ class _Steps:
         block, body = claim.block().variables, claim.block().body
         formulas, lemmas = [claim.before], list[str]()
         for entry in solved.items():
-            pivot = _pivot(entry, block, body, claim)
+            pivot = pivot_of(entry, block, body, claim)
             block = tuple(v for v in block if v != pivot.name)
             if pivot.sign is None:
                 raise Unable("a coefficient that may vanish")
@@ -379,7 +378,8 @@ class _Steps:
         kept = tuple(p for p in conjuncts(inner.body) if pivot.name not in p.free)
         regular = self.regular((*kept, *known), bottom, positive, theory)
         x = self.text.variable(pivot.name)
-        data = f"{x} {self.text.poly(top)} {self.text.poly(bottom)} {str(positive).lower()} {self.text.formula(inner.body)}"
+        quotient = f"{self.text.poly(top)} {self.text.poly(bottom)}"
+        data = f"{x} {quotient} {str(positive).lower()} {self.text.formula(inner.body)}"
         context = self.text.formulas(known)
         first = self.text.lemma(
             f"equiv {context} {self.text.formula(inner)} (subst {data})", f"linear {context} {data} {regular}", 1
@@ -397,7 +397,7 @@ class _Steps:
     def guarded(self, claim: Claim, context: Context) -> str:
         (entry,) = claim.evidence.fields("solved")[0].row("equation")
         block, body = claim.block().variables, claim.block().body
-        pivot = _pivot(entry, block, body, claim)
+        pivot = pivot_of(entry, block, body, claim)
         rest = tuple(v for v in block if v != pivot.name)
         guard = atom(pivot.lead, Relation.NE)
         one = conj((guard, body))
@@ -456,9 +456,59 @@ class _Steps:
             data = f"(subst {self.text.variable(name)} {top} {bottom} true {data})"
         proof = f"(entails_same {given} Tr {data} (fun _ _ => I) (eq_refl true))"
         for block in reversed(blocks):
-            proof = f"(witness {given} {block} (fun e _ => proj1 (atom_ok e _ GT) I) {proof} (eq_refl true))"
+            positive = f"(fun e _ => proj1 (atom_ok e {block.split()[2]} GT) I)"
+            proof = f"(witness {given} {block} {positive} {proof} (eq_refl true))"
         lemma = self.lemma(context, before, TRUE, f"entails_equiv _ _ {proof}")
         return self.via(context, claim, before, after, lemma)
+
+
+    def terms(self, claim: Claim, context: Context) -> str:
+        there, back, theory = claim.evidence.fields("there", "back", "theory")
+        one, two = existential(claim)
+        before, after = block_opened(one), block_opened(two)
+        known = outside(context, (*before[0], *after[0]))
+        first = self.implied(known, one, two, terms_of(back, after[0], before[0], claim), claim, theory)
+        second = self.implied(known, two, one, terms_of(there, before[0], after[0], claim), claim, theory)
+        lemma = self.lemma(known, one, two, f"iff_entails _ _ _ {first} {second}")
+        return self.via(context, claim, one, two, self.weaker(context, known, one, two, lemma))
+
+    def implied(
+        self, known: Context, given: Formula, wanted: Formula, terms: Terms, claim: Claim, theory: Entry
+    ) -> str:
+        """``entails (given :: known) wanted``: at terms for the variables of the block that is wanted.
+
+        These get numbers that occur nowhere else, so that terms can be put in one after the other.
+        """
+        (names, body), (others, goal) = block_opened(given), block_opened(wanted)
+        index = self.ring.index
+        values = {v: terms.get(index[v], (self.ring.gen(index[v]), self.ring.constant(1))) for v in others}
+        about = [poly for i, quotient in terms.items() for poly in (self.ring.gen(i), *quotient)]
+        image = normal(mapped(goal, lambda a: atom(_at(a, terms), a.relation), about, claim))
+        facts = (body, *known)
+        context, data = self.text.formulas(facts), self.text.formula(goal)
+        numbers = [self.ring.size + 1 + k for k in range(len(others))]
+        for v, number in zip(others, numbers, strict=True):
+            data = f"(swap {self.text.variable(v)} {number} {data})"
+        renamed = "".join(f"Ex {n} (" for n in numbers) + data + ")" * len(numbers)
+        blocks = []
+        for k, (v, number) in enumerate(zip(others, numbers, strict=True)):
+            top, bottom = values[v]
+            positive = bottom.is_constant and bottom.constant_value() > 0
+            inner = "".join(f"Ex {n} (" for n in numbers[k + 1 :])
+            quotient = f"{number} {self.text.poly(top)} {self.text.poly(bottom)} {str(positive).lower()}"
+            regular = self.regular(facts, bottom, positive, theory)
+            blocks.append((f"{quotient} ({inner}{data}{')' * inner.count('(')})", regular))
+            data = f"(subst {quotient} {data})"
+        there = self.follows(facts, image, theory)
+        proof = self.text.lemma(f"entails {context} {data}", f"entails_same _ _ _ {there}", 1)
+        for block, regular in reversed(blocks):
+            proof = f"(witness {context} {block} {regular} {proof} (eq_refl true))"
+        same = self.text.lemma(f"equiv [] ({renamed}) {self.text.formula(wanted)}", "quantifiers _ _ _", 2)
+        lemma = self.text.lemma(self.text.entails(facts, wanted), f"entails_by _ ({renamed}) _ {proof} {same}")
+        for v in reversed(names):
+            body = exists([v], body)
+            lemma = self.text.lemma(self.text.entails((body, *known), wanted), f"opened _ _ _ _ {lemma}", 1)
+        return lemma
 
 
 _Term = tuple[int, tuple[tuple[int, int], ...]]
@@ -497,7 +547,16 @@ _RULES: Mapping[str, Callable[[_Steps, Claim, Context], str]] = {
     "linear equation solved": _Steps.linear,
     "linear equation solved under a guard": _Steps.guarded,
     "elimination set": _Steps.elimination_set,
+    "terms": _Steps.terms,
 }
+
+
+def _at(a: Atom, terms: Terms) -> Poly:
+    """The polynomial of a comparison at the terms, as ``subst`` makes it."""
+    for i, (_, bottom) in terms.items():
+        if a.relation in (Relation.EQ, Relation.NE) and a.poly.degree(i) % 2 and not bottom.is_constant:
+            raise Unable("an odd power of a denominator in an equation")
+    return at_terms(a.poly, terms)
 
 
 def _powers(entry: Entry) -> tuple[tuple[int, int], ...]:
@@ -529,7 +588,8 @@ def _arranged(formula: Formula, place: Sequence[int], before: Formula) -> tuple[
         case And(args) | Or(args):
             k = place[0]
             inner, path = _arranged(args[k], place[1:], before)
-            return type(formula)((*args[:k], inner, *args[k + 1 :])), [*["R_"] * k, *(["L"] if k < len(args) - 1 else []), *path]
+            way = [*["R_"] * k, *(["L"] if k < len(args) - 1 else []), *path]
+            return type(formula)((*args[:k], inner, *args[k + 1 :])), way
         case Exists(variables, body) | ForAll(variables, body):
             inner, path = _arranged(body, place[1:], before)
             return type(formula)(variables, inner), [*["D_"] * len(variables), *path]

@@ -10,11 +10,13 @@ everything else.
 from __future__ import annotations
 
 import re
-from importlib.resources import files
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from importlib.resources import files
 from typing import Any
 
+from qe.coq.derivation import derivation
+from qe.coq.squares import Form, read_form, squares
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.normal import nnf
@@ -22,8 +24,6 @@ from qe.formula.relation import Relation
 from qe.formula.syntax import And, Atom, Constant, Formula, Or
 from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Certificate, Kind
-from qe.coq.derivation import derivation
-from qe.coq.squares import Form, read_form, squares
 from qe.proof.entry import Entry, formula_from_json, parse_poly
 
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9]*", re.ASCII)

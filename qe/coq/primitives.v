@@ -1242,6 +1242,7 @@ Arguments tm _%Z _.
 Arguments xp _%positive _%nat.
 Arguments Ex _%positive _.
 Arguments Al _%positive _.
+Arguments swap _%positive _%positive _.
 Arguments subst _%positive _ _ _ _.
 Arguments linear _ _%positive _ _ _ _ _ _ _ _.
 Arguments witness _ _%positive _ _ _ _ _ _ _ _ _.

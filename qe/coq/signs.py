@@ -12,7 +12,7 @@ from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, 
 from qe.kernel.negation import negation
 
 NEGATIVE, ZERO, POSITIVE, ANY = 1, 2, 4, 7
-MOST_NODES = 20_000
+MOST_NODES = 2_000
 Identity = tuple[tuple[int, tuple[tuple[int, int], ...]], ...]
 """Coefficients, each with numbers of polynomials and their exponents: the sum is 0."""
 

@@ -42,6 +42,7 @@ class Text:
 
     def __init__(self, ring: Ring, prefix: str) -> None:
         self.ring, self.prefix = ring, prefix
+        self.words = dict(zip(ring.names, identifiers(ring.names), strict=True))
         self.lines: list[str] = []
         self.axioms: list[str] = []
         self._names: dict[str, str] = {}
@@ -116,26 +117,20 @@ class Text:
 
     def axiom(self, rule: str, context: Sequence[Formula], f: Formula, g: Formula) -> str:
         """The name of an equivalence that is believed, as an instance of the theorem of a rule."""
-        return self._believed(rule, context, f"{self.said(f)} <-> {self.said(g)}", self.equiv(context, f, g), (f, g))
-
-    def _believed(
-        self, rule: str, context: Sequence[Formula], text: str, statement: str, about: Sequence[Formula]
-    ) -> str:
         name = f"{self.name('axiom')}_{re.sub('[^A-Za-z0-9]+', '_', rule).strip('_')}"
-        free = {v for f in (*context, *about) for v in f.free}
+        free = {v for part in (*context, f, g) for v in part.free}
         names = [v for v in self.ring.names if v in free]
-        words = dict(zip(self.ring.names, identifiers(self.ring.names), strict=True))
+        every = f"forall {' '.join(self.words[v] for v in names)} : R, " if names else ""
         given = "".join(f"({self.said(c)}) -> " for c in context)
-        every = f"forall {' '.join(words[v] for v in names)} : R, " if names else ""
-        self.lines.append(f"Axiom {name} : {every}{given}({text}).")
+        self.lines.append(f"Axiom {name} : {every}{given}(({self.said(f)}) <-> ({self.said(g)})).")
         self.axioms.append(name)
         values = "".join(f" (e {self.variable(v)}%positive)" for v in names)
-        return self.lemma(statement, f"believed _ _ _ (fun e => {name}{values})")
+        data = f"{self.formulas(context)} {self.formula(f)} {self.formula(g)}"
+        return self.lemma(self.equiv(context, f, g), f"believed {data} (fun e => {name}{values})")
 
     def said(self, f: Formula) -> str:
         """The formula in the language of Coq, such that ``says`` computes to it."""
-        words = dict(zip(self.ring.names, identifiers(self.ring.names), strict=True))
-        return _said(f, words.__getitem__)
+        return _said(f, self.words.__getitem__)
 
 
 def _said(f: Formula, word: Callable[[str], str]) -> str:

@@ -36,26 +36,26 @@ Terms = Mapping[int, Quotient]
 def terms_goals(claim: Claim, context: Context) -> list[Goal]:
     """Each body follows from the other at the terms."""
     there, back, _ = only(claim, "there", "back", "theory")
-    before, after = (_opened(side) for side in existential(claim))
+    before, after = (block_opened(side) for side in existential(claim))
     names = {*before[0], *after[0]}
     if names & ({*claim.before.free, *claim.after.free}):
         raise claim.fail("a variable of one block is free in the other formula")
     known = outside(context, names)
     return [
-        *_following(known, after[1], before[1], _terms(there, before[0], after[0], claim), claim),
-        *_following(known, before[1], after[1], _terms(back, after[0], before[0], claim), claim),
+        *_following(known, after[1], before[1], terms_of(there, before[0], after[0], claim), claim),
+        *_following(known, before[1], after[1], terms_of(back, after[0], before[0], claim), claim),
     ]
 
 
 check_terms = ByLemmas(terms_goals)
 
 
-def _opened(formula: Formula) -> tuple[tuple[str, ...], Formula]:
+def block_opened(formula: Formula) -> tuple[tuple[str, ...], Formula]:
     """The variables and the body of a block; a formula that is none has no variables."""
     return (formula.variables, formula.body) if isinstance(formula, Exists) else ((), formula)
 
 
-def _terms(entry: Entry, variables: tuple[str, ...], others: tuple[str, ...], claim: Claim) -> Terms:
+def terms_of(entry: Entry, variables: tuple[str, ...], others: tuple[str, ...], claim: Claim) -> Terms:
     """The quotients for variables of one block, in those of the other and in what is free outside."""
     found: dict[int, Quotient] = {}
     for row in entry.items():
