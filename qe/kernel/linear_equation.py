@@ -83,6 +83,7 @@ class Pivot:
 
 
 def pivot_of(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> Pivot:
+    """The equation [variable of the block, polynomial, sign of its coefficient], a conjunct of the body."""
     variable, solved, of_lead = entry.row("variable of the block", "equation", "sign")
     name, equation, sign = variable.text(), polynomial_from_json(solved, claim.ring), of_lead.value
     if name not in block:
