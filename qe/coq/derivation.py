@@ -128,9 +128,11 @@ class _Steps:
         whole, path = _arranged(current, place, before)
         sides = f"[{'; '.join(path)}]"
         data = f"{self.text.formulas(known)} {self.text.formula(before)} {self.text.formula(after)}"
-        return self.lemma(
-            context, current, changed, f"step {sides} _ _ _ {data} {self.text.formula(whole)} {lemma}", 4
-        )
+        proof = f"step {sides} _ _ _ {data} {self.text.formula(whole)} {lemma}"
+        if whole == current:
+            return self.lemma(context, current, changed, proof, 4)
+        last = self.lemma(context, whole, changed, proof, 4)  # its parts stand in another order
+        return self.trans(context, (current, whole, changed), self.moved(context, current, whole), last)
 
     def under(self, context: Context, names: Sequence[str], f: Formula, g: Formula, lemma: str) -> str:
         """From a lemma about the body under what does not have the variables: ex names f <-> ex names g."""
