@@ -133,7 +133,7 @@ def problem_of(table: Table) -> Problem:
             raise table.error(name, "coordinates of at most 10^50", "a larger one")
     squared = max(dot(p, p) for p in points.values()) if auto else _radius(table, raw_radius)
     workspace = Workspace(kind, squared)
-    _check_inside(table, points, workspace)
+    _check_inside(table, points, workspace, is_computed=not {"via", "single"} & {*table.values})
     return Problem(
         method=method,
         workspace=workspace,
@@ -247,8 +247,12 @@ def _check_distinct(table: Table, points: Mapping[str, Vector]) -> None:
             raise table.error(second, f"a point other than {first}", f"the same point ({text})")
 
 
-def _check_inside(table: Table, points: Mapping[str, Vector], workspace: Workspace) -> None:
+def _check_inside(table: Table, points: Mapping[str, Vector], workspace: Workspace, *, is_computed: bool) -> None:
     for name, point in points.items():
+        if is_computed and name.startswith("via") and workspace.ball.margin(point) < 0:
+            over = ", ".join(shorten(str(c)) for c in point)
+            found = f"none; one over the obstacles, ({over}), is outside"
+            raise table.error("via", "two points in the workspace", found)
         if workspace.ball.margin(point) < 0:
             needed, given = dot(point, point), workspace.radius_squared
             raise table.error("radius", f"at least {_root(needed)}, the norm of {name}", _root(given))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Protocol, TypeVar
 
@@ -16,7 +16,7 @@ VERIFY_SECONDS = 60.0
 """The limit of a verification for which the caller gives none."""
 
 NOTE_SECONDS = 0.1
-"""Progress is told at most once in so many seconds."""
+"""Progress is reported at most once in so many seconds."""
 
 
 class Method(Enum):
@@ -118,7 +118,7 @@ class Stage(Enum):
 
 @dataclass(slots=True)
 class Handover:
-    """What ``Budget.check`` does once ``time.monotonic()`` has passed ``due``: ``move()``, and never again.
+    """What ``Budget.check`` does once ``time.monotonic()`` has passed ``due``: ``move()``, which may set another time.
 
     ``qe.processes.execution`` moves long work to another process by it.
     """
@@ -283,7 +283,6 @@ class Options:
     root_atoms: bool = False
     without: frozenset[Stage] = frozenset()
     certify: bool = False
-    progress: Listener = field(default=silent)
 
     def with_(self, **changes: object) -> Options:
         """A copy with some fields replaced."""

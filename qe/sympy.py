@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import qe.api.decide as api_decide
@@ -24,7 +25,7 @@ from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_to_sympy, to_sympy
 from qe.io.sympy_numbers import number_to_sympy
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 
 if TYPE_CHECKING:
     import sympy
@@ -176,7 +177,7 @@ class _Question:
     @staticmethod
     def of(given: Condition, timeout: float | None = None) -> _Question:
         """The conditions together, read within the time."""
-        return read_under(Limits(arguments.seconds(timeout)), lambda: _Question._of(given), *_conditions(given))
+        return read_under(Limits(arguments.seconds(timeout)), partial(_Question._of, given), *_conditions(given))
 
     @staticmethod
     def _of(given: Condition) -> _Question:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
-import signal
 import sys
-import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from qe.processes import execution
+from qe.processes.limits import Limits
 from tests.waiting import limit
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -50,21 +49,20 @@ pytest_runtest_setup = pytest_runtest_teardown = pytest_runtest_call
 
 
 @pytest.fixture(autouse=True, scope="module")
-def work_moves_later(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Work of up to a second stays in its process, except in tests that are marked to be about processes.
+def work_stays_here(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Work moves to a worker for near limits alone, except in tests that are marked to be about processes.
 
-    A process that has collected all tests takes as long to fork as many a question to answer, and what the child loads
-    is loaded again by the next one. Limits that are far away hold all the same: work that takes longer moves.
+    What tests replace they replace in this process; and workers that are killed take their time to start again.
     """
-    performed = execution._performed
+    may_move = execution._may_move
 
-    def later(work: Any, limits: execution.Limits, at_once: bool, kept: list[Any]) -> Any:
-        return performed(work, limits, at_once and limits.timeout is not None and limits.timeout < FAR, kept)
+    def near(limits: Limits, deadline: float, outer: Any) -> bool:
+        is_near = limits.memory is not None or (limits.timeout is not None and limits.timeout < FAR)
+        return is_near and may_move(limits, deadline, outer)
 
     with pytest.MonkeyPatch.context() as patch:
         if request.node.get_closest_marker("processes") is None:
-            patch.setattr(execution, "HERE", 1.0)
-            patch.setattr(execution, "_performed", later)
+            patch.setattr(execution, "_may_move", near)
         yield
 
 
@@ -82,7 +80,7 @@ def faults_are_heard(request: pytest.FixtureRequest) -> Iterator[None]:
 
 
 def pytest_collection_finish() -> None:
-    """What was collected stays until the end: no search for garbage goes through it, here or in forked processes.
+    """What was collected stays until the end: no search for garbage goes through it.
 
     The others are rarer than usual, since tests make little of it: all together take a fortieth less.
     """
@@ -104,12 +102,3 @@ def shared() -> Path:
     if not folder.is_dir():
         pytest.skip("the folder 'shared' is not beside the project")
     return folder
-
-
-@pytest.fixture(autouse=True)
-def ctrl_c_is_heard(request: pytest.FixtureRequest) -> Iterator[None]:
-    """What a test leaves blocked stays blocked in all processes that later tests start: undone here, and told."""
-    yield
-    if hasattr(signal, "pthread_sigmask") and signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()):
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-        warnings.warn(f"{request.node.nodeid} left SIGINT blocked", stacklevel=1)

@@ -21,7 +21,7 @@ from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
 from qe.certify.verify import verify
 from qe.errors import InputError
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.proof.certificate import Certificate
 
 DIGITS = 15

@@ -29,6 +29,9 @@ FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
 NEAR = Fraction(1, 1 << 12)
 """How near to a place where solutions meet branches are followed."""
 
+EASY = 0.58
+"""Steps get longer where images are smaller than this against their boxes: it is 1/2 and grows with the length."""
+
 ZERO, ONE = Fraction(0), Fraction(1)
 SPARE = Fraction(5, 4)
 """What links leave to a checker that computes with other roundings."""
@@ -108,23 +111,26 @@ def follow(
     ``before``: a piece and a parameter at which its solution is that at ``at`` (of this curve, or of one that this one
     goes on from): the first piece is linked to it. ``stops``: about where solutions meet, where steps get small.
     """
-    chain, coefficients = chain_of(arm), curve_powers(curve)
+    chain = chain_of(arm)
+    track = chain.track(curve_powers(curve))
     forwards = end > at
     pieces: list[Piece] = []
-    here, near, step = at, list(start), FIRST
+    here, step = at, FIRST
     while here != end and step >= LEAST:
         note()
         far = min(here + step, end) if forwards else max(here - step, end)
         low, high = (here, far) if forwards else (far, here)
         if step < NEAR and any(abs(here - stop) < 2 * NEAR for stop in stops):
             break
-        piece = chain.piece(coefficients, low, high, near)
+        piece = chain.piece(track, low, high, pieces[-1].near((low + high) / 2) if pieces else start)
         last = (pieces[-1], here) if pieces else before
         if piece is None or (last is not None and not _same(*last, piece, here)):
             step /= 2
             continue
         pieces.append(piece)
-        here, near, step = far, [float(v) for v in piece.at(far)], min(2 * step, FIRST)
+        here = far
+        if all(r < EASY * size for r, size in zip(piece.inner, piece.radius, strict=True)):
+            step = min(2 * step, FIRST)
     return tuple(pieces if forwards else reversed(pieces))
 
 

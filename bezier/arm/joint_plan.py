@@ -68,6 +68,7 @@ def joint_plan(
     sizes = [Fraction(1) if parts is None else parts[name] for name in curves]
     ends = tuple(total / sum(sizes) for total in accumulate(sizes))
     path = joint_path(arm, curves, note)
+    moments = samples_of(ends, law, samples)
     remarks: list[str] = []
     if path.is_stopped and (path.excesses or path.is_reachable):
         within = " within the limits of the joints" if path.excesses else ""
@@ -78,7 +79,7 @@ def joint_plan(
         return JointPlan(path, law, ends, duration, None, None, tuple(remarks))
     sequence = motion = None
     try:
-        sequence = joint_sequence(path, samples_of(ends, law, samples), note)
+        sequence = joint_sequence(path, moments, note)
         remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
         run = next((run for run in path.runs if run.number == sequence.run), None)
         if run is not None and not run.excesses:

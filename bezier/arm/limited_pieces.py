@@ -31,7 +31,7 @@ def limited_pieces(
         return
     points = [[tuple(exactly(c) for c in p) for p in curve.points] for curve in curves]
     tubes = checked.Tubes(Entry(arm_json(arm), "arm"), points, [joint.limits for joint in arm.joints])
-    powers = [curve_powers(curve) for curve in curves]
+    tracks = [chain_of(arm).track(curve_powers(curve)) for curve in curves]
     for k, branch in parts:
         open_ones = [_turned(piece, turns) for piece in reversed(branch.pieces)]
         while open_ones:
@@ -41,7 +41,7 @@ def limited_pieces(
                 continue
             middle = (piece.low + piece.high) / 2
             halves = [
-                chain_of(arm).piece(powers[k], low, high, [float(v) for v in piece.at((low + high) / 2)])
+                chain_of(arm).piece(tracks[k], low, high, [float(v) for v in piece.at((low + high) / 2)])
                 for low, high in ((middle, piece.high), (piece.low, middle))
             ]
             if piece.high - piece.low < LEAST or None in halves:

@@ -9,6 +9,11 @@ s) the end point at q minus p(s), C an approximate inverse of its Jacobian and Q
     K = -C f(0, s) + (I - C J(Q)) R,    f(0, s) in f(0, m) + [-h, h] (J(c + v[-h, h]) v - p'(s)).
 
 K inside the interior of R proves for every such s exactly one solution with r in R; r lies in K. J(Q) is regular then.
+
+The first joint moves all that follows rigidly. So its line c + vσ is taken back from p(s), seen from the base, and the
+other joints are to reach what remains: f is the same up to a motion that depends on σ alone, with the same zeros, and J
+does not turn with that joint. Else pieces near its axis, where it turns fast, could only be as long as the square of
+the distance allows.
 """
 
 from __future__ import annotations
@@ -26,7 +31,8 @@ from qe.exact.field import FieldElement
 
 BITS = 80
 NEWTON_STEPS, CLOSE = 30, 1e-13  # at most, and the last one that floats can tell from none
-SPARE = 1.25
+BOXES = 2  # that are tried: where joints differ in scale, the image of one is a better guess
+SPARE = 1.5
 """How much smaller than the box its image has to be: more than the rounding of ``radius`` and ``inner`` to floats."""
 
 Range = tuple[float, float]
@@ -60,6 +66,38 @@ class Piece:
         return tuple(c + v * step for c, v in zip(self.centre, self.slope, strict=True))
 
 
+Coefficients = Sequence[Sequence[arb]]
+"""Of 1, s, s², …, for each coordinate."""
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """A curve p(s) seen from the base of an arm, with its first and second derivatives."""
+
+    derivatives: tuple[Coefficients, Coefficients, Coefficients]
+
+    def at(self, s: arb, order: int = 0) -> list[arb]:
+        """A derivative at a ball, by Horner's rule."""
+        found = []
+        for coefficients in self.derivatives[order]:
+            total = arb(0)
+            for c in reversed(coefficients):
+                total = total * s + c
+            found.append(total)
+        return found
+
+    def behind(self, turns: bool, value: arb, rate: arb, s: arb) -> list[list[arb]]:
+        """p(s), p'(s), p''(s) seen from what the first joint moves, which is at ``value`` and goes on at ``rate``."""
+        p, first, second = (self.at(s, order) for order in range(3))
+        if not turns:
+            return [[*p[:2], p[2] - value], [*first[:2], first[2] - rate], second]
+        (x, y, _), (u, v, _) = p, first
+        first = [u + rate * y, v - rate * x, first[2]]
+        second = [second[0] + rate * (2 * v - rate * x), second[1] - rate * (2 * u + rate * y), second[2]]
+        sine, cosine = value.sin_cos()
+        return [[cosine * a + sine * b, cosine * b - sine * a, c] for a, b, c in (p, first, second)]
+
+
 class MotionChain:
     """constants[0] M(q_1) constants[1] … M(q_n) constants[n] applied to the origin, n = 3 for ``piece``.
 
@@ -67,19 +105,30 @@ class MotionChain:
     turns about (else slides along) its z axis.
     """
 
-    __slots__ = ("_constants", "_turning")
+    __slots__ = ("_base", "_constants", "_turning")
 
     def __init__(self, constants: Sequence[Sequence[Sequence[object]]], turning: Sequence[bool]) -> None:
         with precision(BITS + 16):
-            self._constants = [
+            self._base, *self._constants = (
                 arb_mat([*([_ball(v) for v in row] for row in m), [arb(0), arb(0), arb(0), arb(1)]]) for m in constants
-            ]
+            )
         self._turning = tuple(turning)
+
+    def track(self, curve: Sequence[Sequence[Fraction]]) -> Track:
+        """A curve, given by the coefficients of 1, s, s², … of each coordinate (mm), seen from the base."""
+        with precision(BITS + 16):
+            turn = [[self._base[k, i] for k in range(3)] for i in range(3)]  # the inverse: a rotation is orthogonal
+            width = max(map(len, curve))
+            vectors = [[_ball(c[k]) if k < len(c) else arb(0) for c in curve] for k in range(width)]
+            vectors[0] = [c - self._base[i, 3] for i, c in enumerate(vectors[0])]
+            seen = [[sum((a * b for a, b in zip(row, v, strict=True)), arb(0)) for v in vectors] for row in turn]
+            first = [_derived(c) for c in seen]
+            return Track((seen, first, [_derived(c) for c in first]))
 
     def _frames(self, q: Sequence[arb]) -> tuple[list[tuple[list[arb], list[arb]]], list[arb]]:
         """Axis and origin of every joint, and the end point."""
-        whole, axes = self._constants[0], []
-        for value, turns, constant in zip(q, self._turning, self._constants[1:], strict=True):
+        whole, axes = arb_mat(4, 4, 1), []
+        for value, turns, constant in zip(q, self._turning, self._constants, strict=True):
             axes.append(([whole[i, 2] for i in range(3)], [whole[i, 3] for i in range(3)]))
             whole = whole * _motion(value, turns) * constant
         return axes, [whole[i, 3] for i in range(3)]
@@ -104,10 +153,10 @@ class MotionChain:
                     total = [t + weight * c for t, c in zip(total, _cross(axes[i], column), strict=True)]
         return total
 
-    def solve(self, curve: Sequence[Sequence[Fraction]], s: Fraction, start: Sequence[float]) -> list[float] | None:
+    def solve(self, track: Track, s: Fraction, start: Sequence[float]) -> list[float] | None:
         """Newton's method from ``start``: joint values near a solution, in floating point, or None."""
         with precision(BITS):
-            target = _values(curve, _ball(s))
+            target = track.at(_ball(s))
             q = [arb(v) for v in start]
             for _ in range(NEWTON_STEPS):
                 matrix, tip, _, _ = self._jacobian([v.mid() for v in q])
@@ -119,52 +168,48 @@ class MotionChain:
                     return [float(v.mid()) for v in q]
             return None
 
-    def piece(
-        self, curve: Sequence[Sequence[Fraction]], low: Fraction, high: Fraction, start: Sequence[float]
-    ) -> Piece | None:
-        """A proved piece over [low, high] near ``start`` (a solution about the middle), or None where the test fails.
-
-        ``curve``: the coefficients of 1, s, s², … of each coordinate of p(s) (mm).
-        """
-        middle = (low + high) / 2
-        centre = self.solve(curve, middle, start)
+    def piece(self, track: Track, low: Fraction, high: Fraction, start: Sequence[float]) -> Piece | None:
+        """A proved piece over [low, high] near ``start``, a solution about the middle; None where the test fails."""
+        centre = self.solve(track, (low + high) / 2, start)
         if centre is None:
             return None
         with precision(BITS):
-            return self._tested(curve, low, high, centre)
+            return self._tested(track, low, high, centre)
 
-    def _tested(
-        self, curve: Sequence[Sequence[Fraction]], low: Fraction, high: Fraction, centre: list[float]
-    ) -> Piece | None:
-        middle, half = _ball((low + high) / 2), _ball((high - low) / 2)
-        sigma = arb(0, 1) * half
-        first = [_derived(c) for c in curve]
-        q = [arb(v) for v in centre]
+    def _tested(self, track: Track, low: Fraction, high: Fraction, centre: list[float]) -> Piece | None:
+        middle, sigma = _ball((low + high) / 2), arb(0, 1) * _ball((high - low) / 2)
+        q, first, turns = [arb(0), *map(arb, centre[1:])], arb(centre[0]), self._turning[0]
         matrix, tip, _, _ = self._jacobian(q)
         inverse = _inverse(matrix)
         if inverse is None:
             return None
-        slope = [float(v.mid()) for v in _times(inverse, _values(first, middle))]
-        v = [arb(x) for x in slope]
-        error = [a - b for a, b in zip(tip, _values(curve, middle), strict=True)]
+        target, forwards, _ = track.behind(turns, first, arb(0), middle)
+        slope = [float(x.mid()) for x in _times(inverse, forwards)]
+        rate, v = arb(slope[0]), [arb(0), *map(arb, slope[1:])]
+        error = [a - b for a, b in zip(tip, target, strict=True)]
         along = [a + b * sigma for a, b in zip(q, v, strict=True)]
-        drift = [
-            a - b for a, b in zip(_times(self._jacobian(along)[0], v), _values(first, middle + sigma), strict=True)
-        ]
+        _, forwards, bend = track.behind(turns, first + rate * sigma, rate, middle + sigma)
+        drift = [a - b for a, b in zip(_times(self._jacobian(along)[0], v), forwards, strict=True)]
         newton = _times(inverse, [a + sigma * b for a, b in zip(error, drift, strict=True)])
-        size = [2 * x.abs_upper() + arb(2) ** -36 for x in newton]
-        box = [arb(0, 1) * x for x in size]
-        whole = [a + b for a, b in zip(along, box, strict=True)]
-        jacobian, _, axes, columns = self._jacobian(whole)
-        near = inverse * jacobian
-        rest = [sum((((1 if i == j else 0) - near[i, j]) * box[j] for j in range(3)), arb(0)) for i in range(3)]
-        image = [b - a for a, b in zip(newton, rest, strict=True)]
-        if not all(SPARE * x.abs_upper() < r for x, r in zip(image, size, strict=True)):
+        image = newton
+        for _ in range(BOXES):
+            size = [2 * x.abs_upper() + arb(2) ** -36 for x in image]
+            box = [arb(0, 1) * x for x in size]
+            jacobian, _, axes, columns = self._jacobian([a + b for a, b in zip(along, box, strict=True)])
+            near = inverse * jacobian
+            rest = [sum((((1 if i == j else 0) - near[i, j]) * box[j] for j in range(3)), arb(0)) for i in range(3)]
+            image = [b - a for a, b in zip(newton, rest, strict=True)]
+            if all(SPARE * x.abs_upper() < r for x, r in zip(image, size, strict=True)):
+                break
+        else:
             return None
-        rates = self._rates(first, middle + sigma, (inverse, near), axes, columns)
-        if rates is None:
+        velocity = _solved(near, _times(inverse, forwards))
+        if velocity is None:
             return None
-        velocity, acceleration = rates
+        push = [a - b for a, b in zip(bend, self._bend(axes, columns, velocity), strict=True)]
+        acceleration = _solved(near, _times(inverse, push))
+        if acceleration is None:
+            return None
         return Piece(
             low,
             high,
@@ -172,28 +217,9 @@ class MotionChain:
             tuple(slope),
             tuple(_below(r) for r in size),
             tuple(_above(x.abs_upper()) for x in image),
-            tuple(map(_range, velocity)),
+            (_range(velocity[0] + rate), *map(_range, velocity[1:])),
             tuple(map(_range, acceleration)),
         )
-
-    def _rates(
-        self,
-        first: Sequence[Sequence[Fraction]],
-        at: arb,
-        matrices: tuple[arb_mat, arb_mat],
-        axes: list[list[arb]],
-        columns: list[list[arb]],
-    ) -> tuple[list[arb], list[arb]] | None:
-        """First and second derivatives of the joints over a piece, from p' (``first``), an approximate inverse of the
-        Jacobian matrix, and its product with that matrix over the piece."""
-        inverse, near = matrices
-        velocity = _solved(near, _times(inverse, _values(first, at)))
-        if velocity is None:
-            return None
-        second = _values([_derived(c) for c in first], at)
-        push = [a - b for a, b in zip(second, self._bend(axes, columns, velocity), strict=True)]
-        acceleration = _solved(near, _times(inverse, push))
-        return None if acceleration is None else (velocity, acceleration)
 
 
 def _motion(value: arb, turns: bool) -> arb_mat:
@@ -228,18 +254,7 @@ def _solved(m: arb_mat, v: Sequence[arb]) -> list[arb] | None:
     return [found[i, 0] for i in range(3)]
 
 
-def _values(curve: Sequence[Sequence[Fraction]], s: arb) -> list[arb]:
-    """The polynomials at a ball, by Horner's rule around its middle (second order in its radius)."""
-    found = []
-    for coefficients in curve:
-        total = arb(0)
-        for c in reversed(coefficients):
-            total = total * s + _ball(c)
-        found.append(total)
-    return found
-
-
-def _derived(coefficients: Sequence[Fraction]) -> list[Fraction]:
+def _derived(coefficients: Sequence[arb]) -> list[arb]:
     return [k * c for k, c in enumerate(coefficients)][1:]
 
 

@@ -4,14 +4,16 @@
 1969; Neumaier, Interval Methods for Systems of Equations, section 5.1, with a parameter): with f(σ, r) the end point at
 centre + slope σ + r minus the curve at middle + σ, and any matrix C, if -C f(σ, 0) + (I - C ∂f/∂r(σ, R)) R lies in the
 interior of the box R for all σ, there is exactly one r in R with f = 0, for every σ; it lies in that image and depends
-continuously on σ. Neighbouring pieces belong together when the image of the one lies in the box of the other at their
-common parameter: then both have the same solution there. ``limits``: for each joint null, or two values between which
-it stays (``bezier.certify.joint_limits``).
+continuously on σ. The first joint moves everything rigidly: with its line centre + slope σ taken back from the
+curve's point, seen from the base, f has the same zeros, and is as tame near the axis of that joint as elsewhere.
+Neighbouring pieces belong together when the image of the one lies in the box of the other at their common parameter:
+then both have the same solution there. ``limits``: for each joint null, or two values between which it stays
+(``bezier.certify.joint_limits``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -23,14 +25,15 @@ from bezier.certify import duals
 from bezier.certify.arm_rows import read_chain
 from bezier.certify.duals import Dual, Vector
 from bezier.certify.joint_limits import KeptLimits, Limits, Stretch, read_limits
+from bezier.certify.motions import STILL, Motion, back, image
+from bezier.certify.square_roots import Surd
 from qe.certify.kinds import BroughtKind
 from qe.exact.balls import ends, precision
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 
-MOST_ROWS, MOST_POINTS = 40, 60
+MOST_POINTS = 60
 SIGMA, DIRECTIONS = 0, 4
-Part = Callable[[Vector], Vector]
 Points = list[tuple[Fraction, ...]]
 
 
@@ -71,69 +74,6 @@ def check_branch(payload: dict[str, Json], budget: Budget | None = None) -> None
         _check_link(one, first, other, second, curves)
 
 
-class _Rows:
-    """The motions of the arm, with the joint values to be put in."""
-
-    def __init__(self, entry: Entry) -> None:
-        convention, rows = entry.fields("convention", "rows")
-        self.modified = convention.text() == "modified"
-        if not self.modified and convention.text() != "standard":
-            raise convention.fail("expected modified or standard")
-        self.rows = [self._row(row) for row in rows.items()]
-        joints = [joint for *_, joint in self.rows if joint]
-        if len(self.rows) > MOST_ROWS or len(joints) != 3:
-            raise rows.fail(f"expected at most {MOST_ROWS} rows, three of them with a joint")
-        with precision(duals.BITS):
-            self.chain = self._chain()
-
-    @staticmethod
-    def _row(entry: Entry) -> tuple[Fraction, tuple[Dual, Dual], Fraction, tuple[Dual, Dual], str]:
-        a, alpha, d, theta, joint = entry.fields("a", "alpha", "d", "theta", "joint")
-        kind = "" if joint.value is None else joint.text()
-        if kind not in ("", "revolute", "prismatic"):
-            raise joint.fail("expected null, revolute or prismatic")
-        return a.rational(), _angle(alpha), d.rational(), _angle(theta), kind
-
-    def _chain(self) -> list[Part | str]:
-        """Motions between two joints as one, and the kinds of the joints between them."""
-        chain, fixed = list[Part | str](), list[Part]()
-        for a, alpha, d, theta, kind in self.rows:
-            across: list[Part] = [duals.turn("x", alpha), duals.shift("x", duals.number(a, DIRECTIONS))]
-            along: list[Part] = [duals.turn("z", theta), duals.shift("z", duals.number(d, DIRECTIONS))]
-            fixed += across if self.modified else []
-            if kind:
-                chain += [duals.together(fixed, DIRECTIONS), kind]
-                fixed = []
-            fixed += along if self.modified else along + across[::-1]
-        return [*chain, duals.together(fixed, DIRECTIONS)]
-
-    def end_point(self, q: Vector) -> Vector:
-        """The end point for these joint values."""
-        values, motions = iter(q), list[Part]()
-        for part in self.chain:
-            if part == "revolute":
-                motions.append(duals.turn("z", next(values).sine_cosine()))
-            elif isinstance(part, str):
-                motions.append(duals.shift("z", next(values)))
-            else:
-                motions.append(part)
-        return duals.image(motions, duals.origin(DIRECTIONS))
-
-
-def _angle(entry: Entry) -> tuple[Dual, Dual]:
-    """An integer k for k pi / 12, or [cosine, sine]; its sine and cosine."""
-    if isinstance(entry.value, int) and not isinstance(entry.value, bool):
-        if abs(entry.value) > 24:
-            raise entry.fail("expected at most 24 twelfths of pi")
-        with precision(duals.BITS):
-            return duals.multiple_of_pi(entry.value, DIRECTIONS)
-    values = [item.rational() for item in entry.items()]
-    if len(values) != 2 or values[0] ** 2 + values[1] ** 2 != 1:
-        raise entry.fail("expected cosine and sine")
-    with precision(duals.BITS):
-        return duals.number(values[1], DIRECTIONS), duals.number(values[0], DIRECTIONS)
-
-
 def read_curve(entry: Entry) -> Points:
     """The control points of a curve in space."""
     points = [tuple(c.rational() for c in point.items()) for point in entry.items()]
@@ -160,9 +100,14 @@ class Tubes:
     """An arm along curves, and what is proved about pieces."""
 
     def __init__(self, arm: Entry, curves: Sequence[Points], limits: Sequence[Limits | None]) -> None:
-        self._rows = _Rows(arm)
-        self._coefficients = [[powers([p[i] for p in points]) for i in range(3)] for points in curves]
-        self._limits = KeptLimits(read_chain(arm), self._coefficients, limits)
+        chain = read_chain(arm)
+        if len(chain.turns) != 3:
+            raise arm.fail("expected rows, three of them with a joint")
+        coefficients = [[powers([p[i] for p in points]) for i in range(3)] for points in curves]
+        self._turns, self._limits = chain.turns, KeptLimits(chain, coefficients, limits)
+        with precision(duals.BITS):
+            self._links = [duals.rigid(motion) for motion in chain.constants[1:]]
+            self._curves = [list(_seen_from(chain.constants[0], curve)) for curve in coefficients]
 
     def image(self, piece: Piece) -> list[Fraction]:
         """Radii of a box around 0 that holds the image, which is proved to lie inside the piece's box."""
@@ -188,15 +133,22 @@ class Tubes:
         return next((part.joint for part in parts if not self._limits.keeps(part)), None)
 
     def _error(self, piece: Piece, sigma: Any, r: Sequence[Any]) -> list[Dual]:
-        """f(σ, r) with its derivatives."""
+        """f(σ, r) with its derivatives, the line of the first joint taken back."""
         step = duals.seed(sigma, SIGMA, DIRECTIONS)
-        joints = [
-            duals.number(c, DIRECTIONS) + duals.number(v, DIRECTIONS) * step + duals.seed(x, j + 1, DIRECTIONS)
-            for j, (c, v, x) in enumerate(zip(piece.centre, piece.slope, r, strict=True))
+        lines = [
+            duals.number(c, DIRECTIONS) + duals.number(v, DIRECTIONS) * step
+            for c, v in zip(piece.centre, piece.slope, strict=True)
         ]
-        s = duals.number((piece.low + piece.high) / 2, DIRECTIONS) + step
-        curve = self._coefficients[piece.curve]
-        return [a - _horner(c, s) for a, c in zip(self._rows.end_point(joints), curve, strict=True)]
+        ahead = [duals.seed(x, j + 1, DIRECTIONS) for j, x in enumerate(r)]
+        s, target = duals.number((piece.low + piece.high) / 2, DIRECTIONS) + step, duals.origin(DIRECTIONS)
+        for c in reversed(self._curves[piece.curve]):
+            target = [t * s + x for t, x in zip(target, c, strict=True)]
+        point = duals.origin(DIRECTIONS)
+        joints = (ahead[0], *(q + x for q, x in zip(lines[1:], ahead[1:], strict=True)))
+        for turns, link, q in reversed(list(zip(self._turns, self._links, joints, strict=True))):
+            point = duals.moved(turns, q, link(point))
+        target = duals.moved(self._turns[0], -lines[0], target)
+        return [a - b for a, b in zip(point, target, strict=True)]
 
     def _at_end(self, piece: Piece, radii: Sequence[Fraction], end: int) -> list[tuple[Fraction, Fraction]]:
         """Bounds of the joints at one end: for this σ alone, the image of what holds the solution holds it too."""
@@ -217,11 +169,12 @@ def powers(values: list[Fraction]) -> list[Fraction]:
     return [comb(n, k) * sum((-1) ** (k - j) * comb(k, j) * values[j] for j in range(k + 1)) for k in range(n + 1)]
 
 
-def _horner(coefficients: list[Fraction], s: Dual) -> Dual:
-    total = duals.number(Fraction(0), DIRECTIONS)
-    for c in reversed(coefficients):
-        total = total * s + duals.number(c, DIRECTIONS)
-    return total
+def _seen_from(base: Motion, curve: Sequence[Sequence[Fraction]]) -> Iterator[Vector]:
+    """The vectors of 1, s, s², … of a curve, moved back by a motion."""
+    rows, shift = back(base)
+    for k, vector in enumerate(zip(*curve, strict=True)):
+        seen = image((rows, shift if k == 0 else STILL[1]), [Surd.rational(c) for c in vector])
+        yield [duals.root_sum(c.terms, DIRECTIONS) for c in seen]
 
 
 def _check_link(one: Piece, first: list[Fraction], other: Piece, second: list[Fraction], curves: list[Points]) -> None:

@@ -10,6 +10,8 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, fmpq
 
+from bezier.certify.motions import Motion, Triple
+
 BITS = 96
 
 
@@ -26,6 +28,9 @@ class Dual:
 
     def __sub__(self, other: Dual) -> Dual:
         return Dual(self.value - other.value, tuple(a - b for a, b in zip(self.slope, other.slope, strict=True)))
+
+    def __neg__(self) -> Dual:
+        return Dual(-self.value, tuple(-a for a in self.slope))
 
     def __mul__(self, other: Dual) -> Dual:
         pairs = zip(self.slope, other.slope, strict=True)
@@ -63,16 +68,6 @@ def around(radius: Fraction) -> arb:
     return arb(0, 1) * ball(radius)
 
 
-Angle = tuple[Dual, Dual]
-
-
-def multiple_of_pi(twelfths: int, directions: int) -> Angle:
-    """Sine and cosine of twelfths * pi / 12."""
-    angle = arb.pi() * twelfths / 12
-    flat = (arb(0),) * directions
-    return Dual(angle.sin(), flat), Dual(angle.cos(), flat)
-
-
 Vector = list[Dual]
 
 
@@ -81,52 +76,35 @@ def origin(directions: int) -> Vector:
     return [number(Fraction(0), directions) for _ in range(3)]
 
 
-def image(motions: Sequence[Callable[[Vector], Vector]], point: Vector) -> Vector:
-    """The image of a point under all motions, the last one first."""
-    for motion in reversed(motions):
-        point = motion(point)
-    return point
-
-
-def together(motions: Sequence[Callable[[Vector], Vector]], directions: int) -> Callable[[Vector], Vector]:
-    """Several constant motions as one, from the images of the origin and of the unit points."""
-    start = image(motions, origin(directions))
-    units = [[number(Fraction(int(i == k)), directions) for i in range(3)] for k in range(3)]
-    columns = [[a - b for a, b in zip(image(motions, unit), start, strict=True)] for unit in units]
+def rigid(motion: Motion) -> Callable[[Vector], Vector]:
+    """A constant motion."""
+    rows, shift = [_values(row) for row in motion[0]], _values(motion[1])
 
     def moved(p: Vector) -> Vector:
-        found = []
-        for i in range(3):  # what the columns hold are constants
-            c = [column[i].value for column in columns]
-            value = start[i].value + c[0] * p[0].value + c[1] * p[1].value + c[2] * p[2].value
-            parts = zip(p[0].slope, p[1].slope, p[2].slope, strict=True)
-            found.append(Dual(value, tuple(c[0] * x + c[1] * y + c[2] * z for x, y, z in parts)))
-        return found
+        values = [_inner(row, [v.value for v in p]) + o for row, o in zip(rows, shift, strict=True)]
+        slopes = [tuple(_inner(row, part) for part in zip(*(v.slope for v in p), strict=True)) for row in rows]
+        return [Dual(value, slope) for value, slope in zip(values, slopes, strict=True)]
 
     return moved
 
 
-def turn(axis: str, angle: Angle) -> Callable[[Vector], Vector]:
-    """The rotation about the x or the z axis."""
-    s, c = angle
-    first, second, _ = (1, 2, 0) if axis == "x" else (0, 1, 2)
-
-    def moved(p: Vector) -> Vector:
-        q = list(p)
-        q[first], q[second] = c * p[first] - s * p[second], s * p[first] + c * p[second]
-        return q
-
-    return moved
+def _values(numbers: Triple) -> list[arb]:
+    return [root_sum(c.terms, 0).value for c in numbers]
 
 
-def shift(axis: str, length: Dual) -> Callable[[Vector], Vector]:
-    """The translation along the x or the z axis."""
-    index = 0 if axis == "x" else 2
+def moved(turns: bool, value: Dual, p: Vector) -> Vector:
+    """A point turned about the z axis by an angle, or shifted along it by a length."""
+    x, y, z = p
+    if not turns:
+        return [x, y, z + value]
+    s, c = value.value.sin(), value.value.cos()
 
-    def moved(p: Vector) -> Vector:
-        return [v + length if i == index else v for i, v in enumerate(p)]
+    def turned(a: arb, b: arb) -> tuple[arb, arb]:
+        return c * a - s * b, s * a + c * b
 
-    return moved
+    rates = zip(x.slope, y.slope, value.slope, strict=True)
+    slopes = [turned(dx - rate * y.value, dy + rate * x.value) for dx, dy, rate in rates]
+    return [*map(Dual, turned(x.value, y.value), zip(*slopes, strict=True)), z]
 
 
 def krawczyk(

@@ -24,7 +24,7 @@ from bezier.planner.table import method_of
 from bezier.plans import Clock, Plan
 from bezier.problem import problem_of
 from qe.errors import InputError, Unable
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 
 MAX_CONTROL_POINTS = 31
 Curves = Mapping[str, Bezier]

@@ -34,7 +34,7 @@ from bezier.problem import Problem, ends_inside, to_json
 from qe.api.verify import checked as verify
 from qe.errors import CertificateRejected, InputError
 from qe.kernel.verdict import Verdict
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.progress import Event
 from qe.proof.certificate import Certificate
 

@@ -16,7 +16,7 @@ from bezier.plans import Clock
 from bezier.problem import Problem
 from bezier.report.first import DRAWING
 from qe.cli.shell import OK
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 
 PAGE, DATA = "compare.html", COMPARISON
 

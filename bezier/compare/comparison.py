@@ -28,7 +28,10 @@ from bezier.plans import Clock, Derived, Plan, derivation_page
 from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.formula.syntax import Formula
-from qe.processes.worker import Channel, Known, run
+from qe.processes.channel import Channel, Known
+from qe.processes.execution import run
+from qe.processes.limits import Limits
+from qe.processes.worker import end_idle
 from qe.proof.certificate import Certificate
 
 Found = TypeVar("Found")
@@ -277,16 +280,18 @@ def _region(asked: Statement, plane: Plane, clock: Clock, seconds: float) -> Pla
     ``seconds``: of processor time, where the clock has no limit, so that a busy machine shows as much as another one.
     """
     known = Known()
-    work = partial(_measured, asked.formula, most=seconds if clock.limit is None else None)
+    work = partial(_measured, asked.formula, seconds if clock.limit is None else None)
     patience = seconds if clock.limit is not None else PATIENCE * seconds
     try:
-        region, area = run(work, timeout=patience, known=known, progress=clock.listener)
+        region, area = run(work, Limits(patience, progress=clock.listener), known=known)
     except Unable as error:
         found = known.facts.get("region")
         if found is None:
             raise
         answer = cast("qe.Answer | None", known.facts.get("answer"))
         return PlanarRegion(str(asked), cast("qe.Region", found), None, f"area not found: {error}", answer)
+    finally:
+        end_idle()  # the processor time of a worker is known when it has ended
     unit = plane.unit_area
     assert area.high is not None and unit.high is not None
     answer = cast("qe.Answer | None", known.facts.get("answer"))
@@ -297,7 +302,7 @@ class _Spent(Exception):
     """The processor time is over. No ``Unable``, after which the engine would try another way."""
 
 
-def _measured(formula: Formula, channel: Channel, *, most: float | None) -> tuple[qe.Region, Enclosure]:
+def _measured(formula: Formula, most: float | None, channel: Channel) -> tuple[qe.Region, Enclosure]:
     """The region with all that is shown of it, which is told as soon as it is known, and its area.
 
     Raises ``BudgetExceeded`` after ``most`` seconds of processor time.

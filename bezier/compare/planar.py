@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from math import gcd, lcm
 
 import qe
@@ -20,7 +21,10 @@ from bezier.methods.control.statements import Name, Product, Statement, Sum, equ
 from bezier.methods.control.system import coordinates
 from bezier.problem import Problem
 from qe.errors import InternalError
-from qe.processes.worker import run
+from qe.formula.syntax import Formula
+from qe.processes.channel import Channel
+from qe.processes.execution import run
+from qe.processes.limits import Limits
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +79,11 @@ def plane_coordinates(point: str) -> tuple[str, str]:
 
 def region_of(condition: Statement, *, timeout: float | None = None) -> qe.Region:
     """The region of a formula about Q1 in the plane. Raises ``Unable`` at the limit, which is hard."""
-    found = run(lambda channel: qe.region(condition.formula, progress=channel.event).to_json(), timeout=timeout)
-    return qe.Region.from_json(found)
+    return qe.Region.from_json(run(partial(_written, condition.formula), Limits(timeout)))
+
+
+def _written(formula: Formula, channel: Channel) -> str:
+    return qe.region(formula, progress=channel.event).to_json()
 
 
 def _along(arrow: Vector) -> Vector:

@@ -15,7 +15,7 @@ from bezier.planner.words import why_not
 from bezier.problem import Problem, problem_of
 from qe import arguments
 from qe.errors import InputError
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.progress import Listener, silent
 
 if TYPE_CHECKING:

@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TypeVar
 
 from bezier.paths.path import Path
@@ -14,7 +15,8 @@ from bezier.plans import Begun, Clock, Plan
 from bezier.problem import Problem
 from qe.errors import BudgetExceeded
 from qe.options import Budget
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 
 T = TypeVar("T")
 
@@ -47,7 +49,7 @@ class Work:
     def shows_path(self) -> bool:
         """Whether the first part alone shows that there is a path; else all is done. Raises as ``make_plan``."""
         if self._plan is None and self._begun is None and not self.proofs:
-            self._begun = self._limited(lambda clock: begin_plan(self.problem, clock))
+            self._begun = self._limited(partial(begin_plan, self.problem))
         return self._begun is not None and self._begun.outcome.is_success
 
     @property
@@ -65,14 +67,8 @@ class Work:
         """The whole plan, worked out now if it was not before. Raises as ``make_plan``."""
         with self._lock:
             if self._plan is None:
-                self._plan = self._limited(self._whole)
+                self._plan = self._limited(partial(_whole, self.problem, self._begun, self.proofs))
             return self._plan
-
-    def _whole(self, clock: Clock) -> Plan:
-        if self._begun is None:
-            return make_plan(self.problem, clock, proofs=self.proofs)
-        clock.seconds.update(self._begun.seconds)
-        return finish_plan(self._begun, clock, proofs=self.proofs)
 
     def _limited(self, work: Callable[[Clock], T]) -> T:
         """The work in what is left of the limits; where there are any, in a process that can be killed."""
@@ -81,14 +77,20 @@ class Work:
             if self.seconds >= bounds.timeout:
                 raise BudgetExceeded(f"time limit of {bounds.timeout:g} s reached before this was asked for")
             bounds = replace(bounds, timeout=bounds.timeout - self.seconds)
-
-        def under(budgets: Callable[[], Budget]) -> T:
-            budget = budgets()
-            return work(Clock(limit=budget.remaining(), listener=budget.listener))
-
         try:
             if bounds.timeout is None and bounds.memory is None:
                 return work(Clock(listener=bounds.progress))
-            return perform(under, bounds, at_once=True)
+            return perform(partial(_timed, work), bounds, at_once=True)
         finally:
             self.seconds += time.perf_counter() - begin
+
+
+def _whole(problem: Problem, begun: Begun | None, proofs: bool, clock: Clock) -> Plan:
+    if begun is None:
+        return make_plan(problem, clock, proofs=proofs)
+    clock.seconds.update(begun.seconds)
+    return finish_plan(begun, clock, proofs=proofs)
+
+
+def _timed(work: Callable[[Clock], T], budget: Budget) -> T:
+    return work(Clock(limit=budget.remaining(), listener=budget.listener))

@@ -13,7 +13,7 @@ from bezier.planner.words import lines
 from bezier.plans import Clock, Plan
 from bezier.problem import Problem
 from qe.cli.shell import OK, UNABLE
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from bezier.motion.timelaw import TimeLaw
 from qe.certify.verify import verify
 from qe.cli.shell import OK, UNABLE
 from qe.kernel.verdict import Verdict
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.proof.certificate import Certificate
 
 TABLE, DATA, EVIDENCE, PAGE = "joints.csv", "joints.json", "joints_certificate.json", "joints.html"

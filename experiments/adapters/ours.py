@@ -16,7 +16,7 @@ from qe.options import Budget
 def ours(name: str) -> Callable[[Formula, Limits], Answer]:
     """The adapter for a name in ``ENGINES``.
 
-    It asks the pipeline itself: the hard limits, for which ``qe.eliminate`` would fork a worker, are the runner's.
+    It asks the pipeline itself: the hard limits, for which ``qe.eliminate`` would ask a worker, are the runner's.
     """
 
     def adapter(formula: Formula, limits: Limits) -> Answer:

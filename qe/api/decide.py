@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from fractions import Fraction
+from functools import partial
 from typing import Any, Unpack
 
 from qe import arguments
@@ -19,7 +20,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.syntax import Formula
 from qe.formula.traverse import bound_variables, ring_of
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.answer import Answer
 from qe.spelling import glued
 
@@ -56,7 +57,7 @@ def find_instance(formula: AnyFormula, **settings: Unpack[Decision]) -> Assignme
 def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **settings: Unpack[Search]) -> bool:
     """Whether existential variables can be given by these polynomials in the variables quantified further outside.
 
-    The polynomials (text, ``Poly`` or SymPy) are put in and the stronger sentence is decided: True proves the
+    The polynomials (text, ``Poly`` or SymPy) are substituted and the stronger sentence is decided: True proves the
     sentence, False says only that this witness does not work everywhere. Raises ``InputError`` for a name that is not
     existentially quantified, or a polynomial in variables that are not known at its place.
     """
@@ -65,16 +66,16 @@ def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **set
     limits = limits_of(settings)
     given = without_root_atoms(reading(sentence, settings["format"], limits))
     offered, known = arguments.by_name(witness, "witness"), features(given).bound
-
-    def polynomials() -> dict[str, tuple[Poly, Fraction]]:
-        return {name: read_polynomial(term, f"witness: {name}", known=known) for name, term in offered.items()}
-
-    read = read_under(limits, polynomials, offered)
+    read = read_under(limits, partial(_polynomials, offered, known), offered)
     rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
     asked = instantiate(convert(given, ring), terms)
     return _decided(asked, sentence, settings, limits).truth is True
+
+
+def _polynomials(offered: Mapping[str, AnyFormula], known: Container[str]) -> dict[str, tuple[Poly, Fraction]]:
+    return {name: read_polynomial(term, f"witness: {name}", known=known) for name, term in offered.items()}
 
 
 @with_settings(Search)

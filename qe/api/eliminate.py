@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Unpack, cast
 
 from qe import arguments
@@ -15,7 +16,7 @@ from qe.api.settings import Elimination, Order, ProvedQuestion, Search, with_set
 from qe.errors import InputError, Unable
 from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
-from qe.processes.execution import Budgets, Limits
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.partial import Partial
@@ -61,7 +62,6 @@ def answered_under(
         root_atoms=settings["root_atoms"],
         without=cast(frozenset[Stage], settings["without"]),
         certify=check,
-        progress=settings["progress"],
     )
     helpers = _cluster(settings)
     if methods and (helpers is not None or options.method is not Method.AUTO or not limits.process):
@@ -88,17 +88,7 @@ def _cluster(settings: Search) -> Cluster | None:
 
 def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
     """The answer, found in a worker process where it takes long or a limit is to hold."""
-
-    def work(budgets: Budgets) -> Answer:
-        budget = budgets()
-        chosen = options.with_(progress=budget.listener)
-        if cluster is None:
-            return _answer(formula, chosen, budget, check)
-        from qe.processes.cluster import helping
-
-        with helping(cluster) as budget.helpers:
-            return _answer(formula, chosen, budget, check)
-
+    work = partial(_answer, formula, options, check, cluster)
     try:
         return performed(work, formula, limits, at_once=cluster is not None)
     except Unable as error:
@@ -135,20 +125,26 @@ def _raced(formula: Formula, options: Options, limits: Limits, check: bool, meth
     """The first answer that one of the methods has."""
     from qe.api.race import raced
 
-    def asked(method: Method, budget: Budget) -> Answer:
-        return _answer(formula, options.with_(method=method, progress=budget.listener), budget, check)
-
     try:
-        return performed(lambda budgets: raced(asked, methods, budgets()), formula, limits, at_once=True)
+        return raced(partial(_answer_by, formula, options, check), methods, limits)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), question=formula)
 
 
-def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> Answer:
+def _answer_by(formula: Formula, options: Options, check: bool, method: Method, budget: Budget) -> Answer:
+    return _answer(formula, options.with_(method=method), check, None, budget)
+
+
+def _answer(formula: Formula, options: Options, check: bool, cluster: Cluster | None, budget: Budget) -> Answer:
     """What the engine finds, which is loaded at the first call; verified where that is asked, or costs little.
 
-    Where the answer is to be proved, it is kept before.
+    Where the answer is to be proved, it is kept before. The processes of a cluster help.
     """
+    if cluster is not None:
+        from qe.processes.cluster import helping
+
+        with helping(cluster) as budget.helpers:
+            return _answer(formula, options, check, None, budget)
     from qe.engine.run import answer_to, answered, proved
 
     try:
@@ -183,20 +179,18 @@ def region(formula: AnyFormula, order: Order = None, **settings: Unpack[ProvedQu
     others.
     Raises ``BudgetExceeded`` at a limit.
     """
-    from qe.regions.build import described
-
     limits, names = limits_of(settings), arguments.names(order)
     whole, check = replace(limits, start=None), settings["check"]
     given = reading(formula, settings["format"], limits, settings["total_division"])
+    return performed(partial(_region, given, names, whole, check), given, limits)
 
-    def work(budgets: Budgets) -> Region:
-        from qe.api.verify import with_guarantee
 
-        budget = budgets()
-        found = described(given, names, budget, whole, check=check)
-        return with_guarantee(found, budget) if check else found
+def _region(given: Formula, names: tuple[str, ...] | None, whole: Limits, check: bool, budget: Budget) -> Region:
+    from qe.api.verify import with_guarantee
+    from qe.regions.build import described
 
-    return performed(work, given, limits)
+    found = described(given, names, budget, whole, check=check)
+    return with_guarantee(found, budget) if check else found
 
 
 def verify(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
 from enum import Enum
+from functools import partial
 from typing import Any, Unpack
 
 from qe import arguments
@@ -18,7 +19,8 @@ from qe.exact.ring import Poly, Ring, format_poly
 from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
 from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
-from qe.processes.execution import Budgets, perform
+from qe.options import Budget
+from qe.processes.execution import perform
 
 Names = Any
 """``"y, x"``, ``"y x"``, or a list of names or SymPy symbols."""
@@ -66,12 +68,8 @@ def comprehensive_groebner(
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
     given = polys, variables, parameters, chosen, constants, equal, nonzero
-    system, _ = read_under(limits, lambda: read_system(*given), polys, equal, nonzero)
-
-    def work(budgets: Budgets) -> ComprehensiveGroebnerSystem:
-        return system.solved(budgets(), faithful=wanted)
-
-    return perform(work, limits, at_once=limits.timeout is not None)
+    system, _ = read_under(limits, partial(read_system, *given), polys, equal, nonzero)
+    return perform(partial(system.solved, faithful=wanted), limits, at_once=limits.timeout is not None)
 
 
 @with_settings(Proved)
@@ -96,18 +94,20 @@ def real_root_classification(
     """
     limits = limits_of(settings)
     given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive
-    asked = read_under(limits, lambda: read_system(*given), polys, equal, nonzero, positive)
-
-    def work(budgets: Budgets) -> RealRootClassification:
-        budget = budgets()
-        found = classified(*asked, budget)
-        if not settings["check"]:
-            return found
-        from qe.api.classified import certified
-
-        return certified(asked[0], found, budget)
-
+    system, signs = read_under(limits, partial(read_system, *given), polys, equal, nonzero, positive)
+    work = partial(_classified, system, signs, settings["check"])
     return perform(work, limits, at_once=limits.timeout is not None)
+
+
+def _classified(
+    system: ParametricSystem, positive: tuple[Poly, ...], check: bool, budget: Budget
+) -> RealRootClassification:
+    found = classified(system, positive, budget)
+    if not check:
+        return found
+    from qe.api.classified import certified
+
+    return certified(system, found, budget)
 
 
 def read_system(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import warnings
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
@@ -55,8 +55,9 @@ def read_formula(given: AnyFormula, format: str = "text", total_division: bool =
     return from_sympy(given)
 
 
-def note_doubts(given: AnyFormula, formula: Formula, format: str = "text") -> None:
-    """Warn of what may have been meant otherwise in what was given and read as this formula (``DoubtfulInput``).
+def note_doubts(given: AnyFormula, formula: Formula, format: str = "text", solved: Sequence[str] = ()) -> None:
+    """Warn of what may have been meant otherwise in what was given and read as this formula, which is to be ``solved``
+    for some variables (``DoubtfulInput``).
 
     A ``Formula`` or an answer was made or read before.
     """
@@ -66,7 +67,7 @@ def note_doubts(given: AnyFormula, formula: Formula, format: str = "text") -> No
     if isinstance(given, Formula | Answer):
         return
     text = "\n".join(part for part in (given if isinstance(given, list | tuple) else [given]) if isinstance(part, str))
-    warned(doubts(formula, text, formats.checked(format).value if text else ""))
+    warned(doubts(formula, text, formats.checked(format).value if text else "", solved))
 
 
 def warned(notes: Iterable[str]) -> None:

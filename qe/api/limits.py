@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from importlib import import_module
 from typing import TypeVar
 
@@ -12,7 +13,9 @@ from qe.api.settings import Limited
 from qe.formula.syntax import Formula
 from qe.formula.weight import may_block, text_may_block
 from qe.io.sharing import refuse_shared
-from qe.processes.execution import Budgets, Limits, perform
+from qe.options import Budget
+from qe.processes.execution import Work, perform
+from qe.processes.limits import Limits
 
 Result = TypeVar("Result")
 Reader = Callable[[AnyFormula, str, bool], Formula]
@@ -24,11 +27,11 @@ MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "
 """The parts of the engine that nearly every problem with a quantifier needs."""
 
 
-def performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits, *, at_once: bool = False) -> Result:
-    """The work on a formula, in a process of its own from the start (``at_once``) also where a limit must hold."""
+def performed(work: Work[Result], formula: Formula, limits: Limits, *, at_once: bool = False) -> Result:
+    """The work on a formula, in another process from the start (``at_once``) also where a limit must hold."""
     at_once = at_once or limits.timeout is not None or may_block(formula)
     if at_once:
-        for part in MOSTLY_NEEDED:  # loaded here once, and not again and again in every worker
+        for part in MOSTLY_NEEDED:  # what is loaded here is loaded by workers before their time begins to run
             import_module(part)
     return perform(work, limits, at_once=at_once)
 
@@ -41,21 +44,34 @@ def limits_of(settings: Limited) -> Limits:
 
 
 def reading(
-    formula: AnyFormula, format: str, limits: Limits, total_division: bool = False, *, reader: Reader = read_formula
+    formula: AnyFormula,
+    format: str,
+    limits: Limits,
+    total_division: bool = False,
+    *,
+    reader: Reader = read_formula,
+    solved: Sequence[str] = (),
 ) -> Formula:
-    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one, ``Unable`` for
-    a formula whose parts are shared so much that no method, all of which write it out, comes to an end."""
-    found = read_under(limits, lambda: reader(formula, format, total_division), formula)
+    """The formula, to be ``solved`` for these, read under the limits where reading may take long.
+
+    Raises ``BudgetExceeded`` at one, ``Unable`` for a formula whose parts are shared so much that no method, all of
+    which write it out, comes to an end.
+    """
+    found = read_under(limits, partial(reader, formula, format, total_division), formula)
     refuse_shared(found)
-    note_doubts(formula, found, format)
+    note_doubts(formula, found, format, solved)
     return found
 
 
 def read_under(limits: Limits, read: Callable[[], Result], *given: object) -> Result:
-    """What ``read`` makes of what was given, under the limits where that may take long."""
+    """What ``read``, which can be pickled, makes of what was given, under the limits where that may take long."""
     limited = limits.timeout is not None or limits.memory is not None
     if any(_may_take_long(part, limited) for part in given):
-        return perform(lambda budgets: read(), limits, at_once=True)
+        return perform(partial(_unbudgeted, read), limits, at_once=True)
+    return read()
+
+
+def _unbudgeted(read: Callable[[], Result], budget: Budget) -> Result:
     return read()
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 from qe import arguments
@@ -14,10 +15,10 @@ from qe.convex import optimum as convex
 from qe.convex.optimum import NotConvex, Optimum
 from qe.errors import InputError
 from qe.formula.doubts import numbers_as_names
+from qe.formula.syntax import Formula
 from qe.formula.traverse import ring_of
-from qe.optimization.values import Goal
+from qe.optimization.values import Goal, Objective
 from qe.options import Budget
-from qe.processes.execution import Budgets
 from qe.proof.answer import Guarantee
 
 if TYPE_CHECKING:
@@ -110,15 +111,15 @@ def _best(
     settings: Proved,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
-    limits, check = limits_of(settings), settings["check"]
-    conditions = read_under(limits, lambda: read_constraints(constraints), constraints)
+    limits = limits_of(settings)
+    conditions = read_under(limits, partial(read_constraints, constraints), constraints)
     given = arguments.names(parameters, "parameters")
     strangers = sorted({*(given or ())} - names_typed([objective, constraints, conditions]))
     if strangers:
         raise InputError(f"parameters: variables of the problem expected, each once, {', '.join(strangers)} found")
     ring = ring_of(conditions)
     taken = (*(ring.names if ring is not None else ()), *(given or ()))
-    term = read_under(limits, lambda: read_objective(objective, taken), objective)
+    term = read_under(limits, partial(read_objective, objective, taken), objective)
     note_doubts(constraints, conditions)
     if isinstance(objective, str):
         alone = [name for name in term.names if name not in conditions.free]
@@ -127,32 +128,46 @@ def _best(
         raise arguments.wrong("method", "auto, convex or elimination", method)
     if given is not None and method == "convex":
         raise InputError("parameters: method auto or elimination expected with parameters, convex found")
-
-    def work(budgets: Budgets) -> Optimum | GlobalOptimum | ParametricOptimum:
-        budget = budgets()
-        found = search(budget)
-        return _with_guarantee(found, budget) if check else found
-
-    def search(budget: Budget) -> Optimum | GlobalOptimum | ParametricOptimum:
-        if given is not None:
-            from qe.optimization.parametric_optimum import optimum_of
-
-            return optimum_of(sign, Goal.of(term, conditions, given), budget=budget, check=check)
-        if term.polynomial is not None and method != "elimination":
-            poly, scale = term.polynomial
-            try:
-                solved = convex.minimize if sign > 0 else convex.maximize
-                return solved(poly, conditions, scale=scale, budget=budget, near=True)
-            except NotConvex:
-                if method == "convex":
-                    raise
-        elif method == "convex":
-            raise NotConvex("the objective is no polynomial")
-        from qe.optimization.global_optimum import best
-
-        return best(sign, Goal.of(term, conditions), budget=budget, check=check)
-
+    work = partial(_optimum, sign, term, conditions, given, method, settings["check"])
     return performed(work, conditions, limits)
+
+
+def _optimum(
+    sign: int,
+    term: Objective,
+    conditions: Formula,
+    parameters: tuple[str, ...] | None,
+    method: Way,
+    check: bool,
+    budget: Budget,
+) -> Optimum | GlobalOptimum | ParametricOptimum:
+    found: Optimum | GlobalOptimum | ParametricOptimum
+    if parameters is not None:
+        from qe.optimization.parametric_optimum import optimum_of
+
+        found = optimum_of(sign, Goal.of(term, conditions, parameters), budget=budget, check=check)
+    else:
+        found = _free_optimum(sign, term, conditions, method, check, budget)
+    return _with_guarantee(found, budget) if check else found
+
+
+def _free_optimum(
+    sign: int, term: Objective, conditions: Formula, method: Way, check: bool, budget: Budget
+) -> Optimum | GlobalOptimum:
+    """The optimum without parameters."""
+    if term.polynomial is not None and method != "elimination":
+        poly, scale = term.polynomial
+        try:
+            solved = convex.minimize if sign > 0 else convex.maximize
+            return solved(poly, conditions, scale=scale, budget=budget, near=True)
+        except NotConvex:
+            if method == "convex":
+                raise
+    elif method == "convex":
+        raise NotConvex("the objective is no polynomial")
+    from qe.optimization.global_optimum import best
+
+    return best(sign, Goal.of(term, conditions), budget=budget, check=check)
 
 
 def _with_guarantee(

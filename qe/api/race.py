@@ -6,34 +6,19 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 from qe.options import Budget, Method
+from qe.processes.channel import Channel
+from qe.processes.limits import Limits
 from qe.processes.racing import first
-from qe.processes.worker import Channel
 from qe.proof.answer import Answer, Status
 
 
-def raced(asked: Callable[[Method, Budget], Answer], methods: Iterable[Method], budget: Budget) -> Answer:
-    """The first answer that ``asked`` has by one of the methods; UNABLE, with the reasons of all, where none has one.
-
-    To be called in a worker process, which the processes of the methods do not outlive.
-    """
-
+def raced(asked: Callable[[Method, Budget], Answer], methods: Iterable[Method], limits: Limits) -> Answer:
+    """The first answer that ``asked``, which can be pickled, has by one of the methods, within the limits; UNABLE, with
+    the reasons of all, where none has one."""
     unproved: list[Answer] = []
-
-    def attempt(method: Method, channel: Channel) -> Answer:
-        return asked(method, Budget(budget.remaining(), listener=channel.event, keep=channel.keep))
-
-    def keep(answer: Answer) -> None:
-        unproved.append(answer)
-        budget.keep(unproved[0])
-
     order = sorted(methods, key=lambda method: method.value)
-    winner, found = first(
-        {method: partial(attempt, method) for method in order},
-        lambda answer: answer.status is Status.SOLVED,
-        seconds=budget.remaining(),
-        progress=budget.listener,
-        kept=keep,
-    )
+    works = {method: partial(_attempt, asked, method) for method in order}
+    winner, found = first(works, lambda answer: answer.status is Status.SOLVED, limits, kept=unproved.append)
     answer = None if winner is None else found[winner]
     if winner is not None and isinstance(answer, Answer):
         others = ", ".join(method.value for method in order if method is not winner)
@@ -49,3 +34,7 @@ def _reason(outcome: object) -> str:
     if isinstance(outcome, Answer):
         return outcome.reason
     return "its process ended without an answer" if outcome is None else str(outcome)
+
+
+def _attempt(asked: Callable[[Method, Budget], Answer], method: Method, channel: Channel) -> Answer:
+    return asked(method, channel.budget())

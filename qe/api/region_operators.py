@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import random
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from typing import Any, TypeVar
 
 from qe import arguments
@@ -18,15 +19,16 @@ from qe.engine.run import solve as eliminated
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import simplest, square_root
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, disj, exists, forall, iff, implies, neg
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import Constant, Formula, Relation
 from qe.io import surface as s
 from qe.io.lowering import lower
-from qe.options import Options
-from qe.processes.execution import Budgets, Limits
+from qe.options import Budget, Options
+from qe.processes.execution import Work
+from qe.processes.limits import Limits
 from qe.proof.multipliers import OptimumStatus
 from qe.regions import planar, spatial, topology
 from qe.regions.build import described
@@ -60,14 +62,7 @@ def compared(way: str, left: Region, right: object, timeout: float | None) -> bo
         "equal": lambda: iff(f, g),
         "disjoint": lambda: neg(conj((f, g))),
     }[way]()
-
-    def work(budgets: Budgets) -> bool:
-        found = eliminated(forall(left.order, claim), Options(), budgets()).formula
-        if not isinstance(found, Constant):
-            raise InternalError("a sentence has no truth value")
-        return found.value
-
-    return performed(work, claim, limits)
+    return performed(partial(_truth, forall(left.order, claim)), claim, limits)
 
 
 def complement(region: Region, timeout: float | None) -> Region:
@@ -94,19 +89,9 @@ def components(region: Region, timeout: float | None) -> list[Region]:
     """The connected components."""
     if isinstance(region, ConvexRegion):  # a convex set is connected
         return [] if region.is_empty else [region]
-    f, order = region.formula, region.order
-    if len(order) > spatial.DIMENSIONS:
-        raise Unable(f"connected components are found in up to {spatial.DIMENSIONS} variables, not in {len(order)}")
-
-    def work(budgets: Budgets) -> list[Region]:
-        budget = budgets()
-        found = planar.components if len(order) <= planar.DIMENSIONS else spatial.components
-        parts = found(nnf(f), order, budget)
-        if len(parts) == 1:
-            return [region]
-        return [Region.of(part, order, budget=budget, limits=region.limits) for part in parts]
-
-    return _under(region, f, timeout, work)
+    if (size := len(region.order)) > spatial.DIMENSIONS:
+        raise Unable(f"connected components are found in up to {spatial.DIMENSIONS} variables, not in {size}")
+    return _under(region, region.formula, timeout, partial(_components, region))
 
 
 def bounding_box(region: Region, timeout: float | None) -> dict[str, Interval]:
@@ -147,9 +132,6 @@ def section(region: Region, values: Mapping[Any, Coordinate], timeout: float | N
 
 def distance(region: Region, point: object, timeout: float | None) -> Number:
     """The infimum of the distances of a point from the points of a region."""
-    from qe.optimization.global_optimum import best
-    from qe.optimization.values import Goal, Objective, new_name
-
     given = _numbers(region, arguments.point(point, region.order), "point")
     if missing := [v for v in region.order if v not in given]:
         raise InputError(f"point: a value for {missing[0]} expected")
@@ -164,38 +146,20 @@ def distance(region: Region, point: object, timeout: float | None) -> Number:
         part = scale if isinstance(q, RealAlgebraic) else scale // q.denominator
         square = square + apart * apart * (part * part)
     conditions = conj(together(region.condition, *(_equal(f"at {v}", a) for v, a in irrational.items())))
-
-    def work(budgets: Budgets) -> Number:
-        budget, factor = budgets(), Fraction(1, scale * scale)
-        try:
-            convex = minimize(square, conditions, scale=factor, budget=budget)
-            status, value = convex.status, None if convex.value is None else exact(convex.value)
-        except Unable as error:
-            if isinstance(error, BudgetExceeded):
-                raise
-            goal = Goal.of(Objective.of(square, factor, new_name(square.ring.names, ring.names)), conditions)
-            found = best(1, goal, budget=budget)
-            status, value = found.status, found.value
-        if status is OptimumStatus.INFEASIBLE:
-            raise InputError("an empty region has no distance from a point")
-        if value is None:
-            raise InternalError("a sum of squares has no infimum")
-        return square_root(simplest(value))
-
-    return _under(region, conditions, timeout, work)
+    return _under(region, conditions, timeout, partial(_distance, square, Fraction(1, scale * scale), conditions))
 
 
 def exact_volume(region: Region, timeout: float | None) -> Any:
     """The measure in closed form; see ``qe.api.measure``."""
     from qe.api.measure import measure
 
-    return region._asked(lambda: measure(region), arguments.seconds(timeout), at_once=True)
+    return region._asked(partial(measure, region), arguments.seconds(timeout), at_once=True)
 
 
 def sample(region: Region, seed: int, timeout: float | None) -> dict[str, Number]:
     """A random point of a region."""
-    walk = random.Random(arguments.integers([seed], "seed")[0])
-    found = _under(region, region.condition, timeout, lambda budgets: walked(region, walk, budgets()))
+    start = arguments.integers([seed], "seed")[0]
+    found = _under(region, region.condition, timeout, partial(_walked, region, start))
     if found is None:
         raise InputError("an empty region has no points")
     return found
@@ -203,12 +167,61 @@ def sample(region: Region, seed: int, timeout: float | None) -> dict[str, Number
 
 def instances(region: Region, n: int, seed: int, timeout: float | None) -> list[dict[str, Number]]:
     """Different points of a region."""
-    count, walk = arguments.whole(n, "n", MOST_POINTS), random.Random(arguments.integers([seed], "seed")[0])
-    return _under(region, region.condition, timeout, lambda budgets: different_points(region, count, walk, budgets()))
+    count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
+    return _under(region, region.condition, timeout, partial(different_points, region, count, start))
+
+
+# --- what is done under limits ------------------------------------------------------------------------------------
+def _truth(sentence: Formula, budget: Budget) -> bool:
+    found = eliminated(sentence, Options(), budget).formula
+    if not isinstance(found, Constant):
+        raise InternalError("a sentence has no truth value")
+    return found.value
+
+
+def _components(region: Region, budget: Budget) -> list[Region]:
+    components = planar.components if len(region.order) <= planar.DIMENSIONS else spatial.components
+    parts = components(nnf(region.formula), region.order, budget)
+    if len(parts) == 1:
+        return [region]
+    return [Region.of(part, region.order, budget=budget, limits=region.limits) for part in parts]
+
+
+def _of_formula(make: topology.Operation, f: Formula, order: tuple[str, ...], limits: Limits, budget: Budget) -> Region:
+    return described(make(f, order, budget), order, budget, limits)
+
+
+def _of_cells(choose: planar.Choice, f: Formula, order: tuple[str, ...], limits: Limits, budget: Budget) -> Region:
+    return Region.of(planar.formula_of(f, order, choose, budget), order, budget=budget, limits=limits)
+
+
+def _distance(square: Poly, factor: Fraction, conditions: Formula, budget: Budget) -> Number:
+    """The root of the infimum of a polynomial times a factor."""
+    from qe.optimization.global_optimum import best
+    from qe.optimization.values import Goal, Objective, new_name
+
+    try:
+        convex = minimize(square, conditions, scale=factor, budget=budget)
+        status, value = convex.status, None if convex.value is None else exact(convex.value)
+    except Unable as error:
+        if isinstance(error, BudgetExceeded):
+            raise
+        goal = Goal.of(Objective.of(square, factor, new_name(square.ring.names)), conditions)
+        optimum = best(1, goal, budget=budget)
+        status, value = optimum.status, optimum.value
+    if status is OptimumStatus.INFEASIBLE:
+        raise InputError("an empty region has no distance from a point")
+    if value is None:
+        raise InternalError("a sum of squares has no infimum")
+    return square_root(simplest(value))
+
+
+def _walked(region: Region, seed: int, budget: Budget) -> dict[str, Number] | None:
+    return walked(region, random.Random(seed), budget)
 
 
 # --- parts -------------------------------------------------------------------------------------------------------
-def _under(region: Region, formula: Formula, timeout: float | None, work: Callable[[Budgets], T]) -> T:
+def _under(region: Region, formula: Formula, timeout: float | None, work: Work[T]) -> T:
     """Work under the limits of a region, or the time that goes before them."""
     return performed(work, formula, _limits(region, timeout).begun(time.monotonic()))
 
@@ -220,7 +233,7 @@ def _limits(region: Region, timeout: float | None) -> Limits:
 
 def _region(region: Region, formula: Formula, order: tuple[str, ...], timeout: float | None) -> Region:
     """The region of a formula that was made of one's."""
-    return _under(region, formula, timeout, lambda budgets: described(formula, order, budgets(), region.limits))
+    return _under(region, formula, timeout, partial(described, formula, order, limits=region.limits))
 
 
 def _operands(left: Region, right: object, limits: Limits) -> tuple[Formula, Formula]:
@@ -243,15 +256,9 @@ def _operands(left: Region, right: object, limits: Limits) -> tuple[Formula, For
 def _topological(region: Region, chosen: planar.Choice, formula: topology.Operation, timeout: float | None) -> Region:
     """The union of ``chosen`` cells where there are few variables, else what a formula says."""
     f, order = nnf(region.formula), region.order
-
-    def work(budgets: Budgets) -> Region:
-        budget = budgets()
-        if len(order) > planar.DIMENSIONS:
-            return described(formula(f, order, budget), order, budget, region.limits)
-        found = planar.formula_of(f, order, chosen, budget)
-        return Region.of(found, order, budget=budget, limits=region.limits)
-
-    return _under(region, f, timeout, work)
+    if len(order) > planar.DIMENSIONS:
+        return _under(region, f, timeout, partial(_of_formula, formula, f, order, region.limits))
+    return _under(region, f, timeout, partial(_of_cells, chosen, f, order, region.limits))
 
 
 def _numbers(region: Region, given: Mapping[str, Coordinate], what: str) -> dict[str, Number]:

@@ -99,8 +99,7 @@ _ANYTIME = Setting(
 
 class Limited(TypedDict, total=False):
     """The limits of a call, and who hears of it. A single polynomial operation can take long: under limits, and when
-    it takes longer than a moment, the work runs in a forked process that can be killed (where processes cannot fork,
-    ``timeout`` is looked at between steps)."""
+    it takes longer than a moment, the work runs in a worker process that can be killed."""
 
     timeout: Annotated[float | None, _TIMEOUT]
     memory: Annotated[int | None, _MEMORY]

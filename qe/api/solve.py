@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import random
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
 from qe import arguments
@@ -17,7 +17,7 @@ from qe.formula.normal import without_clashes
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
-from qe.processes.execution import Budgets
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
 from qe.proving import certificates
@@ -33,24 +33,23 @@ if TYPE_CHECKING:
 def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[Question]) -> Solutions:
     """All real solutions, case by case, as Mathematica's ``Reduce`` writes them (cylindrical decomposition).
 
-    ``variables``: those to solve for, in their order; they come after all others, so that each is told in terms of the
-    parameters and of the variables before it. Without them all free variables are meant, in the order of the formula.
+    ``variables``: those to solve for, in their order; they come after all others, so that each is expressed in terms of
+    the parameters and of the variables before it. Without them all free variables are meant, in the formula's order.
     Quantifiers are eliminated first.
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     limits, wanted = limits_of(settings), arguments.names(variables, "variables")
     whole = replace(limits, start=None)
-    given = reading(formula, settings["format"], limits, settings["total_division"])
+    given = reading(formula, settings["format"], limits, settings["total_division"], solved=wanted or ())
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
+    return performed(partial(_solutions, given, order, whole), given, limits)
 
-    def work(budgets: Budgets) -> Solutions:
-        budget = budgets()
-        found = described(given, order, budget, replace(whole, process=False))
-        cases = tuple(found.cells)
-        found.limits = whole
-        return Solutions(found.order, cases, found)
 
-    return performed(work, given, limits)
+def _solutions(given: Formula, order: tuple[str, ...] | None, whole: Limits, budget: Budget) -> Solutions:
+    found = described(given, order, budget, replace(whole, process=False))
+    cases = tuple(found.cells)
+    found.limits = whole
+    return Solutions(found.order, cases, found)
 
 
 reduce = solve
@@ -63,15 +62,14 @@ def find_instances(formula: AnyFormula, n: int, *, seed: int = 0, **settings: Un
 
     Raises ``Unable`` (``BudgetExceeded`` at a limit) where no description is found.
     """
-    count, walk = arguments.whole(n, "n", MOST_POINTS), random.Random(arguments.integers([seed], "seed")[0])
+    count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
     limits = limits_of(settings)
     given = reading(formula, settings["format"], limits, settings["total_division"])
+    return performed(partial(_points, given, count, start, replace(limits, start=None, process=False)), given, limits)
 
-    def work(budgets: Budgets) -> list[Values]:
-        found = described(given, None, budgets(), replace(limits, start=None, process=False))
-        return different_points(found, count, walk, budgets())
 
-    return performed(work, given, limits)
+def _points(given: Formula, count: int, seed: int, inner: Limits, budget: Budget) -> list[Values]:
+    return different_points(described(given, None, budget, inner), count, seed, budget)
 
 
 @with_settings(ProvedBlock)
@@ -82,29 +80,26 @@ def parametric_witnesses(formula: AnyFormula, **settings: Unpack[ProvedBlock]) -
     ``answer`` of the tuple says so as an ``Answer``; with ``check`` it has a certificate, whose steps put the terms in.
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
-    limits, check = limits_of(settings), settings["check"]
+    limits = limits_of(settings)
+    given = reading(formula, settings["format"], limits, reader=read_block)
+    return performed(partial(_witnesses, given, settings["check"]), given, limits)
+
+
+def _witnesses(given: Formula, check: bool, budget: Budget) -> ParametricWitnesses:
+    from qe.api.verify import with_verdict
     from qe.elimination.vs.parametric import parametric_witnesses as find
 
-    given = reading(formula, settings["format"], limits, reader=read_block)
-
-    def work(budgets: Budgets) -> ParametricWitnesses:
-        from qe.api.verify import with_verdict
-
-        log, options, budget = RunLog(), Options(certify=check), budgets()
-        found = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
-        formula = found.equivalent_to(given)
-        answer = Answer(Status.SOLVED, formula, question=given, log=log, reason=certificates.NOT_WANTED)
-        if check:
-            budget.keep(found.with_(replace(answer, reason=UNPROVED)))
-            proof = certificates.derived(given, log, formula, options, budget)
-            answer = replace(
-                answer, certificate=proof.certificate, unchecked_steps=proof.unchecked, reason=proof.reason
-            )
-            if proof.certificate is not None:
-                answer = with_verdict(answer, budget, checked=proof.checked)
-        return found.with_(answer)
-
-    return performed(work, given, limits)
+    log, options = RunLog(), Options(certify=check)
+    found = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
+    formula = found.equivalent_to(given)
+    answer = Answer(Status.SOLVED, formula, question=given, log=log, reason=certificates.NOT_WANTED)
+    if check:
+        budget.keep(found.with_(replace(answer, reason=UNPROVED)))
+        proof = certificates.derived(given, log, formula, options, budget)
+        answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked, reason=proof.reason)
+        if proof.certificate is not None:
+            answer = with_verdict(answer, budget, checked=proof.checked)
+    return found.with_(answer)
 
 
 def _outermost_block(given: Formula, log: RunLog, options: Options, budget: Budget) -> Formula:

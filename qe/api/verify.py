@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import os
+import subprocess
+import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from qe.certify.verify import verify as kernel_verdict
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.formula.syntax import Formula
 from qe.options import VERIFY_SECONDS, Budget, Options
+from qe.processes.execution import perform, run
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Labelled
@@ -18,6 +25,7 @@ from qe.proving.certificates import without_loss
 
 if TYPE_CHECKING:
     from qe.kernel.verdict import Verdict
+    from qe.processes.channel import Channel
     from qe.proof.entry import Json
     from qe.regions.region import Region
 
@@ -43,9 +51,8 @@ def verify(
     certificate that needs rules of the expert ring (``Certificate.trusts`` names them) is rejected at ``core``.
 
     Large certificates, and all that were read from text, are checked in a process of their own, which is killed at the
-    limit (where processes cannot fork, the limit is only looked at between steps). Past it, and where the certificate
-    asks for numbers out of reach, the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no
-    certificate and for a limit that is not positive.
+    limit. Past it, and where the certificate asks for numbers out of reach, the verdict is neither accepted nor
+    ``decided``. Raises ``InputError`` for what is no certificate and for a limit that is not positive.
     """
     if not isinstance(certificate, Certificate):
         return checked(certificate)  # which says what was expected
@@ -58,19 +65,42 @@ def checked(certificate: Certificate, budget: Budget | None = None, *, core: boo
 
     With ``core``, one that needs the expert ring (``qe.certify.trusts``) is rejected.
     """
-    from qe.certify.trusts import expert_parts
     from qe.kernel.verdict import Verdict
 
     budget = budget or Budget()
     try:
-        certificate = recent(certificate, budget)
-        if core and (names := expert_parts(certificate)):
-            return Verdict(False, "core", f"it needs the expert ring: {', '.join(names)}")
-        return kernel_verdict(certificate, budget)
+        return kernel_verdict(recent(certificate, budget), budget, core=core)
     except CertificateRejected as error:
         return Verdict(False, error.step, error.reason)
     except Unable as error:
         return Verdict(False, "", str(error), decided=False)
+
+
+def read_plainly(text: str, seconds: float) -> Verdict:
+    """The verdict of the plain reader on a certificate in JSON, in a process of its own without FLINT (``qe.plain``).
+
+    It reads the text itself, or what one of a former release is converted to. Raises ``InputError`` for what is no
+    certificate.
+    """
+    from qe.kernel.verdict import Verdict
+
+    budget = Budget(seconds)
+    try:
+        certificate = Certificate.from_json(text)
+        today = recent(certificate, budget)
+        if today is not certificate and len(set(certificate.digests or ())) == 1:
+            text = today.to_json()
+        command = [sys.executable, "-P", "-S", "-m", "qe.plain", "--json", "--timeout", str(seconds), "-"]
+        place = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}  # and no installed package
+        run = partial(subprocess.run, input=text, stdout=subprocess.PIPE, env=place, encoding="utf-8")
+        said = run(command, timeout=budget.remaining()).stdout
+    except CertificateRejected as error:
+        return Verdict(False, error.step, error.reason)
+    except (Unable, subprocess.TimeoutExpired) as error:
+        return Verdict(False, "", str(error), decided=False)
+    if not said.endswith("}\n"):
+        return Verdict(False, "", "the plain reader ended early", decided=False)
+    return Verdict(**json.loads(said))
 
 
 def recent(certificate: Certificate, budget: Budget) -> Certificate:
@@ -109,24 +139,27 @@ def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
     """The answer with its own derivation as its certificate, evidence for each step found now and verified.
 
     Nothing is eliminated again: the steps are those that led to the answer, whether or not a check was asked for then.
-    Where a step has no accepted evidence, or ``timeout`` (seconds) is over, the answer has no certificate and the
+    Where a step has no accepted evidence, a decomposition of the question takes their place, as with ``check=True``.
+    Where that does not end, or ``timeout`` (seconds) is over, the answer has no certificate and the
     guarantee ``DERIVED``; ``unchecked_steps`` and ``reason`` say why. Raises ``Unable`` for what is no answer.
     """
     if answer.formula is None or answer.question is None:
         raise Unable(f"there is no derivation: {answer.reason or 'nothing was asked'}")
-    from qe.processes.execution import Limits, perform
-
     try:
-        return perform(lambda budgets: _proved(answer, budgets()), Limits(timeout), at_once=timeout is not None)
+        return perform(partial(_proved, answer), Limits(timeout), at_once=timeout is not None)
     except Unable as error:
         return replace(answer, certificate=None, guarantee=Guarantee.DERIVED, reason=f"{UNPROVED} ({error})")
 
 
 def _proved(answer: Answer, budget: Budget) -> Answer:
-    from qe.proving.certificates import derived
+    from qe.formula.counting import without_root_atoms
+    from qe.formula.normal import rename_apart, without_clashes
+    from qe.proving.certificates import derived_or_decomposed
 
     assert answer.formula is not None and answer.question is not None
-    found = derived(answer.question, answer.log, answer.formula, Options(certify=True), budget)
+    question = rename_apart(without_root_atoms(without_clashes(answer.question)))
+    options = Options(certify=True)
+    found = derived_or_decomposed(answer.question, question, answer.log, answer.formula, options, budget)
     proof = replace(answer, certificate=found.certificate, unchecked_steps=found.unchecked)
     if found.certificate is None:
         return replace(proof, guarantee=Guarantee.DERIVED, reason=found.reason)
@@ -165,15 +198,18 @@ def with_guarantee(region: Region, budget: Budget) -> Region:
 
 
 def _limited(certificate: Certificate, timeout: float | None, *, core: bool = False) -> Verdict:
-    if timeout is None or not hasattr(os, "fork") or (certificate.digests is None and _is_small(certificate)):
+    if timeout is None or (certificate.digests is None and _is_small(certificate)):
         return checked(certificate, Budget(timeout), core=core)
     from qe.kernel.verdict import Verdict
-    from qe.processes.worker import run
 
     try:
-        return run(lambda channel: checked(certificate, Budget(timeout), core=core), timeout=timeout, grace=GRACE)
+        return run(partial(_checked, certificate, core), Limits(timeout), grace=GRACE)
     except Unable as error:
         return Verdict(False, "", str(error), decided=False)
+
+
+def _checked(certificate: Certificate, core: bool, channel: Channel) -> Verdict:
+    return checked(certificate, channel.budget(), core=core)
 
 
 def _is_small(certificate: Certificate) -> bool:

@@ -101,7 +101,7 @@ def _settle(parts: tuple[tuple[int, int, bool], ...], allowed: frozenset[int]) -
 
 
 def specialise(node: Node, level: int, signs: Mapping[int, int]) -> Node:
-    """The node with the signs of factors of one level put in (index -> sign; others stay open)."""
+    """The node with the signs of factors of one level substituted (index -> sign; others stay open)."""
     if isinstance(node, bool):
         return node
     if isinstance(node, Junction):

@@ -75,9 +75,9 @@ def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, boun
     if not sides:
         return [sample(p) for p in true]
     run = [p for p in true if p % 2 == 0 or p - 1 in true or p + 1 in true] or true
-    stray = [sample(p) for p in true if p not in run]
-    if stray or not run:
-        return stray or None
+    isolated = [sample(p) for p in true if p not in run]
+    if isolated or not run:
+        return isolated or None
     first, last = run[0], run[-1]
     single = first == last
     if first % 2 == 0 or last % 2 == 0 or len(run) != last - first + 1 or (single and (sides == 2 or not bounded)):

@@ -10,12 +10,11 @@ from dataclasses import dataclass
 
 from qe.certify.kinds import brought_kind
 from qe.exact.ring import Ring, format_poly
-from qe.expert.solutions import system_of
 from qe.formula.build import atom, conj, convert, exists, forall
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.kernel.negation import negation, normal
-from qe.kernel.renaming import arranged, same_up_to_names
+from qe.kernel.renaming import arranged, shape
 from qe.kernel.sentence import RELATIONS, read_polynomial
 from qe.kernel.table import is_prenex_form
 from qe.proof.cells import CellTable
@@ -121,7 +120,7 @@ def _asks(certificate: Certificate, claim: Claim, formula: Formula) -> bool | No
 
 def _is_table_of(asked: Formula, table: CellTable) -> bool:
     apart = rename_apart(normal(asked))
-    if not same_up_to_names(normal(asked), apart):
+    if shape(normal(asked)) != shape(apart):
         return False
     ring = Ring.of(dict.fromkeys((*table.order, *(apart.ring.names if apart.ring else ()))))
     return is_prenex_form(convert(apart, ring), table)
@@ -186,6 +185,8 @@ def _size(table: CellTable) -> int:
 
 
 def _of_solutions(entry: Entry) -> Claim:
+    from qe.expert.solutions import system_of
+
     ring, parts, solutions = system_of(entry)
     where, count = conj(parts), len(list(solutions.items()))
     question = exists(ring.names, where)

@@ -21,7 +21,7 @@ from qe.formula.build import conj, convert, disj, exists, forall
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import FALSE, And, Exists, ForAll, Formula, Or
 from qe.kernel.negation import negation, normal
-from qe.kernel.renaming import arranged, same_up_to_names
+from qe.kernel.renaming import arranged, shape
 from qe.options import Budget
 from qe.proof.certificate import Certificate, certificate_from
 from qe.proof.entry import Entry, Json, formula_from_json
@@ -37,7 +37,7 @@ def check_parts(payload: dict[str, Json], budget: Budget, check_leaf: Callable[[
     ring = Ring.of(order.names())
     asked = normal(formula_from_json(question, ring, quantified=True))
     apart = rename_apart(asked)  # proofs by cells are about parts of it in these names
-    asked = apart if same_up_to_names(asked, apart) else asked
+    asked = apart if shape(asked) == shape(apart) else asked
     claims = [(entry, normal(formula_from_json(entry, ring))) for entry in (true, false)]
     certificates = [certificate_from(entry) for entry in proofs.items()]
     for k, certificate in enumerate(certificates):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from qe.expert.rules import EXPERT
+from qe.kernel.primitives import PRIMITIVES
 from qe.kernel.statements import rows
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Json
@@ -24,7 +24,7 @@ def trusts(certificate: Certificate) -> tuple[str, ...]:
 
 
 def expert_parts(certificate: Certificate) -> tuple[str, ...]:
-    """The rules and kinds of the second ring that the certificate names."""
+    """The rules and kinds that the certificate names and that are not of the kernel: of the second ring, or unknown."""
     return tuple(dict.fromkeys(_expert(certificate)))
 
 
@@ -41,7 +41,7 @@ def _expert(certificate: Certificate) -> Iterator[str]:
             pending += reversed(node)
         elif isinstance(node, dict):
             pending += reversed(node.values())
-            if isinstance(rule := node.get("rule"), str) and rule in EXPERT:
+            if isinstance(rule := node.get("rule"), str) and "before" in node and rule not in PRIMITIVES:
                 yield rule
             if isinstance(kind := node.get("kind"), str) and "payload" in node and kind not in CORE_KINDS:
                 yield kind

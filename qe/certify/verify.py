@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from qe.arguments import shown
 from qe.certify.kinds import Checker, brought_kind
 from qe.errors import CertificateRejected, InputError, Unable
@@ -13,8 +15,10 @@ from qe.proof.certificate import Certificate, Kind, Labelled
 CRASHED = "its checker ends in an internal error here, please report"
 
 
-def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
+def verify(certificate: Certificate, budget: Budget | None = None, *, core: bool = False) -> Verdict:
     """Whether the certificate proves what it says, checked from scratch by code that produces no answers.
+
+    With ``core``, no checker of the expert ring is loaded, and a certificate that needs one is rejected.
 
     Every entry is checked for its meaning; the digest of a certificate read from text comes last. The budget is looked
     at between steps; when it is used up, or a step is out of reach (``limits``), the verdict is not decided. A checker
@@ -25,7 +29,12 @@ def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
         hint = "a certificate in JSON is read by Certificate.from_json" if isinstance(certificate, str) else ""
         raise InputError(f"certificate: a Certificate expected, {shown(certificate)} found" + (hint and f"; {hint}"))
     try:
-        check_certificate(certificate, budget or Budget())
+        if core:
+            from qe.certify.trusts import expert_parts
+
+            if names := expert_parts(certificate):
+                raise CertificateRejected("core", f"it needs the expert ring: {', '.join(names)}")
+        check_certificate(certificate, budget or Budget(), core=core)
         if certificate.digests is not None and certificate.digests[0] != certificate.digests[1]:
             raise CertificateRejected("digest", "the content is not the one that was signed with this digest")
     except CertificateRejected as error:
@@ -42,7 +51,7 @@ def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
     return Verdict(True)
 
 
-def verify_json(text: str, budget: Budget | None = None) -> Verdict:
+def verify_json(text: str, budget: Budget | None = None, *, core: bool = False) -> Verdict:
     """``verify`` for a certificate as text; unreadable text is rejected too."""
     try:
         certificate = Certificate.from_json(text)
@@ -50,11 +59,12 @@ def verify_json(text: str, budget: Budget | None = None) -> Verdict:
         return Verdict(False, error.step, error.reason)
     except InputError as error:
         return Verdict(False, "certificate", str(error))
-    return verify(certificate, budget)
+    return verify(certificate, budget, core=core)
 
 
-def check_certificate(certificate: Certificate, budget: Budget) -> None:
-    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails, or ``Unable``."""
+def check_certificate(certificate: Certificate, budget: Budget, *, core: bool = False) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails, or ``Unable``; ``core``: by the
+    kernel alone."""
     payload = certificate.payload
     if not isinstance(certificate.kind, Kind):
         raise CertificateRejected("kind", "unknown kind of certificate")
@@ -62,7 +72,7 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
         from qe.kernel.cells import check_cells
 
         check_cells(payload, budget)
-    elif isinstance(payload, dict) and (checker := _checker(certificate.kind)) is not None:
+    elif isinstance(payload, dict) and (checker := _checker(certificate.kind, core)) is not None:
         checker(payload, budget)
     elif isinstance(payload, tuple) and certificate.kind == Kind.BUNDLE:
         if not payload:
@@ -71,7 +81,7 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
             if not isinstance(member, Labelled) or not isinstance(member.certificate, Certificate):
                 raise CertificateRejected(f"certificates[{position}]", "a certificate with a label expected")
             try:
-                check_certificate(member.certificate, budget)
+                check_certificate(member.certificate, budget, core=core)
             except CertificateRejected as error:
                 step = f"certificates[{position}].{error.step}"
                 raise CertificateRejected(step, f"{member.label}: {error.reason}") from None
@@ -79,34 +89,39 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
         raise CertificateRejected("kind", f"no checker for {certificate.kind.value} with this payload")
 
 
-def _checker(kind: Kind) -> Checker | None:
+def _checker(kind: Kind, core: bool) -> Checker | None:
     """The checker of a kind of objects; each is loaded where it is needed, as most questions need one."""
+    leaf = partial(check_certificate, core=core)
     match kind:
         case Kind.DERIVATION:
-            from qe.certify.registry import RULES
             from qe.kernel.derivation import check_derivation
+            from qe.kernel.primitives import PRIMITIVES as rules
 
-            return lambda payload, budget: check_derivation(payload, budget, RULES, check_certificate)
-        case Kind.CLASSIFICATION:
-            from qe.expert.classification import check_classification
-
-            return lambda payload, budget: check_classification(payload, budget, check_certificate)
+            if not core:
+                from qe.certify.registry import RULES as rules
+            return lambda payload, budget: check_derivation(payload, budget, rules, leaf)
         case Kind.PARTS:
             from qe.certify.parts import check_parts
 
-            return lambda payload, budget: check_parts(payload, budget, check_certificate)
+            return lambda payload, budget: check_parts(payload, budget, leaf)
         case Kind.WITNESS:
             from qe.kernel.witness import check_witness
 
             return check_witness
-        case Kind.OPTIMUM:
-            from qe.expert.optimum import check_optimum
-
-            return check_optimum
         case Kind.SUBSTITUTION:
             from qe.kernel.gauss import check_substitution
 
             return check_substitution
+        case _ if core:
+            return None
+        case Kind.CLASSIFICATION:
+            from qe.expert.classification import check_classification
+
+            return lambda payload, budget: check_classification(payload, budget, check_certificate)
+        case Kind.OPTIMUM:
+            from qe.expert.optimum import check_optimum
+
+            return check_optimum
         case Kind.SOLUTIONS:
             from qe.expert.solutions import check_solutions
 

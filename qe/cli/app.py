@@ -1,7 +1,7 @@
 """The command ``qe``: eliminate, decide, region, solve, minimize, check, export-proof, convert, smt, prompt.
 
-Every command works in a child process under hard limits. Answers go to stdout and nothing else does;
-an error is one line on stderr. Exit status as in ``qe.cli.shell``.
+Every command that takes long or has limits works in a process that can be killed. Answers go to stdout and nothing
+else does; an error is one line on stderr. Exit status as in ``qe.cli.shell``.
 """
 
 from __future__ import annotations
@@ -149,6 +149,7 @@ def check(
         str | None, typer.Option("--formula", metavar="FORMULA|FILE", help="The question that it has to be about.")
     ] = None,
     core: Annotated[bool, typer.Option("--core", help="Believe the kernel and the listed theorems alone.")] = False,
+    plain: Annotated[bool, typer.Option("--plain", help="As --core, and in plain Python, without FLINT.")] = False,
     json: Json = False,
     **settings: Any,
 ) -> int:
@@ -159,7 +160,7 @@ def check(
     text, limits = _certificate(certificate, settings)
     asked = None if formula is None else read_source(formula, None)
     seconds = remaining(limits["timeout"])
-    verdict = partial(work.check, text=text, asked=asked, seconds=seconds, as_json=json, core=core)
+    verdict = partial(work.check, text=text, asked=asked, seconds=seconds, as_json=json, core=core, plainly=plain)
     return deliver(limited(verdict, **limits), {})
 
 
@@ -191,8 +192,9 @@ def _certificate(name: str, settings: dict[str, Any]) -> tuple[str, dict[str, An
 def convert(formula: Formula, format: InputFormat = None, output: Output = Format.TEXT, **settings: Any) -> int:
     """Print FORMULA in another format, unchanged in meaning."""
     limits = checked(settings)
-    converted = partial(work.convert, source=read_source(formula, format), output=output)
-    return deliver(limited(converted, plain=True, **limits), {})
+    source = read_source(formula, format)
+    converted = partial(work.convert, source=source, output=output)
+    return deliver(limited(converted, plain=True, text=source.text, **limits), {})
 
 
 @command(app, Limited, "Run an SMT-LIB script as a solver.", "qe smt problem.smt2 --timeout 60")
@@ -247,7 +249,8 @@ def answered(
     if timeout is not None:  # the checks inside the engine can end the work in order
         settings["timeout"] = remaining(timeout)
     request = Request(source=text, settings=settings, certificate=certificate is not None, json=given["json"])
-    reply = limited(partial(work, request=request), timeout=timeout, memory=memory, plain=given["plain"])
+    worked = partial(work, request=request)
+    reply = limited(worked, timeout=timeout, memory=memory, plain=given["plain"], text=text.text)
     return deliver(reply, files, explain=explain)
 
 

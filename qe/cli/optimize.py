@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from qe.cli.numbers import exact_and_decimal, shown
 from qe.cli.work import Reply, Request, certificate_text, read_formula
 from qe.exact.number import point_text
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.proof.multipliers import OptimumStatus
 from qe.spelling import quoted
 

@@ -66,10 +66,10 @@ class Session:
         except QEError as error:
             return f"error: {error}"
         except ImportError as error:
-            told = lacking(error)
-            if told is None:
+            absent = lacking(error)
+            if absent is None:
                 raise
-            return f"unable: {told}"
+            return f"unable: {absent}"
 
     def _answer(self, line: str) -> str:
         if not line or line.startswith("#"):
@@ -225,8 +225,8 @@ def run(ask: Ask | None = None, put: Callable[[str], None] = print) -> int:
                 text = f"{text.rstrip().removesuffix(chr(92))}\n{read('... ')}"
             if text.strip() in (":quit", ":q", ":exit", "quit", "exit"):
                 return 0
-            if told := session.reply(text):
-                put(told)
+            if reply := session.reply(text):
+                put(reply)
         except EOFError:
             return 0
         except KeyboardInterrupt:

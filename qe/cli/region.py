@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from qe.cli.numbers import shown
 from qe.cli.work import Reply, Request, certificate_text, read_formula
 from qe.errors import InputError
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.spelling import quoted
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
     import qe.api.solve as api_solve
 
     start = time.perf_counter()
-    formula = read_formula(channel, request.source)
+    formula = read_formula(channel, request.source, solved=variables or ())
     found = api_solve.solve(formula, variables, progress=channel.event, **request.settings)
     files = {"certificate": certificate_text(found.region)} if request.certificate else {}
     if not request.json:

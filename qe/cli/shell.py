@@ -28,7 +28,10 @@ from typer.main import get_command
 from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
 from qe.extras import lacking
-from qe.processes.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
+from qe.processes.channel import Channel, Known, WorkerDied, WorkerStopped
+from qe.processes.execution import GRACE, run
+from qe.processes.limits import Limits
+from qe.processes.portable import portable, rebuilt
 from qe.progress import Event
 
 T = TypeVar("T")
@@ -63,7 +66,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     take_leading_minus(command)
     words = sys.argv[1:] if argv is None else argv
 
-    def told(status: str, message: str, code: int) -> int:
+    def reported(status: str, message: str, code: int) -> int:
         data = {"status": status, "message": " ".join(message.split()), "exit": code}
         lost = _put(data) if "--json" in words else None
         if lost is not None:
@@ -71,7 +74,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return fail(name, _PREFIX.get(status, "") + message, code)
 
     if misspelt := _misspelt(command, words):
-        return told("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
+        return reported("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
     before = _raising_at_termination()
     try:
         with _doubts_noted(name, wanted="--plain" not in words):
@@ -82,18 +85,18 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return int(code or OK)
     except typer.TyperException as error:
         message = error.format_message().replace("Value error, ", "").rstrip(".")
-        return told("input_error", f"{message} (see {name} --help)", BAD_INPUT)
+        return reported("input_error", f"{message} (see {name} --help)", BAD_INPUT)
     except QEError as error:
-        return told(*_failure(error))
+        return reported(*_failure(error))
     except (KeyboardInterrupt, typer.Abort):
-        return told("interrupted", "interrupted", INTERRUPTED)
+        return reported("interrupted", "interrupted", INTERRUPTED)
     except _Terminated:
-        return told("interrupted", "ended by a signal", TERMINATED)
+        return reported("interrupted", "ended by a signal", TERMINATED)
     except ImportError as error:
         absent = lacking(error)
         if absent is None:
             raise
-        return told("unable", str(absent), UNABLE)
+        return reported("unable", str(absent), UNABLE)
     except OSError as error:
         if error.filename is not None:
             raise
@@ -295,18 +298,30 @@ def limited(
     memory: int | None,
     plain: bool,
     lines: bool = False,
+    text: str | None = None,
 ) -> T:
-    """Do the work in a worker under hard limits, with a progress display; ``lines``: also where there is no terminal.
+    """Do the work under hard limits, with a progress display; ``lines``: also where there is no terminal. It begins in
+    this process where nothing is limited and a ``text`` is read that is not long.
 
     The time limit is the user's, for the whole command: what start-up has taken of it is gone.
     """
     grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE, Known()
+    at_once = text is None or timeout is not None or _may_block(text)
     with Display(wanted=not plain, lines=lines) as display:
-        work = partial(_with_doubts, work)
-        done = run(work, timeout=timeout, memory=memory, progress=display, known=known, grace=grace)
+        limits = Limits(timeout, memory, display)
+        try:
+            done = run(partial(_with_doubts, work), limits, at_once=at_once, grace=grace, known=known)
+        except (RecursionError, MemoryError, ValueError) as error:
+            raise rebuilt(portable(error)) from error
     if NOTE in known.facts:
         warnings.warn(str(known.facts[NOTE]), DoubtfulInput, stacklevel=2)
     return done
+
+
+def _may_block(text: str) -> bool:
+    from qe.formula.weight import text_may_block  # with what work in this process needs
+
+    return text_may_block(text)
 
 
 def _with_doubts(work: Callable[[Channel], T], channel: Channel) -> T:

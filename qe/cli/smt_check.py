@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import NamedTuple, TypeAlias
 
 import qe.api.eliminate as api
@@ -15,7 +16,9 @@ from qe.io import surface as s
 from qe.io.smtlib_parser import Expression
 from qe.io.smtlib_script import Script
 from qe.io.total import Fill, Total
-from qe.processes.execution import Limits, perform
+from qe.options import Budget
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 
 MOST_PARTS = 300
 """Parts of a script up to which it is read in this process where no limit must hold."""
@@ -115,13 +118,13 @@ class Checks:
 
     def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:
         """What the nodes mean together; in a process of its own, which a limit ends, if there is one."""
-
-        def read(_: object = None) -> tuple[Formula, Total]:
-            return self.script.formula_of(nodes, total), total
-
         if seconds is None and self.memory is None and len(self.script.used(nodes)) <= MOST_PARTS:
-            return read()
-        return perform(read, Limits(seconds, self.memory), at_once=True)
+            return self.script.formula_of(nodes, total), total
+        return perform(partial(_formula, self.script, nodes, total), Limits(seconds, self.memory), at_once=True)
+
+
+def _formula(script: Script, nodes: Sequence[s.Node], total: Total, budget: Budget) -> tuple[Formula, Total]:
+    return script.formula_of(nodes, total), total
 
 
 def _reason(text: str) -> str:

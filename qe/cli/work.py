@@ -17,7 +17,7 @@ from qe.errors import CertificateRejected, InputError, Unable
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 from qe.spelling import glued, quoted
 
 if TYPE_CHECKING:
@@ -55,8 +55,10 @@ class Request:
         return {**self.settings, **order, "progress": channel.event, "check": self.certificate}
 
 
-def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False) -> Formula:
-    """The formula of a source; its size is the first thing to be known about the run.
+def read_formula(
+    channel: Channel, source: Source, *, is_sentence: bool = False, solved: Sequence[str] = ()
+) -> Formula:
+    """The formula of a source, to be ``solved`` for these; its size is the first thing to be known about the run.
 
     Raises ``InputError`` for free variables where a sentence is expected.
     """
@@ -68,7 +70,7 @@ def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False)
     if is_sentence and (free := formula.free):
         names = ", ".join(free) + glued(free, bound_variables(formula))
         raise InputError(f"{source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
-    note_doubts(source.text, formula, source.format.value)
+    note_doubts(source.text, formula, source.format.value, solved)
     size = features(formula)
     channel.fact(
         "formula",
@@ -155,18 +157,26 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
 
 
 def check(
-    channel: Channel, text: str, asked: Source | None, seconds: float, *, as_json: bool = False, core: bool = False
+    channel: Channel,
+    text: str,
+    asked: Source | None,
+    seconds: float,
+    *,
+    as_json: bool = False,
+    core: bool = False,
+    plainly: bool = False,
 ) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe.api.verify import checked as verify
-    from qe.api.verify import of_question, recent
+    from qe.api.verify import of_question, read_plainly, recent
     from qe.certify.claims import claim_of, is_about, parts_of
     from qe.proof.certificate import Certificate
 
     start = time.perf_counter()
     formula = None if asked is None else read_formula(channel, asked)
     certificate = Certificate.from_json(text)
-    verdict = verify(certificate, Budget(seconds, listener=channel.event), core=core)
+    budget = Budget(seconds, listener=channel.event)
+    verdict = read_plainly(text, seconds) if plainly else verify(certificate, budget, core=core)
     if verdict.accepted and formula is not None:
         verdict = of_question(certificate, formula)
     if not verdict.decided:

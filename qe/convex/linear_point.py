@@ -34,12 +34,12 @@ def linear_point(conditions: Formula, *, budget: Budget) -> dict[str, Fraction] 
         scale = next(iter(terms.values())) if len(terms) == 1 else Fraction(1)
         x, bound = next(iter(terms)) if len(terms) == 1 else bounds.form(terms), -constant / scale
         relation = given.relation if scale > 0 else given.relation.flipped
-        told = None
+        conflict = None
         if relation in (Relation.GT, Relation.GE, Relation.EQ):
-            told = bounds.at_least(x, bound, strict=relation.is_strict, reason=number)
-        if relation in (Relation.LT, Relation.LE, Relation.EQ) and told is None:
-            told = bounds.at_most(x, bound, strict=relation.is_strict, reason=number)
-        if told is not None:
+            conflict = bounds.at_least(x, bound, strict=relation.is_strict, reason=number)
+        if relation in (Relation.LT, Relation.LE, Relation.EQ) and conflict is None:
+            conflict = bounds.at_most(x, bound, strict=relation.is_strict, reason=number)
+        if conflict is not None:
             return None
     if bounds.conflict(lambda: budget.check("linear conditions")) is not None:
         return None

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from qe.coq.signs import Identity, Tree
@@ -21,14 +22,13 @@ from qe.formula.traverse import conjuncts, disjuncts
 from qe.kernel.block import existential, opened
 from qe.kernel.derivation import replaced
 from qe.kernel.elimination_points import read_points
-from qe.kernel.elimination_set import block_of, start
+from qe.kernel.elimination_set import start
 from qe.kernel.linear_equation import Pivot, pivot_of, substituted
-from qe.kernel.lowered_degree import lowered
 from qe.kernel.negation import negation, normal
 from qe.kernel.signs import Line, read_lemma, read_polynomials
 from qe.kernel.step import Claim, Context, outside
 from qe.kernel.substitution import mapped
-from qe.kernel.terms import Terms, at_terms, block_opened, terms_of
+from qe.kernel.terms import Terms, at_terms, block_opened, multiplied_out, terms_of
 from qe.proof.entry import Entry, formula_from_json
 
 _SIGNS = {1: Relation.LT, 2: Relation.EQ, 4: Relation.GT}
@@ -143,9 +143,13 @@ class _Steps:
 
     # --- signs
 
-    def trees(self, theory: Entry | None, goals: Iterable[Sequence[Formula]], more: Sequence[_Term] = ()) -> list[str]:
+    def trees(
+        self, theory: Entry | None, goals: Iterable[Sequence[Formula]], more: Sequence[_Product] = ()
+    ) -> list[str]:
         """The polynomials, the identities, and a tree for each goal, as arguments of the theorems about signs."""
-        polys, identities = self.theory(theory)
+        polys, identities = self.identities(theory)
+        for product in more:
+            identities.append(_expanded(product, polys))
         trees = [Tree(map(normal, goal), polys, identities) for goal in goals]
         texts = [tree.text() for tree in trees]
         for k, tree in enumerate(trees):
@@ -155,11 +159,11 @@ class _Steps:
         terms = "; ".join(f"[{'; '.join(map(_term, identity))}]" for identity in identities)
         return [f"[{named}]", f"[{terms}]", *texts]
 
-    def theory(self, entry: Entry | None) -> tuple[list[Poly], list[Identity]]:
+    def identities(self, theory: Entry | None) -> tuple[list[Poly], list[Identity]]:
         """The polynomials and identities of the evidence."""
-        if entry is None:
+        if theory is None:
             return [], []
-        listed, lemmas = entry.fields("polynomials", "lemmas")
+        listed, lemmas, _, _ = _theory(theory)
         polys = list(read_polynomials(listed, self.ring))
         found: list[Identity] = []
         for lemma in lemmas.items():
@@ -168,41 +172,53 @@ class _Steps:
                 found.append(tuple((int(c.rational()), _powers(powers)) for c, powers in terms))
         return polys, found
 
-    def lines(self, entry: Entry | None) -> list[Formula]:
-        """What the lemmas about polynomials in one variable say."""
-        if entry is None:
-            return []
-        listed, lemmas = entry.fields("polynomials", "lemmas")
-        polys = read_polynomials(listed, self.ring)
-        read = [read_lemma(lemma, polys, self.ring) for lemma in lemmas.items() if "line" in (lemma.value or {})]  # type: ignore[operator]
-        return [
-            disj(
-                conj(atom(polys[i], _SIGNS[s]) for i, s in zip(line.polynomials, cell, strict=True))
-                for cell in line.cells
-            )
-            for line in read
-            if isinstance(line, Line)
-        ]
+    def facts(self, theory: Entry | None) -> list[tuple[Formula, Callable[[], str]]]:
+        """What holds everywhere by the evidence beside the identities, each with what writes ``equiv [] fact true``.
 
-    def equal(self, context: Context, f: Formula, g: Formula, theory: Entry | None = None) -> str:
+        What the lemmas about polynomials in one variable say is believed; that comparisons do not hold together is
+        shown by steps.
+        """
+        if theory is None:
+            return []
+        listed, lemmas, _, refuted = _theory(theory)
+        polys, found = read_polynomials(listed, self.ring), list[tuple[Formula, Callable[[], str]]]()
+        for entry in lemmas.items():
+            line = read_lemma(entry, polys, self.ring)
+            if isinstance(line, Line):
+                signs = [zip(line.polynomials, cell, strict=True) for cell in line.cells]
+                cells = disj(conj(atom(polys[i], _SIGNS[s]) for i, s in cell) for cell in signs)
+                found.append((cells, partial(self.text.axiom, "Sturm", (), cells, TRUE)))
+        for entry in () if refuted.value is None else refuted.items():
+            atoms, steps = entry.fields("atoms", "steps")
+            together = conj(formula_from_json(e, self.ring) for e in atoms.items())
+            found.append((negation(together), partial(self.never, together, steps)))
+        return found
+
+    def never(self, together: Formula, steps: Entry) -> str:
+        """The lemma that the negation is true, from steps to false."""
+        sentence, negative = exists(together.free, together), negation(together)
+        lemma = self.refuted(sentence, together, self.run(steps, sentence, ())[0])
+        positive = self.text.lemma(self.text.entails((), negative), f"entails_same _ _ _ {lemma}", 1)
+        return self.lemma((), negative, TRUE, f"entails_equiv _ _ {positive}")
+
+    def equal(self, context: Context, f: Formula, g: Formula, theory: Entry) -> str:
         """By the signs that the lemmas allow."""
         if f == g:
             return self.same(context, f, g)
-        cells = self.lines(theory)
-        known = (*cells, *context)
+        facts = self.facts(theory)
+        known = (*(fact for fact, _ in facts), *context)
         goals = ((negation(g), normal(f), *known), (negation(f), normal(g), *known))
         ps, identities, one, two = self.trees(theory, goals)
         found = self.lemma(known, f, g, f"signs_equiv {ps} {identities} {one} {two} _ _ _", 2)
-        for k, cell in enumerate(cells):
-            believed = self.text.axiom("Sturm", (), cell, TRUE)
-            found = self.lemma(known[k + 1 :], f, g, f"also _ _ _ _ {believed} {found}")
+        for k, (_, lemma) in enumerate(facts):
+            found = self.lemma(known[k + 1 :], f, g, f"also _ _ _ _ {lemma()} {found}")
         return found
 
-    def follows(self, context: Context, f: Formula, theory: Entry | None = None) -> str:
+    def follows(self, context: Context, f: Formula, theory: Entry | None, more: Sequence[_Product] = ()) -> str:
         """``entails context f``, by signs."""
-        if self.lines(theory):
-            raise Unable("a lemma about a line")
-        ps, identities, tree = self.trees(theory, [(negation(f), *context)])
+        if self.facts(theory):
+            raise Unable("a lemma that is no identity")
+        ps, identities, tree = self.trees(theory, [(negation(f), *context)], more)
         return self.text.lemma(self.text.entails(context, f), f"signs_entail {ps} {identities} {tree} _ _", 1)
 
     # --- rules
@@ -235,57 +251,20 @@ class _Steps:
         lemmas = [self.under(context, names, before.body, bodies, inner), self.moved(context, middle, after)]
         return self.via(context, claim, before, after, self.chain(context, (before, middle, after), lemmas))
 
-    def joined(
-        self, context: Context, kind: type[And | Or], pairs: Sequence[tuple[Formula, Formula, str]], goal: Formula
-    ) -> tuple[Formula, str]:
-        """The conjunction (disjunction) of the first formulas, and the lemma that it is the goal."""
-        one, two = _joined(kind, [pair[0] for pair in pairs]), _joined(kind, [pair[1] for pair in pairs])
-        if not pairs:
-            return one, self.same(context, one, goal)
-        theorem = "and_both" if kind is And else "or_both"
-        proof = "".join(f"({theorem} _ _ _ _ _ {lemma} " for _, _, lemma in pairs[:-1])
-        proof += pairs[-1][2] + ")" * (len(pairs) - 1)
-        whole = self.lemma(context, one, two, proof)
-        return one, self.trans(context, (one, two, goal), whole, self.same(context, two, goal))
-
     def parts(self, context: Context, starts: Sequence[Formula], parts: Entry, goal: Formula) -> tuple[Formula, str]:
         """The disjunction of the starts, and the lemma that it is the goal."""
-        pairs = []
+        ends, lemmas = list[Formula](), list[str]()
         for first, steps in zip(starts, parts.items(), strict=True):
             lemma, last = self.run(steps, first, context)
-            pairs.append((first, last, lemma))
-        return self.joined(context, Or, pairs, goal)
-
-    def alternatives(self, claim: Claim, context: Context) -> str:
-        pieces, parts = claim.evidence.fields("pieces", "parts")
-        block = claim.block()
-        bodies = [formula_from_json(piece, self.ring, quantified=True) for piece in pieces.items()]
-        starts = [block_of(block.variables, body, self.ring) for body in bodies]
-        middle, last = self.parts(context, starts, parts, claim.after)
-        first = self.moved(context, claim.before, middle)
-        return self.trans(context, (claim.before, middle, claim.after), first, last)
-
-    def independent(self, claim: Claim, context: Context) -> str:
-        pieces, block = claim.evidence.fields("pieces")[0], claim.block()
-        names, members = set(block.variables), conjuncts(block.body)
-        beside = tuple(m for m in members if not names & set(m.free))
-        pairs = [(m, m, self.same(context, m, m)) for m in beside]
-        listed = set[Formula]()
-        for entry in pieces.items():
-            body, together, steps = entry.fields("body", "together", "steps")
-            piece = formula_from_json(body, self.ring, quantified=True)
-            listed |= set(conjuncts(piece))
-            first = block_of(names, conj((*(beside if together.truth() else ()), piece)), self.ring)
-            lemma, end = self.run(steps, first, context)
-            pairs.append((first, end, lemma))
-        others = [m for m in members if m not in beside and m not in listed]
-        if others:  # a piece is false
-            rest = block_of(names, conj(others), self.ring)
-            pairs.append((rest, rest, self.same(context, rest, rest)))
-        found = _joined(And, [pair[1] for pair in pairs])
-        middle, lemma = self.joined(context, And, pairs, found)
-        lemmas = (self.moved(context, claim.before, middle), lemma, self.equal(context, found, claim.after))
-        return self.chain(context, (claim.before, middle, found, claim.after), lemmas)
+            ends.append(last)
+            lemmas.append(lemma)
+        one, two = _joined(starts), _joined(ends)
+        if not lemmas:
+            return one, self.same(context, one, goal)
+        proof = "".join(f"(or_both _ _ _ _ _ {lemma} " for lemma in lemmas[:-1])
+        proof += lemmas[-1] + ")" * (len(lemmas) - 1)
+        whole = self.lemma(context, one, two, proof)
+        return one, self.trans(context, (one, two, goal), whole, self.same(context, two, goal))
 
     def no_exception(self, claim: Claim, context: Context) -> str:
         entries, found = claim.evidence.fields("exceptions")[0].items(), []
@@ -303,34 +282,10 @@ class _Steps:
         name, whole = self.text.formula(body), self.text.formula(sentence)
         return self.text.lemma(f"entails [] (nnf true {name})", f"refuted {whole} {name} {lemma}", 1)
 
-    def search(self, claim: Claim, context: Context) -> str:
-        before, after = existential(claim)
-        if not isinstance(before, Exists) or after != FALSE:
-            raise claim.fail("expected a sentence of one block, which is false")
-        known: list[tuple[Formula, str]] = []
-        for entry in claim.evidence.fields("refuted", "learnt")[0].items():
-            atoms, steps = entry.fields("atoms", "steps")
-            together = conj(formula_from_json(e, self.ring) for e in atoms.items())
-            sentence = exists(together.free, together)
-            negative = negation(together)
-            lemma = self.refuted(sentence, together, self.run(steps, sentence, ())[0])
-            positive = self.text.lemma(self.text.entails((), negative), f"entails_same _ _ _ {lemma}", 1)
-            known.append((negative, self.lemma((), negative, TRUE, f"entails_equiv _ _ {positive}")))
-        facts = tuple(f for f, _ in known)
-        ps, identities, one = self.trees(None, [(normal(before.body), *facts)])
-        inner = self.lemma(facts, before.body, FALSE, f"signs_equiv {ps} {identities} {one} Clash _ _ _", 2)
-        for k, (_, lemma) in enumerate(known):
-            inner = self.lemma(facts[k + 1 :], before.body, FALSE, f"also _ _ _ _ {lemma} {inner}")
-        whole = self.at(context, before, FALSE, (0,), before.body, FALSE, (), inner)
-        return self.via(context, claim, before, after, whole)
-
     def elimination_set(self, claim: Claim, context: Context) -> str:
-        variable, exponent, _, _, points, parts = claim.evidence.fields(
-            "variable", "exponent", "side", "quadratics", "points", "parts"
-        )
-        (block, name, x), shift = claim.variable(variable), exponent.integer(1)
-        body = lowered(block.body, x, shift, exponent)
-        tried = read_points(points, body, block.body, x, shift, self.ring)
+        variable, _, _, points, parts = claim.evidence.fields("variable", "side", "quadratics", "points", "parts")
+        block, name, x = claim.variable(variable)
+        tried = read_points(points, block.body, x, self.ring)
         starts = [start(t, x, name, block.variables, self.ring) for t in tried]
         middle, last = self.parts(context, starts, parts, claim.after)
         if claim.after == TRUE:  # one point alone says so, and the set need not be one
@@ -406,28 +361,10 @@ class _Steps:
         two = conj((atom(pivot.lead, Relation.EQ), atom(pivot.rest, Relation.EQ), pivot.others))
         cases = disj((one, two))
         known = outside(context, block)
-        polys = [pivot.equation, self.ring.gen(pivot.x)]
-        terms: list[tuple[int, tuple[tuple[int, int], ...]]] = [(-1, ((0, 1),))]
-        for p, factors in ((pivot.lead, ((1, 1),)), (pivot.rest, ())):
-            unit, primitive = p.normal()
-            if p.is_constant:
-                if p:
-                    terms.append((p.constant_value(), factors))
-                continue
-            if primitive not in polys:
-                polys.append(primitive)
-            powers = dict(factors)
-            powers[polys.index(primitive)] = powers.get(polys.index(primitive), 0) + 1
-            terms.append((unit, tuple(powers.items())))
         goals = ((negation(cases), normal(body), *known), (negation(body), normal(cases), *known))
-        trees = [Tree(map(normal, goal), polys, [tuple(terms)]) for goal in goals]
-        texts = [tree.text() for tree in trees]
-        for k, tree in enumerate(trees):
-            for mark, f in tree.quantified.items():
-                texts[k] = texts[k].replace(mark, self.text.formula(f))
-        named = "; ".join(self.text.poly(p) for p in polys)
-        identity = "; ".join(map(_term, terms))
-        split = self.lemma(known, body, cases, f"signs_equiv [{named}] [[{identity}]] {' '.join(texts)} _ _ _", 2)
+        equation = pivot.equation, ((pivot.lead, self.ring.gen(pivot.x)), (pivot.rest,))
+        ps, identities, there, back = self.trees(None, goals, [equation])
+        split = self.lemma(known, body, cases, f"signs_equiv {ps} {identities} {there} {back} _ _ _", 2)
         inner, image = Exists((pivot.name,), one), conj((guard, substituted(pivot, claim)))
         outer = Exists(rest, inner) if rest else inner
         middle, goal = Or((outer, Exists(block, two))), Or((exists(rest, image), Exists(block, two)))
@@ -485,7 +422,9 @@ class _Steps:
         index = self.ring.index
         values = {v: terms.get(index[v], (self.ring.gen(index[v]), self.ring.constant(1))) for v in others}
         about = [poly for i, quotient in terms.items() for poly in (self.ring.gen(i), *quotient)]
-        image = normal(mapped(goal, lambda a: atom(_at(a, terms), a.relation), about, claim))
+        nonzero = [f.poly for f in known if isinstance(f, Atom) and 0 not in f.relation.signs]
+        divided: list[_Product] = []
+        image = normal(mapped(goal, lambda a: atom(_at(a, terms, nonzero, divided), a.relation), about, claim))
         facts = (body, *known)
         context, data = self.text.formulas(facts), self.text.formula(goal)
         numbers = [self.ring.size + 1 + k for k in range(len(others))]
@@ -501,7 +440,7 @@ class _Steps:
             regular = self.regular(facts, bottom, positive, theory)
             blocks.append((f"{quotient} ({inner}{data}{')' * inner.count('(')})", regular))
             data = f"(subst {quotient} {data})"
-        there = self.follows(facts, image, theory)
+        there = self.follows(facts, image, theory, divided)
         proof = self.text.lemma(f"entails {context} {data}", f"entails_same _ _ _ {there}", 1)
         for block, regular in reversed(blocks):
             proof = f"(witness {context} {block} {regular} {proof} (eq_refl true))"
@@ -514,25 +453,14 @@ class _Steps:
 
 
 _Term = tuple[int, tuple[tuple[int, int], ...]]
+_Product = tuple[Poly, tuple[tuple[Poly, ...], ...]]
+"""A polynomial, and products of which it is the sum."""
 _RULES: Mapping[str, Callable[[_Steps, Claim, Context], str]] = {
     **dict.fromkeys(("steps", "virtual substitution", "equations taken apart"), _Steps.steps),
     "converse": _Steps.converse,
     "no exception": _Steps.no_exception,
     **dict.fromkeys(("instance", "convex", "point or multipliers"), _Steps.point),
-    **dict.fromkeys(
-        (
-            "simplification",
-            "standard simplification",
-            "case split on factors",
-            "boundary apart",
-            "signs by sums of squares",
-            "Groebner basis of the equations",
-            "multiple of an equation subtracted",
-            "vanishing sum of squares split",
-        ),
-        _Steps.block,
-    ),
-    "Boolean search": _Steps.search,
+    "signs": _Steps.block,
     **dict.fromkeys(
         (
             "quantifiers",
@@ -544,8 +472,6 @@ _RULES: Mapping[str, Callable[[_Steps, Claim, Context], str]] = {
         ),
         _Steps.quantifiers,
     ),
-    "alternatives": _Steps.alternatives,
-    "independent parts": _Steps.independent,
     "linear equation solved": _Steps.linear,
     "linear equation solved under a guard": _Steps.guarded,
     "elimination set": _Steps.elimination_set,
@@ -553,12 +479,42 @@ _RULES: Mapping[str, Callable[[_Steps, Claim, Context], str]] = {
 }
 
 
-def _at(a: Atom, terms: Terms) -> Poly:
-    """The polynomial of a comparison at the terms, as ``subst`` makes it."""
+def _at(a: Atom, terms: Terms, nonzero: Sequence[Poly], divided: list[_Product]) -> Poly:
+    """The polynomial of a comparison at the terms, as ``subst`` makes it; the kernel divides it by squares."""
     for i, (_, bottom) in terms.items():
         if a.relation in (Relation.EQ, Relation.NE) and a.poly.degree(i) % 2 and not bottom.is_constant:
             raise Unable("an odd power of a denominator in an equation")
-    return at_terms(a.poly, terms)
+    whole, part = multiplied_out(a.poly, terms), at_terms(a.poly, terms, nonzero)
+    if whole != part:
+        rest, factors = whole.exact_divide(part), [part]
+        for p in dict.fromkeys((*nonzero, *(bottom for _, bottom in terms.values()))):
+            while not p.is_constant and rest.gcd(p**2) in (p**2, -(p**2)):
+                rest, factors = rest.exact_divide(p**2), [*factors, p, p]
+        divided.append((whole, ((*factors, rest),)))
+    return whole
+
+
+def _expanded(product: _Product, polys: list[Poly]) -> Identity:
+    """The identity that says so, with primitive polynomials, which join those that are listed."""
+    whole, parts = product
+    terms = list[_Term]()
+    for factors in ((-whole.ring.constant(1), whole), *parts):
+        c, powers = 1, dict[int, int]()
+        for p in factors:
+            unit, primitive = (p.constant_value(), None) if p.is_constant else p.normal()
+            c *= unit
+            if primitive is not None:
+                if primitive not in polys:
+                    polys.append(primitive)
+                powers[polys.index(primitive)] = powers.get(polys.index(primitive), 0) + 1
+        if c:
+            terms.append((c, tuple(powers.items())))
+    return tuple(terms)
+
+
+def _theory(entry: Entry) -> list[Entry]:
+    """Polynomials, lemmas, cases, and what is refuted. Cases are looked for anew: Coq is given a tree."""
+    return entry.fields("polynomials", "lemmas", "cases", optional=("refuted",))
 
 
 def _powers(entry: Entry) -> tuple[tuple[int, int], ...]:
@@ -571,11 +527,11 @@ def _term(term: _Term) -> str:
     return f"(({c})%Z, [{'; '.join(f'({i}, {e})%nat' for i, e in powers)}])"
 
 
-def _joined(kind: type[And | Or], parts: Sequence[Formula]) -> Formula:
-    """As it stands: nothing is left out."""
+def _joined(parts: Sequence[Formula]) -> Formula:
+    """The disjunction as it stands: nothing is left out."""
     if len(parts) < 2:
-        return parts[0] if parts else (TRUE if kind is And else FALSE)
-    return kind(tuple(parts))
+        return parts[0] if parts else FALSE
+    return Or(tuple(parts))
 
 
 def _arranged(formula: Formula, place: Sequence[int], before: Formula) -> tuple[Formula, list[str]]:

@@ -1,8 +1,8 @@
-"""What proves a covering, for ``qe.kernel.covering``: its polynomials, and line by line roots and intervals."""
+"""What proves a covering, for ``qe.kernel.cells``: a tree of its lines, with intervals for cells."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -11,26 +11,29 @@ from qe.coverings.line import Cover, Interval
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
-from qe.formula.syntax import Formula
+from qe.formula.syntax import Atom, Formula
+from qe.formula.traverse import atoms
+from qe.options import Projection
+from qe.proof.cells import Cell, CellTable, Stack
 
 
-def evidence(cover: Cover, quantifiers: Sequence[str], matrix: Formula) -> dict[str, object]:
-    """The prenex formula (``order``, ``quantifiers``, ``matrix``), ``factors`` by level, and the covering of the first
-    line; see the checker for the parts of a line."""
+def tree(cover: Cover, quantifiers: Sequence[str], matrix: Formula) -> CellTable:
+    """The covering of a prenex formula, as a tree of cells; ``matrix`` is over the ring of the covering."""
     names = cover.point.ring.names
     levels: list[dict[Poly, int]] = [{} for _ in names]
     _collect(cover, levels)
-    factors = [list(level) for level in levels]
-    asked = {"order": list(names), "quantifiers": list(quantifiers), "matrix": matrix}
-    return {**asked, "factors": factors, "line": _Writer(tuple(levels)).line(cover)}
+    for f in FactorSet(a.poly for a in atoms(matrix) if isinstance(a, Atom)):
+        levels[f.level].setdefault(f, len(levels[f.level]))
+    root = Cell("", None if quantifiers[0] == "" else cover.truth, _Writer(tuple(levels)).line(cover))
+    factors = tuple(tuple(level) for level in levels)
+    return CellTable(names, tuple(quantifiers), matrix, Projection.BROWN_MCCALLUM, factors, root)
 
 
 def _collect(cover: Cover, levels: list[dict[Poly, int]]) -> None:
     """Every polynomial of the covering, and those whose roots are samples."""
     for interval in cover.intervals:
         at, reason = interval.found.at, interval.found.reason
-        atoms = () if isinstance(reason, Cover) else FactorSet(a.poly for a in reason)
-        for f in (*interval.own, *interval.below, *interval.zero, *atoms, *(() if at is None else (at.poly,))):
+        for f in (*interval.own, *interval.below, *interval.zero, *(() if at is None else (at.poly,))):
             levels[f.level].setdefault(f, len(levels[f.level]))
         if isinstance(reason, Cover):
             _collect(reason, levels)
@@ -40,40 +43,39 @@ def _collect(cover: Cover, levels: list[dict[Poly, int]]) -> None:
 class _Writer:
     levels: tuple[Mapping[Poly, int], ...]
 
-    def line(self, cover: Cover) -> dict[str, object]:
+    def line(self, cover: Cover) -> Stack:
         """One line: its factors with their roots, and the intervals in their order."""
-        places = self.levels[cover.point.depth]
+        level = cover.point.depth
+        places = self.levels[level]
         at = {interval.found.at.poly for interval in cover.intervals if interval.found.at is not None}
-        each = (f for i in cover.intervals for f in (*i.own, *i.zero, *_own_atoms(i, cover.point.depth)))
+        each = (f for i in cover.intervals for f in (*i.own, *i.zero, *FactorSet(a.poly for a in _atoms(i)).at(level)))
         used = sorted({*at, *each}, key=places.__getitem__)
         cuts = _Cuts(isolate_over(cover.point, tuple(used)), cover)
-        members = [sorted(places[used[j]] for j in s.members) for s in cuts.stack.sections]
-        return {
-            "used": [places[f] for f in used],
-            "sectors": cuts.sectors,
-            "sections": [[] if k is None else members[k] for k in cuts.between],
-            "intervals": [self._interval(interval, cuts) for interval in cover.intervals],
-        }
+        members = [tuple(sorted(places[used[j]] for j in s.members)) for s in cuts.stack.sections]
+        return Stack(
+            used=tuple(places[f] for f in used),
+            sectors=tuple(cuts.sectors),
+            sections=tuple(() if k is None else members[k] for k in cuts.between),
+            cells=tuple(self._interval(interval, cuts) for interval in cover.intervals),
+        )
 
-    def _interval(self, interval: Interval, cuts: _Cuts) -> dict[str, object]:
+    def _interval(self, interval: Interval, cuts: _Cuts) -> Cell:
         first, last = (cuts.moved(p) for p in interval.reach(cuts.stack))
         places = self.levels[cuts.stack.point.depth]
-        own = None if interval.is_bare else sorted(places[f] for f in interval.own)
-        found: dict[str, object] = {"first": first[0], "last": last[1], "at": cuts.sample(interval), "own": own}
-        found["lower"] = None if interval.lower is None else places[interval.lower.poly]
-        found["upper"] = None if interval.upper is None else places[interval.upper.poly]
+        own = None if interval.is_bare else tuple(sorted(places[f] for f in interval.own))
         reason = interval.found.reason
-        if isinstance(reason, Cover):
-            found["line"] = self.line(reason)
-        else:
-            found["atoms"] = sorted(reason, key=str)
-        return found
+        above = self.line(reason) if isinstance(reason, Cover) else None
+        return Cell("", None, above, (first[0], last[1], cuts.sample(interval)), own)
 
 
-def _own_atoms(interval: Interval, level: int) -> list[Poly]:
-    """The factors of a level of the atoms that decide on an interval."""
+def _atoms(interval: Interval) -> Iterator[Atom]:
+    """The atoms that decide on an interval, or on lines over it."""
     reason = interval.found.reason
-    return [] if isinstance(reason, Cover) else FactorSet(a.poly for a in reason).at(level)
+    if not isinstance(reason, Cover):
+        yield from reason
+    else:
+        for above in reason.intervals:
+            yield from _atoms(above)
 
 
 class _Cuts:

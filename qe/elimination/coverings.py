@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from qe.cad.order_by_projection import variable_order
 from qe.cells.formulas import formula_of_cells, undistinguished
 from qe.coverings.cover import Search
-from qe.coverings.evidence import evidence
+from qe.coverings.evidence import tree
 from qe.coverings.line import Cover
 from qe.coverings.parameters import parameter_cells
 from qe.elimination.protocol import Context, Outcome
@@ -20,6 +21,7 @@ from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.options import Budget, Options
 from qe.proof.cells import FreeCell
+from qe.proof.certificate import Certificate
 from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
@@ -57,7 +59,7 @@ class Coverings:
         if values is None or not problem.is_flat:  # values prove the answer otherwise
             wanted = context.options.certify
             again = OnDemand(Repeated(covered, problem.formula, context.options))
-            proof["proof"] = evidence(found.cover, quantifiers, search.formula) if wanted else again
+            proof["proof"] = _evidence(found, quantifiers, search.formula) if wanted else again
         given = problem.formula.ring
         answer = found.formula if given is None else convert(found.formula, given)
         context.log.step("covering", problem.formula, answer, evidence=proof)
@@ -79,6 +81,12 @@ class _Answered:
     formula: Formula
     samples: int
     cells: int = 0
+
+
+def _evidence(found: _Answered, quantifiers: Sequence[str], matrix: Formula) -> dict[str, object]:
+    """The covering as a certificate."""
+    answer = convert(found.formula, found.cover.point.ring)
+    return {"certificate": Certificate.cells(tree(found.cover, quantifiers, matrix), answer).to_data()}
 
 
 def _answered(search: Search, free: int) -> _Answered:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TypeVar
 
 from qe.cad.decompose import Tactics, decompose
@@ -28,7 +29,8 @@ from qe.formula.normal import nnf, prenex, rename_apart, without_clashes
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.io.names import names_in
 from qe.options import Budget, Options
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import moved
@@ -90,7 +92,7 @@ class _Search:
             return _answered(convert(formula, self.ring))
         if not tried:
             try:
-                outcome = self.held(lambda own: answered(formula, self.options, own), budget, SHARE)
+                outcome = self.held(partial(answered, formula, self.options), budget, SHARE)
             except Unable:
                 pass  # as far as cells go, then
             else:
@@ -98,7 +100,7 @@ class _Search:
                     self.proofs.append(self.proof(formula, outcome, budget))
                 return _answered(convert(outcome.formula, self.ring))
         try:
-            found = self.held(lambda own: _decided_cells(formula, self.options, own), budget, 1)
+            found = self.held(partial(_decided_cells, formula, self.options), budget, 1)
         except Unable:
             return Partial()
         if self.options.certify:
@@ -108,7 +110,7 @@ class _Search:
     def proof(self, formula: Formula, outcome: Outcome, budget: Budget) -> Certificate | None:
         """The certificate of a part's answer; None where none is found in its share."""
         try:
-            return self.held(lambda own: proved(formula, outcome, self.options, own).certificate, budget, SHARE)
+            return self.held(partial(proved, formula, outcome, self.options), budget, SHARE).certificate
         except Unable:
             return None
 
@@ -136,7 +138,13 @@ class _Search:
         seconds = own.remaining()
         if seconds is None:
             return work(own)
-        return perform(lambda budgets: work(own), replace(self.limits, timeout=max(seconds, 0.001)), at_once=True)
+        limits = replace(self.limits, timeout=max(seconds, 0.001))
+        return perform(partial(_within, work, own.left()), limits, at_once=True)
+
+
+def _within(work: Callable[[Budget], T], units: int | None, budget: Budget) -> T:
+    """The work within so many units of it."""
+    return work(budget.part(units))
 
 
 def _answered(answer: Formula) -> Partial:

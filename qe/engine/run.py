@@ -86,7 +86,7 @@ class _Run:
     def question(self, formula: Formula) -> Outcome:
         """The answer; for sentences that begin with a quantifier also a witness or counterexample.
 
-        What is there only to name a term is put in first: no choice below depends on it.
+        What is there only to name a term is substituted first: no choice below depends on it.
         """
         if not may_define(formula):
             return self.unnamed(formula)

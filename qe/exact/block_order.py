@@ -1,6 +1,6 @@
 """Groebner bases of parametric ideals: in an order in which the variables count before the parameters.
 
-FLINT knows no block orders. Weights on the variables, put in by inflation of exponents, make its degree reverse
+FLINT knows no block orders. Weights on the variables, introduced by inflation of exponents, make its degree reverse
 lexicographic order compare the variables' monomials as the wanted order does, as long as exponents stay small: one
 variable's weight is W - K^i, W + K^(n-i) or K^(n-i). Whether it did is checked on the result: if every element has the
 same leading monomial in both orders, the initial ideals are the same (one contains the other, and both leave a basis

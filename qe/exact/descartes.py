@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
+from math import lcm
 
-from flint import fmpq, fmpq_poly
+from flint import fmpz_poly
 
 from qe.exact.ring import Poly
 
@@ -33,10 +34,10 @@ def most_roots_between(coefficients: Sequence[Fraction], low: Fraction, high: Fr
     THEOREM (Descartes' rule of signs, for (1 + x)^n p(low + (high - low)/(1 + x)) with x > 0; p without its multiple
     roots). The bound and the number differ by an even number that is not negative.
     """
-    given = fmpq_poly([fmpq(c.numerator, c.denominator) for c in coefficients]).numer()
-    p = fmpq_poly(given // given.gcd(given.derivative()))
-    start, width = (fmpq(c.numerator, c.denominator) for c in (low, high - low))
-    moved = p(fmpq_poly([start, width])).coeffs()
-    shifted = fmpq_poly(moved[::-1])(fmpq_poly([1, 1]))
-    signs = [c > 0 for c in shifted.coeffs() if c != 0]
+    given = fmpz_poly([int(c * lcm(*(c.denominator for c in coefficients))) for c in coefficients])
+    p = given // given.gcd(given.derivative())
+    scale = lcm(low.denominator, high.denominator)
+    top, bottom = fmpz_poly([int(high * scale), int(low * scale)]), fmpz_poly([scale, scale])
+    parts = (c * top**k * bottom ** (p.degree() - k) for k, c in enumerate(p.coeffs()))
+    signs = [c > 0 for c in sum(parts, fmpz_poly()).coeffs() if c != 0]
     return sum(a != b for a, b in pairwise(signs))

@@ -117,7 +117,7 @@ class Evaluation:
         return found
 
     def _over_parent(self, f: Poly, bits: int) -> arb:
-        """The coordinates below are put in once for all roots over them."""
+        """The coordinates below are substituted once for all roots over them."""
         i, parent = self.point.depth - 1, self._parent
         assert parent is not None, "a root lies over a point"
         found = parent._polynomials.get((f, bits))

@@ -67,7 +67,7 @@ class Point:
         self._reduced: dict[Poly, Poly] = {}
         self._tower: Tower | None = None
         self._balls: dict[tuple[int, int], arb] = {}
-        self._given: dict[int, Fraction] | None = None  # where all rational coordinates are put in at once
+        self._given: dict[int, Fraction] | None = None  # where all rational coordinates are substituted at once
 
     @staticmethod
     def of(ring: Ring, values: Iterable[Fraction | int | RealAlgebraic]) -> Point:
@@ -201,7 +201,7 @@ class Point:
 
     @property
     def vanishing(self) -> tuple[Poly, ...]:
-        """The polynomials known to vanish here, rational coordinates put in: what they divide needs no proof."""
+        """The polynomials known to vanish here, rational coordinates substituted: what they divide needs no proof."""
         if self._vanishing is None:
             own = (self.reduce(f) for f in self.zeros)
             below = () if self.parent is None else self.parent.vanishing

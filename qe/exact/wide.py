@@ -175,7 +175,7 @@ class WidePoly(Poly):
 
     @cached_property
     def _alone(self) -> tuple[tuple[int, ...], Poly]:
-        """As ``_compact`` without others: points are put in again and again."""
+        """As ``_compact`` without others: points are substituted again and again."""
         own, (f,) = self._compact()
         return own, f
 

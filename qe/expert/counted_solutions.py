@@ -10,7 +10,7 @@ a solution, "none" wherever there is not, and one of the two situations is the c
 if over each case "some" implies what the block became, and "none" its negation.
 
 Evidence: ``proofs``: for each case lemmas by which this sentence about the parameters is true (as for the rule
-"simplification"), or a certificate that it is. Nothing says what the cases are: the checker divides the parameter space
+"signs"), or a certificate that it is. Nothing says what the cases are: the checker divides the parameter space
 by itself. (Of a sentence that is false: ``no_solutions``.)
 """
 
@@ -71,7 +71,7 @@ def check_counted_solutions(claim: Claim, context: Context, limits: Limits) -> N
 
 def by_lemmas(sentence: Formula, ring: Ring, evidence: Entry) -> Claim:
     """That a sentence is true, for the checker of simplifications."""
-    return Claim("simplification", sentence, TRUE, ring, evidence, evidence.path)
+    return Claim("signs", sentence, TRUE, ring, evidence, evidence.path)
 
 
 def sentences(claim: Claim, tick: Callable[[], None]) -> Iterator[Formula]:

@@ -53,10 +53,9 @@ from qe.formula.syntax import Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.kernel.arithmetic.products import FactorLists, check_lists
 from qe.kernel.block import existential
-from qe.kernel.closure import check_closure
 from qe.kernel.negation import negation, normal
+from qe.kernel.projection import Projected
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.options import Projection
 from qe.proof.cells_json import CellEvidence
 from qe.proof.entry import Entry
 
@@ -239,7 +238,7 @@ def read_lists(entry: Entry, ring: Ring, limits: Limits) -> FactorLists:
     try:
         check_lists(ring, lists)
         found = FactorLists(ring, lists)
-        check_closure(found, Projection.BROWN_MCCALLUM, (), limits.budget)
+        Projected(found, limits.budget, evaluates=False).closed()
     except CertificateRejected as error:
         raise entry.fail(f"{error.step}: {error.reason}") from None
     return found

@@ -15,12 +15,13 @@ cell, the formula's set is the closure of its interior. In the plane:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from typing import Any
 
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly
-from qe.kernel.arithmetic.sturm import count_real_roots, count_roots_below, exact, sign_of, vanishes_on
+from qe.kernel.arithmetic.sturm import count_real_roots, count_roots_between, exact, sign_of
 from qe.kernel.step import Limits
 from qe.proof.cells import Cell, CellTable, Stack
 
@@ -30,7 +31,7 @@ MOST_HALVINGS = 400
 
 def check_regular(table: CellTable, limits: Limits, path: str) -> None:
     """``CertificateRejected`` unless the theorem applies to the table, whose cells have been checked."""
-    if len(table.order) > 2 or table.root.stack is None or any(table.constraints):
+    if len(table.order) > 2 or table.root.stack is None or any(table.constraints) or not table.is_decomposition:
         raise CertificateRejected(path, "expected a decomposition of the line or the plane")
     if len(table.order) == 1:
         _check_sections(table.root, path)
@@ -126,3 +127,18 @@ def _truths(cell: Cell, path: str) -> list[bool]:
     if len(known) < len(found):
         raise CertificateRejected(path, "a cell without a truth value")
     return known
+
+
+def count_roots_below(p: Any, y: Fraction) -> int:
+    """The number of distinct real roots of a nonzero polynomial less than y, which is none."""
+    if p.degree() < 1:
+        return 0
+    bound = Fraction(-2 - max(abs(int(c)) for c in p.coeffs()) // abs(int(p.leading_coefficient())))  # Cauchy
+    return count_roots_between(p, bound, y) if bound < y else 0
+
+
+def vanishes_on(p: Any, low: Fraction, high: Fraction, check: Callable[[], None]) -> bool:
+    """Whether a polynomial has a root in [low, high]."""
+    if any(not p(exact(end)) for end in (low, high)):
+        return True
+    return p.degree() > 0 and count_roots_between(p, low, high, check) > 0

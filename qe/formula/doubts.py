@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import children
@@ -18,18 +18,20 @@ _WRITTEN_OUT = ("text", "latex", "smtlib", "redlog")
 """Formats in which a variable stands at its quantifier and where it is used, and nowhere else."""
 
 
-def doubts(formula: Formula, text: str = "", format: str = "") -> tuple[str, ...]:
-    """The notes on a formula, each a line; ``text`` and its ``format`` where it was read from one."""
+def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[str] = ()) -> tuple[str, ...]:
+    """The notes on a formula, each a line; ``text`` and its ``format`` where it was read from one.
+
+    ``solved``: the variables for which it is to be solved, which are to occur like those of a quantifier."""
     typed = text if format == "text" and "\\" not in text else ""  # in LaTeX letters side by side are a product
     names = formula.ring.names if formula.ring is not None else ()
-    blocks = list(_blocks(formula))
+    blocks = [(block.variables, block.body.free) for block in _blocks(formula)]
     unused: dict[str, None] = {}
     joined: dict[str, str] = {}
-    for block in blocks:
-        unused |= dict.fromkeys(name for name in block.variables if name not in block.body.free)
-        joined |= joined_names(block.body.free, block.variables) if typed else {}
+    for variables, free in (*blocks, (solved, formula.free)):
+        unused |= dict.fromkeys(name for name in variables if name not in free)
+        joined |= joined_names(free, variables) if typed else {}
     if unused and format in _WRITTEN_OUT:  # what is used as well cancels
-        bound = Counter(name for block in blocks for name in block.variables)
+        bound = Counter(name for variables, _ in blocks for name in variables)
         written = Counter(_WORD.findall(text))
         unused = {name: None for name in unused if written[name] <= bound[name]}
     notes = []

@@ -1,4 +1,4 @@
-"""Formulas connected by Python's operators, with values put in, and shown in notebooks."""
+"""Formulas connected by Python's operators, with values substituted, and shown in notebooks."""
 
 from __future__ import annotations
 

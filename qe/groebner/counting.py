@@ -129,7 +129,7 @@ class RealRootClassification:
 
     def at(self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None) -> int | None:
         """The number of distinct real solutions at a point, exactly; ``BudgetExceeded`` after ``timeout`` seconds."""
-        return within(timeout, lambda: self._at(self.system.place(point)))
+        return within(timeout, self._at, self.system.place(point))
 
     def _at(self, place: Point) -> int | None:
         for found in self.classes:

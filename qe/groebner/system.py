@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import TypeVar
 
 from qe import arguments
@@ -24,7 +25,9 @@ from qe.groebner import files
 from qe.groebner.evidence import solutions_certificate
 from qe.groebner.segment import Segment
 from qe.groebner.writing import system_to_html, system_to_latex
-from qe.processes.execution import Limits, perform
+from qe.processes.channel import Channel
+from qe.processes.execution import run
+from qe.processes.limits import Limits
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Json
 
@@ -83,7 +86,7 @@ class ComprehensiveGroebnerSystem:
         ``timeout`` in seconds: ``BudgetExceeded`` at the limit, here and below.
         """
         values = self._values(point)
-        return within(timeout, lambda: self._at(values))
+        return within(timeout, self._at, values)
 
     def _at(self, values: Mapping[str, Number]) -> Segment:
         place = self._place(values)
@@ -101,7 +104,7 @@ class ComprehensiveGroebnerSystem:
         for them. ``timeout`` in seconds. Raises ``BudgetExceeded``, and ``Unable`` where the basis grows too large.
         """
         values = self._values(point)
-        return within(timeout, lambda: self._basis_at(values))
+        return within(timeout, self._basis_at, values)
 
     def _basis_at(self, values: Mapping[str, Number]) -> tuple[Poly, ...]:
         ring, tower = self.polys[0].ring, self._place(values).tower
@@ -120,7 +123,7 @@ class ComprehensiveGroebnerSystem:
         ``basis_at``.
         """
         values = self._values(point)
-        return within(timeout, lambda: self._solutions_at(values))
+        return within(timeout, self._solutions_at, values)
 
     def _solutions_at(self, values: Mapping[str, Number]) -> list[Zero]:
         basis = self._basis_at(values)
@@ -146,7 +149,7 @@ class ComprehensiveGroebnerSystem:
         values, signed = self._values(point), arguments.by_place(positive, "positive")
         for poly in signed:
             arguments.instance(poly, Poly, "positive", "polynomials of this system's kind")
-        return within(timeout, lambda: self._certificate_at(values, signed))
+        return within(timeout, self._certificate_at, values, signed)
 
     def _certificate_at(self, values: Mapping[str, Number], positive: Sequence[Poly]) -> Certificate:
         special = [_specialised(p, values, self._names) for p in self.polys]
@@ -170,7 +173,7 @@ class ComprehensiveGroebnerSystem:
     ) -> bool:
         """Whether a polynomial in variables and parameters is in the ideal at a point, exactly."""
         values, read = self._values(point), self._read(poly)
-        return within(timeout, lambda: self._contains(read, values))
+        return within(timeout, self._contains, read, values)
 
     def _contains(self, poly: Poly, values: Mapping[str, Number]) -> bool:
         _, rest = self._at(values).reduce(poly)
@@ -272,10 +275,14 @@ def exact_number(value: object, what: str) -> Number:
     return arguments.rational(value, what)
 
 
-def within(timeout: float | None, work: Callable[[], Result]) -> Result:
-    """What the work gives, within so many seconds."""
+def within(timeout: float | None, work: Callable[..., Result], *given: object) -> Result:
+    """What the work makes of what is given, within so many seconds."""
     limit = arguments.seconds(timeout)
-    return work() if limit is None else perform(lambda budgets: work(), Limits(limit), at_once=True)
+    return work(*given) if limit is None else run(partial(_unheard, work, given), Limits(limit))
+
+
+def _unheard(work: Callable[..., Result], given: tuple[object, ...], channel: Channel) -> Result:
+    return work(*given)
 
 
 def _lies_in(place: Point, segment: Segment) -> bool:

@@ -1,6 +1,4 @@
-"""Rules that keep the quantifiers of a block and change what stands under them: "simplification", "standard
-simplification", "case split on factors", "boundary apart", "signs by sums of squares", "vanishing sum of squares
-split", "Groebner basis of the equations", "multiple of an equation subtracted".
+"""Primitive "signs": the quantifiers of a block stay, and what stands under them changes.
 
 THEOREM. ex v (A or B) iff ex v A or ex v B. So if a body is equivalent to the disjunction of m_1, ..., m_k, then
 ex v body iff ex v_1 m_1 or ... or ex v_k m_k, where v_i are variables of v, all that are free in m_i. A universal block
@@ -8,7 +6,7 @@ is the negation of an existential one. Without a block the formulas themselves a
 
 So are checked: simplification, cases (a product that is 0; p >= 0 as p > 0 or p = 0), equations replaced by others with
 the same zeros (each of either side is a combination of the other side's, by an identity), signs of polynomials that an
-identity says to be sums of squares, sums of squares that vanish.
+identity says to be sums of squares, sums of squares that vanish, refutations by a Boolean search.
 """
 
 from __future__ import annotations
@@ -39,9 +37,8 @@ check_block = ByLemmas(block_goals)
 
 def existential(claim: Claim) -> tuple[Formula, Formula]:
     """Both sides, or both sides negated where a universal block stands before; negations in the atoms."""
-    if isinstance(claim.before, ForAll):
-        return negation(claim.before), negation(claim.after)
-    return normal(claim.before), normal(claim.after)
+    change = negation if isinstance(claim.before, ForAll) else normal
+    return change(claim.before), change(claim.after)
 
 
 def refuted_block(claim: Claim) -> Exists:
@@ -58,5 +55,4 @@ def opened(piece: Formula, names: Sequence[str], claim: Claim) -> Formula:
         raise claim.fail("a variable of the block is free in what becomes of it")
     if not isinstance(piece, Exists):
         return piece
-    others = [v for v in piece.variables if v not in names]
-    return exists(others, piece.body)
+    return exists([v for v in piece.variables if v not in names], piece.body)

@@ -1,18 +1,30 @@
-"""Checking a cell table from scratch.
+"""Checking a tree of cells from scratch: cell tables, and coverings of lines by intervals.
 
-THEOREM. Let the factor lists be closed under the projection (``closure``), and let every stack list exactly the
-real roots of its factors over the sample of its cell (``stacks``). Then every listed factor is sign-invariant on
-every cell on which it was decomposed (Lazard: McCallum, Parusinski, Paunescu 2019; Brown-McCallum: Brown 2001
-where no factor is nullified on a cell of positive dimension). So a formula that three-valued evaluation decides
-from these signs has that truth value on the whole cell, and a quantifier over a decomposed cell ranges exactly
-over its stack (Collins, Hong 1991): the truth values, and the answer formula compared with them, hold for all
-points and not for the samples only.
+A tree has a line over the sample of each of its cells that is decomposed. A cell of a line is a sector or a section, or
+an interval from one position to another, with the sample at one of these. Its ``own`` factors, of the level of the
+line, keep their signs on it (all that the line uses, where it is a position). So does what is own on the cells below
+it: these signs hold on the whole set of points for which the cell stands.
 
-Where an equational constraint restricts a level, the other factors are invariant on the constraint's sections alone
-(McCallum 1999, 2001; ``closure``). A sector is then a leaf, and its truth value has to follow from the signs of
-the constraint's factors: that the matrix implies the constraint is thus proved where it is used.
+THEOREM. Let the line over a sample be correct (``line``). Around the sample, on a connected set, let all factors be
+order-invariant that the own ones of its cells need (``Projected.needed``). Let a cell contain no root of its own
+factors, or be such a root; let its ends be roots of them; let neighbours share the root between them, or overlap and
+let the resultant of the factors with these roots be order-invariant, too. Then over the whole set the cells have their
+signs and cover the line (Collins 1975; Ábrahám, Davenport, England, Kremer 2021, section 4; Nalbach, Kremer 2024). So a
+formula that three-valued evaluation decides from these signs has that truth value on the cell, and a quantifier has the
+value that the cells have, or that one of them decides (Collins, Hong 1991). A point alone is such a set whatever is
+zero there; nor is anything else asked over a cell that stands for its sample only, a value of a variable that decides
+its quantifier.
 
-Each of these statements is about one cell, its stack and the cells below it. So where parts are claimed, other cells
+A factor that is zero on the line over the sample is so where its coefficients are zero: it has the sign 0 on all cells
+if these are invariant. Lines above need its order, too: let all partial derivatives of order < m be zero on the line
+and one of order m, whose factors are own ones of the cell, not. Then it has order m on the cell over the sample; so
+this must be the only point below.
+
+Where an equational constraint restricts a level, the other factors are invariant on the constraint's sections alone.
+The truth value of a sector then has to follow from the signs of the constraint's factors: that the matrix implies the
+constraint is thus proved where it is used.
+
+Each of these statements is about one cell, its line and the cells below it. So where parts are claimed, other cells
 over the free variables may be open: nothing follows from them, and the parts must be false there.
 """
 
@@ -20,25 +32,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.kernel.arithmetic.products import FactorLists, check_lists
 from qe.kernel.arithmetic.triangular import Point
-from qe.kernel.closure import check_closure
+from qe.kernel.line import Sample, line_over
 from qe.kernel.matrix import Situation, Test, compiled, strengthened
-from qe.kernel.stacks import Checked, Fail, Sample, StackChecker
-from qe.options import Budget
-from qe.proof.cells import Cell, CellTable
+from qe.kernel.negation import negation
+from qe.kernel.neighbourhood import Neighbourhood
+from qe.kernel.open_block import shows_open
+from qe.kernel.projection import Projected
+from qe.options import Budget, Projection
+from qe.proof.cells import CHARACTER_OF, Cell, CellTable, Stack
 from qe.proof.cells_json import CellEvidence
-from qe.truth import Truth, conjunction, disjunction
+from qe.truth import Truth
 
 Path = tuple["Path", str] | str
 
 
 def check_cells(evidence: CellEvidence, budget: Budget) -> None:
-    """``CertificateRejected`` naming the first entry that fails; returns if the table proves what it says.
+    """``CertificateRejected`` naming the first entry that fails; returns if the tree proves what it says.
 
     Raises ``Unable`` where that is not decided within the budget and the limits of size.
     """
@@ -47,17 +63,17 @@ def check_cells(evidence: CellEvidence, budget: Budget) -> None:
     free = _check_header(table)
     check_lists(ring, table.factors)
     lists = FactorLists(ring, table.factors)
-    closure = check_closure(lists, table.projection, table.constraints, budget)
-    matrix = strengthened(table.matrix, lists, closure, "payload.matrix")
+    constraints = _constraints(table)
+    projection = Projected(lists, budget, evaluates=table.projection is Projection.LAZARD)
+    matrix = strengthened(table.matrix, lists, constraints, "payload.matrix")
     answer = None if evidence.answer is None else compiled(evidence.answer, lists, "payload.answer")
     if answer is not None and evidence.parts is not None:
         raise CertificateRejected("payload.parts", "an answer has no parts")
     parts = [compiled(part, lists, f"payload.parts[{k}]") for k, part in enumerate(evidence.parts or ())]
-    checker = StackChecker(lists, closure)
-    walk = _Walk(table, free, checker, matrix, answer, parts, budget)
-    sample = Sample(Point(budget=budget), {}, lists.lists, [], (0,))
+    walk = _Walk(table, free, constraints, projection, matrix, answer, parts, budget)
     if table.root.signs:
         raise CertificateRejected("payload.root.signs", "the whole space has no signs")
+    sample = Sample(lists, Point(budget=budget), {}, [], (0,))
     walk.cell(table.root, sample, Situation([], [], [], [], []), "payload.root")
 
 
@@ -76,13 +92,29 @@ def _check_header(table: CellTable) -> int:
     return free
 
 
+def _constraints(table: CellTable) -> tuple[frozenset[int], ...]:
+    """The factors of the constraint of every level, where there are any and the operator allows it."""
+    if table.projection not in (Projection.LAZARD, Projection.BROWN_MCCALLUM):
+        raise CertificateRejected("payload.projection", "an operator that this checker has no theorem for")
+    listed = table.constraints or ((),) * len(table.order)
+    if len(listed) != len(table.order):
+        raise CertificateRejected("payload.constraints", "expected one list per variable, or none")
+    for k, own in enumerate(listed):
+        if any(a >= b for a, b in pairwise(own)) or (own and not 0 <= own[0] <= own[-1] < len(table.factors[k])):
+            raise CertificateRejected(f"payload.constraints[{k}]", "not an ascending list of factors of this level")
+        if own and table.projection is Projection.LAZARD:
+            raise CertificateRejected("payload.projection", "no theorem restricts this operator by constraints")
+    return tuple(map(frozenset, listed))
+
+
 @dataclass(frozen=True, slots=True)
 class _Walk:
     """The recursion over the cells, with what does not change on the way."""
 
     table: CellTable
     free: int
-    checker: StackChecker
+    constraints: Sequence[frozenset[int]]
+    projection: Projected
     matrix: Test
     answer: Test | None
     parts: Sequence[Test]
@@ -90,71 +122,82 @@ class _Walk:
 
     def cell(
         self, cell: Cell, sample: Sample | None, situation: Situation, path: Path, *, follows: bool = False
-    ) -> None:
-        """Check everything said about a cell; ``sample`` is None for a leaf. ``follows``: its truth, from others."""
+    ) -> Truth:
+        """The truth value of a cell, after a check of everything said about it; ``sample`` is None for a leaf.
+        ``follows``: its truth, from others."""
         depth = len(situation.signs)
         self.budget.check("verify")
-        if cell.stack is None or sample is None:
-            value = self.matrix(situation)
-            if cell.truth is not None and value is not cell.truth and not (value is None and follows):
-                said = "does not follow from the signs" if value is None else f"is {value} by the signs"
-                raise CertificateRejected(_text((path, ".truth")), f"said to be {cell.truth}, {said}")
+        if cell.stack is not None and sample is not None:
+            value = self._decomposed(cell.stack, sample, situation, (path, ".stack"))
         else:
-            value = self._decomposed(cell, sample, situation, path)
-        if depth <= self.free:
-            self._check_free(cell, depth, situation, path)
+            value = self.matrix(situation) if cell.truth is not None or cell.reach is not None else None
+            if value is None and follows:
+                value = cell.truth
+        if value is not cell.truth and (cell.truth is not None or cell.reach is None):
+            said = "does not follow from the signs" if value is None else f"follows to be {value}"
+            raise CertificateRejected(_text((path, ".truth")), f"said to be {cell.truth}, {said}")
+        if depth == self.free or (depth < self.free and cell.stack is None):
+            self._check_free(value, situation, path)
+        return value
 
-    def _check_free(self, cell: Cell, depth: int, situation: Situation, path: Path) -> None:
-        """Cells over free variables: undecomposed ones have a truth value, and the answer agrees with it.
+    def _check_free(self, truth: Truth, situation: Situation, path: Path) -> None:
+        """Cells over free variables have a truth value, and the answer agrees with it.
 
         Where parts are claimed a cell may be open; a part is false by the signs on every cell of another truth value.
         """
-        if depth < self.free and cell.stack is not None:
-            return
         if self.parts:
-            for k, (part, truth) in enumerate(zip(self.parts, (True, False), strict=True)):
-                if cell.truth is not truth and part(situation) is not False:
-                    raise CertificateRejected(f"payload.parts[{k}]", f"not excluded on {_text(path)}: {cell.truth}")
+            for k, (part, value) in enumerate(zip(self.parts, (True, False), strict=True)):
+                if truth is not value and part(situation) is not False:
+                    raise CertificateRejected(f"payload.parts[{k}]", f"not excluded on {_text(path)}: {truth}")
             return
-        if cell.truth is None:
+        if truth is None:
             raise CertificateRejected(_text((path, ".truth")), "no truth value for a cell over the free variables")
-        if self.answer is not None and self.answer(situation) is not cell.truth:
-            raise CertificateRejected("payload.answer", f"differs from the truth value {cell.truth} of {_text(path)}")
+        if self.answer is not None and self.answer(situation) is not truth:
+            raise CertificateRejected("payload.answer", f"differs from the truth value {truth} of {_text(path)}")
 
-    def _decomposed(self, cell: Cell, sample: Sample, situation: Situation, path: Path) -> Truth:
-        stack = cell.stack
-        assert stack is not None
-        here: Path = (path, ".stack")
-
+    def _decomposed(self, stack: Stack, sample: Sample, situation: Situation, here: Path) -> Truth:
         def fail(entry: str, reason: str) -> CertificateRejected:
             return CertificateRejected(_text((here, f".{entry}")), reason)
 
-        if sample.depth >= len(self.table.order):
+        k = sample.depth
+        if k >= len(self.table.order):
             raise fail("cells", "a stack above the last variable")
-        checked = self.checker.check(stack, sample, fail)
+        is_plain = all(cell.reach is None for cell in stack.cells)
+        if is_plain and k + 1 < len(self.table.order) and len(stack.used) != len(self.table.factors[k]):
+            raise fail("used", "a factor of this level is missing")  # who reads a decomposition relies on all of them
+        line = line_over(sample, stack, self.constraints[k], fail, evaluates=self.projection.evaluates)
+        around = Neighbourhood(line, situation.signs, self.projection)
+        parts = around.parts()
+        if not sample.is_alone:
+            around.check_delineated(parts)
         below = Situation(  # filled in for one child after the other; deeper levels copy what they need
             [*situation.signs, []],
             [*situation.sections, stack.sections],
-            [*situation.isolated, frozenset(checked.branches)],
-            [*situation.nullified, checked.nullified],
+            [*situation.isolated, frozenset()],
+            [*situation.nullified, frozenset()],
             [*situation.positions, 0],
         )
-        way = one_way(self.table, sample.depth) if sample.depth == self.free - 1 else 0
-        for position, child in enumerate(stack.cells):
-            row = checked.signs[position]
-            below.signs[-1], below.positions[-1] = row, position
-            expected = "".join([_CHARACTERS[row[i]] for i in stack.used])
-            if child.signs != expected:
-                raise fail(f"cells[{position}].signs", f"said to be {child.signs!r}, found {expected!r}")
-            if child.stack is not None and checked.restricted and position % 2 == 0:
-                raise fail(f"cells[{position}].stack", "only the sections of a constraint may be decomposed")
-            deeper = None if child.stack is None else self._child(sample, checked, cell, position, fail)
-            follows = bool(way) and self._follows(stack.cells, position, way)
-            self.cell(child, deeper, below, (here, f".cells[{position}]"), follows=follows)
-        value = self._aggregate(cell, sample.depth)
-        if cell.truth is not value:
-            raise CertificateRejected(_text((path, ".truth")), f"said to be {cell.truth}, follows to be {value}")
-        return value
+        way = one_way(self.table, k) if k == self.free - 1 and is_plain else 0
+        truths = []
+        for place, part in enumerate(parts):
+            deeper = around.sample_of(part)
+            row = line.signs[part.at]
+            expected = "" if part.cell.reach else "".join([CHARACTER_OF[row[i]] for i in stack.used])
+            if part.cell.signs != expected:
+                raise fail(f"cells[{place}].signs", f"said to be {part.cell.signs!r}, found {expected!r}")
+            known = around.known(part)
+            below.signs[-1] = row if len(known) == len(row) else [s if i in known else None for i, s in enumerate(row)]
+            below.isolated[-1], below.nullified[-1] = known.intersection(line.branches), known & line.zero
+            below.positions[-1] = part.at
+            follows = bool(way) and self._follows(stack.cells, place, way)
+            truths.append(self.cell(part.cell, deeper, below, (here, f".cells[{place}]"), follows=follows))
+        kind = self.table.quantifiers[k]
+        if kind and (kind == "E") in truths:
+            return kind == "E"
+        around.check_cover(parts)
+        if None in truths and kind and sectors_suffice(self.table, k):
+            truths = [t for part, t in zip(parts, truths, strict=True) if t is not None or part.first % 2 == 0]
+        return None if not kind or None in truths else kind == "A"
 
     @staticmethod
     def _follows(cells: Sequence[Cell], position: int, way: int) -> bool:
@@ -163,29 +206,6 @@ class _Walk:
         upward = (truth is True) == (way > 0)  # from a cell below
         others = cells[:position] if upward else cells[position + 1 :]
         return truth is not None and any(c.stack is not None and c.truth is truth for c in others)
-
-    def _aggregate(self, cell: Cell, level: int) -> Truth:
-        assert cell.stack is not None
-        kind = self.table.quantifiers[level]
-        cells = cell.stack.cells
-        if kind and sectors_suffice(self.table, level):
-            cells = tuple(c for position, c in enumerate(cells) if position % 2 == 0 or c.truth is not None)
-        match kind:
-            case "E":
-                return disjunction(c.truth for c in cells)
-            case "A":
-                return conjunction(c.truth for c in cells)
-        return None
-
-    def _child(self, sample: Sample, checked: Checked, cell: Cell, position: int, fail: Fail) -> Sample:
-        stack = cell.stack
-        assert stack is not None
-        if position // 2 in checked.places and position % 2:
-            return checked.places[position // 2]
-        if position % 2:
-            number = self.checker.section_coordinate(checked, stack, position // 2, fail)
-            return sample.extended(number, checked.signs[position], sector=False)
-        return sample.extended(stack.sectors[position // 2], checked.signs[position], sector=True)
 
 
 def sectors_suffice(table: CellTable, level: int) -> bool:
@@ -196,10 +216,10 @@ def sectors_suffice(table: CellTable, level: int) -> bool:
     is not empty it meets a sector, the sections being finitely many points. Dually for atoms <=, >=, = and
     universal quantifiers, where the exceptions form an open set.
     """
-    later = set(table.quantifiers[level:])
+    later = {*table.quantifiers[level:]}
     if later == {"E"}:
-        return _positive(table.matrix, (Relation.LT, Relation.GT, Relation.NE))
-    return later == {"A"} and _positive(table.matrix, (Relation.LE, Relation.GE, Relation.EQ))
+        return shows_open(table.matrix, table.order)
+    return later == {"A"} and shows_open(negation(table.matrix), table.order)
 
 
 def one_way(table: CellTable, level: int) -> int:
@@ -229,20 +249,6 @@ def _goes(formula: Formula, x: int, way: int) -> Iterator[bool]:
                 yield from _goes(part, x, way)
         case _:
             yield False
-
-
-def _positive(formula: Formula, relations: tuple[Relation, ...]) -> bool:
-    match formula:
-        case Constant():
-            return True
-        case Atom(_, relation):
-            return relation in relations
-        case And(args) | Or(args):
-            return all(_positive(a, relations) for a in args)
-    return False
-
-
-_CHARACTERS = {1: "+", -1: "-", 0: "0", None: "?"}
 
 
 def _text(path: Path) -> str:

@@ -16,8 +16,6 @@ A place may also be a conjunction (disjunction) of which ``before`` is a part: i
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable, Mapping, Sequence
 
 from qe.errors import CertificateRejected, Unable
@@ -35,52 +33,34 @@ from qe.proof.entry import Entry, Json, formula_from_json
 LeafChecker = Callable[[Certificate, Budget], None]
 
 
-Accepted = set[tuple[object, ...]]
-"""Steps that their checkers have accepted: rule, names, formulas, context and the digest of the evidence."""
-
-
 def check_derivation(
     payload: dict[str, Json],
     budget: Budget,
     rules: Mapping[str, Check],
     check_leaf: LeafChecker,
-    accepted: Accepted | None = None,
 ) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the step that fails.
 
-    A step that is among those ``accepted`` already, by these very checkers, is not checked once more. Raises
-    ``Unable`` for a rule without a checker: what it claims is not wrong for that, but nothing is proved.
+    Raises ``Unable`` for a rule without a checker: what it claims is not wrong for that, but nothing is proved.
     """
     order, start, steps, answer = Entry(payload, "payload").fields("order", "start", "steps", "answer")
     names = order.names()
     ring = Ring.of(names)
-    replay = _Replay(budget, rules, check_leaf, accepted)
-    found = replay.run(steps, formula_from_json(start, ring, quantified=True), (), ring)
+    found = _Replay(budget, rules, check_leaf).run(steps, formula_from_json(start, ring, quantified=True), (), ring)
     if found != formula_from_json(answer, ring, quantified=True):
         raise answer.fail("not the formula to which the steps lead")
 
 
-def limits_of(
-    budget: Budget, rules: Mapping[str, Check], check_leaf: LeafChecker, accepted: Accepted | None = None
-) -> Limits:
-    """What the checkers of single steps are given; nested steps that they accept join those ``accepted``."""
-    return _Replay(budget, rules, check_leaf, accepted).limits
-
-
-def step_key(claim: Claim, context: Context) -> tuple[object, ...]:
-    """All that the checker of a step may depend on."""
-    evidence = json.dumps(claim.evidence.value, sort_keys=True, separators=(",", ":"))
-    digest = hashlib.sha256(evidence.encode()).digest()
-    return claim.rule, claim.ring.names, claim.before, claim.after, context, digest
+def limits_of(budget: Budget, rules: Mapping[str, Check], check_leaf: LeafChecker) -> Limits:
+    """What the checkers of single steps are given."""
+    return _Replay(budget, rules, check_leaf).limits
 
 
 class _Replay:
     """The steps of one derivation, and of those nested in its evidence, under one budget."""
 
-    def __init__(
-        self, budget: Budget, rules: Mapping[str, Check], check_leaf: LeafChecker, accepted: Accepted | None
-    ) -> None:
-        self.rules, self.check_leaf, self.accepted = rules, check_leaf, accepted
+    def __init__(self, budget: Budget, rules: Mapping[str, Check], check_leaf: LeafChecker) -> None:
+        self.rules, self.check_leaf = rules, check_leaf
         self.limits = Limits(budget, self.run, self.leaf)
 
     def run(self, steps: Entry, current: Formula, context: Context, ring: Ring) -> Formula:
@@ -107,15 +87,11 @@ class _Replay:
         checker = self.rules.get(claim.rule)
         if checker is None:
             raise Unable(f'{entry.path}: there is no checker for the rule "{claim.rule}"')
-        key = None if self.accepted is None else step_key(claim, needed)
-        if self.accepted is None or key not in self.accepted:
-            try:
-                checker(claim, needed, self.limits)
-            except CRASHES as error:
-                error.add_note(entry.path)  # for one that is no verdict: it names no entry
-                raise
-        if self.accepted is not None and key is not None:
-            self.accepted.add(key)
+        try:
+            checker(claim, needed, self.limits)
+        except CRASHES as error:
+            error.add_note(entry.path)  # for one that is no verdict: it names no entry
+            raise
         return changed
 
     def leaf(self, entry: Entry) -> Certificate:

@@ -9,7 +9,6 @@ from qe.formula.build import atom, conj
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation, RootAtom
 from qe.formula.traverse import atoms, conjuncts, disjuncts
 from qe.kernel.cubic_root import SOME, asks_one, existence
-from qe.kernel.lowered_degree import lowered_poly
 from qe.kernel.turning_points import vanishing
 from qe.kernel.virtual_substitution import TestPoint, put
 from qe.proof.entry import Entry, formula_from_json
@@ -51,26 +50,22 @@ def implies(strong: Formula, weak: Formula) -> bool:
     return isinstance(weak, Or) and any(implies(s, weak) for s in members if isinstance(s, Or))
 
 
-def read_points(points: Entry, body: Formula, original: Formula, x: int, shift: int, ring: Ring) -> list[Tried]:
-    """The points; each is real where its guard holds, and its formula implies the body.
-
-    The body is the original with x^shift renamed to x; what stays quantified is about the original.
-    """
-    return [_tried(entry, body, original, x, shift, ring) for entry in points.items()]
+def read_points(points: Entry, body: Formula, x: int, ring: Ring) -> list[Tried]:
+    """The points; each is real where its guard holds, and its formula implies the body."""
+    return [_tried(entry, body, x, ring) for entry in points.items()]
 
 
-def _tried(entry: Entry, body: Formula, original: Formula, x: int, shift: int, ring: Ring) -> Tried:
+def _tried(entry: Entry, body: Formula, x: int, ring: Ring) -> Tried:
     point, guard, formula, settled = entry.fields("point", "guard", "formula", "settled")
     where = None if point.value is None else _point(point, x, ring)
     condition = formula_from_json(guard, ring)
     if not is_free_of(condition, x):
         raise guard.fail("expected a condition on the other variables")
-    whole = original if where is None else body
-    kept = whole if formula.value is None else formula_from_json(formula, ring)
+    kept = body if formula.value is None else formula_from_json(formula, ring)
     if where is not None and any(isinstance(a, RootAtom) and ring.names[x] in a.free for a in atoms(kept)):
         raise formula.fail("no test point is put into root atoms")  # the variable would be left, and mean another one
     found = Tried(where, condition, kept, frozenset(formula_from_json(s, ring) for s in settled.items()))
-    _check_implication(found, whole, x, shift, formula)
+    _check_implication(found, body, x, formula)
     if where is not None and not is_real(where, conj((condition, *conjuncts(kept)))):
         raise guard.fail("the point may be none here")
     if where is not None and _is_any(where) and not asks_one(kept, x, where.coefficients):
@@ -131,20 +126,18 @@ def _excludes_zero(member: Formula, a: Poly) -> bool:
     return member.poly.gcd(a).normal()[1] == a.normal()[1]
 
 
-def _check_implication(tried: Tried, whole: Formula, x: int, shift: int, entry: Entry) -> None:
+def _check_implication(tried: Tried, whole: Formula, x: int, entry: Entry) -> None:
     for member in conjuncts(whole):
-        if not implies(tried.formula, member) and (
-            tried.point is not None or not _holds(member, tried.guard, x, shift)
-        ):
+        if not implies(tried.formula, member) and (tried.point is not None or not _holds(member, tried.guard, x)):
             raise entry.fail("does not imply the formula")
 
 
-def _holds(member: Formula, guard: Formula, x: int, shift: int) -> bool:
+def _holds(member: Formula, guard: Formula, x: int) -> bool:
     """Whether the guard says that an equation, or one of several joined by "or", vanishes identically in x."""
     return any(
         isinstance(e, Atom)
         and e.relation is EQ
         and e.poly.degree(x) > 0
-        and implies(guard, vanishing(lowered_poly(e.poly, x, shift), x))
+        and implies(guard, vanishing(e.poly, x))
         for e in disjuncts(member)
     )

@@ -1,9 +1,9 @@
 """Rule "elimination set": a quantified variable replaced by finitely many test points.
 
-Evidence: ``variable`` x; ``exponent`` d; ``side`` s (1, -1, or 0 for sets without radicals, with ``quadratics``);
-``points``, tried in their order, each with ``point``, ``guard``, ``formula`` (null: the whole), ``settled``;
-``parts``: for each point the steps from (exists the other variables. guard and formula at the point) on. The claim is
-that exists x, ... F is equivalent to the disjunction of the formulas to which these steps lead.
+Evidence: ``variable`` x; ``side`` s (1, -1, or 0 for sets without radicals, with ``quadratics``); ``points``, tried
+in their order, each with ``point``, ``guard``, ``formula`` (null: the whole), ``settled``; ``parts``: for each point
+the steps from (exists the other variables. guard and formula at the point) on. The claim is that exists x, ... F is
+equivalent to the disjunction of the formulas to which these steps lead.
 
 THEOREM. Let F be an and/or combination of atoms with factors of degree at most 3 in x. The disjunction implies exists
 x. F, because every guard makes its point real, every formula implies F, and strict atoms that hold at a root hold
@@ -16,9 +16,8 @@ equation on each way through its ors, has only these equations' roots as solutio
 identically: then (and then only) the ends of the others, and -oo, are needed; equations joined by "or" alone hold for
 all x there. (Gauss.) A strict atom p that is a conjunct of the formula of a point e + epsilon may be taken at e
 itself (*settled*) if all points where p can turn true have been tried before with formulas implied by this one: if
-p(e) = 0, then p turns true at e. Degree shift: exists x. F(x^d) iff exists x. F(x), and x >= 0 if d is even, x > 0 if
-moreover the solutions are open. Loos & Weispfenning 1993; Weispfenning 1997; Dolzmann, Sturm & Weispfenning 1998;
-Kosta 2016. Sets without radicals: see ``radical_free``.
+p(e) = 0, then p turns true at e. Loos & Weispfenning 1993; Weispfenning 1997; Kosta 2016. Sets without radicals: see
+``radical_free``.
 """
 
 from __future__ import annotations
@@ -31,7 +30,6 @@ from qe.formula.build import conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import conjuncts
 from qe.kernel.elimination_points import Tried, read_points
-from qe.kernel.lowered_degree import lowered
 from qe.kernel.radical_free import replaced_ends
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.turning_cover import Cover, Met
@@ -40,21 +38,18 @@ from qe.proof.entry import Entry
 
 def check_elimination_set(claim: Claim, context: Context, limits: Limits) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    variable, exponent, side, quadratics, points, parts = only(
-        claim, "variable", "exponent", "side", "quadratics", "points", "parts"
-    )
-    (block, name, x), shift = claim.variable(variable), exponent.integer(1)
+    variable, side, quadratics, points, parts = only(claim, "variable", "side", "quadratics", "points", "parts")
+    block, name, x = claim.variable(variable)
     if not block.body.is_quantifier_free:
         raise claim.fail("expected a quantifier-free formula in the block")
-    body = lowered(block.body, x, shift, exponent)
-    tried = read_points(points, body, block.body, x, shift, claim.ring)
+    tried = read_points(points, block.body, x, claim.ring)
     direction = side.integer(-1)
     if direction > 1:
         raise side.fail("expected -1, 0 or 1")
     omitted = [q.polynomial(claim.ring) for q in quadratics.items()]
     if claim.after != TRUE:  # which follows from one point alone
         try:
-            require_cover(Cover(x, block.body, tried, limits), body, direction, omitted)
+            require_cover(Cover(x, block.body, tried, limits), block.body, direction, omitted)
         except CertificateRejected as error:
             raise points.fail(error.reason) from None
     starts = [start(t, x, name, block.variables, claim.ring) for t in tried]

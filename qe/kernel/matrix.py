@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from qe.errors import CertificateRejected
@@ -11,7 +11,7 @@ from qe.formula.build import atom, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation, RootAtom
 from qe.formula.traverse import conjuncts, disjuncts
 from qe.kernel.arithmetic.products import FactorLists, Product, Signs, possible_signs, sign
-from qe.kernel.closure import Closure, checked_resultant
+from qe.kernel.projection import checked_resultant
 from qe.truth import Truth
 
 
@@ -76,9 +76,6 @@ def _atom(product: Product, relation: Relation) -> Test:
     holding = relation.signs
 
     def run(situation: Situation) -> Truth:
-        s = sign(product, situation.signs)
-        if s is not None:
-            return s in holding
         possible = possible_signs(product, situation.signs)
         return True if possible <= holding else None if possible & holding else False
 
@@ -135,7 +132,7 @@ def _most_roots(factors: list[Poly], level: int, lists: FactorLists) -> Callable
     return run
 
 
-def strengthened(matrix: Formula, lists: FactorLists, closure: Closure, step: str) -> Test:
+def strengthened(matrix: Formula, lists: FactorLists, constraints: Sequence[frozenset[int]], step: str) -> Test:
     """The matrix together with the conditions it implies on fewer variables.
 
     Rule: over R, a*z^2 + b*z + c <= 0 with a constant a > 0 has a solution z only if b^2 - 4ac >= 0, and
@@ -154,7 +151,7 @@ def strengthened(matrix: Formula, lists: FactorLists, closure: Closure, step: st
         conjunct = Atom(part.poly, part.relation.negated) if dual else part
         implied = [implied_condition(conjunct)]
         if conjunct.relation is Relation.EQ:
-            implied += [_eliminated(conjunct.poly, other, lists, closure) for other in equations]
+            implied += [_eliminated(conjunct.poly, other, lists, constraints) for other in equations]
             equations.append(conjunct.poly)
         for condition in implied:
             found = neg(condition) if dual and condition is not None else condition
@@ -168,12 +165,12 @@ def strengthened(matrix: Formula, lists: FactorLists, closure: Closure, step: st
     return _combined(tests, dual)
 
 
-def _eliminated(f: Poly, g: Poly, lists: FactorLists, closure: Closure) -> Formula | None:
+def _eliminated(f: Poly, g: Poly, lists: FactorLists, constraints: Sequence[frozenset[int]]) -> Formula | None:
     """The resultant of two equations with one main variable, one of them made of the factors of a constraint."""
     level = f.level
     if level < 1 or g.level != level:
         return None
-    allowed = {(level, index) for index in closure.constraints[level]}
+    allowed = {(level, index) for index in constraints[level]}
     for p in (f, g):
         product = lists.decompose(p)
         if product is not None and all((at, index) in allowed for at, index, _ in product.powers):

@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from qe.kernel.alternatives import check_alternatives
 from qe.kernel.block import check_block
-from qe.kernel.boolean_search import check_boolean_search
-from qe.kernel.covering import check_covering
-from qe.kernel.degree_shift import check_degree_shift
 from qe.kernel.elimination_set import check_elimination_set
-from qe.kernel.independent_parts import check_independent_parts
 from qe.kernel.inequations import check_inequations, check_only_nonzero
 from qe.kernel.linear_equation import check_guarded_linear, check_linear
 from qe.kernel.nested import check_converse, check_no_exception, check_steps
@@ -34,14 +29,7 @@ PRIMITIVES: Mapping[str, Check] = {
     "convex": check_sentence,
     "point or multipliers": check_sentence,
     # signs
-    "simplification": check_block,
-    "standard simplification": check_block,
-    "case split on factors": check_block,
-    "boundary apart": check_block,
-    "signs by sums of squares": check_block,
-    "Groebner basis of the equations": check_block,
-    "multiple of an equation subtracted": check_block,
-    "Boolean search": check_boolean_search,
+    "signs": check_block,
     # quantifiers
     "quantifiers": check_quantifiers,
     "renaming": check_quantifiers,
@@ -49,26 +37,22 @@ PRIMITIVES: Mapping[str, Check] = {
     "negation normal form": check_quantifiers,
     "independent parts and miniscoping": check_quantifiers,
     "nested blocks of one kind gathered": check_quantifiers,
-    "alternatives": check_alternatives,
-    "independent parts": check_independent_parts,
     # terms, and roots that exist
     "terms": check_terms,
     "root": check_root,
     "linear equation solved": check_linear,
     "linear equation solved under a guard": check_guarded_linear,
-    "degree shift": check_degree_shift,
     # test points
     "elimination set": check_elimination_set,
     # cylinders
     "cells": check_table,
     "shorter": check_table,
-    "covering": check_covering,
+    "covering": check_table,
     # open sets
     "inequations that remove no interior": check_inequations,
     "open block": check_open_block,
     # theorems
     "theorem": check_theorem,
-    # nothing makes these any more; older certificates have them
+    # nothing makes this any more; older certificates have it
     "only asked to be no root": check_only_nonzero,
-    "vanishing sum of squares split": check_block,
 }

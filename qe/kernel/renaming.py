@@ -14,13 +14,9 @@ from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not,
 Binding = Mapping[str, int]
 
 
-def same_up_to_names(left: Formula, right: Formula) -> bool:
-    """Whether two formulas are the same up to bound names, idle quantifiers, and how blocks of one kind are joined."""
-    return shape(left) == shape(right)
-
-
 def shape(formula: Formula) -> object:
-    """A value that is the same for formulas that are the same up to names of bound variables."""
+    """A value that is the same for formulas that are the same up to bound names, idle quantifiers, and how blocks of
+    one kind are joined."""
     return _shape(formula, {}, 0)
 
 

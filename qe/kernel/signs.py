@@ -1,4 +1,4 @@
-"""Sign variables: sets of signs, and the lemmas that cut them down.
+"""Sets of signs, and the lemmas that cut them down.
 
 A set of signs is a number with the bits ``NEGATIVE``, ``ZERO``, ``POSITIVE``; there is one for every polynomial.
 
@@ -14,7 +14,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Protocol
 
 from qe.exact.ring import Poly, Ring
 from qe.kernel.arithmetic.sturm import count_real_roots
@@ -27,20 +26,8 @@ MOST_TERMS = 20_000
 """Terms of a product that is multiplied out, at most."""
 
 Domains = list[int]
-
-
-def _times(a: int, b: int) -> int:
-    found = ZERO if a & ZERO or b & ZERO else 0
-    if (a & POSITIVE and b & POSITIVE) or (a & NEGATIVE and b & NEGATIVE):
-        found |= POSITIVE
-    if (a & POSITIVE and b & NEGATIVE) or (a & NEGATIVE and b & POSITIVE):
-        found |= NEGATIVE
-    return found
-
-
-PRODUCT = tuple(tuple(_times(a, b) for b in range(8)) for a in range(8))
-SQUARE = tuple((a & ZERO) | (POSITIVE if a & (NEGATIVE | POSITIVE) else 0) for a in range(8))
-OPPOSITE = tuple(PRODUCT[a][NEGATIVE] for a in range(8))
+Term = tuple[int, tuple[tuple[int, bool], ...]]
+"""The sign of a coefficient, and polynomials with whether their exponents are odd."""
 
 
 def sign_bit(value: Fraction | int) -> int:
@@ -48,32 +35,54 @@ def sign_bit(value: Fraction | int) -> int:
     return POSITIVE if value > 0 else NEGATIVE if value < 0 else ZERO
 
 
-class Lemma(Protocol):
-    """``cut`` takes impossible signs away and tells whether there were any; an empty set is a contradiction."""
-
-    @property
-    def polynomials(self) -> tuple[int, ...]: ...
-
-    def cut(self, domains: Domains) -> bool: ...
+def _times(a: int, b: int) -> int:
+    signs = {NEGATIVE: -1, ZERO: 0, POSITIVE: 1}
+    return sum({sign_bit(signs[s] * signs[t]) for s in signs for t in signs if a & s and b & t})
 
 
-@dataclass(frozen=True, slots=True)
+PRODUCT = tuple(tuple(_times(a, b) for b in range(8)) for a in range(8))
+SQUARE = tuple(sum({_times(s, s) for s in (NEGATIVE, ZERO, POSITIVE) if a & s}) for a in range(8))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Identity:
-    """The terms, each the sign of its coefficient and (polynomial, whether its exponent is odd); their sum is 0."""
+    """The sum of the terms is 0."""
 
-    terms: tuple[tuple[int, tuple[tuple[int, bool], ...]], ...]
+    terms: tuple[Term, ...]
 
     @property
     def polynomials(self) -> tuple[int, ...]:
+        """Those about whose signs it says something."""
         return tuple(dict.fromkeys(i for _, powers in self.terms for i, _ in powers))
 
-    def cut(self, domains: Domains) -> bool:
-        found = [_product(unit, powers, domains) for unit, powers in self.terms]
-        changed = False
-        for k, (unit, powers) in enumerate(self.terms):
-            allowed = OPPOSITE[_sum(found[:k] + found[k + 1 :])]
-            if found[k] & ~allowed:
-                changed |= _cut_factors(unit, powers, allowed, domains)
+    def cut(self, domains: Domains) -> list[int]:
+        """The polynomials from which impossible signs were taken away; one without signs is a contradiction.
+
+        A term may be positive where another may be negative, and conversely; it may be 0 where two others may cancel
+        each other, or all others vanish.
+        """
+        values = [_product(unit, powers, domains) for unit, powers in self.terms]
+        positive, negative = len([v for v in values if v & POSITIVE]), len([v for v in values if v & NEGATIVE])
+        active, strict = len(values) - values.count(ZERO), len([v for v in values if not v & ZERO])
+        changed = list[int]()
+        if positive > 1 and negative > 1 and active > 2:
+            return changed
+        for (unit, powers), value in zip(self.terms, values, strict=True):
+            up, down = positive > bool(value & POSITIVE), negative > bool(value & NEGATIVE)
+            cancelling = up and down and active - (value != ZERO) > 1
+            allowed = POSITIVE * down | NEGATIVE * up | ZERO * (cancelling or strict <= (not value & ZERO))
+            if not value & ~allowed:
+                continue
+            for k, (i, odd) in enumerate(powers):
+                rest = _product(unit, (*powers[:k], *powers[k + 1 :]), domains)
+                of = {s: PRODUCT[rest][s if odd else SQUARE[s]] for s in (NEGATIVE, ZERO, POSITIVE) if domains[i] & s}
+                kept = sum(s for s, signs in of.items() if signs & allowed)
+                if kept != domains[i]:
+                    domains[i] = kept
+                    changed.append(i)
+            if not powers:  # a number, of a sign that the others exclude
+                domains[0] = 0
+                return [*changed, 0]
         return changed
 
 
@@ -83,54 +92,26 @@ def _product(unit: int, powers: Sequence[tuple[int, bool]], domains: Domains) ->
     return unit
 
 
-def _sum(parts: Sequence[int]) -> int:
-    """The signs that a sum can have."""
-    if not all(parts):
-        return 0
-    whole = 0
-    for part in parts:
-        whole |= part
-    if whole & NEGATIVE and whole & POSITIVE:
-        return ANY
-    strict = any(not part & ZERO for part in parts)
-    return whole & ~ZERO if strict else whole | ZERO
-
-
-def _cut_factors(unit: int, powers: Sequence[tuple[int, bool]], allowed: int, domains: Domains) -> bool:
-    """Take from every factor the signs with which the term cannot have an allowed sign."""
-    changed = False
-    if not powers:  # a constant of a sign that the others exclude
-        for i in range(len(domains)):
-            domains[i] = 0
-        return True
-    for k, (i, odd) in enumerate(powers):
-        rest = _product(unit, (*powers[:k], *powers[k + 1 :]), domains)
-        kept = 0
-        for sign in (NEGATIVE, ZERO, POSITIVE):
-            if domains[i] & sign and PRODUCT[rest][sign if odd else SQUARE[sign]] & allowed:
-                kept |= sign
-        if kept != domains[i]:
-            domains[i], changed = kept, True
-    return changed
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Line:
     """The sign vectors of polynomials in one variable."""
 
     polynomials: tuple[int, ...]
     cells: tuple[tuple[int, ...], ...]
 
-    def cut(self, domains: Domains) -> bool:
-        left = [cell for cell in self.cells if all(s & domains[i] for i, s in zip(self.polynomials, cell, strict=True))]
-        changed = False
+    def cut(self, domains: Domains) -> list[int]:
+        """As ``Identity.cut``."""
+        before = [domains[i] for i in self.polynomials]
+        cells = [cell for cell in self.cells if all(s & d for s, d in zip(cell, before, strict=True))]
+        changed = []
         for k, i in enumerate(self.polynomials):
-            possible = 0
-            for cell in left:
-                possible |= cell[k]
-            if domains[i] & ~possible:
-                domains[i], changed = domains[i] & possible, True
+            domains[i] = sum({cell[k] for cell in cells})
+            if domains[i] != before[k]:
+                changed.append(i)
         return changed
+
+
+Lemma = Identity | Line
 
 
 def read_lemma(entry: Entry, polys: Sequence[Poly], ring: Ring) -> Lemma:
@@ -149,35 +130,27 @@ def read_polynomials(entry: Entry, ring: Ring) -> tuple[Poly, ...]:
 
 
 def _read_identity(entry: Entry, polys: Sequence[Poly], ring: Ring) -> Identity:
-    total = ring.constant(0)
-    terms: list[tuple[int, tuple[tuple[int, bool], ...]]] = []
+    total, terms = ring.constant(0), list[Term]()
     for term in entry.items():
         number, factors = term.row("coefficient", "[[polynomial, exponent], ...]")
         coefficient = number.rational()
         if not coefficient or coefficient.denominator != 1:
             raise number.fail("expected an integer that is not 0")
-        powers = tuple(_power(power, len(polys)) for power in factors.items())
-        if len({i for i, _ in powers}) < len(powers):
-            raise factors.fail("a polynomial stands twice in a product")
-        product = ring.constant(int(coefficient))
-        for i, exponent in powers:
-            check_power(polys[i], exponent)
-            factor = polys[i] ** exponent
+        product, powers = ring.constant(int(coefficient)), dict[int, bool]()
+        for power in factors.items():
+            listed, exponent = (e.integer() for e in power.row("polynomial", "exponent"))
+            if listed >= len(polys) or listed in powers or not exponent:
+                raise power.fail("expected a listed polynomial, once in a product, and a positive exponent")
+            check_power(polys[listed], exponent)
+            factor = polys[listed] ** exponent
             if factor.term_count() * product.term_count() > MOST_TERMS:
                 raise factors.fail("a product of too many terms")
-            product = product * factor
+            product, powers[listed] = product * factor, exponent % 2 == 1
         total = total + product
-        terms.append((sign_bit(coefficient), tuple((i, e % 2 == 1) for i, e in powers)))
+        terms.append((sign_bit(coefficient), tuple(powers.items())))
     if total or not terms:
         raise entry.fail("the terms do not add up to 0")
     return Identity(tuple(terms))
-
-
-def _power(entry: Entry, count: int) -> tuple[int, int]:
-    number, exponent = entry.row("polynomial", "exponent")
-    if number.integer() >= count:
-        raise number.fail("there is no such polynomial")
-    return number.integer(), exponent.integer(1)
 
 
 def _read_line(entry: Entry, polys: Sequence[Poly]) -> Line:
@@ -195,13 +168,13 @@ def _read_line(entry: Entry, polys: Sequence[Poly]) -> Line:
         changes = sum(a != b for a, b in pairwise(column))
         if changes != count_real_roots(polys[m].to_univariate(x)):
             raise place.fail("the sign does not change at every real root")
-    open_cells = list(zip(*columns, strict=True))
-    cells = [open_cells[0]]
-    for before, after in pairwise(open_cells):
-        changing = [k for k, (a, b) in enumerate(zip(before, after, strict=True)) if a != b]
-        if len(changing) > 1:
+    rows = list(zip(*columns, strict=True))
+    cells = [rows[0]]
+    for before, after in pairwise(rows):
+        between = tuple(a if a == b else ZERO for a, b in zip(before, after, strict=True))
+        if sum(a != b for a, b in zip(before, after, strict=True)) > 1:
             raise samples.fail("two polynomials change sign between two neighbours")
-        cells += [tuple(ZERO if k in changing else s for k, s in enumerate(before)), after]
+        cells += [between, after]
     return Line(tuple(members), tuple(dict.fromkeys(cells)))
 
 

@@ -15,7 +15,7 @@ the conditions follow.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom
@@ -76,15 +76,25 @@ def terms_of(entry: Entry, variables: tuple[str, ...], others: tuple[str, ...], 
 def _following(known: Context, given: Formula, wanted: Formula, terms: Terms, claim: Claim) -> list[Goal]:
     """What has to be refuted so that ``wanted`` holds at the terms where ``given`` does."""
     about = [poly for i, quotient in terms.items() for poly in (claim.ring.gen(i), *quotient)]
-    image = normal(mapped(wanted, lambda a: atom(at_terms(a.poly, terms), a.relation), about, claim))
+    nonzero = [f.poly for f in known if isinstance(f, Atom) and 0 not in f.relation.signs]
+    image = normal(mapped(wanted, lambda a: atom(at_terms(a.poly, terms, nonzero), a.relation), about, claim))
     parts = set(conjuncts(given))
     goals = [(*known, given, negation(part)) for part in conjuncts(image) if part not in parts and part != TRUE]
     bottoms = [atom(bottom, Relation.EQ) for _, bottom in terms.values()]
     return [*goals, *((*known, given, bottom) for bottom in bottoms if isinstance(bottom, Atom))]
 
 
-def at_terms(poly: Poly, terms: Terms) -> Poly:
-    """A positive multiple of the polynomial's value at the terms, where no denominator is 0."""
+def at_terms(poly: Poly, terms: Terms, nonzero: Sequence[Poly] = ()) -> Poly:
+    """A positive multiple of the polynomial's value at the terms, where no denominator is 0 and none of ``nonzero``."""
+    total, moved = multiplied_out(poly, terms), [i for i in terms if poly.degree(i)]
+    for square in {p**2 for p in (*nonzero, *(terms[i][1] for i in moved)) if moved and not p.is_constant}:
+        while total and total.gcd(square) in (square, -square):
+            total = total.exact_divide(square)
+    return total
+
+
+def multiplied_out(poly: Poly, terms: Terms) -> Poly:
+    """The polynomial's value at the terms times powers of the denominators, none of which is left out."""
     ring, powers = poly.ring, {i: _exponent(poly.degree(i), bottom) for i, (_, bottom) in terms.items()}
     moved = {i: k for i, k in powers.items() if poly.degree(i)}
     total = ring.constant(0)

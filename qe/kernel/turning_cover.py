@@ -28,7 +28,7 @@ Met = tuple[int, Formula]
 
 
 class Cover:
-    """The points that are tried for variable x in ``original`` (with x^d for x: ``body``).
+    """The points that are tried for variable x in ``original``.
 
     ``around``: what holds beside a formula; ``under``: conditions that are given. Found is what is used, or None.
     """

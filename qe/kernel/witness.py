@@ -7,14 +7,15 @@ polynomials at the point are decided exactly by ``qe.kernel.arithmetic.triangula
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from fractions import Fraction
 
-from qe.exact.ring import Poly, Ring
+from qe.exact.ring import Ring
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
 from qe.kernel.arithmetic.fibre import RationalFibre, fibre, values
+from qe.kernel.arithmetic.products import FactorLists
 from qe.kernel.arithmetic.triangular import Coordinate, Point
 from qe.kernel.limits import check_value
+from qe.kernel.line import Sample
 from qe.options import Budget
 from qe.proof.entry import Entry, Json, formula_from_json
 
@@ -28,14 +29,10 @@ def check_witness(payload: dict[str, Json], budget: Budget | None = None) -> Non
     listed = list(numbers.items())
     if len(listed) != len(names):
         raise numbers.fail(f"expected {len(names)} values")
-    point, rationals = Point(budget=budget), {}
+    sample = Sample(FactorLists(ring, ()), Point(budget=budget), {}, [], (0,))
     for i, entry in enumerate(listed):
-        number = _number(entry, ring, i, budget)
-        if isinstance(number, Coordinate):
-            point = point.extended(number)
-        else:
-            rationals[i] = number
-    if not _holds(formula, _Signs(point, rationals), matrix):
+        sample = sample.extended(_number(entry, ring, i, budget), [], alone=True)
+    if not _holds(formula, sample, matrix):
         raise matrix.fail("the values do not satisfy the formula")
 
 
@@ -61,46 +58,16 @@ def _number(entry: Entry, ring: Ring, i: int, budget: Budget | None) -> Fraction
     return found
 
 
-class _Signs:
-    """The signs of polynomials at the point, each found once."""
-
-    def __init__(self, point: Point, rationals: dict[int, Fraction]) -> None:
-        self.point, self.rationals, self.known = point, rationals, dict[Poly, int]()
-
-    def __call__(self, poly: Poly) -> int:
-        found = self.known.get(poly)
-        if found is None:
-            found = self.known[poly] = self._sign(poly)
-        return found
-
-    def _sign(self, poly: Poly) -> int:
-        rational = [i for i in poly.variables if i in self.rationals]
-        for i in rational:
-            check_value(poly, i, self.rationals[i])
-        if len(rational) == len(poly.variables):
-            value = sum((c * self._product(powers) for powers, c in poly.sparse_terms()), Fraction(0))
-            return (value > 0) - (value < 0)
-        for i in rational:
-            poly = poly.at_rational(i, self.rationals[i])
-        return self.point.sign(poly)
-
-    def _product(self, powers: Iterable[tuple[int, int]]) -> Fraction:
-        value = Fraction(1)
-        for i, exponent in powers:
-            value *= self.rationals[i] ** exponent
-        return value
-
-
-def _holds(formula: Formula, sign: _Signs, entry: Entry) -> bool:
+def _holds(formula: Formula, sample: Sample, entry: Entry) -> bool:
     match formula:
         case Constant(value):
             return value
         case Atom(poly, relation):
-            return relation.holds(sign(poly))
+            return relation.holds(sample.sign(poly))
         case Not(arg):
-            return not _holds(arg, sign, entry)
+            return not _holds(arg, sample, entry)
         case And(args):
-            return all(_holds(a, sign, entry) for a in args)
+            return all(_holds(a, sample, entry) for a in args)
         case Or(args):
-            return any(_holds(a, sign, entry) for a in args)
+            return any(_holds(a, sample, entry) for a in args)
     raise entry.fail("expected a quantifier-free formula without root atoms")

@@ -33,7 +33,7 @@ def listed(formula: Formula, variables: Sequence[str], budget: Budget) -> tuple[
     ring, part = Ring.of(tuple(variables)), budget.part(MOST_WORK)
     try:
         if not formula.is_quantifier_free:
-            formula = solve(formula, Options(progress=budget.listener), part).formula
+            formula = solve(formula, Options(), part).formula
         if isinstance(formula, Constant):
             return ()
         table = decompose(convert(formula, ring), ring.names, ("",) * len(variables), budget=part).table

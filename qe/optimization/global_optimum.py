@@ -156,7 +156,7 @@ def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[Globa
 def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
     """A point with this value, which is the least or greatest one. Raises ``Unable`` where none is found."""
     place = exists((goal.value, *goal.parameters, *goal.variables), _place(goal, value))
-    known = solve(place, Options(progress=budget.listener), budget).witness
+    known = solve(place, Options(), budget).witness
     if known is None:
         raise Unable("the least value was found, but no point that has it")
     return {name: known.get(name, Fraction(0)) for name in goal.variables}
@@ -227,7 +227,7 @@ def level_set(goal: Goal, value: Number, budget: Budget) -> Formula:
     """
     if goal.polynomial is None:
         having = exists((goal.value, *goal.parameters), _place(goal, value))
-        return solve(having, Options(progress=budget.listener), budget).formula
+        return solve(having, Options(), budget).formula
     ring = Ring.of(tuple(name for name in goal.ring.names if name != goal.value))
     (objective, scale), conditions = goal.polynomial, convert(goal.conditions, ring)
     objective = objective.convert(ring)

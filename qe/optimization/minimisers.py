@@ -61,7 +61,7 @@ def minimisers(goal: Goal, taken: Formula, table: CellTable, sign: int, budget: 
         end = forall((other,), implies(others, bound))
     parts = over_one_ring(goal.conditions, goal.graph, end)
     having = exists((goal.value,), conj(parts))
-    return solve(having, Options(progress=budget.listener), budget).formula if end.is_quantifier_free else having
+    return solve(having, Options(), budget).formula if end.is_quantifier_free else having
 
 
 def points(goal: Goal, taken: Formula, roots: list[Poly], sign: int, budget: Budget) -> list[Piece] | None:
@@ -74,7 +74,7 @@ def points(goal: Goal, taken: Formula, roots: list[Poly], sign: int, budget: Bud
     having = exists((goal.value,), conj((goal.conditions, goal.graph, ends)))
     part = budget.part(MOST_WORK)
     try:
-        place = solve(having, Options(progress=budget.listener), part).formula
+        place = solve(having, Options(), part).formula
         if place == FALSE:
             return []
         order = (*goal.parameters, goal.value, *goal.variables)

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from itertools import groupby
 
 from qe.arguments import by_name, flag, seconds, whole
@@ -25,7 +26,8 @@ from qe.optimization.global_optimum import GlobalOptimum, level_set, number_cond
 from qe.optimization.minimisers import minimisers, points
 from qe.optimization.values import Goal
 from qe.options import Budget, Options
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate
@@ -111,13 +113,13 @@ class ParametricOptimum:
                 raise InputError(f"parameters: a value for each of {', '.join(self.parameters)} expected ({name})")
         given = {name: number_of(named[name], "parameters", f"an exact number for {name}") for name in self.parameters}
         limits = Limits(seconds(timeout), process=flag(process, "process"))
-        return perform(lambda budgets: self._at(given, budgets()), limits, at_once=timeout is not None)
+        return perform(partial(self._at, given), limits, at_once=timeout is not None)
 
     def _at(self, given: Mapping[str, Number], budget: Budget) -> GlobalOptimum:
         fixed = [part for name, value in given.items() for part in number_conditions(self._goal.ring, name, value)]
         place = replace(self._goal, conditions=conj((self._goal.conditions, *fixed)), polynomial=None)
         here = exists(self.parameters, conj((convert(self.values, self._goal.ring), *fixed)))
-        taken = solve(here, Options(progress=budget.listener), budget).formula
+        taken = solve(here, Options(), budget).formula
         found = fibre_of(self._table, list(given.values()), budget=budget)
         if not found:
             return GlobalOptimum(OptimumStatus.INFEASIBLE, None, None, {}, FALSE, taken, self.variable, self.answer)
@@ -157,7 +159,7 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
     """
     limits = budget or Budget()
     if not goal.graph.is_quantifier_free:
-        goal = replace(goal, graph=solve(goal.graph, Options(progress=limits.listener), limits).formula)
+        goal = replace(goal, graph=solve(goal.graph, Options(), limits).formula)
     values, unproved = goal.values(limits, check=check)
     taken = values.formula
     order = (*goal.parameters, goal.value)

@@ -1,208 +1,176 @@
-"""Where the work of a public function runs: here while it is short, in a forked process once it takes long.
+"""Where the work of a public function runs: here while it is short, in a worker process once it takes long.
 
-A FLINT call cannot be interrupted, so work that must obey Ctrl-C and limits runs in a process that can be killed. A
-process of its own for every call would cost a short one more than its own time. So the work starts here; at the first
-``Budget.check`` after ``HERE`` seconds the process forks, the child goes on from there with its stack as it is, and the
-parent waits for what the child sends, unwinds its own stack and gives that back. No work is done twice. Where
-one operation could already be long before that, or a limit is given, the work is forked from the start.
+A FLINT call cannot be interrupted and may abort when memory runs out, so work that must obey Ctrl-C and limits runs in
+a process that can be killed (``qe.processes.worker``). Sending every question there would cost a short one more than
+its own time. So work starts here, unless a limit is given or one operation could already be long. At the first
+``Budget.check`` after ``HERE`` seconds it is given up and asked again from its beginning, in the worker. Work is
+therefore a callable that can be pickled, and that can be asked twice.
 
-What the work gives to ``Budget.keep`` is its result if a limit ends it later: an answer is not lost while it is proved.
+A question inside another one is a part of it: where it needs a worker, the whole moves; inside a worker it stays there,
+unless an earlier limit is to hold. What the work gives to ``Budget.keep`` is its result if a limit ends it later: an
+answer is not lost while it is proved.
 """
 
 from __future__ import annotations
 
+import math
 import os
+import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from types import TracebackType
-from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar, cast
+from contextvars import ContextVar
+from functools import partial
+from typing import TypeVar
 
-from qe.errors import Unable
-from qe.options import Budget, Handover, lost
-from qe.processes.surroundings import surrounding_deadline
-from qe.progress import Event, Listener, silent
-
-if TYPE_CHECKING:  # row 0 knows itself; the worker, which only some systems can have, is loaded when one is needed
-    from qe.processes.worker import Channel
+from qe.errors import BudgetExceeded, Unable
+from qe.options import Budget, Handover
+from qe.processes.channel import Channel, Known, Message, WorkerStopped
+from qe.processes.limits import Limits
+from qe.progress import Listener
 
 T = TypeVar("T")
-Budgets = Callable[[], Budget]
-Work = Callable[[Budgets], T]
+Work = Callable[[Budget], T]
 
-HERE = 0.05
-"""Seconds that work takes in the process of the caller before it moves."""
+HERE, COLD = 0.05, 0.3
+"""Seconds that work takes in the process of the caller before it moves: to a worker that runs, and to one that has to
+be started first, which takes about as long. Time in which modules are loaded does not count."""
+
+GRACE = 0.25
+"""Seconds past the time limit before the kill, so that a soft limit in the worker can answer first."""
 
 SWITCH = "QE_PROCESS"
 """The environment variable that, set to ``off``, keeps all work in the process of the caller."""
 
+Bounds = tuple[float, float]
+"""When a limit ends a worker (of ``time.monotonic``), and the MiB that it may have; infinity where none does."""
 
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """``timeout``: seconds for one call; ``memory``: MiB; ``progress``: is told every event, in the caller's process.
-
-    ``process``: whether other processes may be used; without them ``timeout`` is only checked between steps, and
-    ``memory`` not at all. ``start``: when the time began to run (None: it begins with the work).
-    """
-
-    timeout: float | None = None
-    memory: int | None = None
-    progress: Listener = silent
-    process: bool = True
-    start: float | None = None
-
-    def begun(self, start: float) -> Limits:
-        """The same limits for a call that began at ``start`` (of ``time.monotonic``)."""
-        return replace(self, start=start)
-
-    def shared(self, share: float) -> Limits:
-        """The same limits with a part of the time."""
-        return self if self.timeout is None else replace(self, timeout=self.timeout * share)
-
-    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        """A listener stays behind: it belongs to this process."""
-        return Limits, (self.timeout, self.memory, silent, self.process)
+OUTER: ContextVar[Handover | Bounds | None] = ContextVar("OUTER", default=None)
+"""Of the question that is being worked on: how it moves while it is here, or the bounds of its worker."""
 
 
-def perform(work: Work[T], limits: Limits, *, at_once: bool = False) -> T:
-    """``work(budgets)`` under the limits; ``budgets()`` makes the budget of all that is done in the time of the call.
+class _Moves(BaseException):
+    """Unwinds work that is to be asked again in a worker; the code on the way has nothing to do with it."""
 
-    ``at_once``: a single operation may take long from the start. The result of work that moved has been
-    pickled. Raises what the work raises, ``BudgetExceeded`` at a limit, and, where it moved, ``InternalError`` for
-    errors that are none of this package, ``WorkerDied`` when a signal ended the process; in place of an ``Unable``
-    the last thing that the work has kept is its result.
-    """
-    kept: list[T] = []
-    try:
-        return _performed(work, limits, at_once, kept)
-    except Unable:
-        if not kept:
-            raise
-        return kept[-1]
-
-
-def _performed(work: Work[T], limits: Limits, at_once: bool, kept: list[T]) -> T:
-    """The work wherever it runs; what it keeps is appended to ``kept``, in this process."""
-    start = time.monotonic() if limits.start is None else limits.start
-    if not limits.process or not _may_fork(limits, start):
-        return work(lambda: _budget(limits, start, limits.progress, kept.append))
-    if not at_once and limits.memory is None:
-        return _Journey(limits, start, kept).made(work)
-    from qe.processes.worker import Known, run
-
-    known = Known()
-    try:
-        return run(
-            lambda channel: work(lambda: _budget(limits, start, channel.event, channel.keep)),
-            timeout=limits.timeout,
-            memory=limits.memory,
-            progress=limits.progress,
-            known=known,
-            start=start,
-        )
-    finally:
-        kept += known.kept()
-
-
-def _budget(
-    limits: Limits,
-    start: float,
-    listener: Listener,
-    keep: Callable[[Any], None] = lost,
-    handover: Handover | None = None,
-) -> Budget:
-    left = None if limits.timeout is None else max(0.0, start + limits.timeout - time.monotonic())
-    return Budget(left, listener=listener, handover=handover, keep=keep)
-
-
-def _may_fork(limits: Limits, start: float) -> bool:
-    """Whether there are processes, they are wanted, and one would serve: inside a worker only an earlier limit does."""
-    if not hasattr(os, "fork") or os.environ.get(SWITCH, "").lower() in ("off", "0"):
-        return False
-    deadline = surrounding_deadline()
-    if deadline is None or limits.memory is not None:
-        return True
-    return limits.timeout is not None and start + limits.timeout < deadline
-
-
-class _Arrived(BaseException):
-    """Unwinds the stack of the parent; the code on the way has nothing to do with what became of the child."""
-
-    def __init__(self, journey: object, value: object, error: BaseException | None) -> None:
-        self.journey, self.value, self.error = journey, value, error
+    def __init__(self, handover: Handover) -> None:
+        self.handover = handover
         super().__init__()
 
 
-class _Wait:
-    """In the parent: whatever comes of it, also Ctrl-C or an error of the listener, nothing goes on with the work."""
-
-    def __init__(self, journey: object) -> None:
-        self.journey, self.value = journey, cast(object, None)
-
-    def __enter__(self) -> _Wait:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> NoReturn:
-        raise _Arrived(self.journey, self.value, error) from error
+def perform(work: Work[T], limits: Limits, *, at_once: bool = False) -> T:
+    """``work(budget)`` under the limits, as ``run`` does it; in place of an ``Unable`` the last thing that the work has
+    kept is its result."""
+    known = Known()
+    try:
+        return run(partial(_on_budget, work), limits, at_once=at_once, known=known)
+    except Unable:
+        if not known.kept():
+            raise
+        kept: T = known.kept()[0]
+        return kept
 
 
-class _Journey(Generic[T]):
-    """Work that may move to another process while it is done; in that process it has a channel."""
+def _on_budget(work: Work[T], channel: Channel) -> T:
+    return work(channel.budget())
 
-    def __init__(self, limits: Limits, start: float, kept: list[T]) -> None:
-        self.limits, self.start, self.kept, self.process = limits, start, kept, os.getpid()
-        self.handover = Handover(start + HERE, self.move)
-        self.channel: Channel | None = None
-        self.arrived: _Arrived | None = None
 
-    def made(self, work: Work[T]) -> T:
-        """The work, with the handover in every budget."""
-        with self:
-            value = work(lambda: _budget(self.limits, self.start, self.tell, self.keep, self.handover))
-            if self.channel is not None:
-                self.channel.deliver(lambda: value)
-            return value
-        assert self.arrived is not None
-        if self.arrived.error is not None:
-            raise self.arrived.error
-        return cast(T, self.arrived.value)
+def run(
+    work: Callable[[Channel], T],
+    limits: Limits,
+    *,
+    at_once: bool = True,
+    grace: float = GRACE,
+    known: Known | None = None,
+) -> T:
+    """``work(channel)`` under the limits; ``known`` is filled as it goes on.
 
-    def __enter__(self) -> None:
-        return None
+    ``at_once``: a single operation may take long from the start. The worker is killed ``grace`` seconds after the time
+    limit. Its memory is its address space, the interpreter included. Progress is heard here. No process is left behind
+    at work, whatever happens. Work and result are pickled; work that cannot be stays here where nothing is limited.
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> bool:
-        if error is not None and self.channel is not None:
-            self.channel.fail(error)
-        if isinstance(error, _Arrived) and error.journey is self:
-            self.arrived = error
-            return True
-        return False
-
-    def tell(self, event: Event) -> None:
-        """The listener of the budgets: the caller's, wherever it is."""
-        (self.limits.progress if self.channel is None else self.channel.event)(event)
-
-    def keep(self, value: T) -> None:
-        """Puts a result by where it outlives the work."""
-        (self.kept.append if self.channel is None else self.channel.keep)(value)
-
-    def move(self) -> None:
-        """Fork: the child returns from here, the parent waits and unwinds."""
-        if os.getpid() != self.process or not _may_fork(self.limits, self.start):
-            return  # some other move has taken this work along
-        from qe.processes.worker import Channel, Known, forked
-
-        side = forked(self.start, self.limits.timeout, None)
-        if isinstance(side, Channel):
-            self.channel = side
-            return
-        with _Wait(self) as home:
-            known = Known()
+    Raises ``WorkerStopped`` at a limit, and every ``QEError`` that the work itself raised; from a worker any other
+    exception arrives as ``InternalError``, and ``WorkerDied`` says that a signal ended it.
+    """
+    known = Known() if known is None else known
+    start = time.monotonic() if limits.start is None else limits.start
+    deadline = math.inf if limits.timeout is None else start + limits.timeout
+    outer = OUTER.get()
+    here = partial(_done_here, work, limits.progress, known, deadline)
+    try:
+        if not _may_move(limits, deadline, outer):
+            return here(outer if isinstance(outer, Handover) else None)
+        at_once = at_once or limits.memory is not None
+        if at_once:
+            leave()
+        else:
+            handover = outer if isinstance(outer, Handover) else _handover()
             try:
-                home.value = side.outcome(self.limits.progress, known)
-            finally:
-                self.kept += known.kept()
+                return here(handover)
+            except _Moves as move:
+                if move.handover is not handover or handover is outer:
+                    raise
+        from qe.processes.worker import asked, packed
+
+        sent = packed(work)
+        if sent is None:
+            if limits.timeout is not None or limits.memory is not None:
+                raise Unable("the question cannot be sent to another process, where limits hold (process=False: here)")
+            return here(None)
+        found: T = asked(sent, limits, deadline, grace, known)  # type: ignore[assignment]
+        return found
+    finally:
+        known.seconds = time.monotonic() - start
+
+
+def _may_move(limits: Limits, deadline: float, outer: Handover | Bounds | None) -> bool:
+    """Whether processes are wanted, and one would serve: inside a worker only a tighter limit does."""
+    if not limits.process or not sys.executable or os.environ.get(SWITCH, "").lower() in ("off", "0"):
+        return False
+    if not isinstance(outer, tuple):
+        return True
+    return deadline < outer[0] or (limits.memory is not None and limits.memory < outer[1])
+
+
+def _done_here(
+    work: Callable[[Channel], T], progress: Listener, known: Known, deadline: float, handover: Handover | None
+) -> T:
+    """The work in this process, from which it may move."""
+
+    def take(message: Message) -> None:
+        known.take(message, progress)
+
+    token = None if handover is None else OUTER.set(handover)
+    try:
+        return work(Channel(take, deadline, handover))
+    except BudgetExceeded as error:
+        if type(error) is not BudgetExceeded:
+            raise
+        raise WorkerStopped(str(error), limit=error.limit, known=known) from error
+    finally:
+        if token is not None:
+            OUTER.reset(token)
+
+
+def _handover() -> Handover:
+    """What gives work up that begins now, once it has taken long in a process whose modules are loaded."""
+    begin, loaded = time.monotonic(), len(sys.modules)
+
+    def move() -> None:
+        nonlocal begin, loaded
+        from qe.processes.worker import IDLE
+
+        now = time.monotonic()
+        if len(sys.modules) > loaded:
+            begin, loaded = now, len(sys.modules)
+        handover.due = begin + (HERE if IDLE else COLD)
+        if now >= handover.due:
+            raise _Moves(handover)
+
+    handover = Handover(begin + HERE, move)
+    return handover
+
+
+def leave() -> None:
+    """To be called before workers are used other than by ``run``: a question that is worked on here moves first."""
+    outer = OUTER.get()
+    if isinstance(outer, Handover):
+        raise _Moves(outer)

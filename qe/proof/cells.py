@@ -40,6 +40,11 @@ class Stack:
     sections: tuple[tuple[int, ...], ...]
     cells: tuple[Cell, ...]
 
+    @property
+    def positions(self) -> range:
+        """Its sectors and sections, from below."""
+        return range(2 * len(self.sections) + 1)
+
     def __reduce__(self) -> tuple[type[Stack], tuple[object, ...]]:
         """Tables are sent between processes by the hundred thousand cells; the way of all dataclasses is slow."""
         return Stack, (self.used, self.sectors, self.sections, self.cells)
@@ -49,22 +54,27 @@ class Stack:
 class Cell:
     """One cell.
 
-    ``signs``: for the cell at depth k+1, one character of ``+-0`` per factor of level k that its parent's
-    stack used, in the order of ``Stack.used`` (empty for the root). A factor that is nullified over the
-    parent's sample has sign 0 on the whole stack. In a sector between the sections of an equational constraint
-    the signs of the other factors are open (``?``), and the cell is a leaf. ``truth``: the truth value of the formula
-    (with its quantified variables above this depth) on the cell; None only for a cell that was not needed because
-    its quantifier was already decided by a sibling, or for a cell over free variables that was decomposed.
-    ``stack`` is None for a leaf.
+    ``signs``: for the cell at depth k+1, one character of ``+-0`` per factor of level k that its parent's stack used,
+    in the order of ``Stack.used`` (empty for the root). A factor that is nullified over the parent's sample has sign 0
+    on the whole stack. In a sector between the sections of an equational constraint the signs of the other factors are
+    open (``?``), and the cell is a leaf. ``truth``: the truth value of the formula (with its quantified variables above
+    this depth) on the cell; None only for a cell that was not needed because its quantifier was already decided by a
+    sibling, or for a cell over free variables that was decomposed. ``stack`` is None for a leaf.
+
+    ``reach``: of an interval of a covering the first and last position, and that of its sample; ``own`` are the factors
+    of its level that keep their signs on it, at least (None: nothing but its sample is looked at). Its truth follows,
+    and no signs are listed. Sections between its sectors may then be empty.
     """
 
     signs: str
     truth: bool | None
     stack: Stack | None = None
+    reach: tuple[int, int, int] | None = None
+    own: tuple[int, ...] | None = None
 
     def __reduce__(self) -> tuple[type[Cell], tuple[object, ...]]:
         """See ``Stack.__reduce__``."""
-        return Cell, (self.signs, self.truth, self.stack)
+        return Cell, (self.signs, self.truth, self.stack, self.reach, self.own)
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +95,15 @@ class CellTable:
     factors: tuple[tuple[Poly, ...], ...]
     root: Cell
     constraints: tuple[tuple[int, ...], ...] = ()
+
+    @property
+    def is_decomposition(self) -> bool:
+        """Whether no cell is an interval of a covering."""
+
+        def is_one(cell: Cell) -> bool:
+            return cell.reach is None and (cell.stack is None or all(map(is_one, cell.stack.cells)))
+
+        return is_one(self.root)
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,6 +51,8 @@ def cells_to_json(evidence: CellEvidence) -> Json:
 
 def _cell_to_json(cell: Cell) -> Json:
     out: dict[str, Json] = {"signs": cell.signs, "truth": cell.truth}
+    if cell.reach is not None:
+        out |= {"reach": list(cell.reach), "own": None if cell.own is None else list(cell.own)}
     stack = cell.stack
     if stack is not None:
         met: dict[int, int] = {}
@@ -100,23 +102,26 @@ def cells_from_json(entry: Entry) -> CellEvidence:
 
 
 def _cell_from_json(entry: Entry, depth: int) -> Cell:
-    signs, truth, stack = entry.fields("signs", "truth", optional=("stack",))
+    signs, truth, stack, reach, own = entry.fields("signs", "truth", optional=("stack", "reach", "own"))
+    interval: tuple[tuple[int, int, int] | None, tuple[int, ...] | None] = (None, None)
+    if reach.value is not None:
+        first, last, at = (e.integer() for e in reach.row("first", "last", "at"))
+        interval = (first, last, at), None if own.value is None else tuple(e.integer() for e in own.items())
+    elif own.value is not None:
+        raise own.fail("an interval expected")
     if stack.value is None:
-        return Cell(signs.text(), truth.truth())
+        return Cell(signs.text(), truth.truth(), None, *interval)
     if depth == 0:
         raise stack.fail("a stack above the last variable")
     used, sectors, sections, cells = stack.fields("used", "sectors", "sections", "cells")
     met: dict[int, int] = {}
-    return Cell(
-        signs.text(),
-        truth.truth(),
-        Stack(
-            used=tuple(e.integer() for e in used.items()),
-            sectors=tuple(e.rational() for e in sectors.items()),
-            sections=tuple(_section(e, met) for e in sections.items()),
-            cells=tuple(_cell_from_json(e, depth - 1) for e in cells.items()),
-        ),
+    above = Stack(
+        used=tuple(e.integer() for e in used.items()),
+        sectors=tuple(e.rational() for e in sectors.items()),
+        sections=tuple(_section(e, met) for e in sections.items()),
+        cells=tuple(_cell_from_json(e, depth - 1) for e in cells.items()),
     )
+    return Cell(signs.text(), truth.truth(), above, *interval)
 
 
 def _section(entry: Entry, met: dict[int, int]) -> tuple[int, ...]:

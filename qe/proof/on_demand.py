@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from qe.errors import Unable
 from qe.formula.syntax import Formula
 from qe.options import Budget, Options
-from qe.progress import silent
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
 
@@ -32,7 +31,7 @@ class Repeated:
 
     def __call__(self, budget: Budget) -> Evidence:
         log = RunLog()
-        self.work(self.formula, self.options.with_(certify=True, progress=silent), budget, log)
+        self.work(self.formula, self.options.with_(certify=True), budget, log)
         proof = next((step.evidence.get("proof") for step in log.steps()), None)
         return proof if isinstance(proof, Mapping) else {}
 

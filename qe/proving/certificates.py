@@ -54,11 +54,18 @@ def certificate_of(
     linear = substitution_certificate(question, found.formula)
     if linear is not None or not options.certify:
         return Proof(linear, reason="" if linear is not None else NOT_WANTED)
-    proof = derived(asked, log, found.formula, options, budget)
+    return derived_or_decomposed(asked, question, log, found.formula, options, budget)
+
+
+def derived_or_decomposed(
+    asked: Formula, question: Formula, log: RunLog, answer: Formula, options: Options, budget: Budget
+) -> Proof:
+    """The derivation; where a step of it has no evidence, a decomposition of the whole question, if time allows."""
+    proof = derived(asked, log, answer, options, budget)
     if proof.certificate is not None:
         return proof
     log.switch("derivation", proof.reason)
-    table = _table(question, found.formula, log, options, budget)
+    table = _table(question, answer, log, options, budget)
     return proof if table is None else replace(proof, certificate=table, reason="")
 
 

@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 from math import lcm
 
-from qe.exact.quadratic_form import solve_linear
+from qe.exact.quadratic_form import echelon
 from qe.exact.ring import Poly
 from qe.options import Budget
 from qe.proving.elimination_chain import member
@@ -37,6 +37,7 @@ def cofactors(
     variables = sorted({i for p in (*targets, *generators) for i in p.variables})
     least = max(targets[0].total_degree, min(e.total_degree for e in generators))
     for degree in range(least, least + SLACK + 1):
+        budget.check("prove")
         columns: list[Column] = []
         for k, generator in enumerate(generators):
             for powers in _monomials(variables, degree - generator.total_degree, ring.size):
@@ -56,9 +57,14 @@ def _solved(columns: Sequence[Column], wanted: dict[Powers, int]) -> list[Fracti
     monomials = dict.fromkeys(e for _, _, terms in columns for e in terms)
     if not monomials.keys() >= wanted.keys():
         return None
-    rows = [[Fraction(terms.get(e, 0)) for _, _, terms in columns] for e in monomials]
-    solution = solve_linear(rows, [Fraction(wanted.get(e, 0)) for e in monomials], len(columns))
-    return None if solution is None else [Fraction(v) for v in solution.particular]
+    listed = [*(terms for _, _, terms in columns), wanted]
+    work, pivots = echelon([[Fraction(terms.get(e, 0)) for terms in listed] for e in monomials])
+    if len(columns) in pivots:
+        return None
+    values = [Fraction(0)] * len(columns)
+    for row, pivot in zip(work, pivots, strict=True):
+        values[pivot] = Fraction(row[-1])
+    return values
 
 
 def _cleared(

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
+from math import lcm
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
@@ -22,15 +23,25 @@ from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import Goal, equivalence
 from qe.kernel.derivation import replaced
 from qe.kernel.linear_equation import term
+from qe.kernel.negation import normal
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.kernel.theorem import theorem_goals
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proving.along import constant_along
+from qe.proving.apart import alternatives, independent_parts
+from qe.proving.far import infinity_first, zeros
+from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
 from qe.proving.lemmas import refuting
+from qe.proving.made import FRESH, Made, solved
+from qe.proving.mirrors import mirrored
+from qe.proving.ranges import by_ranges
+from qe.proving.shifts import elimination_set, lower, shifted
 from qe.proving.simplified import Simplified
+from qe.proving.thin import degenerate_truth_set
 from qe.rules.closed_forms import matches
 
 Elaborator = Callable[[Claim, Context, Limits], list[Json]]
@@ -139,40 +150,49 @@ def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
 
 
 def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """The cases of the sign of a variable, in each of which the others are measured in powers of it."""
+    """The cases of the sign of a variable, in each of which the others are measured in powers of it, or of its root."""
     variable, weights, values, _ = only(claim, "variable", "weights", "values", optional=("theory",))
     (block, name, x), ring = claim.variable(variable), claim.ring
     powers = _moves(weights, name, claim)
-    if any(power.denominator > 1 for power in powers.values()):
-        raise weights.fail("a root of the variable would be needed")
+    root = lcm(*(power.denominator for power in powers.values()))
     rest, one = [v for v in block.variables if v != name], ring.constant(1)
     cases = [(s, exists(block.variables, conj((atom(ring.gen(x), _SIDE[s]), block.body)))) for s in (1, 0, -1)]
     kept = [case for case in cases if case[0] in {entry.integer(-1) for entry in values.items()}]
-    current = disj(case for _, case in kept)
-    steps = [simplified(block, current, context, claim, limits)]
+    made = Made(claim, limits, block, context)
+    made.simplified(block, disj(case for _, case in kept))
     for s, case in kept:
-        after = exists(rest, _at_number(block.body, x, s))
-        if current == TRUE or case not in disjuncts(current):  # another case has settled it
+        after, side = exists(rest, _at_number(block.body, x, s)), s
+        if made.current == TRUE or case not in disjuncts(made.current):  # another case has settled it
             continue
-        place = () if current == case else (disjuncts(current).index(case),)
-        if s:
-            times = {v: _times(ring, v, ring.gen(x) * s, power.numerator) for v, power in powers.items()}
-            back = {v: _times(ring, v, ring.gen(x) * s, -power.numerator) for v, power in powers.items()}
-            known = (atom(ring.gen(x), _SIDE[s]),)
-            moved = moved_inside(case, place, times, back, known, steps, claim, limits, start=True)
-            image = _image(after, {v: q for v, q in back.items() if v in rest}, known, rest, ring)
-            regular = exists(block.variables, conj((*known, image)))
-            current = replaced(current, place, case, moved, (), variable)[1]
-            if moved != regular:
-                current = _simplified_inside(place, moved, regular, current, steps, claim, limits)
-            outer = {v: q for v, q in back.items() if v in rest}
-            steps.append(terms(regular, after, {name: (one * s, one)}, outer, (), claim, limits, place))
-            current = replaced(current, place, regular, after, (), variable)[1]
-        else:
-            evidence: dict[str, Json] = {"solved": [[name, poly_to_text(ring.gen(x)), 1]], "theory": EMPTY}
-            steps.append(written("linear equation solved", place, case, after, (), evidence))
-            current = replaced(current, place, case, after, (), variable)[1]
-    return steps
+        if s == 0:
+            made.step("linear equation solved", case, after, solved(Atom(ring.gen(x), Relation.EQ), name))
+            continue
+        body = block.body
+        if s < 0 and root % 2 == 0:
+            side, body = 1, _with(body, x, -ring.gen(x))
+            turned = exists(block.variables, conj((atom(ring.gen(x), _SIDE[1]), body)))
+            made.terms(case, turned, {name: (-ring.gen(x), one)}, {name: (-ring.gen(x), one)})
+            case = turned
+        if root > 1:
+            high = exists(block.variables, conj((atom(ring.gen(x), _SIDE[side]), _with(body, x, ring.gen(x) ** root))))
+            assert isinstance(high, Exists)
+            lowering = Made(claim, limits, high)
+            lower(lowering, high, case, name, root)
+            made.back(case, high, lowering)
+            case = high
+        unit, whole = ring.gen(x) * side, {v: int(power * root) for v, power in powers.items()}
+        times = {v: _times(ring, v, unit, power) for v, power in whole.items()}
+        back = {v: _times(ring, v, unit, -power) for v, power in whole.items()}
+        known = (atom(ring.gen(x), _SIDE[side]),)
+        place = made.place(case)
+        moved = moved_inside(case, place, times, back, known, made.steps, claim, limits, start=True)
+        made.current = made.beside(place, case, moved)[1]
+        image = _image(after, {v: q for v, q in back.items() if v in rest}, known, rest, ring)
+        regular = exists(block.variables, conj((*known, image)))
+        made.simplified(moved, regular)
+        outer = {v: q for v, q in back.items() if v in rest}
+        made.terms(regular, after, {name: (one * side, one)}, outer)
+    return made.finished(claim.after)
 
 
 def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -238,9 +258,9 @@ def _simplified_inside(
 ) -> Formula:
     """The formula ``current`` with one part made simpler, also under quantifiers."""
 
-    def evidence(one: Formula, other: Formula, used: Context) -> Json | None:
+    def evidence(one: Formula, other: Formula, used: Context) -> tuple[str, Json] | None:
         try:
-            return {"theory": _theory(equivalence(one, other, used), claim, limits)}
+            return "signs", {"theory": _theory(equivalence(one, other, used), claim, limits)}
         except CertificateRejected:
             return None
 
@@ -266,6 +286,10 @@ def _at_number(formula: Formula, x: int, value: int) -> Formula:
     return map_atoms(formula, lambda a: atom(a.poly.at_rational(x, value), a.relation))
 
 
+def _with(formula: Formula, x: int, value: Poly) -> Formula:
+    return map_atoms(formula, lambda a: atom(a.poly.compose({x: value}), a.relation))
+
+
 def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
     """name + by * variable, as a quotient."""
     bottom = ring.constant(by.denominator)
@@ -289,9 +313,9 @@ def _solved(equation: Atom, name: str) -> Json:
 def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
     """A step that signs of polynomials prove."""
     empty = Entry({"theory": EMPTY}, claim.path)
-    step = replace(claim, rule="simplification", before=before, after=after, evidence=empty)
+    step = replace(claim, rule="signs", before=before, after=after, evidence=empty)
     theory = _theory(block_goals(step, context), claim, limits)
-    return written("simplification", (), before, after, context, {"theory": theory})
+    return written("signs", (), before, after, context, {"theory": theory})
 
 
 def terms(
@@ -388,11 +412,12 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [simplified(claim.before, claim.after, (), claim, limits)]
 
 
-FRESH = ("'", "''")
-NAMING = frozenset(("two variables exchanged",))
+NAMING = frozenset(
+    ("degree shift", "elimination set", "homogeneous scaling", "sphere seen along a form", "two variables exchanged")
+)
 """Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
 
-ELABORATORS: Mapping[str, Elaborator] = {
+_BY_RULE: Mapping[str, Elaborator] = {
     "cubic on an interval": closed_form,
     "two variables exchanged": exchanged,
     "homogeneous scaling": scaled,
@@ -405,6 +430,32 @@ ELABORATORS: Mapping[str, Elaborator] = {
     "redundant part": redundant,
     "constant": constant,
     "witness in the parameters": witness,
+    "degenerate truth set": degenerate_truth_set,
+    "degree shift": shifted,
+    "constant along directions": constant_along,
+    "conditions on zeros that follow": zeros,
+    "infinity first": infinity_first,
+    "ranges that exclude each other": by_ranges,
+    "sphere seen along a form": seen_along,
+    "alternatives": alternatives,
+    "independent parts": independent_parts,
+    "elimination set": elimination_set,
     "linear form as a variable": sheared,
+    "linear form named": named,
+    "mirror images of a convex set": mirrored,
     "disjuncts with equations apart": distributed,
 }
+
+
+def _from_normal(elaborator: Elaborator) -> Elaborator:
+    """An existential block is one with its negations in the atoms, as the kernel's steps begin with it."""
+
+    def made(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+        if isinstance(claim.before, Exists):
+            claim = replace(claim, before=normal(claim.before), after=normal(claim.after))
+        return elaborator(claim, context, limits)
+
+    return made
+
+
+ELABORATORS: Mapping[str, Elaborator] = {rule: _from_normal(elaborator) for rule, elaborator in _BY_RULE.items()}

@@ -8,6 +8,7 @@ member of the ideal is reduced to 0 by it. A search ends as soon as what is want
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from heapq import heapify, heappop, heappush
 from itertools import combinations
 from math import gcd, lcm
 
@@ -91,22 +92,27 @@ class _Chain:
 
     def run(self, enough: Callable[[], bool]) -> bool:
         """Add polynomials until there are enough; False where the limits are reached or nothing more is found."""
-        pairs = list(combinations(range(self.given), 2))
+        pairs = [self.ranked(i, j) for i, j in combinations(range(self.given), 2)]
+        heapify(pairs)
         looked = 0
         while not enough():
             if not pairs or looked > MOST_PAIRS:
                 return False
-            i, j = min(pairs, key=lambda pair: self.rank(_joined(self.leads[pair[0]], self.leads[pair[1]])))
-            pairs.remove((i, j))
+            _, j, i = heappop(pairs)
             if not any(map(min, self.leads[i], self.leads[j])):
                 continue  # coprime leading terms: the S-polynomial reduces to 0
             looked += 1
             self.budget.check("elimination", looked)
             if self.add_pair(i, j):
-                pairs += [(k, len(self.polys) - 1) for k in range(len(self.polys) - 1)]
+                for k in range(len(self.polys) - 1):
+                    heappush(pairs, self.ranked(k, len(self.polys) - 1))
                 if self.polys[-1].height_bits() > MOST_BITS:
                     return False
         return True
+
+    def ranked(self, i: int, j: int) -> tuple[tuple[int, ...], int, int]:
+        """The least common multiple of two leading terms, by its rank, and the two, the last of them first."""
+        return self.rank(_joined(self.leads[i], self.leads[j])), j, i
 
     def add_pair(self, i: int, j: int) -> bool:
         """Add what is left of an S-polynomial; whether anything is."""

@@ -16,13 +16,13 @@ from qe.formula.traverse import conjuncts
 from qe.kernel.cubic_root import SOME, existence
 from qe.kernel.elimination_points import Tried, implies, is_real
 from qe.kernel.elimination_set import require_cover
-from qe.kernel.lowered_degree import lowered
 from qe.kernel.step import Limits
 from qe.kernel.turning_cover import Around, Cover, Met
 from qe.kernel.turning_points import Turn
 from qe.kernel.virtual_substitution import TestPoint, whichever
 from qe.proof.derivation import moved
-from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
+from qe.proof.entry import Json, formula_to_json, poly_to_text
+from qe.proving.shifts import low
 from qe.simplify.facts import NOTHING
 from qe.simplify.simplify import simplify
 
@@ -51,8 +51,7 @@ class Points:
         self.ring, self.plan = ring, trace.plan
         self.name = given.names[trace.plan.x]
         self.x = ring.index[self.name]
-        self.original = block.body
-        self.body = lowered(block.body, self.x, trace.plan.exponent, Entry(None, "exponent"))
+        self.body = block.body
         infinities = trace.plan.infinities
         self.side = 0 if len(infinities) == 2 else -infinities[0].sign if infinities else 1
         self.quadratics: list[Poly] = [] if self.side else self._quadratics()
@@ -90,7 +89,6 @@ class Points:
         """The evidence of the rule "elimination set"."""
         return {
             "variable": self.name,
-            "exponent": self.plan.exponent,
             "side": self.side,
             "quadratics": [poly_to_text(q) for q in self.quadratics],
             "points": [self._entry(p.tried) for p in self.listed],
@@ -99,7 +97,6 @@ class Points:
 
     def _entry(self, tried: Tried) -> Json:
         point = tried.point
-        whole = self.original if point is None else self.body
         return {
             "point": None
             if point is None
@@ -109,7 +106,7 @@ class Points:
                 "shift": point.shift,
             },
             "guard": formula_to_json(tried.guard),
-            "formula": None if tried.formula == whole else formula_to_json(tried.formula),
+            "formula": None if tried.formula == self.body else formula_to_json(tried.formula),
             "settled": [formula_to_json(a) for a in conjuncts(tried.formula) if a in tried.settled],
         }
 
@@ -125,15 +122,15 @@ class Points:
         """The point with a guard that makes it real; ``_guarded`` finds the guard of the theorem."""
         settled = frozenset(self.moved(a) for a in attempt.settled)
         if attempt.point is None:
-            left = conjuncts(self.moved(attempt.formula))
-            return Tried(None, TRUE, conj(m for m in conjuncts(self.original) if m in left), settled)
+            known = conjuncts(low(self.moved(attempt.formula), self.x, self.plan.exponent))
+            return Tried(None, TRUE, conj(m for m in conjuncts(self.body) if m in known), settled)
         point = _as_checked(attempt.point, self.ring)
         guard = conj((*_real(point), self.moved(attempt.guard)))
         return Tried(point, guard, self.moved(attempt.formula), settled)
 
     def _guarded(self, tried: list[Tried], limits: Limits) -> list[Tried]:
         """The points with the conditions of the theorem as guards, and those at which the problem is kept."""
-        needs = _Needs(self.x, self.original, tried, limits)
+        needs = _Needs(self.x, self.body, tried, limits)
         used: dict[int, list[tuple[Formula, ...]]] = {}
         kept: dict[Formula, None] = {}
         for k, condition in require_cover(needs, self.body, self.side, self.quadratics):
@@ -154,7 +151,7 @@ class Points:
                 found = [c for c in found if c not in impossible]
                 guard = _common(found) if found else t.guard
             out.append(Tried(point, guard, t.formula, t.settled))
-        return out + [Tried(None, condition, self.original, frozenset()) for condition in kept]
+        return out + [Tried(None, condition, self.body, frozenset()) for condition in kept]
 
 
 class _Needs(Cover):

@@ -10,24 +10,26 @@ from qe.exact.algebraic import real_roots
 from qe.exact.digits import digits
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
-from qe.kernel.boolean import Theory
-from qe.kernel.signs import read_lemma
+from qe.kernel.boolean import Goal, Theory
+from qe.kernel.signs import Identity, Lemma, read_lemma, read_polynomials, sign_bit
 from qe.kernel.step import Limits
 from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proving.refutation import cases
 
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
 
-EMPTY: Json = {"polynomials": [], "lemmas": []}
+EMPTY: Json = {"polynomials": [], "lemmas": [], "cases": []}
 
 
 @dataclass(slots=True)
 class Lemmas:
-    """Lemmas under way: polynomials in the order in which they are first used."""
+    """Lemmas under way: polynomials in the order in which they are first used; ``facts``: what each lemma says."""
 
     ring: Ring
     numbers: dict[Poly, int] = field(default_factory=dict)
     lemmas: list[Json] = field(default_factory=list)
+    facts: list[Lemma] = field(default_factory=list)
 
     def number(self, poly: Poly) -> int:
         """The number of a primitive polynomial."""
@@ -36,6 +38,7 @@ class Lemmas:
     def identity(self, terms: Iterable[Term]) -> None:
         """That the terms add up to 0."""
         listed: list[Json] = []
+        signs: list[tuple[int, tuple[tuple[int, bool], ...]]] = []
         for coefficient, powers in terms:
             found: dict[Poly, int] = {}
             for poly, exponent in powers:
@@ -45,8 +48,11 @@ class Lemmas:
                 content, primitive = content_of(poly)
                 coefficient *= content**exponent
                 found[primitive] = found.get(primitive, 0) + exponent
-            listed.append([digits(coefficient), [[self.number(p), e] for p, e in found.items()]])
+            numbered = [(self.number(p), e) for p, e in found.items()]
+            listed.append([digits(coefficient), [[i, e] for i, e in numbered]])
+            signs.append((sign_bit(coefficient), tuple((i, e % 2 == 1) for i, e in numbered)))
         self.lemmas.append({"identity": listed})
+        self.facts.append(Identity(tuple(signs)))
 
     def line(self, polys: Sequence[Poly], x: int) -> None:
         """The sign vectors of irreducible polynomials in one variable."""
@@ -54,19 +60,30 @@ class Lemmas:
         ends = [None, *roots, None]
         samples = [rational_between(a, b) for a, b in pairwise(ends)]
         self.lemmas.append({"line": [self.number(p) for p in polys], "samples": [str(s) for s in samples]})
+        self.facts.append(read_lemma(Entry(self.lemmas[-1], "lemma"), tuple(self.numbers), self.ring))
 
     def theory(self, limits: Limits) -> Theory:
-        """The lemmas as the checker reads them."""
-        polys = tuple(self.numbers)
-        return Theory(polys, tuple(read_lemma(Entry(e, "lemma"), polys, self.ring) for e in self.lemmas), limits)
+        """The lemmas as they are meant; what is used of them is read as a checker reads it (``only``)."""
+        return Theory(tuple(self.numbers), tuple(self.facts), limits)
 
     def only(self, used: Iterable[int]) -> Json:
-        """The evidence with these lemmas alone."""
+        """The evidence with these lemmas alone, which are multiplied out. Raises ``CertificateRejected``."""
         chosen = [self.lemmas[k] for k in sorted(used)]
         polys = list(self.numbers)
         numbers = {i: k for k, i in enumerate(dict.fromkeys(i for lemma in chosen for i in _mentioned(lemma)))}
         listed: list[Json] = [poly_to_text(polys[i]) for i in numbers]
-        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen]}
+        for lemma in chosen:
+            read_lemma(Entry(lemma, "lemma"), polys, self.ring)
+        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen], "cases": []}
+
+
+def with_cases(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
+    """The lemmas with the cases by which they refute the goals; None where they do not."""
+    assert isinstance(evidence, dict)
+    names, lemmas = Entry(evidence, "theory").fields("polynomials", "lemmas", optional=("cases",))[:2]
+    polys = read_polynomials(names, ring)
+    found = cases(Theory(polys, tuple(read_lemma(e, polys, ring) for e in lemmas.items()), limits), goals)
+    return None if found is None else {**evidence, "cases": found}
 
 
 def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:

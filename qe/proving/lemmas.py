@@ -10,56 +10,51 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import lcm, prod
+from operator import ge
 
 from qe.elimination.search.linear_forms import is_square
 from qe.elimination.search.monomial_bounds import MonomialBounds
 from qe.errors import BudgetExceeded, Unable
-from qe.exact.groebner import groebner_basis
+from qe.exact.groebner import Basis, groebner_basis
+from qe.exact.groebner import Limits as BasisLimits
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import children, conjuncts
-from qe.kernel.boolean import Theory
+from qe.formula.syntax import FALSE, Atom, Or, Relation
+from qe.formula.traverse import conjuncts
+from qe.kernel.boolean import Goal, Theory
 from qe.kernel.negation import normal
 from qe.kernel.step import Limits
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors
 from qe.proving.expansions import as_squares, ranges, shifted
-from qe.proving.lemma_list import Lemmas, Term, content_of
+from qe.proving.goals import alternatives, is_hopeless, polynomials_outside
+from qe.proving.lemma_list import Lemmas, Term, content_of, with_cases
+from qe.proving.refutation import NODES, refutation
 from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
 
 MOST_POLYNOMIALS, MOST_PAIRS, MOST_TRIED, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 16, 8, 12, 400
-FEW_CASES = 300
-"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this."""
+MOST_REDUCED = 40
+BRIEF_BASIS = BasisLimits(elements=80, terms=300, bits=600)
+FEW_CASES, FEW_SPLITS = 300, 8
+"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this, and no
+more of them by the sign of a polynomial."""
 
 
-def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
-    """The polynomials of comparisons that stand under no quantifier; whether one of them is an equation or not =."""
-    found: dict[Poly, bool] = {}
-    pending = list(formulas)
-    while pending:
-        formula = pending.pop()
-        if isinstance(formula, Atom):
-            found[formula.poly] = found.get(formula.poly, False) or formula.relation in (Relation.EQ, Relation.NE)
-        elif not isinstance(formula, Exists | ForAll):
-            pending += children(formula)
-    return dict(sorted(found.items(), key=lambda entry: poly_to_text(entry[0])))
-
-
-def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> Json | None:
+def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
     """Evidence with which each of the lists of formulas is refuted, or None where none is found.
 
     Raises ``BudgetExceeded``.
     """
     polys = polynomials_outside(f for goal in goals for f in goal)
-    if len(polys) > MOST_POLYNOMIALS:
+    if len(polys) > MOST_POLYNOMIALS or any(map(is_hopeless, goals)):
         return None
     found = Lemmas(ring)
     stages: list[Callable[[], None]] = [
         lambda: None,
         lambda: _bounds(found, goals, limits),
+        lambda: _values(found, goals, polys),
         lambda: _algebra(found, polys),
         lambda: _lines(found, polys),
         lambda: ranges(found, polys),
@@ -69,46 +64,50 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         lambda: _combinations(found, goals, limits.budget),
         lambda: _modulo(found, goals, limits.budget),
     ]
+    pending, used = [case for goal in goals for case in alternatives(goal)], set[int]()
     for stage, search in enumerate(stages):
         count = len(found.lemmas)
+        limits.budget.check("prove")
         search()
         if stage and count == len(found.lemmas):
             continue
-        theory = replace(found.theory(limits), cases=FEW_CASES)
-        used = _used(theory, goals)
-        if used is not None:
-            return found.only(_needed(theory, goals, used))
-    used = _used(found.theory(limits), goals)
-    return None if used is None else found.only(used)
+        theory = found.theory(limits)
+        lemmas = [_used(theory, [case], FEW_CASES) for case in pending]
+        used = used.union(*(some for some in lemmas if some is not None))
+        pending = [case for case, some in zip(pending, lemmas, strict=True) if some is None]
+        if not pending:
+            return with_cases(found.only(_needed(theory, goals, used)), goals, ring, limits)
+    rest = _used(found.theory(limits), pending, NODES)
+    return None if rest is None else with_cases(found.only(used | rest), goals, ring, limits)
 
 
-def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) -> list[int]:
+def _needed(theory: Theory, goals: Sequence[Goal], used: set[int]) -> list[int]:
     """Those of the lemmas without which the refutation fails, as far as it is cheap to find out."""
     kept = sorted(used)
     for k in kept if len(kept) <= MOST_TRIED else ():
         left = [i for i in kept if i != k]
-        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals) is not None:
+        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals, FEW_CASES) is not None:
             kept = left
     return kept
 
 
-def _used(theory: Theory, goals: Sequence[Sequence[Formula]]) -> set[int] | None:
-    """The lemmas by which all goals are refuted; None where they are not, or not in the theory's number of cases."""
+def _used(theory: Theory, goals: Sequence[Goal], most: int) -> set[int] | None:
+    """The lemmas by which all goals are refuted; None where they are not, or not in so many cases."""
     used: set[int] = set()
     for goal in goals:
         try:
-            refutation = theory.used(goal)
+            found = refutation(theory, goal, most, FEW_SPLITS if most == FEW_CASES else most)
         except BudgetExceeded:
             raise
         except Unable:  # too many cases; further lemmas may settle most of them at once
             return None
-        if refutation is None:
+        if found is None:
             return None
-        used |= refutation
+        used |= found.used
     return used
 
 
-def _bounds(found: Lemmas, goals: Sequence[Sequence[Formula]], limits: Limits) -> None:
+def _bounds(found: Lemmas, goals: Sequence[Goal], limits: Limits) -> None:
     """Linear combinations of comparisons, and of squares, by which the goals fail, one of a disjunction at a time."""
     bounds = MonomialBounds(found.ring)
     for goal in goals:
@@ -161,6 +160,33 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
     _differences(found, pool)
     for poly in pool:
         as_squares(found, poly)
+
+
+def _values(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
+    """Values of variables, which equations beside all else give, put into the others, all at once."""
+    parts = [part for goal in goals for f in goal for part in conjuncts(normal(f))]
+    lines: dict[int, Poly] = {}
+    for a in parts:
+        if isinstance(a, Atom) and a.relation is Relation.EQ and a.poly.total_degree == 1:
+            variables = a.poly.variables
+            if len(variables) == 1:
+                lines.setdefault(variables[0], a.poly)
+    for poly in polys if lines else ():
+        terms, image, scale = list[Term](), poly, 1
+        for x, line in lines.items():
+            if poly != line and image.degree(x) > 0:
+                rest, lead = line.coefficients(x)
+                power = lead.constant_value() ** image.degree(x)
+                reduced = image.at_quotient(x, -rest, lead)
+                terms = [(c * power, powers) for c, powers in terms]
+                terms.append((-1, (((image * power - reduced).exact_divide(line), 1), (line, 1))))
+                image, scale = reduced, scale * power
+        if terms:
+            found.identity([(scale, ((poly, 1),)), *terms, *([(-1, ((image, 1),))] if image else [])])
+            if not image.is_constant:
+                _factored(found, image.normal()[1])
+    for poly in list(polys) if lines else ():
+        _factored(found, poly)
 
 
 def _chained(found: Lemmas, polys: dict[Poly, bool]) -> None:
@@ -257,10 +283,12 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
     for equation in [p for p, is_equation in polys.items() if is_equation]:
         basis = groebner_basis((equation,), variables=range(found.ring.size))
         alike: dict[Poly, list[tuple[Fraction, Poly]]] = {}
+        lead = basis.leads[0] if basis is not None else ()
         for p in polys:
             if basis is None or p == equation:
                 continue
-            scale, rest = basis.reduce(p)
+            reducible = any(all(map(ge, e, lead)) for e, _ in p.terms())
+            scale, rest = basis.reduce(p) if reducible else (1, p)
             unit, key = content_of(rest) if rest else (scale, rest)
             alike.setdefault(key, []).append((Fraction(unit, scale), p))
         for key, members in alike.items():
@@ -273,31 +301,43 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
                 found.identity([*terms, (-1, ((quotient, 1), (equation, 1)))])
 
 
-def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -> None:
+def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     """What stands on one side of an equivalence as a combination of the equations on the other, up to a multiple of an
-    inequality there."""
+    inequality there. Where these have a Gröbner basis, it says at once what is none."""
     if len(goals) != 2 or min(map(len, goals)) < 2:
         return
     sides = [conjuncts(normal(goal[-2])) for goal in goals]
-    for own, other in (sides, reversed(sides)):
-        equations = [a.poly for a in own if isinstance(a, Atom) and a.relation is Relation.EQ]
+    for side, other in (sides, reversed(sides)):
+        equations = [a.poly for a in side if isinstance(a, Atom) and a.relation is Relation.EQ]
         generators = list(dict.fromkeys(_squarefree(found, p) for p in equations))
         if not generators:
             continue
-        known = {a.poly for a in own if isinstance(a, Atom)}
+        basis = groebner_basis(generators, variables=range(found.ring.size), limits=BRIEF_BASIS)
+        known = {a.poly for a in side if isinstance(a, Atom)}
         wanted = [a for a in other if isinstance(a, Atom) and a.poly not in known]
-        if list(other) == [FALSE]:
+        if list(other) == [FALSE] and (basis is None or basis.is_unit):
             _combined(found, [generators[0].ring.constant(1)], generators, budget)
-        for target in wanted[:MOST_TARGETS]:
-            if target.relation is Relation.EQ:
-                _combined(found, [target.poly], generators, budget)
+        for target in wanted[: MOST_REDUCED if basis else MOST_TARGETS]:
+            budget.check("prove")
+            rest = _remainder(target.poly, basis)
+            if target.relation is Relation.EQ or (rest is not None and not rest):
+                if not rest:
+                    _combined(found, [target.poly], generators, budget)
                 continue
-            for beside in own:
-                if isinstance(beside, Atom) and beside.relation not in (Relation.EQ,):
-                    _combined(found, [target.poly, beside.poly], generators, budget)
+            for a in side:
+                if isinstance(a, Atom) and a.relation is not Relation.EQ and rest == _remainder(a.poly, basis):
+                    _combined(found, [target.poly, a.poly], generators, budget, basis)
 
 
-def _modulo(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -> None:
+def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
+    """What remains of a polynomial where the equations of a basis hold, up to a constant factor; None without one."""
+    if basis is None:
+        return None
+    rest = basis.reduce(poly)[1]
+    return content_of(rest)[1] if rest else rest
+
+
+def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     """Polynomials of disjunctions that are the same, up to a factor, where all equations beside them hold, and those
     that vanish there."""
     sides = [conjuncts(normal(goal[-2])) for goal in goals if len(goal) > 1]
@@ -307,21 +347,39 @@ def _modulo(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -
         basis = groebner_basis(system, variables=range(found.ring.size)) if len(system) > 1 else None
         alike: dict[Poly, list[Poly]] = {}
         for p in inside:
-            if basis is not None:
-                rest = basis.reduce(p)[1]
-                alike.setdefault(content_of(rest)[1] if rest else rest, []).append(p)
+            rest = _remainder(p, basis)
+            if rest is not None:
+                alike.setdefault(rest, []).append(p)
         for key, members in alike.items():
             for targets in pairwise(members) if key else ((p,) for p in members):
-                _combined(found, targets, system, budget)
+                _combined(found, targets, system, budget, basis)
 
 
-def _combined(found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget) -> None:
-    solved = cofactors(targets, generators, budget)
+def _combined(
+    found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget, basis: Basis | None = None
+) -> None:
+    """A sum of multiples of the targets as a combination; with a basis, by which two have proportional remainders, the
+    one that vanishes modulo it."""
+    weights = _weights(targets, basis)
+    wanted = [targets[0] * weights[0] + targets[1] * weights[1]] if weights else targets
+    solved = cofactors(wanted, generators, budget)
     if solved is None:
         return
     numbers, factors = solved
+    numbers = [numbers[0] * w for w in weights] if weights else numbers
     terms: list[Term] = [(n, ((t, 1),)) for n, t in zip(numbers, targets, strict=True) if n]
     found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
+
+
+def _weights(targets: Sequence[Poly], basis: Basis | None) -> list[int]:
+    """Integers with which two polynomials, whose remainders are proportional, add up to one that vanishes modulo the
+    basis; none without one, or for a single polynomial."""
+    if basis is None or len(targets) != 2:
+        return []
+    (s, p), (t, q) = (basis.reduce(target) for target in targets)
+    if not p or not q:
+        return []
+    return [s * content_of(q)[0], -t * content_of(p)[0]]
 
 
 def _squarefree(found: Lemmas, poly: Poly) -> Poly:

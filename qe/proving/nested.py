@@ -8,15 +8,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
+from qe.elimination.vs.trace import Eliminated, shifts_degrees
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
 from qe.io.names import names_in
-from qe.kernel.step import Check, Claim, Context, Limits
+from qe.kernel.step import Context, Limits
 from qe.proof.entry import Entry, Json
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
-from qe.proving.elaborators import FRESH, NAMING
+from qe.proving.elaborators import NAMING
+from qe.proving.made import FRESH
 
 Prove = Callable[[Nested, Formula, Context], tuple[Formula, list[Json]]]
 """From the formula with which a checker begins, under a context, to the answer of a derivation: that, and the steps.
@@ -26,12 +28,12 @@ Raises ``CertificateRejected`` where a step has no accepted evidence.
 
 
 def derivations_within(value: object) -> Iterator[Nested]:
-    """All derivations in the evidence of a step, also those inside each other."""
+    """All derivations in the evidence of a step, also those inside each other; certificates, as data, have none."""
     if isinstance(value, Nested):
         yield value
         yield from derivations_within([step.evidence for step in value.steps])
     elif isinstance(value, Mapping):
-        yield from derivations_within(list(value.values()))
+        yield from derivations_within([part for name, part in value.items() if name != "certificate"])
     elif isinstance(value, list | tuple):
         for part in value:
             yield from derivations_within(part)
@@ -49,6 +51,8 @@ def names_within(value: object) -> Iterator[str]:
         case Step(rule, before, after, context, evidence):
             yield from FRESH if rule in NAMING else ()
             yield from names_within([before, after, context, evidence])
+        case Eliminated(trace=trace):
+            yield from FRESH if shifts_degrees(trace) else ()
         case RunLog():
             yield from names_within(list(value.steps()))
         case Mapping():
@@ -58,8 +62,11 @@ def names_within(value: object) -> Iterator[str]:
                 yield from names_within(part)
 
 
-def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits, prove: Prove) -> dict[str, Json]:
-    """The claim's evidence with the steps of its derivations. Raises as the checker and ``prove`` do."""
+def proved_inside(run: Callable[[Limits], Json], limits: Limits, prove: Prove) -> Json:
+    """What ``run`` gives, with the steps of its derivations, which it replays by the limits it is given.
+
+    Raises as ``run`` and ``prove`` do.
+    """
     found: dict[int, list[Json]] = {}
 
     def replay(entry: Entry, start: Formula, known: Context, ring: Ring) -> Formula:
@@ -69,8 +76,6 @@ def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits
         answer, found[id(nested)] = prove(nested, start, known)
         return answer
 
-    checker(claim, context, replace(limits, replay=replay))
-
     def filled(value: object) -> Json:
         if isinstance(value, Nested):
             return list(found[id(value)])
@@ -78,5 +83,4 @@ def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits
             return {name: filled(part) for name, part in value.items()}
         return [filled(part) for part in value] if isinstance(value, list) else value  # type: ignore[return-value]
 
-    assert isinstance(claim.evidence.value, dict)  # the checker has read it
-    return {name: filled(part) for name, part in claim.evidence.value.items()}
+    return filled(run(replace(limits, replay=replay)))

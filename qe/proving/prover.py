@@ -18,10 +18,11 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
 from qe.formula.traverse import children, clashes, conjuncts, subformula
-from qe.kernel.block import existential
+from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import ByLemmas
-from qe.kernel.derivation import Accepted, check_derivation, limits_of, replaced, step_key
-from qe.kernel.step import Claim, Context, Limits, check_names
+from qe.kernel.derivation import check_derivation, limits_of, replaced
+from qe.kernel.step import Check, Claim, Context, Limits, check_names
+from qe.kernel.verdict import CRASHES
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together
@@ -31,9 +32,11 @@ from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 from qe.proving.counted import case_proofs
 from qe.proving.elaborators import ELABORATORS
-from qe.proving.lemma_list import EMPTY, identities
+from qe.proving.lemma_list import EMPTY, identities, with_cases
 from qe.proving.lemmas import refuting
 from qe.proving.nested import derivations_within, names_within, proved_inside
+from qe.proving.primitive_names import PRIMITIVE_OF, QUANTIFIERS, SIGNS, STEPS, THEOREM
+from qe.proving.remembering import Accepted, remembering, step_key
 from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
 
@@ -50,21 +53,26 @@ SIMPLIFYING = (
 
 CRITICAL = ("critical values", "critical values of a universal block")
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
-THEOREM, REDUNDANT = "theorem", "redundant part"
-STEPS = "steps"
+REDUNDANT = "redundant part"
 ELABORATED = (
+    "conditions on zeros that follow",
+    "constant along directions",
+    "degenerate truth set",
+    "degree shift",
+    "infinity first",
+    "linear form named",
+    "ranges that exclude each other",
+    "mirror images of a convex set",
     "disjuncts with equations apart",
     "homogeneous scaling",
     "linear form as a variable",
+    "sphere seen along a form",
     "square of a variable alone",
     "translation of the origin",
     "two variables exchanged",
     "value that is taken",
     "witness in the parameters",
 )
-_PRIMITIVES = {REDUNDANT: "no exception", "constant": "no exception"}
-"""The primitive that stands in the certificate for steps of a rule."""
-
 COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
@@ -85,7 +93,7 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
     certificate = Certificate.derivation(prover.ring.names, start, prover.steps, goal)
     assert isinstance(certificate.payload, dict)
     try:
-        check_derivation(certificate.payload, budget, RULES, check_certificate, prover.accepted)
+        check_derivation(certificate.payload, budget, remembering(RULES, prover.accepted), check_certificate)
     except CertificateRejected as error:
         raise InternalError(f"the certificate of an answer was rejected at {error.step}: {error.reason}") from error
     return Proof(certificate, checked=True)
@@ -117,7 +125,7 @@ class Prover:
     limits: Limits = field(init=False)
 
     def __post_init__(self) -> None:
-        self.limits = limits_of(self.budget, RULES, check_certificate, self.accepted)
+        self.limits = limits_of(self.budget, remembering(RULES, self.accepted), check_certificate)
 
     # --- steps ---------------------------------------------------------------------------------
     def whole(self, derivation: Derivation, start: Formula, goal: Formula) -> None:
@@ -188,8 +196,8 @@ class Prover:
     def _simplified_inside(self, place: Place, step: Step, current: Formula) -> Formula | None:
         """The formula after a simplification, as a step for each place inside; None where no evidence is found."""
 
-        def evidence(before: Formula, after: Formula, used: Context) -> Json | None:
-            return self._tried("simplification", Step("simplification", before, after), used, {})
+        def evidence(before: Formula, after: Formula, used: Context) -> tuple[str, Json] | None:
+            return self.own(Step("simplification", before, after), used)
 
         return Simplified(evidence, self.known, self.steps).inside(place, step.before, step.after, current)
 
@@ -224,17 +232,18 @@ class Prover:
             return self._positive(step, given, context)
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
         if step.rule == SEARCH:
-            completed = self._searched(step, evidence)
-            if completed is None:
-                return None
-            evidence = completed
+            return self._searched(step, evidence)
         if step.rule == COUNTED and not evidence:
             evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
         if step.rule in ELABORATED:
             elaborated = self._elaborated(step, context, evidence)
             if elaborated is not None or step.rule not in RULES:
                 return elaborated
-        rule = _PRIMITIVES.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
+        if step.rule in SIMPLIFYING and not step.before.is_quantifier_free:
+            moved_only = self._tried(QUANTIFIERS, step, (), {})
+            if moved_only is not None:
+                return QUANTIFIERS, moved_only
+        rule = PRIMITIVE_OF.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
         own = self._tried(rule, step, context, evidence)
         return None if own is None else (rule, own)
 
@@ -245,7 +254,10 @@ class Prover:
         try:
             check_names(self._claim(rule, step, evidence), context)
             if any(derivations_within(evidence)):
-                evidence = proved_inside(checker, self._claim(rule, step, evidence), context, self.limits, self.nested)
+                given = self._claim(rule, step, evidence)
+                inside = proved_inside(lambda own: _checked(checker, given, context, own), self.limits, self.nested)
+                assert isinstance(inside, dict)  # the checker has read it
+                evidence = inside
             if isinstance(checker, ByLemmas):
                 evidence = {**evidence, "theory": EMPTY}
                 goals = checker.obligations(self._claim(rule, step, evidence), context)
@@ -262,8 +274,9 @@ class Prover:
     def _elaborated(self, step: Step, context: Context, evidence: Json) -> tuple[str, Json] | None:
         """Steps of the kernel that make a step of another rule."""
         try:
-            made: list[Json] = ELABORATORS[step.rule](self._claim(step.rule, step, evidence), context, self.limits)
-        except CertificateRejected:
+            claim, elaborator = self._claim(step.rule, step, evidence), ELABORATORS[step.rule]
+            made = proved_inside(lambda limits: elaborator(claim, context, limits), self.limits, self.nested)
+        except (CertificateRejected, *CRASHES):  # what evidence an elaborator cannot read proves nothing
             return None
         except Unable:
             self.budget.check("prove")
@@ -274,12 +287,13 @@ class Prover:
     def _positive(self, step: Step, given: object, context: Context) -> tuple[str, Json] | None:
         """Signs that follow from identities, which the rule has found."""
         assert isinstance(given, Mapping)
-        evidence: Json = {"theory": identities([*given["identities"]], self.ring)}
+        lemmas = identities([*given["identities"]], self.ring)
         try:
-            self._check(self._claim(step.rule, step, evidence), context)
+            goals = block_goals(self._claim(SIGNS, step, {"theory": lemmas}), context)
+            theory = with_cases(lemmas, goals, self.ring, self.limits)
         except CertificateRejected:
             return None
-        return step.rule, evidence
+        return None if theory is None else (SIGNS, {"theory": theory})
 
     def _substituted(self, step: Step, trace: Eliminated) -> Json | None:
         """The steps of virtual substitution, all of them accepted."""
@@ -324,21 +338,27 @@ class Prover:
             inner.joined(current, step.after)
         return None if inner.unchecked else self._tried(step.rule, step, (), {"steps": inner.steps})
 
-    def _searched(self, step: Step, evidence: dict[str, Json]) -> dict[str, Json] | None:
+    def _searched(self, step: Step, evidence: dict[str, Json]) -> tuple[str, Json] | None:
         """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""
         from qe.proving.search import with_clauses
 
         try:
-            return with_clauses(self._claim(step.rule, step, evidence), self.limits)
+            claim = self._claim(SIGNS, step, with_clauses(self._claim(step.rule, step, evidence), self.limits))
+            completed = proved_inside(lambda own: _checked(RULES[SIGNS], claim, (), own), self.limits, self.nested)
+            self._check(replace(claim, evidence=Entry(completed, "evidence")), ())
         except CertificateRejected:
             return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        return SIGNS, completed
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""
-        found = self._tried("simplification", Step("simplification", before, after), (), {})
+        found = self._tried(SIGNS, Step("simplification", before, after), (), {})
         if found is None:
-            raise CertificateRejected("simplification", "no lemmas found")
-        return written("simplification", (), before, after, (), found)
+            raise CertificateRejected(SIGNS, "no lemmas found")
+        return written(SIGNS, (), before, after, (), found)
 
     def _check(self, claim: Claim, context: Context) -> None:
         """Returns where the step is accepted; raises as its checker does."""
@@ -390,6 +410,12 @@ class Prover:
             case None | bool() | int() | str():
                 return value
         raise TypeError(f"no evidence: {type(value).__name__}")
+
+
+def _checked(checker: Check, claim: Claim, context: Context, limits: Limits) -> Json:
+    """The evidence of a claim that its checker accepts."""
+    checker(claim, context, limits)
+    return claim.evidence.value
 
 
 def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:

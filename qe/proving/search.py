@@ -1,19 +1,94 @@
-"""The propositional part of the evidence for the rule "Boolean search": clauses that a SAT solver learnt, and of all
-conflicts those that a contradiction needs. Nothing here is trusted."""
+"""The propositional part of the evidence for a Boolean search: clauses that a SAT solver learnt, and of all conflicts
+those that a contradiction needs. Nothing here is trusted."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
-from qe.errors import Unable
+from qe.errors import CertificateRejected, Unable
 from qe.extras import lacking
-from qe.formula.syntax import Atom
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import children
 from qe.kernel.block import refuted_block
-from qe.kernel.boolean_search import Cases
+from qe.kernel.boolean import Search, Theory
+from qe.kernel.clauses import Clauses, Literal
+from qe.kernel.signs import ANY, NEGATIVE, POSITIVE, ZERO
 from qe.kernel.step import Claim, Limits
-from qe.proof.entry import Json, formula_from_json
+from qe.proof.entry import Entry, Json, formula_from_json
+from qe.proving.unit_propagation import Clauses as Propositional
 
 MOST_LEARNT = 20_000
+BITS = (POSITIVE, NEGATIVE, ZERO)
+
+
+class Numbered(Clauses):
+    """The same clauses for a SAT solver: a polynomial has three numbers, for > 0, < 0 and = 0; a condition has one."""
+
+    def __init__(self, limits: Limits) -> None:
+        super().__init__(limits.tick)
+        self.propositional = Propositional(limits.tick)
+        self._meanings: list[tuple[int, int]] = [(0, 0)]
+        self._first: list[int] = []
+        self._boolean: list[bool] = []
+
+    def new(self, signs: int) -> int:
+        """As ``Clauses.new``; of three signs, one holds."""
+        i, first = super().new(signs), len(self._meanings)
+        self._first.append(first)
+        self._boolean.append(signs != ANY)
+        self._meanings += [(i, bit) for bit in (BITS if signs == ANY else BITS[:1])]
+        if signs == ANY:
+            self.propositional.add((first, first + 1, first + 2))
+            for pair in ((0, 1), (0, 2), (1, 2)):
+                self.propositional.add(-first - k for k in pair)
+        elif signs == POSITIVE:
+            self.propositional.add((first,))
+        return i
+
+    def add(self, literals: Iterable[Literal]) -> None:
+        """As ``Clauses.add``."""
+        listed = list(literals)
+        super().add(listed)
+        self.propositional.add(map(self._number, listed))
+
+    def _number(self, literal: Literal) -> int:
+        """The number of a literal, negated where it excludes that."""
+        i, signs = literal
+        if self._boolean[i]:
+            return self._first[i] if signs & POSITIVE else -self._first[i]
+        return self._first[i] + BITS.index(signs) if signs in BITS else -self._first[i] - BITS.index(ANY & ~signs)
+
+    def clause(self, numbers: Iterable[int]) -> list[Literal]:
+        """The literals with these numbers."""
+        found: dict[int, int] = {}
+        for number in numbers:
+            i, bit = self._meanings[abs(number)]
+            signs = bit if number > 0 else NEGATIVE if self._boolean[i] else ANY & ~bit
+            found[i] = found.get(i, 0) | signs
+        return list(found.items())
+
+
+def search(claim: Claim, refuted: Sequence[Sequence[Atom]], limits: Limits) -> Numbered:
+    """The clauses of a sentence that is claimed to be false, and of comparisons that do not hold together."""
+    clauses = Numbered(limits)
+    Search(Theory((), (), limits, tuple(map(tuple, refuted))), (refuted_block(claim).body,), clauses)
+    return clauses
+
+
+def theory_of(clauses: Iterable[Sequence[Literal]], refuted: list[Json]) -> dict[str, Json]:
+    """The evidence for the primitive "signs"."""
+    cases: list[Json] = [[0, [8 * i + signs for i, signs in clause]] for clause in clauses]
+    return {"theory": {"polynomials": [], "lemmas": [], "cases": cases, "refuted": refuted}}
+
+
+def conflicts(entry: Entry, claim: Claim) -> list[list[Atom]]:
+    """The comparisons of each entry of ``refuted``."""
+    listed = [e.fields("atoms", "steps")[0].items() for e in entry.items()]
+    read = [[(e, formula_from_json(e, claim.ring)) for e in items] for items in listed]
+    for e, a in (pair for pairs in read for pair in pairs):
+        if not isinstance(a, Atom):
+            raise e.fail("expected a comparison")
+    return [[a for _, a in pairs if isinstance(a, Atom)] for pairs in read]
 
 
 def with_clauses(claim: Claim, limits: Limits) -> dict[str, Json]:
@@ -22,20 +97,18 @@ def with_clauses(claim: Claim, limits: Limits) -> dict[str, Json]:
     Raises ``CertificateRejected`` where the conflicts do not exclude all cases.
     """
     entry = claim.evidence.fields("refuted")[0]
-    cases, numbers = Cases(refuted_block(claim).body, limits.tick), []
-    for refuted in entry.items():
-        listed = refuted.fields("atoms", "steps")[0]
-        cases.exclude([a for e in listed.items() if isinstance(a := formula_from_json(e, claim.ring), Atom)])
-        numbers.append(len(cases.clauses.clauses) - 1)
-    given = len(cases.clauses.clauses)
+    refuted = conflicts(entry, claim)
+    clauses = search(claim, refuted, limits)
+    propositional = clauses.propositional
+    given = len(propositional.clauses)
     learnt, used = [], []
-    for clause in _learnt(cases.clauses.clauses):
-        reasons = cases.clauses.implying(clause)
+    for clause in _learnt(propositional.clauses):
+        reasons = propositional.implying(clause)
         if reasons is not None:
-            cases.clauses.add(clause)
+            propositional.add(clause)
             learnt.append(clause)
             used.append(reasons)
-    last = cases.clauses.implying(())
+    last = propositional.implying(())
     if last is None:
         raise claim.fail("not all cases are excluded")
     needed = set(last)
@@ -43,10 +116,42 @@ def with_clauses(claim: Claim, limits: Limits) -> dict[str, Json]:
         if given + k in needed:
             needed |= used[k]
     assert isinstance(entry.value, list)  # it has been read
-    return {
-        "refuted": [part for part, number in zip(entry.value, numbers, strict=True) if number in needed],
-        "learnt": [list(clause) for k, clause in enumerate(learnt) if given + k in needed],
-    }
+    kept = [part for k, part in enumerate(entry.value, start=given - len(refuted)) if k in needed]
+    return theory_of((clauses.clause(c) for k, c in enumerate(learnt) if given + k in needed), kept)
+
+
+def former_search(claim: Claim, limits: Limits) -> dict[str, Json]:
+    """The evidence for "signs" from that for the former rule "Boolean search": ``refuted`` and ``learnt``."""
+    refuted, learnt = claim.evidence.fields("refuted", "learnt")
+    together, goal = conflicts(refuted, claim), (refuted_block(claim).body,)
+    named = Search(Theory((), (), limits, tuple(map(tuple, together))), goal)
+    meanings = [named.literal(f) for f in _numbered((*goal, *(a for atoms in together for a in atoms)))]
+    listed = []
+    for entry in learnt.items():
+        clause = [e.integer(-len(meanings)) for e in entry.items()]
+        if not all(0 < abs(number) <= len(meanings) for number in clause):
+            raise CertificateRejected(entry.path, "expected literals")
+        literals = [(number, *meanings[abs(number) - 1]) for number in clause]
+        listed.append([(i, signs if number > 0 else ANY & ~signs) for number, i, signs in literals])
+    assert isinstance(refuted.value, list)  # it has been read
+    return theory_of(listed, refuted.value)
+
+
+def _numbered(formulas: Iterable[Formula]) -> list[Formula]:
+    """The formulas to which the former rule gave numbers, in their order: p > 0, p < 0, p = 0 for a polynomial p."""
+    found: dict[Formula, None] = {}
+
+    def visit(formula: Formula) -> None:
+        if isinstance(formula, Atom):
+            found.update((Atom(formula.poly, r), None) for r in (Relation.GT, Relation.LT, Relation.EQ))
+        elif formula not in found:
+            found[formula] = None
+            for part in children(formula):
+                visit(part)
+
+    for formula in formulas:
+        visit(formula)
+    return list(found)
 
 
 def _learnt(clauses: Sequence[Sequence[int]]) -> Iterator[list[int]]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from qe.errors import CertificateRejected
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or
+from qe.formula.traverse import polynomials
 from qe.kernel.derivation import replaced
 from qe.kernel.negation import negation
 from qe.kernel.step import Context
@@ -20,11 +21,11 @@ from qe.proof.entry import Entry, Json
 from qe.proof.step import Place
 from qe.simplify.simplify import simplify
 
-Evidence = Callable[[Formula, Formula, Context], Json | None]
-"""Evidence that two formulas have the same truth under a context, as the checker of "simplification" accepts it."""
+Evidence = Callable[[Formula, Formula, Context], tuple[str, Json] | None]
+"""A rule by whose checker two formulas have the same truth under a context, and the evidence that it accepts."""
 
-MOST_TRIED = 60
-"""Steps that are tried for one simplification, at most."""
+MOST_TRIED, MOST_ALIKE = 60, 2
+"""Steps that are tried for one simplification, and quantified parts that one of them may have become, at most."""
 
 
 @dataclass(slots=True)
@@ -53,9 +54,12 @@ class Simplified:
     def _inside(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
         if before == after:
             return current
-        found = self._at_once(place, before, after, current)
-        if found is not None:
-            return found
+        return self._at_once(place, before, after, current) or self._parted(place, before, after, current)
+
+    def _parted(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
+        """As ``_inside``, where all of it in one step has been tried: for a block that is as much as for its body."""
+        if before == after:
+            return current
         if isinstance(before, Exists | ForAll):
             return self._under(place, before, after, current)
         if isinstance(before, And | Or):
@@ -74,12 +78,15 @@ class Simplified:
     def _at_once(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
         """By one step, with as little as possible of what is known at its place."""
         facts, changed = replaced(current, place, before, after, self.known, Entry(None, "place"))
+        names = {*before.free, *after.free}
         context = tuple(f for f in facts if f.is_quantifier_free)
+        if not any(names & set(f.free) for f in context):
+            context = ()
         for used in ((), context) if context else ((),):
             self.tried += 1
             found = self.evidence(before, after, used) if self.tried <= MOST_TRIED else None
             if found is not None:
-                self.steps.append(written("simplification", place, before, after, used, found))
+                self.steps.append(written(found[0], place, before, after, used, found[1]))
                 return changed
         return None
 
@@ -92,7 +99,9 @@ class Simplified:
             return None
         else:
             body = after
-        inner = self._inside((*place, 0), before.body, body, current)
+        inner = self._parted((*place, 0), before.body, body, current)
+        if inner is None and before.body != body and body is after:
+            inner = self._at_once((*place, 0), before.body, body, current)
         if inner is None:
             return None
         kept = type(before)(before.variables, body)
@@ -108,8 +117,11 @@ class Simplified:
         for k, part in enumerate(before.args):
             if part.is_quantifier_free or part in targets:
                 continue
-            alike = sorted(targets, key=lambda target, part=part: type(target) is not type(part))  # type: ignore[misc]
-            for target in (*alike, TRUE, FALSE):
+            about = set(polynomials(part))
+            near = {f: len(about.intersection(polynomials(f))) for f in targets}
+            alike = [f for f in targets if type(f) is type(part) and set(f.bound) & set(part.bound)]
+            alike = sorted(alike, key=lambda f, near=near: -near[f])[:MOST_ALIKE]  # type: ignore[misc]
+            for target in alike or (*targets, TRUE, FALSE):
                 mark = len(self.steps)
                 found = self._inside((*place, k), part, target, current)
                 if found is not None:

@@ -27,11 +27,14 @@ from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import conjuncts
 from qe.kernel.elimination_set import block_of, start
 from qe.kernel.open_block import inside, shows_open
-from qe.kernel.step import Limits
+from qe.kernel.step import Claim, Limits
 from qe.proof.certificate import Certificate, Root
 from qe.proof.derivation import moved
-from qe.proof.entry import Json, formula_to_json
+from qe.proof.entry import Entry, Json, formula_to_json
+from qe.proving.apart import Part, by_alternatives, by_independent_parts
 from qe.proving.elimination_points import Point, Points
+from qe.proving.made import Made
+from qe.proving.shifts import lower_first, raised
 
 Simplified = Callable[[Formula, Formula], Json]
 """A step of the rule "simplification" with its evidence; raises ``CertificateRejected`` where none is found."""
@@ -105,34 +108,52 @@ class _Steps:
     def alternatives(
         self, before: Formula, names: Collection[str], pieces: Sequence[Formula], parts: Traces
     ) -> list[Json]:
-        answers = [self.moved(answer) for answer, _ in parts]
-        left = [block_of(names, piece, self.ring) for piece in pieces[len(parts) :]]
         if not isinstance(before, Exists):
             raise CertificateRejected("trace", "an existential block expected")
-        lists: list[Json] = []
-        for piece, answer, (_, trace) in zip(pieces, answers, parts, strict=False):
-            lists.append(list(self.traced(names, piece, answer, trace)))
-        evidence: Json = {"pieces": [self.json(p) for p in pieces], "parts": lists + [[] for _ in left]}
-        return self.step("alternatives", before, disj([*answers, *left]), evidence)
+        ends = [self.moved(answer) for answer, _ in parts]
+        found: list[Part] = []
+        for piece, end, (_, trace) in zip(pieces, ends, parts, strict=False):
+            found.append(Part(piece, end, list(self.traced(names, piece, end, trace))))
+        found += [Part(p, block_of(names, p, self.ring), []) for p in pieces[len(parts) :]]
+        return by_alternatives(self.made(before), [*names], found, disj(p.end for p in found))
+
+    def made(self, before: Formula) -> Made:
+        return Made(Claim("steps", before, before, self.ring, Entry({}, "evidence"), "step"), self.limits, before)
 
     def apart(self, before: Formula, names: Collection[str], body: Formula, trace: Apart) -> list[Json]:
         known = tuple(m for m in conjuncts(body) if not set(names) & set(m.free))
-        pieces: list[Json] = []
+        found: list[Part] = []
         answers: list[Formula] = []
         for part in trace.parts:
             own, answer = self.moved(part.body), self.moved(part.answer)
             together = bool(known) and not isinstance(part.trace, Unchanged | Decided)
             given = conj((*known, own)) if together else own
-            found = self.traced(names, given, answer, part.trace)
-            pieces.append({"body": self.json(own), "together": together, "steps": found})
+            found.append(Part(own, answer, list(self.traced(names, given, answer, part.trace)), together))
             answers.append(without(answer, known if together else ()))
         after = FALSE if FALSE in answers else conj((*known, *answers))
-        return self.step("independent parts", before, after, {"pieces": pieces})
+        return by_independent_parts(self.made(before), [*names], found, after)
 
     # --- elimination sets ----------------------------------------------------------------------
     def substituted(self, before: Formula, names: Collection[str], trace: Substituted) -> list[Json]:
         if not isinstance(before, Exists):
             raise CertificateRejected("trace", "an existential block expected")
+        if trace.plan.exponent > 1:
+            return self.lowered(before, names, trace)
+        return self.at_points(before, names, trace, None)
+
+    def lowered(self, before: Exists, names: Collection[str], trace: Substituted) -> list[Json]:
+        """The power of a variable for the variable first."""
+        given = trace.formula.ring
+        assert given is not None
+        name = given.names[trace.plan.x]
+        made = self.made(before)
+        low = lower_first(made, before, name, trace.plan.exponent)
+        return [*made.steps, *self.at_points(low, names, trace, (name, trace.plan.exponent))]
+
+    def at_points(
+        self, before: Exists, names: Collection[str], trace: Substituted, shift: tuple[str, int] | None
+    ) -> list[Json]:
+        """The elimination set; where ``shift`` says of which power it is, what stays quantified is of the variable."""
         thin = self.is_thinned(before, trace)
         points = Points(before, trace, self.ring, self.limits, complete=thin)
         rest = [v for v in before.variables if v != points.name]
@@ -143,7 +164,12 @@ class _Steps:
         for point in points.listed:
             begin = start(point.tried, points.x, points.name, before.variables, self.ring)
             left = before.variables if point.tried.point is None else rest
-            lists.append(self.solved(begin, block_of(left, point.result, self.ring), left, point))
+            back: list[Json] = []
+            if shift is not None and point.tried.point is None:
+                whole = block_of(left, point.result, self.ring)
+                if isinstance(whole, Exists) and point.trace is not None:
+                    back, begin = raised(self.made(begin), whole, *shift), whole
+            lists.append([*back, *self.solved(begin, block_of(left, point.result, self.ring), left, point)])
             answers.append(point.answer)
         return self.step("elimination set", before, disj(answers), points.evidence(lists))
 

@@ -9,7 +9,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Formula
 from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
 from qe.regions.convex_region import ConvexRegion, shadow_of

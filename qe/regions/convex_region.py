@@ -20,7 +20,7 @@ from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.options import Budget
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.cells import CellTable
 from qe.regions.region import NONE, Region, checked_order, is_true
 
@@ -147,7 +147,7 @@ class ConvexRegion(Region):
         return super()._holds(values)
 
     def _under(self, given: Mapping[str, Number]) -> Formula:
-        """The conditions with rational values put in."""
+        """The conditions with rational values substituted."""
         return substituted(self._shadow.conditions, {n: q for n, v in given.items() if (q := _rational(v)) is not None})
 
     def _somewhere(self, conditions: Formula) -> dict[str, Number] | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from html import escape
 from pathlib import Path
 from typing import Any, TypeVar
@@ -28,7 +29,8 @@ from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import Formula
 from qe.options import Budget
-from qe.processes.execution import Budgets, Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.cells_json import CellEvidence
@@ -105,28 +107,30 @@ class Region(SetOperations):
 
     # --- questions under limits ----------------------------------------------------------------
     def _asked(self, work: Callable[[], T], timeout: float | None = None, *, at_once: bool = False) -> T:
-        """The answer to a question, found under the limits; what was learned on the way is kept.
+        """The answer to a question, found under the limits; what was learned on the way is kept. ``work`` knows the
+        region, as a method or argument, and can be pickled.
 
         A question that is part of another shares its budget.
         """
         if self._budget is not None:
             return work()
-        before = {cache: _known(getattr(self, cache)) for cache in _CACHES}
-
-        def question(budgets: Budgets) -> tuple[T, dict[str, Any]]:
-            self._budget = budgets()
-            found = work()
-            learned = {cache: getattr(self, cache) for cache in _CACHES}
-            return found, {cache: value for cache, value in learned.items() if _known(value) != before[cache]}
-
         limits = self.limits if timeout is None else replace(self.limits, timeout=seconds(timeout))
-        try:
-            found, learned = perform(question, limits, at_once=at_once and limits.timeout is not None)
-        finally:
-            self._budget = None
+        at_once = at_once and limits.timeout is not None
+        found, learned = perform(partial(self._learned, work), limits, at_once=at_once)
         for learnt, value in learned.items():
             setattr(self, learnt, value)
         return found
+
+    def _learned(self, work: Callable[[], T], budget: Budget) -> tuple[T, dict[str, Any]]:
+        """The answer, and what of the caches is new; perhaps in another process, of the region's copy there."""
+        before = {cache: _known(getattr(self, cache)) for cache in _CACHES}
+        self._budget = budget
+        try:
+            found = work()
+        finally:
+            self._budget = None
+        learned = {cache: getattr(self, cache) for cache in _CACHES}
+        return found, {cache: value for cache, value in learned.items() if _known(value) != before[cache]}
 
     def _current(self) -> Budget:
         """The budget of the question that is being answered."""
@@ -165,8 +169,11 @@ class Region(SetOperations):
         """The cylindrical pieces, merged from the true cells."""
         if self._pieces is None:
             unknown = self._table is None
-            self._pieces = self._asked(lambda: merge(self.table, budget=self._current()), at_once=unknown)
+            self._pieces = self._asked(self._merged, at_once=unknown)
         return self._pieces
+
+    def _merged(self) -> list[Piece]:
+        return merge(self.table, budget=self._current())
 
     @property
     def dimension(self) -> int:
@@ -181,7 +188,7 @@ class Region(SetOperations):
         the decimal number that it prints. Raises ``InputError`` for other things, and for missing or unknown names.
         """
         values = self._values(point_of(point, self.order), len(self.order))
-        return self._asked(lambda: self._holds(values), timeout, at_once=_are_irrational(values))
+        return self._asked(partial(self._holds, values), timeout, at_once=_are_irrational(values))
 
     def _values(self, point: Mapping[str, Coordinate], count: int) -> list[Number]:
         """The numbers given for the first ``count`` variables."""
@@ -220,7 +227,7 @@ class Region(SetOperations):
             expected = ", ".join(self.order[:-1])
             raise InputError(f"prefix: values for the first variables of {expected} expected")
         values = self._values(named, len(named))
-        return self._asked(lambda: self._fibre(values), timeout, at_once=_are_irrational(values))
+        return self._asked(partial(self._fibre, values), timeout, at_once=_are_irrational(values))
 
     def _fibre(self, values: list[Number]) -> list[Interval]:
         return fibre_of(self.table, values, budget=self._current())
@@ -245,7 +252,7 @@ class Region(SetOperations):
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
         if variable not in self._bounds:
-            self._bounds[variable] = self._asked(lambda: self._bounded(variable), timeout, at_once=True)
+            self._bounds[variable] = self._asked(partial(self._bounded, variable), timeout, at_once=True)
         return self._bounds[variable]
 
     def _bounded(self, variable: str) -> Interval:
@@ -270,7 +277,10 @@ class Region(SetOperations):
         Raises ``Unable`` for unbounded regions, and ``BudgetExceeded``, with what is known by then, at a limit.
         """
         error = ratio(rel_error, "rel_error")
-        return self._asked(lambda: enclose(self, error, budget=self._current()), timeout, at_once=True)
+        return self._asked(partial(self._enclosed, error), timeout, at_once=True)
+
+    def _enclosed(self, error: Fraction) -> tuple[Fraction, Fraction]:
+        return enclose(self, error, budget=self._current())
 
     # --- evidence and files ----------------------------------------------------------------------
     @property
@@ -294,9 +304,10 @@ class Region(SetOperations):
     def from_json(text: str) -> Region:
         """The region of a JSON text. Nothing is verified; use ``qe.verify`` on ``certificate`` for that."""
         payload = Certificate.from_json(text).payload
-        if not isinstance(payload, CellEvidence) or payload.parts is not None or any(payload.table.quantifiers):
+        table = payload.table if isinstance(payload, CellEvidence) and payload.parts is None else None
+        if table is None or any(table.quantifiers) or not table.is_decomposition:
             raise InputError("a region in JSON expected")
-        return Region(payload.table.matrix, payload.table, payload.table.order)
+        return Region(table.matrix, table, table.order)
 
     def within(self, condition: Formula) -> Region:
         """The part where a quantifier-free condition on the region's variables holds, decomposed in the same order."""
@@ -322,7 +333,7 @@ class Region(SetOperations):
             if ax is not None:
                 raise InputError("ax: a file or axes expected, both found")
             check_ending(target)
-        drawn = self._asked(lambda: sketch(self), seconds(timeout), at_once=True)
+        drawn = self._asked(partial(sketch, self), seconds(timeout), at_once=True)
         try:
             with wanted():
                 return show(drawn, ax) if target is None else write(drawn, target)
@@ -340,7 +351,7 @@ class Region(SetOperations):
             from qe.regions.sketch import sketch
 
             try:
-                picture = inline(self._asked(lambda: sketch(self), PICTURE_SECONDS, at_once=True))
+                picture = inline(self._asked(partial(sketch, self), PICTURE_SECONDS, at_once=True))
             except (Unable, ImportError):
                 picture = ""
         return f"<div><code>{escape(repr(self))}</code><br>{picture}</div>"

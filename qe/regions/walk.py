@@ -34,8 +34,9 @@ def walked(region: Region, random: Random, budget: Budget) -> Values | None:
     return ExactPoint(zip(region.order, values, strict=True))
 
 
-def different_points(region: Region, n: int, random: Random, budget: Budget) -> list[Values]:
-    """Up to ``n`` different points, fewer only where there are no more."""
+def different_points(region: Region, n: int, seed: int, budget: Budget) -> list[Values]:
+    """Up to ``n`` different points, fewer only where there are no more; the same for the same seed."""
+    random = Random(seed)
     found: dict[tuple[Number, ...], Values] = {}
     misses = 0
     while len(found) < n and misses < TRIES:

@@ -25,7 +25,7 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
     -1, 0, 1:  ex x, y f  iff  ex y (f[1]) or ex y (f[0]) or ex y (f[-1]), of which those are left out that the
     conjuncts (x > 0, say) exclude.
 
-    Lift: x is the number that was put in for it.
+    Lift: x is the number that was substituted for it.
     """
     if not _worthwhile(body):
         return None

@@ -22,7 +22,7 @@ class StepKind(Enum):
     SIMPLIFY = "standard simplification"
     GATHERING = "nested blocks of one kind gathered", Stage.GATHERING
     MINISCOPE = "independent parts and miniscoping", Stage.MINISCOPING
-    DEFINITION = "definition put in", Stage.EQUATIONS
+    DEFINITION = "definition substituted", Stage.EQUATIONS
     LINEAR = "linear equation solved", Stage.EQUATIONS
     GUARDED_LINEAR = "linear equation solved under a guard", Stage.EQUATIONS
     DEGREE_SHIFT = "degree shift", Stage.SHIFT

@@ -33,6 +33,7 @@ ROWS = {
     "qe.simplify": 4,
     "qe.positivity": 4,
     "qe.coq": 5,
+    "qe.plain": 5,
     "qe.rules": 5,
     "qe.cad": 5,
     "qe.groebner": 5,

@@ -14,13 +14,14 @@ from dataclasses import dataclass, field
 from qe.certify.registry import RULES as CHECKERS
 from qe.errors import QEError, Unable
 from qe.proving.elaborators import ELABORATORS
+from qe.proving.primitive_names import BY_SIGNS, SIGNS
 from tests.attacks.attack import accepted_evidence, derivation, equivalence, false_claim, is_accepted
 from tests.attacks.falsity import points, truth
 from tests.attacks.near_misses import CAPTURES, OTHERS
 from tests.attacks.rules import FORMER, METHODS, PRIMITIVES, RULES
 from tests.attacks.true_steps import Answered, TrueStep, answered_with_steps, former_step, taken_alone
 
-ATTACKED = tuple(dict.fromkeys((*CHECKERS, *ELABORATORS)))
+ATTACKED = tuple(dict.fromkeys((*CHECKERS, *ELABORATORS, *BY_SIGNS)))
 """What a step of a certificate may be called, today or in former releases."""
 
 QUESTIONS = 60
@@ -63,15 +64,15 @@ def _steps(rng: random.Random, name: str, counts: Counts, *, answer: bool) -> li
         return [former_step(rng, name)]
     rule = rng.choice(PRIMITIVES.get(name, (name,)))
     row = RULES[rule] if rule in RULES else METHODS[rule]
-    question = row.question(rng)
-    steps = [step for step in taken_alone(question, rule) if step.rule == name]
+    question, called = row.question(rng), SIGNS if name in BY_SIGNS else name
+    steps = [step for step in taken_alone(question, rule) if step.rule == called]
     if answer or not steps:
         try:
             found = answered_with_steps(question, row.options)
         except Unable:
             return steps
         _looked_at(rng, name, found, counts)
-        steps += [step for step in found.steps if step.rule == name]
+        steps += [step for step in found.steps if step.rule == called]
     different = list({(step.before, step.after): step for step in steps}.values())
     return rng.sample(different, min(STEPS, len(different)))
 

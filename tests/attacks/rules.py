@@ -215,14 +215,6 @@ RULES: dict[str, Row] = {
         method=Method.CRITICAL,
     ),
     "elimination set": row("ex x. a*x^2 + b*x {O} {L} and x {O} {n}", "ex x. {L}*x {O} b and x {O} a and x {R} {n}"),
-    "alternatives": row(
-        "ex x, y. (x^2 {<|>} a or x^3*y {O} b) and (y {O} {L} or x {O} y)",
-        "ex x, y. (x {O} a and x*y {O} b) or (x^2 + {s}*y {O} a and y {O} x*b)",
-    ),
-    "independent parts": row(
-        "ex x, y, z. x^2 = a and x*y^2 + {L} {O} 0 and x*z^2 {O} b",
-        "ex x, y, z. x*y {O} a and x*z {O} {L} and x^2 {O} b",
-    ),
     "infinity first": row(
         "all x. a*x^3 + b*x + {L} >= 0 or x = {n}",
         "ex x. a*x^{3|4} + b*x + {L} {<|>} 0{| and x {<|>} {n}}",
@@ -301,6 +293,14 @@ RULES: dict[str, Row] = {
 """The rules, each with questions of its own."""
 
 FORMER = {
+    "alternatives": (
+        "ex x. (x {O} a and {s}*x^2 {R} b) or (x^2 {O} {n} and {p}*x {R} {L})",
+        "(ex x. x {O} a and {s}*x^2 {R} b) or (ex x. x^2 {O} {n} and {p}*x {R} {L})",
+    ),
+    "independent parts": (
+        "ex x, y. x^2 {R} a and {p}*x {O} b and {s}*y {O} {L} and y^2 {R} {n}",
+        "(ex x. x^2 {R} a and {p}*x {O} b) and (ex y. {s}*y {O} {L} and y^2 {R} {n})",
+    ),
     "only asked to be no root": ("ex x. a*x + {s}*b /= 0 and x /= {n}", "a /= 0 or b /= 0"),
     "vanishing sum of squares split": (
         "ex x, y. x^2 + (x - {p}*y)^2 = 0 and x + y {R} a",
@@ -310,6 +310,10 @@ FORMER = {
 """Before and after a step of a rule that nothing makes any more, filled alike; older certificates have them."""
 
 PRIMITIVES: dict[str, tuple[str, ...]] = {
+    "signs": (
+        *("simplification", "standard simplification", "case split on factors", "boundary apart"),
+        *("signs by sums of squares", "Groebner basis of the equations", "multiple of an equation subtracted"),
+    ),
     "quantifiers": ("square of a variable alone", "two variables exchanged", "value that is taken"),
     "steps": ("homogeneous scaling", "linear form as a variable", "witness in the parameters"),
     "converse": ("two variables exchanged",),

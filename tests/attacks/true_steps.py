@@ -6,21 +6,24 @@ import random
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 from unittest.mock import patch
 
 from qe.engine.run import answered
 from qe.exact.ring import Ring
-from qe.formula.syntax import Formula
+from qe.formula.syntax import Exists, Formula
+from qe.formula.traverse import conjuncts, disjuncts
 from qe.io.names import names_in
 from qe.io.text import read
 from qe.kernel.statements import rows
+from qe.kernel.step import Limits
 from qe.options import Budget, Options
 from qe.proof.derivation import moved, put_together
-from qe.proof.entry import Entry, Json, formula_from_json
+from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json
 from qe.proof.run_log import Choice, RunLog
 from qe.proof.step import Place, Step
 from qe.proving.elaborators import ELABORATORS
-from qe.proving.nested import names_within
+from qe.proving.nested import names_within, proved_inside
 from qe.proving.prover import Prover
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
@@ -50,28 +53,26 @@ class TrueStep:
 
 @dataclass(frozen=True, slots=True)
 class Answered:
-    """A question, its answer, the steps between them, the rules of ``unchecked`` ones (which need no evidence where a
-    witness proves the answer), and the methods."""
+    """A question, its answer, the steps between them, the ``rules`` that fired and those of ``unchecked`` steps (which
+    need no evidence where a witness proves the answer), and the methods."""
 
     question: Formula
     answer: Formula
     steps: tuple[TrueStep, ...]
+    rules: frozenset[str]
     unchecked: tuple[str, ...]
     methods: tuple[str, ...]
     is_witnessed: bool
-
-    @property
-    def rules(self) -> set[str]:
-        """What fired."""
-        return {step.rule for step in self.steps} | set(self.unchecked)
 
 
 def answered_with_steps(question: Formula, options: Options) -> Answered:
     """The engine's answer. Raises ``Unable`` where it has none within ``SECONDS``."""
     found = answered(question, options, Budget(SECONDS))
-    taken, unchecked = proved(question, found.log, found.formula, options)
+    with producing() as produced:
+        taken, unchecked = proved(question, found.log, found.formula, options)
     methods = tuple(entry.method for entry in found.log.entries if isinstance(entry, Choice))
-    return Answered(question, found.formula, taken, unchecked, methods, found.witness is not None)
+    rules = frozenset(produced) | {step.rule for step in taken}
+    return Answered(question, found.formula, taken, rules, unchecked, methods, found.witness is not None)
 
 
 def taken_alone(question: Formula, rule: str) -> tuple[TrueStep, ...]:
@@ -118,6 +119,24 @@ def elaborated() -> Iterator[list[TrueStep]]:
         yield taken
 
 
+@contextmanager
+def producing() -> Iterator[set[str]]:
+    """The rules of the steps for which provers look for evidence meanwhile."""
+    rules: set[str] = set()
+    own, tried = Prover.own, Prover._tried
+
+    def noted(prover: Prover, step: Step, context: tuple[Formula, ...]) -> tuple[str, Json] | None:
+        rules.add(step.rule)
+        return own(prover, step, context)
+
+    def noted_inside(prover: Prover, rule: str, step: Step, *rest: Any) -> Json | None:
+        rules.add(step.rule)
+        return tried(prover, rule, step, *rest)
+
+    with patch.object(Prover, "own", noted), patch.object(Prover, "_tried", noted_inside):
+        yield rules
+
+
 def former_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
     """The evidence that a step had as one of its own rule, seen from what was made of it; None where it was made
     otherwise."""
@@ -132,8 +151,20 @@ def former_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
             at = {"at": list(proof["at"])} if step.rule == "redundant part" else {}
             return {**at, "steps": exceptions[0]}
         case "steps":
-            return prover._plain(proof) if isinstance(proof, Mapping) else {}
+            facts = _facts(made, prover.ring)
+            return _proved_inside(prover, step, prover._plain(proof), facts) if isinstance(proof, Mapping) else {}
     return evidence if (step.rule, made["rule"]) == ("constant", "cells") else None
+
+
+def _proved_inside(prover: Prover, step: Step, plain: Json, facts: tuple[Formula, ...]) -> Json:
+    """Evidence with the steps of the derivations inside it."""
+    claim = prover._claim(step.rule, step, plain)
+
+    def read_by_it(limits: Limits) -> Json:
+        ELABORATORS[step.rule](claim, facts, limits)
+        return plain
+
+    return proved_inside(read_by_it, prover.limits, prover.nested)
 
 
 def former_step(rng: random.Random, rule: str) -> TrueStep:
@@ -142,9 +173,20 @@ def former_step(rng: random.Random, rule: str) -> TrueStep:
     before, after = (read(filled(random.Random(seed), text)) for text in FORMER[rule])
     ring = Ring.of(dict.fromkeys((*names_in(before), *names_in(after))))
     step = Step(rule, moved(before, ring), moved(after, ring))
+    if rule in ELABORATORS:
+        return TrueStep(rule, ring, step.before, step.after, (), _of_parts(rule, step.after))
     found = Prover(ring, Options(), Budget(TO_PROVE)).evidence(step, ())
     assert found is not None, step
-    return TrueStep(rule, ring, step.before, step.after, (), found[1])
+    return TrueStep(found[0], ring, step.before, step.after, (), found[1])
+
+
+def _of_parts(rule: str, after: Formula) -> Json:
+    """The evidence that a block falls into those after, with no steps of theirs."""
+    blocks = [f.body for f in (*conjuncts(after), *disjuncts(after)) if isinstance(f, Exists)]
+    bodies: list[Json] = [formula_to_json(body, quantified=True) for body in blocks]
+    if rule == "alternatives":
+        return {"pieces": bodies, "parts": [[] for _ in bodies]}
+    return {"pieces": [{"body": body, "together": False, "steps": []} for body in bodies]}
 
 
 def _read(listed: list[Json], ring: Ring) -> Iterator[TrueStep]:

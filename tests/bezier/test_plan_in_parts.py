@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pickle
 import threading
-import time
+from collections.abc import Iterator
 
 import pytest
 
@@ -16,8 +16,17 @@ from bezier.methods.control import optimal_path
 from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
 from qe.kernel.verdict import Verdict
+from qe.processes.worker import IDLE, end_idle
+from tests.workers import large, replace_in_worker, stuck
 
 CUBIC = {"start": [-4, 2, 1], "via": [["-3/2", 2, 3], ["3/2", 2, 3]], "goal": [4, 2, 1], "radius": 6, "method": "cubic"}
+
+
+@pytest.fixture(autouse=True)
+def afresh() -> Iterator[None]:
+    """What was replaced in a worker ends with it."""
+    yield
+    end_idle()
 
 
 @pytest.fixture
@@ -70,20 +79,21 @@ def test_a_plan_is_stored_whole(finished):
     assert len(finished) == 1
 
 
-def test_the_limit_holds_for_what_is_asked_for_later(monkeypatch):
+def test_the_limit_holds_for_what_is_asked_for_later():
     plan = bezier.plan(**CUBIC, timeout=20)
-    monkeypatch.setattr(work, "finish_plan", lambda *_, **__: time.sleep(600))
+    replace_in_worker("bezier.interface.work.finish_plan", stuck)
     plan.work.seconds = 19.5
     with pytest.raises(qe.BudgetExceeded):
         _ = plan.certified
+    assert not IDLE
     plan.work.seconds = 21.0
     with pytest.raises(qe.BudgetExceeded, match="time limit of 20 s"):
         _ = plan.certificate
     assert plan.points["Q1"] and "not known" in repr(plan)
 
 
-def test_the_memory_holds_for_what_is_asked_for_later(monkeypatch):
+def test_the_memory_holds_for_what_is_asked_for_later():
     plan = bezier.plan(**CUBIC, memory=2000)
-    monkeypatch.setattr(work, "finish_plan", lambda *_, **__: bytearray(4_000_000_000))
+    replace_in_worker("bezier.interface.work.finish_plan", large)
     with pytest.raises(qe.BudgetExceeded):
         _ = plan.certified

@@ -67,6 +67,13 @@ def test_the_strip_of_heights_lies_between_the_points_on_the_way(via):
     assert (strip.low, strip.high, strip.heights) == (-1, 4, {"y": 1})
 
 
+def test_via_points_that_nobody_gave_are_not_called_via_0():
+    """ "radius: expected at least …, the norm of via[0]" was said where a wall leaves no way over it."""
+    wall = "[[obstacle]]\nkind = \"box\"\nlow = [-1, -9, -1]\nhigh = [1, 9, 9]"
+    with pytest.raises(InputError, match="via: expected two points in the workspace, found none; one over the obst"):
+        read_problem(f"start = [-4, 2, 1]\ngoal = [4, 2, 1]\nradius = 6\n{wall}")
+
+
 BAD = {
     "start = [1,2]": ("start", "3 numbers", "2 values"),
     'start = [1,2,"x"]': ("start[2]", "fraction", '"x"'),

@@ -222,7 +222,7 @@ def other_rule(rng: random.Random, data: Data) -> None:
     step = rng.choice(list(steps(data["payload"])))
     step["rule"] = rng.choice(list(RULES))
     if rng.random() < 0.5:
-        step["evidence"] = rng.choice(({}, {"theory": {"polynomials": [], "lemmas": []}}, {"steps": []}))
+        step["evidence"] = rng.choice(({}, {"theory": {"polynomials": [], "lemmas": [], "cases": []}}, {"steps": []}))
         step["after"] = rng.choice((True, False))
         data["payload"]["answer"] = step["after"]
 

@@ -3,27 +3,30 @@
 from __future__ import annotations
 
 import copy
+import json
 import random
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from typing import Any
 
 from qe.certify.registry import RULES
 from qe.certify.verify import check_certificate
 from qe.coverings.cover import Search
-from qe.coverings.evidence import evidence
+from qe.coverings.evidence import tree
 from qe.elimination.coverings import Coverings
 from qe.elimination.protocol import Context
-from qe.errors import CertificateRejected
+from qe.errors import CertificateRejected, InputError, InternalError
 from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, Formula, Relation
+from qe.formula.syntax import FALSE, Constant, Formula, Relation
 from qe.io import formats
-from qe.kernel.covering import check_covering
 from qe.kernel.derivation import limits_of
 from qe.kernel.step import Claim
+from qe.kernel.table import check_table
 from qe.options import Budget, Options
+from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry, formula_to_json
 from qe.proof.run_log import RunLog
 from qe.proving.prover import Prover
@@ -46,26 +49,42 @@ def proof(body: Formula, order: tuple[str, ...]) -> dict[str, Any]:
     moved = convert(body, ring)
     found = Search(moved, ring, kinds, Budget(None, 20_000)).run()
     assert found.truth is False
-    return Prover(body.ring, Options(), Budget())._plain(evidence(found, kinds, moved))
+    return plain(Certificate.cells(tree(found, kinds, moved), FALSE))
 
 
-def verdict(body: Formula, given: dict[str, Any], after: Formula = FALSE) -> str:
+def plain(certificate: Certificate) -> dict[str, Any]:
+    found: dict[str, Any] = {"certificate": json.loads(json.dumps(certificate.to_data()))}
+    return found
+
+
+def verdict(body: Formula, given: Any, after: Formula = FALSE) -> str:
     """Empty where the checker accepts that the body has no solution; the evidence is said to be about this body."""
     assert body.ring is not None
-    about = {**given, "matrix": formula_to_json(body)} if isinstance(given, dict) and "matrix" in given else given
-    return judged(exists(body.ring.names, body), after, about)
+    return judged(exists(body.ring.names, body), after, said(given, matrix=body))
 
 
-def judged(before: Formula, after: Formula, given: object) -> str:
-    """Empty where the checker accepts the step."""
+def judged(before: Formula, after: Formula, given: Any) -> str:
+    """Empty where the checker accepts the step; the evidence is said to be about this answer."""
     ring = before.ring
     assert ring is not None
-    claim = Claim("covering", before, after, ring, Entry(given, "evidence"), "step")  # type: ignore[arg-type]
+    claim = Claim("covering", before, after, ring, Entry(said(given, answer=after), "evidence"), "step")
     try:
-        check_covering(claim, (), limits_of(Budget(60), RULES, check_certificate))
+        check_table(claim, (), limits_of(Budget(60), RULES, check_certificate))
     except CertificateRejected as error:
         return str(error)
     return ""
+
+
+def said(given: Any, **formulas: Formula) -> Any:
+    """The evidence, with other formulas in it; of a sentence the truth goes with the answer."""
+    found = copy.deepcopy(given)
+    with suppress(LookupError, TypeError, AttributeError, CertificateRejected, InputError, InternalError):
+        payload = found["certificate"]["payload"]
+        ring = Ring.of(tuple(payload["order"]))
+        payload |= {name: formula_to_json(convert(f, ring)) for name, f in formulas.items()}
+        if "" not in payload["quantifiers"] and isinstance(answer := formulas.get("answer"), Constant):
+            payload["root"]["truth"] = answer.value
+    return found
 
 
 QUESTIONS = [
@@ -152,12 +171,14 @@ def projected(polys: Iterable[Poly], level: int) -> Iterator[tuple[str, Poly]]:
         yield from (("resultant", f.resultant(g, level)) for g in listed[:i])
 
 
-def interval(first: int, last: int, at: int, own: list[int], ends: tuple[int | None, int | None], **reason: Any) -> Any:
-    return {"first": first, "last": last, "at": at, "own": own, "lower": ends[0], "upper": ends[1], **reason}
+def interval(first: int, last: int, at: int, own: list[int] | None, line: Any = None) -> Any:
+    above = {} if line is None else {"stack": line}
+    return {"signs": "", "truth": None, "reach": [first, last, at], "own": own, **above}
 
 
 def line(used: list[int], sectors: list[str], sections: list[list[int]], *intervals: Any) -> Any:
-    return {"used": used, "sectors": sectors, "sections": sections, "intervals": list(intervals)}
+    numbered = [[[i, sum(i in s for s in sections[: k + 1])] for i in section] for k, section in enumerate(sections)]
+    return {"used": used, "sectors": sectors, "sections": numbered, "cells": list(intervals)}
 
 
 def forged(body: Formula, factors: list[list[str]], first: Any) -> str:
@@ -166,10 +187,14 @@ def forged(body: Formula, factors: list[list[str]], first: Any) -> str:
 
 def about(body: Formula, factors: list[list[str]], first: Any, kinds: str = "") -> dict[str, Any]:
     names = sorted(body.free)
-    asked = {"order": names, "quantifiers": list(kinds or "E" * len(names)), "matrix": formula_to_json(body)}
-    return {**asked, "factors": factors, "line": first}
-
-
-def one(text: str, body: Formula) -> list[Any]:
-    assert body.ring is not None
-    return [formula_to_json(convert(read(text), body.ring))]
+    payload = {
+        "order": names,
+        "quantifiers": list(kinds or "E" * len(names)),
+        "matrix": formula_to_json(convert(body, Ring.of(names))),
+        "answer": False,
+        "projection": "brown-mccallum",
+        "factors": factors,
+        "constraints": [],
+        "root": {"signs": "", "truth": False, "stack": first},
+    }
+    return {"certificate": {"kind": "cells", "payload": payload}}

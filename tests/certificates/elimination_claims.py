@@ -23,7 +23,6 @@ from qe.io.text import read
 from qe.kernel.derivation import limits_of
 from qe.kernel.elimination_points import read_points
 from qe.kernel.elimination_set import check_elimination_set, start
-from qe.kernel.lowered_degree import lowered
 from qe.kernel.step import Claim, Limits
 from qe.options import Budget, Options
 from qe.proof.derivation import put_together
@@ -31,6 +30,7 @@ from qe.proof.entry import Entry, formula_to_json
 from qe.proof.step import Step
 from qe.proving.elimination_points import Points
 from qe.proving.prover import proved
+from qe.proving.shifts import low
 from qe.simplify.simplify import simplify
 from tests.unit.elimination.vs.line import holds, samples, specialise
 
@@ -80,16 +80,15 @@ def evidence_for(body: Formula, highest: int = 2) -> dict[str, Any] | None:
     trace = result.trace.trace if result.trace is not None else None
     if not isinstance(trace, Substituted) or result.formula == TRUE:
         return None
-    points = Points(Exists(("x",), trace.formula), trace, RING, limits(), complete=True)
+    body = low(trace.formula, X, trace.plan.exponent)
+    points = Points(Exists(("x",), body), trace, RING, limits(), complete=True)
     evidence: Any = points.evidence([[] for _ in points.listed])
-    return {"body": trace.formula, "evidence": evidence}
+    return {"body": body, "evidence": evidence}
 
 
 def claimed(body: Formula, evidence: dict[str, Any]) -> Formula:
     """What the points claim ``ex x. body`` to be equivalent to. Raises ``CertificateRejected`` for malformed points."""
-    shift = evidence["exponent"]
-    low = lowered(body, X, shift, Entry(shift, "exponent"))
-    tried = read_points(Entry(evidence["points"], "points"), low, body, X, shift, RING)
+    tried = read_points(Entry(evidence["points"], "points"), body, X, RING)
     return disj(start(t, X, "x", ("x",), RING) for t in tried)
 
 
@@ -143,7 +142,7 @@ def altered(evidence: dict[str, Any], chance: random.Random) -> Iterator[dict[st
             made = deepcopy(evidence)
             if change(made, k, chance):
                 yield made
-    for name, value in (("side", -evidence["side"] or 1), ("side", 0), ("exponent", 2), ("exponent", 3)):
+    for name, value in (("side", -evidence["side"] or 1), ("side", 0)):
         yield {**deepcopy(evidence), name: value}
 
 

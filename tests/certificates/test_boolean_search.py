@@ -27,7 +27,7 @@ from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.prover import Prover
-from tests.unit.certify.claims import objection
+from tests.unit.certify.claims import NO_LEMMAS, objection
 from tests.unit.elimination.search.test_method import FORMULAS, RING, WITHOUT, many
 
 pytest.importorskip("pysat")
@@ -53,6 +53,11 @@ def evidence(step: Step) -> Any:
     assert step.before.ring is not None
     found = Prover(step.before.ring, Options(certify=True), Budget(120)).own(step, ())
     return None if found is None else found[1]
+
+
+def parts(evidence: Any) -> Any:
+    """Its conflicts and clauses."""
+    return evidence["theory"]
 
 
 def example() -> tuple[Formula, Any]:
@@ -81,39 +86,44 @@ def test_the_whole_answer_is_a_derivation() -> None:
     assert [plan.split()[0] for plan in answer.stats["plan"]] == ["search"]
     assert answer.certificate is not None
     again = qe.Certificate.from_json(answer.certificate.to_json())
-    assert again.payload["steps"][0]["rule"] == RULE  # type: ignore[call-overload,index]
+    assert again.payload["steps"][0]["rule"] == "signs"  # type: ignore[call-overload,index]
     assert qe.verify(again, formula=sentence).accepted
 
 
 ALTERED: dict[str, tuple[Callable[[Any], object], str]] = {
-    "no conflict": (lambda e: e["refuted"].clear(), "learnt"),
-    "one conflict less": (lambda e: e["refuted"].pop(), "learnt"),
-    "a conflict without its refutation": (lambda e: e["refuted"][0]["steps"].clear(), "evidence.refuted[0].steps"),
-    "atoms that hold together": (lambda e: e["refuted"][0]["atoms"].pop(), "evidence.refuted[0].steps"),
-    "no atoms": (lambda e: e["refuted"][0]["atoms"].clear(), "evidence.refuted[0].steps"),
-    "no comparison": (lambda e: e["refuted"][0].update(atoms=[True]), "evidence.refuted[0].atoms[0]"),
-    "a literal of nothing": (lambda e: e["learnt"].insert(0, [999]), "evidence.learnt[0]"),
-    "a literal that is 0": (lambda e: e["learnt"].insert(0, [0]), "evidence.learnt[0]"),
-    "a clause from nowhere": (lambda e: e["learnt"].insert(0, [-1]), "evidence.learnt[0]"),
-    "the empty clause at once": (lambda e: e["learnt"].insert(0, []), "evidence.learnt[0]"),
+    "no conflict": (lambda e: parts(e)["refuted"].clear(), "cases"),
+    "one conflict less": (lambda e: parts(e)["refuted"].pop(), "do not exclude"),
+    "a conflict without its refutation": (
+        lambda e: parts(e)["refuted"][0]["steps"].clear(),
+        "evidence.theory.refuted[0].steps",
+    ),
+    "atoms that hold together": (lambda e: parts(e)["refuted"][0]["atoms"].pop(), "evidence.theory.refuted[0].steps"),
+    "no atoms": (lambda e: parts(e)["refuted"][0]["atoms"].clear(), "evidence.theory.refuted[0].steps"),
+    "no comparison": (lambda e: parts(e)["refuted"][0].update(atoms=[True]), "evidence.theory.refuted[0].atoms[0]"),
+    "a literal of nothing": (lambda e: parts(e)["cases"].insert(0, [0, [9999]]), "evidence.theory.cases[0][1]"),
+    "a negative literal": (lambda e: parts(e)["cases"].insert(0, [0, [-4]]), "evidence.theory.cases[0][1][0]"),
+    "a literal without signs": (lambda e: parts(e)["cases"].insert(0, [0, [8]]), "evidence.theory.cases[0]"),
+    "no such goal": (lambda e: parts(e)["cases"].insert(0, [2, []]), "evidence.theory.cases[0][0]"),
+    "a clause from nowhere": (lambda e: parts(e)["cases"].insert(0, [0, [4]]), "evidence.theory.cases[0]"),
+    "the empty clause at once": (lambda e: parts(e)["cases"].insert(0, [0, []]), "evidence.theory.cases[0]"),
 }
 
 
 @pytest.mark.parametrize("name", ALTERED)
 def test_altered_entries_are_named(name: str) -> None:
     sentence, made = example()
-    assert objection(RULE, sentence, FALSE, made) == ""
+    assert objection("signs", sentence, FALSE, made) == ""
     changed = copy.deepcopy(made)
     alter, place = ALTERED[name]
     alter(changed)
-    assert place in objection(RULE, sentence, FALSE, changed)
+    assert place in objection("signs", sentence, FALSE, changed)
 
 
 def test_other_claims() -> None:
     sentence, made = example()
-    assert objection(RULE, sentence, TRUE, made)
-    assert objection(RULE, "ex x, y. x > 1 or y > a", FALSE, made)
-    assert objection(RULE, sentence, FALSE, {"refuted": [], "learnt": []})
+    assert objection("signs", sentence, TRUE, made)
+    assert objection("signs", "ex x, y. x > 1 or y > a", FALSE, made)
+    assert objection("signs", sentence, FALSE, {"theory": {**NO_LEMMAS, "refuted": []}})
 
 
 def test_every_true_sentence_is_refused() -> None:
@@ -122,7 +132,7 @@ def test_every_true_sentence_is_refused() -> None:
         assert old in CASES
         sentence = CASES.replace(old, new)
         assert qe.decide(sentence)
-        assert objection(RULE, sentence, FALSE, example()[1])
+        assert objection("signs", sentence, FALSE, example()[1])
 
 
 # --- broken producers -----------------------------------------------------------------------------

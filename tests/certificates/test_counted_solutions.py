@@ -91,7 +91,7 @@ def test_right_steps_are_proved_and_others_are_not(text: str) -> None:
     evidence: Any = proved(said)
     proofs = evidence["proofs"]
     assert isinstance(proofs, list)
-    refused(said, {"proofs": [*proofs, {"theory": {"polynomials": [], "lemmas": []}}]})
+    refused(said, {"proofs": [*proofs, {"theory": {"polynomials": [], "lemmas": [], "cases": []}}]})
     for k in range(len(proofs)):
         refused(said, {"proofs": proofs[:k] + proofs[k + 1 :]})
         refused(said, {"proofs": [*proofs[:k], {"kind": "bundle", "certificates": []}, *proofs[k + 1 :]]})

@@ -64,7 +64,7 @@ def test_an_inequality_without_the_quantified_variable_is_proved(answer, accepte
     try:
         evidence = universal_evidence(claim, ("a", "b"), Options(), budget)
         checker.check_critical_universal(
-            replace(claim, evidence=Entry(evidence, "evidence")), (), limits_of(budget, RULES, check_certificate, set())
+            replace(claim, evidence=Entry(evidence, "evidence")), (), limits_of(budget, RULES, check_certificate)
         )
     except qe.CertificateRejected:
         assert not accepted

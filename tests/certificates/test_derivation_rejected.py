@@ -81,21 +81,17 @@ def refused(verdict: Verdict, k: int | None = None) -> None:
 ELSEWHERE = {
     "critical values": "certificates/test_critical_values",
     "critical values of a universal block": "certificates/test_critical_universal",
-    "constant along directions": "certificates/test_constant_along",
-    "degenerate truth set": "certificates/test_broken_blocks",
     "covering": "certificates/test_covering",
-    "Boolean search": "certificates/test_boolean_search",
     "comprehensive Gröbner system": "certificates/test_counted_solutions",
+    "mirror images of a convex set": "unit/expert/test_mirror",
     "point or multipliers": "certificates/test_derivation_rejected",
-    "homogeneous scaling": "unit/certify/test_symmetry",
-    "linear form as a variable": "unit/rules/test_shear",
 }
 """Rules whose evidence is altered in a file of its own."""
 
-OTHERWISE = {"cells", "convex", "critical values", "infinity first", "shorter", "steps", "virtual substitution"}
+OTHERWISE = {"cells", "convex", "critical values", "shorter", "steps", "virtual substitution"}
 """Rules whose evidence has tests of its own."""
 
-FORMER = {"only asked to be no root", "vanishing sum of squares split"}
+FORMER = {"only asked to be no root"}
 """Rules of older certificates, which nothing makes any more: see ``test_broken_producers``."""
 
 

@@ -29,8 +29,7 @@ from tests.certificates.altered_derivations import steps
 from tests.certificates.derivations import CASES, data
 from tests.certificates.false_claims import Data, text_of
 from tests.unit.certify import test_parts
-from tests.unit.certify.claims import NO_LEMMAS, RING, step
-from tests.unit.expert.test_degenerate_truth_set import by, contradiction
+from tests.unit.certify.claims import RING, step
 
 Path = tuple[str | int, ...]
 
@@ -56,21 +55,8 @@ OTHERS = [
 """Questions for rules that those of ``derivations`` do not need, with the method."""
 
 BY_HAND = [
-    step(
-        "linear form as a variable",
-        "ex x. x + a > b and x + a < c",
-        "ex x. x > b and x < c",
-        {"variable": "x", "form": "a + x"},
-    ),
-    step("degenerate truth set", "all y. a*y > 1", "false", by(["0"], [[]])),
-    step(
-        "degenerate truth set",
-        "all y. a*y >= 0",
-        "a = 0",
-        by(["1", "-1"], [contradiction(f"ex a. a >= 0 and a <= 0 and a {sign} 0") for sign in "<>"], ["a", "a"]),
-    ),
+    step("mirror images of a convex set", "ex x. x < a and -x < a", "0 < a", {"mirror": [["x", "x", -1]]}),
     step("only asked to be no root", "ex x. a*x + b /= 0", "a /= 0 or b /= 0"),
-    step("vanishing sum of squares split", "x^2 + y^2 = 0", "x = 0 and y = 0", {"theory": NO_LEMMAS}),
 ]
 
 

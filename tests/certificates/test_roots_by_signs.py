@@ -10,7 +10,6 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from qe.certify.arithmetic import root_patterns
 
 import qe
 from qe.certify.registry import RULES
@@ -18,6 +17,7 @@ from qe.certify.verify import check_certificate
 from qe.elimination.rootsigns import forms, method, question, theory
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
+from qe.expert.arithmetic import root_patterns
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj
 from qe.formula.evaluate import substituted

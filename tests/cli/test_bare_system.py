@@ -8,10 +8,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BARE = """
-import os, select, signal, subprocess, sys, tempfile  # the standard library has branches of its own
+import os, select, signal, subprocess, sys, tempfile  # which starts processes by what this system has
 for module, names in (
-    (os, ("fork", "forkpty", "waitpid", "WIFSIGNALED", "WTERMSIG", "WEXITSTATUS", "set_blocking", "killpg", "setsid")),
-    (signal, ("SIGKILL", "SIGXCPU", "SIGALRM", "SIGCHLD", "pthread_sigmask", "SIG_BLOCK", "SIG_SETMASK", "alarm")),
+    (os, ("fork", "forkpty", "WIFSIGNALED", "WTERMSIG", "WEXITSTATUS", "set_blocking", "killpg", "setsid")),
+    (signal, ("SIGBUS", "SIGXCPU", "SIGALRM", "SIGCHLD", "pthread_sigmask", "SIG_BLOCK", "SIG_SETMASK", "alarm")),
     (select, ("poll", "epoll")),
 ):
     for name in names:
@@ -56,7 +56,7 @@ def test_commands(tmp_path: Path) -> None:
     assert "value -sqrt(2)" in done.stdout
 
 
-def test_a_soft_limit_holds(tmp_path: Path) -> None:
+def test_a_limit_holds(tmp_path: Path) -> None:
     hard = "all a, b. ex x, y, z. x^4 + y^3*z + a*z^2 = 1 and y^4 + z*x^3 + b*x = 2 and z^4 + x*y + a*b < 0"
     done = run(f"from qe.cli.app import main\nsys.exit(main(['decide', {hard!r}, '--timeout', '0.3']))", tmp_path)
     assert done.returncode == 3, (done.stdout, done.stderr)

@@ -203,10 +203,14 @@ def test_a_time_limit_leaves_nothing_half_written(root: Path, tmp_path: Path) ->
     assert list(tmp_path.iterdir()) == []
 
 
+def stuck(channel: object, folder: Path) -> None:
+    time.sleep(600)
+
+
 def test_a_check_holds_its_time_limit(main_example: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     refused(run("check", main_example, "--timeout", "0"), 2, "--timeout")
     assert run("check", main_example, "--timeout", "100").returncode == 0
-    monkeypatch.setattr("bezier.check.recheck.recheck", lambda channel, folder: time.sleep(600))
+    monkeypatch.setattr("bezier.check.recheck.recheck", stuck)
     refused(run("check", main_example, "--timeout", "0.01"), 3, "time limit of 0.01 s reached")
 
 

@@ -23,7 +23,8 @@ PACKAGES = {
     "markupsafe": "Jinja2",
 }
 LINE = re.compile(r"qe.errors.Unable: \w+ is not installed; it comes with: pip install 'bezier-qe\[\w+\]'")
-BARE = f"import sys\nfor name in {sorted(_EXTRAS)!r}: sys.modules[name] = None\n"
+LESS = f"import sys\nfor name in {sorted(_EXTRAS)!r}: sys.modules[name] = None\n"
+BARE = f"{LESS}from qe.processes import worker\nworker.START = {LESS!r} + worker.START\n"
 
 
 def run(code: str, folder: Path) -> subprocess.CompletedProcess[str]:

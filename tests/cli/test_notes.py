@@ -14,7 +14,11 @@ NOTE = "qe: note: x does not occur; did you mean a*x^2?\n"
 
 @pytest.mark.parametrize(
     "words",
-    [["eliminate", JOINED], ["region", JOINED], ["solve", JOINED], ["minimize", "ax^2", JOINED], ["convert", JOINED]],
+    [
+        *([name, JOINED] for name in ("eliminate", "region", "solve", "convert")),
+        ["minimize", "ax^2", JOINED],
+        ["solve", "ax^2 + bx + c = 0", "--variables", "x"],
+    ],
 )
 def test_one_note_in_every_command(words: list[str]) -> None:
     """Answers were about names that nobody had meant, without a word."""

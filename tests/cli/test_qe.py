@@ -273,6 +273,24 @@ def test_check_says_what_is_claimed(tmp_path: Path) -> None:
     refused(run("check", str(path), "--formula", "all x. x^2 > -1"), 4, "claim", "something else")
 
 
+def test_check_in_plain_python(tmp_path: Path) -> None:
+    path = tmp_path / "proof.json"
+    run("eliminate", "ex x. x^2 + b*x + c = 0", "--certificate", str(path))
+    with_flint, plain = (run("check", str(path), how).stdout.splitlines() for how in ("--core", "--plain"))
+    assert plain[0].startswith("accepted") and plain[1:] == with_flint[1:]
+    data = json.loads(run("check", str(path), "--plain", "--json").stdout)
+    assert data["status"] == "accepted"
+    assert run("check", str(path), "--plain", "--formula", "ex x. x^2 + b*x + c = 0").returncode == 0
+    refused(run("check", str(path), "--plain", "--formula", "ex x. x^2 + b*x = 0"), 4, "claim", "something else")
+    refused(run("check", str(path), "--plain", "--timeout", "0.01"), 3, "time")
+    path.write_text(path.read_text().replace("-b^2 + 4*c", "-b^2 + 5*c"))
+    refused(run("check", str(path), "--plain"), 4, "rejected")
+    path.write_text("{}")
+    refused(run("check", str(path), "--plain"), 2, "not a certificate")
+    run("eliminate", "all x, y, z, u, v. x^2 + y^2 + z^2 + u^2 + v^2 > -1", "--certificate", str(path))
+    refused(run("check", str(path), "--plain"), 4, "core", "optimum")
+
+
 def test_check_of_an_empty_bundle(tmp_path: Path) -> None:
     import qe
 

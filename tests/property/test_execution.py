@@ -1,4 +1,4 @@
-"""Answers do not depend on the process in which they are found, nor on the step at which the work moves."""
+"""Answers do not depend on the process in which they are found, nor on the step at which the question moves."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ def move_early():
     """Every piece of work moves, some at once and some late."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("qe.processes.execution.HERE", 0.002)
+        patch.setattr("qe.processes.execution.COLD", 0.002)
         yield
 
 

@@ -1,16 +1,13 @@
-"""Small modules that others rest on: services looked up when they are used, workers that know of each other."""
+"""Small modules that others rest on: services looked up when they are used."""
 
 from __future__ import annotations
 
-import math
-import os
 import runpy
 import sys
 
 import pytest
 
 from qe import services
-from qe.processes import surroundings
 from qe.proof.on_demand import OnDemand
 from qe.services import Service
 
@@ -31,17 +28,6 @@ def test_a_service_is_loaded_when_it_is_looked_up(monkeypatch: pytest.MonkeyPatc
 def test_every_service_is_provided(name: Service) -> None:
     assert callable(services.service(name)) or name is Service.REGION_OPERATORS
     assert hasattr(services.service(Service.REGION_OPERATORS), "joined")
-
-
-@pytest.mark.parametrize(
-    ("mark", "deadline"),
-    [("", None), ("{pid}:12.5", 12.5), ("{pid}:inf", math.inf), ("1:12.5", None), ("{pid}1:3", None)],
-)
-def test_a_worker_knows_its_deadline(mark: str, deadline: float | None, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(surroundings.MARK, mark.format(pid=os.getpid()))
-    assert surroundings.surrounding_deadline() == deadline
-    monkeypatch.delenv(surroundings.MARK)
-    assert surroundings.surrounding_deadline() is None
 
 
 def test_the_package_is_the_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

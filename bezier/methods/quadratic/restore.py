@@ -40,7 +40,7 @@ def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
 def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:
     """The region of Q1: the cell table is about the conditions of this system."""
     payload = member(certificate, REGION, Kind.CELLS)
-    table = payload.table if isinstance(payload, CellEvidence) else None
+    table = payload.table if isinstance(payload, CellEvidence) and payload.table.is_decomposition else None
     if table is None or table.order != quadratic.FREE or any(table.quantifiers) or payload.answer is not None:
         raise CertificateRejected(REGION, f"expected the table of a region of {', '.join(quadratic.FREE)}")
     region = qe.Region(table.matrix, table, table.order)

@@ -19,7 +19,7 @@ from qe.rules.linear import Pivot, substitute
 
 @dataclass(frozen=True, slots=True)
 class Thin:
-    """``formula`` is the block's; ``evidence``: what shows it (see ``qe.expert.degenerate_truth_set``)."""
+    """``formula`` is the block's; ``evidence``: what shows it (see ``qe.proving.thin``)."""
 
     formula: Formula
     evidence: Mapping[str, object]
@@ -29,7 +29,7 @@ def thin_universal(formula: ForAll, negated: Formula, parameters: Sequence[str],
     """The formula of a universal block, where necessary conditions at a few values of its variable contradict each
     other or imply a linear equation of the parameters; None elsewhere.
 
-    The block is then equivalent to that equation together with the block with a parameter put in, which stays
+    The block is then equivalent to that equation together with the block with a parameter substituted, which stays
     quantified.
     """
     found = necessary_conditions(formula.variables, negated, parameters)

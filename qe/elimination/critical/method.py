@@ -54,7 +54,7 @@ FEW = 2
 """So many parameters a convex truth set may have."""
 
 MOST_CUTS = 4
-"""How often stray points of a formula read from open cells are cut away before the whole table is made."""
+"""How often isolated points of a formula read from open cells are cut away before the whole table is made."""
 
 
 class CriticalValues:
@@ -96,7 +96,7 @@ class Part:
 @dataclass(frozen=True, slots=True)
 class Found:
     """The formula of a block, the order of the parameters in which it was found, and its disjuncts (none where
-    equations that follow were put in first)."""
+    equations that follow were substituted first)."""
 
     formula: Formula
     order: tuple[str, ...] | None

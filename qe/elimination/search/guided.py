@@ -103,5 +103,5 @@ def _signals_kept(propagator: Propagator) -> Iterator[None]:
         yield
     finally:
         for number, handler in before.items():
-            if signal.getsignal(number) is kept:  # a process that was forked meanwhile has handlers of its own
+            if signal.getsignal(number) is kept:  # a handler may have set another one
                 signal.signal(number, handler)

@@ -26,7 +26,8 @@ from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
 from qe.options import Budget
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.proof import answer as solution
 from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
@@ -66,7 +67,7 @@ class ParametricWitness:
         if missing:
             raise InputError(f"parameters: a value for {missing[0]} expected")
         limits = Limits(seconds(timeout), process=flag(process, "process"))
-        return perform(lambda budgets: self._at(given, budgets()), limits, at_once=timeout is not None)
+        return perform(partial(self._at, given), limits, at_once=timeout is not None)
 
     def _at(self, given: dict[str, Number], budget: Budget) -> dict[str, Number]:
         budget.check("guard")

@@ -94,6 +94,18 @@ class Eliminated:
     trace: Trace
 
 
+def shifts_degrees(trace: Trace) -> bool:
+    """Whether points were looked for in place of a power of a variable."""
+    match trace:
+        case Substituted(plan=plan, parts=parts):
+            return plan.exponent > 1 or any(shifts_degrees(inner) for _, inner in parts)
+        case Alternatives(parts=parts) | Split(parts=parts):
+            return any(shifts_degrees(inner) for _, inner in parts)
+        case Apart(parts=listed):
+            return any(shifts_degrees(part.trace) for part in listed)
+    return False
+
+
 def without(formula: Formula, context: tuple[Formula, ...]) -> Formula:
     """The formula with TRUE for every occurrence of a context member (under And and Or, so this is sound)."""
     if not context:

@@ -11,8 +11,9 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from flint import acb_poly, arb, ctx, fmpz_poly
+from flint import acb_poly, arb, fmpz_poly
 
+from qe.exact.balls import precision
 from qe.exact.ring import Poly
 from qe.exact.univariate import from_univariate
 from qe.kernel.arithmetic.sturm import (
@@ -21,7 +22,6 @@ from qe.kernel.arithmetic.sturm import (
     count_roots_between,
     exact,
     irreducible_factor_at,
-    rational_root,
     real_among,
     sign_of,
     variations,
@@ -45,12 +45,8 @@ Values = list[tuple[Fraction, Any, Any]]
 
 def values(numbers: tuple[Fraction, ...]) -> Values:
     """Rational numbers prepared for ``signs``: with their exact FLINT form and a ball."""
-    saved = ctx.prec
-    ctx.prec = FIRST_BITS
-    try:
+    with precision(FIRST_BITS):
         return [(x, exact(x), arb(exact(x))) for x in numbers]
-    finally:
-        ctx.prec = saved
 
 
 class RationalFibre:
@@ -71,10 +67,6 @@ class RationalFibre:
         """The exact signs at rational numbers."""
         p = self.p
         return [sign_of(p(x)) for _, x, _ in at]
-
-    def derivative(self) -> RationalFibre:
-        """The derivative in the variable."""
-        return self._with(self.p.derivative())
 
     def gcd(self, other: Fibre) -> RationalFibre:
         """The greatest common divisor."""
@@ -99,7 +91,7 @@ class RationalFibre:
         if found is None:
             return None
         if found.degree() == 1:
-            return rational_root(found)
+            return Fraction(-int(found[0]), int(found[1]))
         poly = from_univariate(self.ring, self.index, found)
         return Coordinate(self.index, poly, low, high, sign_of(found(exact(high))))
 
@@ -116,23 +108,13 @@ class AlgebraicFibre:
 
     def signs(self, at: Values) -> list[int]:
         """The exact signs at rational numbers."""
-        saved = ctx.prec
-        ctx.prec = FIRST_BITS
-        try:
+        with precision(FIRST_BITS):
             if self._balls is None:
-                self._balls = fibre_balls(self.point, self.poly, self.index, FIRST_BITS)
-            q, found = self._balls, []
-            for number, _, x in at:
-                value = q(x)
-                s = 1 if value > 0 else -1 if value < 0 else self.point.sign(self.poly.at_rational(self.index, number))
-                found.append(s)
-            return found
-        finally:
-            ctx.prec = saved
+                self._balls = self.balls(FIRST_BITS)
+            return [self._sign(self._balls(x), number) for number, _, x in at]
 
-    def derivative(self) -> AlgebraicFibre:
-        """The derivative in the variable."""
-        return AlgebraicFibre(self.point, self.index, self.poly.derivative(self.index))
+    def _sign(self, value: arb, number: Fraction) -> int:
+        return 1 if value > 0 else -1 if value < 0 else self.point.sign(self.poly.at_rational(self.index, number))
 
     def gcd(self, other: Fibre) -> AlgebraicFibre:
         """The greatest common divisor over the point."""
@@ -160,40 +142,18 @@ class AlgebraicFibre:
         shared = gcd(self.point, self.poly, self.poly.derivative(self.index), self.index)
         return None if shared.degree(self.index) == 0 else AlgebraicFibre(self.point, self.index, shared)
 
-    def enclosures(self, bits: int) -> list[Any] | None:
-        """Disjoint balls around all complex roots, or None if ``bits`` do not suffice or a root is multiple."""
-        with ctx.workprec(bits):
-            q = self.balls(bits)
-            return None if q[self.degree].contains(0) else complex_enclosures(acb_poly(q), bits)
-
     def balls(self, bits: int) -> Any:
         """The coefficients as balls; the working precision must be ``bits``."""
         return fibre_balls(self.point, self.poly, self.index, bits)
-
-    def shares_root(self, other: Fibre, low: Fraction, high: Fraction) -> bool:
-        """True if self and other, known to have a common complex root, provably have one in (low, high).
-
-        A common root lies in a ball of each; if one pair of balls only meets, the root is there, and it is real
-        because its conjugate is common too.
-        """
-        if not isinstance(other, AlgebraicFibre):
-            return False
-        for bits in ENCLOSURE_BITS:
-            mine, theirs = self.enclosures(bits), other.enclosures(bits)
-            if mine is None or theirs is None:
-                continue
-            meeting = [z for z in mine for w in theirs if z.overlaps(w)]
-            if len(meeting) == 1:
-                place = meeting[0].real
-                return bool(place > arb(exact(low)) and place < arb(exact(high)))
-        return False
 
     def count(self) -> int:
         """The number of distinct real roots: from enclosures of all complex roots if these separate them, else by
         the signed remainder sequence over the point's field."""
         for bits in ENCLOSURE_BITS:
-            roots = self.enclosures(bits)
-            found = None if roots is None else real_among(roots)
+            with precision(bits):
+                q = self.balls(bits)
+                roots = None if q[self.degree].contains(0) else complex_enclosures(acb_poly(q), bits)
+                found = None if roots is None else real_among(roots)
             if found is not None:
                 return found
         return self.count_by_remainders()
@@ -242,7 +202,7 @@ class SimplePart:
     def count(self) -> int:
         """The number of real roots."""
         for bits in LONG_BITS:
-            with ctx.workprec(bits):
+            with precision(bits):
                 dividend, divisor = self.f.balls(bits), self.g.balls(bits)
                 if dividend[self.f.degree].contains(0) or divisor[self.g.degree].contains(0):
                     continue
@@ -261,17 +221,11 @@ Fibre = RationalFibre | AlgebraicFibre
 Simple = Fibre | SimplePart
 
 
-def fibre(point: Point, poly: Poly, index: int, *, leading_nonzero: bool = False) -> Fibre:
-    """``poly`` over the point as a polynomial in variable ``index``; rational coordinates already substituted.
-
-    ``leading_nonzero`` says that the leading coefficient is already proved nonzero at the point.
-    """
+def fibre(point: Point, poly: Poly, index: int) -> Fibre:
+    """``poly`` over the point as a polynomial in variable ``index``; rational coordinates already substituted."""
+    if point.indices and any(i != index for i in poly.variables):
+        poly = trim(point, poly, index)
     if not point.indices or all(i == index for i in poly.variables):
-        return RationalFibre(poly.ring, index, poly.to_univariate(index), point.check)
-    if leading_nonzero:
-        return AlgebraicFibre(point, index, poly)
-    poly = trim(point, poly, index)
-    if all(i == index for i in poly.variables):
         return RationalFibre(poly.ring, index, poly.to_univariate(index), point.check)
     return AlgebraicFibre(point, index, poly)
 

@@ -22,35 +22,32 @@ class Product:
     powers: tuple[tuple[int, int, int], ...]
 
 
-def sign(product: Product, signs: Signs) -> int | None:
-    """The sign of the product where the factors have these signs; None when an unknown one matters."""
-    result, unknown = product.unit, False
-    for level, index, exponent in product.powers:
-        s = signs[level][index] if level < len(signs) else None
-        if s is None:
-            unknown = True
-        elif s == 0:
-            return 0
-        elif exponent & 1:
-            result *= s
-    return None if unknown else result
-
-
-_ONE, _SQUARE, _ANY = frozenset((1,)), frozenset((0, 1)), frozenset((-1, 0, 1))
+_SIGNS = {
+    (s, odd, even): frozenset(s * t for t in ((-1, 0, 1) if odd else (0, 1) if even else (1,)))
+    for s in (-1, 0, 1)
+    for odd in (False, True)
+    for even in (False, True)
+}
 
 
 def possible_signs(product: Product, signs: Signs) -> frozenset[int]:
     """The signs that the product can have where the factors have these signs; an unknown one can have any."""
-    known, open_factors = product.unit, _ONE
+    known, odd, even = product.unit, False, False
     for level, index, exponent in product.powers:
         s = signs[level][index] if level < len(signs) else None
-        if s is None:
-            open_factors = _ANY if exponent & 1 else open_factors | _SQUARE
-        elif s == 0:
-            return frozenset((0,))
+        if s == 0:
+            known = 0
         elif exponent & 1:
-            known *= s
-    return frozenset(known * s for s in open_factors)
+            odd, known = odd or s is None, known * (s or 1)
+        else:
+            even = even or s is None
+    return _SIGNS[known, odd, even]
+
+
+def sign(product: Product, signs: Signs) -> int | None:
+    """The sign of the product where the factors have these signs; None when an unknown one matters."""
+    possible = possible_signs(product, signs)
+    return next(iter(possible)) if len(possible) == 1 else None
 
 
 class FactorLists:

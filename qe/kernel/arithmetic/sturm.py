@@ -90,21 +90,6 @@ def count_roots_between(p: fmpz_poly, low: Fraction, high: Fraction, check: Call
     return variations(signs[0]) - variations(signs[1])
 
 
-def count_roots_below(p: fmpz_poly, y: Fraction) -> int:
-    """The number of distinct real roots of a nonzero polynomial less than y, which is none."""
-    if p.degree() < 1:
-        return 0
-    bound = Fraction(-2 - max(abs(int(c)) for c in p.coeffs()) // abs(int(p.leading_coefficient())))  # Cauchy
-    return count_roots_between(p, bound, y) if bound < y else 0
-
-
-def vanishes_on(p: fmpz_poly, low: Fraction, high: Fraction, check: Callable[[], None] = unlimited) -> bool:
-    """Whether a polynomial has a root in [low, high]."""
-    if any(not p(exact(end)) for end in (low, high)):
-        return True
-    return p.degree() > 0 and count_roots_between(p, low, high, check) > 0
-
-
 def _count_by_enclosure(p: fmpz_poly) -> int | None:
     """Distinct real roots of a squarefree p from disjoint balls around all complex roots; None if that fails."""
     with precision(FIRST_PRECISION + p.height_bits()):  # no coefficient is rounded: no search is finer than they are
@@ -180,11 +165,6 @@ def irreducible_factor_at(p: fmpz_poly, low: fmpq, high: fmpq) -> fmpz_poly | No
         found = [f for f, _ in p.factor()[1]]
     found = [f for f in found if sign_of(f(low)) * sign_of(f(high)) < 0]
     return found[0] if len(found) == 1 else None
-
-
-def rational_root(p: fmpz_poly) -> Fraction:
-    """The root of a polynomial of degree 1."""
-    return Fraction(-int(p[0]), int(p[1]))
 
 
 def ball(low: fmpq, high: fmpq) -> arb:

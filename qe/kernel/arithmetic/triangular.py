@@ -165,14 +165,11 @@ def at(p: Poly, i: int, value: fmpq) -> Poly:
     return p.at_rational(i, Fraction(int(value.p), int(value.q)))
 
 
-_KEYS: dict[tuple[int, ...], str] = {(i,): f"nested ({i},)" for i in range(8)}  # the frequent ones, spelled once
-
-
 def nested(p: Poly, indices: tuple[int, ...]) -> Any:
     """p as fmpz_poly in the lowest of the variables, then lists of coefficients for each higher one; cached."""
     if not indices or p.is_constant:
         return fmpz_poly([p.constant_value()])
-    key = _KEYS.get(indices) or f"nested {indices}"
+    key = f"nested {indices}"
     found = p.__dict__.get(key)
     if found is None:
         found = p.__dict__[key] = _nest(p, indices)

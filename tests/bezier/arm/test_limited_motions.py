@@ -25,7 +25,7 @@ from bezier.arm.reader import load_arm
 from bezier.arm.vertical import Label, vertical_arm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
-from qe.processes.worker import Channel
+from qe.processes.channel import Channel
 
 F = Fraction
 E, S, C = "ev3-120", "shoulder-3r", "cylindrical"
@@ -87,12 +87,12 @@ def test_a_side_of_the_axis_is_allowed_or_forbidden(limits: Limits, kept: int) -
 def test_limits_were_left_aside_through_the_axis() -> None:
     """All 4 motions were counted, and no word said of those that θ1 forbids."""
     arm, curves = limited(E, (-1, 1)), curves_of(THROUGH)
-    text, _ = certify(Channel(-1), arm, curves, json=False)
+    text, _ = certify(Channel(print), arm, curves, json=False)
     assert "4 continuous joint motions from start to goal (proved" in text
     assert "2 of them within the limits of the joints for all s (decided exactly)" in text
     assert "one of the number of all motions, limits left aside" in text
     assert text.count("that it keeps the limits is decided, and not certified") == 2
-    data = json.loads(certify(Channel(-1), arm, curves, json=True)[0])
+    data = json.loads(certify(Channel(print), arm, curves, json=True)[0])
     assert (data["motions"]["count"], data["motions"]["count_within_limits"]) == (4, 2)
     beyond = {str(m["number"]) for m in data["motions"]["listed"] if m["beyond_limits"]}
     assert len(beyond) == 2 and {*data["without_certificate"]} == {"1", "2", "3", "4"} - beyond
@@ -149,13 +149,13 @@ def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path
     assert (
         found.allowed_count and missing and set(missing.values()) == {"a joint comes closer to a limit than boxes tell"}
     )
-    data = json.loads(certify(Channel(-1), arm, curves, json=True)[0])
+    data = json.loads(certify(Channel(print), arm, curves, json=True)[0])
     assert data["without_certificate"] == missing
     law = TimeLaw.of(Law.QUINTIC)
     request = Request(
         arm=arm, curves=curves, file="path.toml", folder=tmp_path, target=tmp_path, law=law, duration=F(50), samples=4
     )
-    text, code = joints(Channel(-1), request)
+    text, code = joints(Channel(print), request)
     assert code == 0 and all(f"none of motion {n}: a joint comes closer" in text for n in missing)
     assert json.loads((tmp_path / "joints.json").read_text())["without_certificate"] == missing
 

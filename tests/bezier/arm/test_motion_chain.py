@@ -22,12 +22,13 @@ def end(a: float, b: float, c: float) -> tuple[float, float, float]:
     return 2 * cos(a) + 2 * cos(a + b), 2 * sin(a) + 2 * sin(a + b), c
 
 
-LINE = ((F(3), F(1, 10)), (F(1, 2), F(0), F(1, 10)), (F(1), F(-1)))
+POWERS = ((F(3), F(1, 10)), (F(1, 2), F(0), F(1, 10)), (F(1), F(-1)))
 """(3 + s/10, 1/2 + s^2/10, 1 - s)."""
+LINE = SCARA.track(POWERS)
 
 
 def target(s: float) -> tuple[float, ...]:
-    return tuple(sum(float(c) * s**k for k, c in enumerate(coordinate)) for coordinate in LINE)
+    return tuple(sum(float(c) * s**k for k, c in enumerate(coordinate)) for coordinate in POWERS)
 
 
 def test_a_solution_is_one() -> None:
@@ -35,7 +36,7 @@ def test_a_solution_is_one() -> None:
         found = SCARA.solve(LINE, s, (0.0, 1.0, 0.0))
         assert found is not None
         assert end(*found) == pytest.approx(target(float(s)), abs=1e-12)
-    assert SCARA.solve(((F(9),), (F(0),), (F(0),)), F(0), (0.1, 1.0, 0.0)) is None  # out of reach
+    assert SCARA.solve(SCARA.track(((F(9),), (F(0),), (F(0),))), F(0), (0.1, 1.0, 0.0)) is None  # out of reach
     assert SCARA.solve(LINE, F(0), (0.0, 0.0, 0.0)) is None  # stretched out: singular
 
 
@@ -58,12 +59,12 @@ def test_a_piece_encloses_the_solutions_and_their_derivatives(low: Fraction, hig
 
 def test_no_piece_where_solutions_may_meet_or_are_far_apart() -> None:
     assert SCARA.piece(LINE, F(-4), F(4), (-0.5, 1.2, 1.0)) is None  # too long for one box
-    edge = ((F(4), F(1)), (F(0),), (F(0),))
+    edge = SCARA.track(((F(4), F(1)), (F(0),), (F(0),)))
     assert SCARA.piece(edge, F(-1, 10), F(1, 10), (0.0, 0.1, 0.0)) is None  # leaves the reach at s = 0
 
 
 def test_turns_are_about_z_and_in_order() -> None:
-    quarter = SCARA.solve(((F(0),), (F(4),), (F(5),)), F(0), (pi / 2 - 0.01, 0.02, 4.0))
+    quarter = SCARA.solve(SCARA.track(((F(0),), (F(4),), (F(5),))), F(0), (pi / 2 - 0.01, 0.02, 4.0))
     assert quarter is None or end(*quarter) == pytest.approx((0, 4, 5), abs=1e-6)
-    bent = SCARA.solve(((F(2),), (F(2),), (F(-3),)), F(0), (0.1, 1.5, 0.0))
+    bent = SCARA.solve(SCARA.track(((F(2),), (F(2),), (F(-3),))), F(0), (0.1, 1.5, 0.0))
     assert bent == pytest.approx([0.0, pi / 2, -3.0])

@@ -136,6 +136,14 @@ def test_a_path_that_leaves() -> None:
         joint_motion(hole, next(r for r in hole.runs if not r.covers(1)), QUINTIC, Fraction(1), WHOLE)
 
 
+def test_no_samples_are_refused_on_a_path_that_leaves_too() -> None:
+    """ "--samples 0" ended like a path that cannot be followed."""
+    out = Bezier.of([(100, 0, 100), (400, 0, 100)])
+    for count in (0, -1, 10**6):
+        with pytest.raises(InputError, match="samples: 2 to"):
+            joint_plan(ARM, {"out": out}, QUINTIC, Fraction(50), count)
+
+
 @pytest.mark.parametrize("count", [1, 0, 10**6])
 def test_numbers_of_samples(count: int) -> None:
     with pytest.raises(InputError, match="samples"):

@@ -8,8 +8,9 @@ from fractions import Fraction
 import pytest
 from flint import arb
 
-from bezier.certify import duals
+from bezier.certify import duals, motions
 from bezier.certify.duals import Dual
+from bezier.certify.square_roots import ONE, ZERO, Surd
 
 
 def floats(d: Dual) -> tuple[float, ...]:
@@ -31,31 +32,18 @@ def test_values_and_derivatives_of_sums_products_and_angles() -> None:
     assert floats(duals.number(Fraction(5, 2), 2)) == (2.5, 0, 0)
 
 
-@pytest.mark.parametrize("twelfths", [-6, 0, 4, 17])
-def test_multiples_of_a_twelfth_of_pi(twelfths: int) -> None:
-    sine, cosine = duals.multiple_of_pi(twelfths, 1)
-    angle = twelfths * math.pi / 12
-    assert floats(sine) == pytest.approx((math.sin(angle), 0), abs=1e-15)
-    assert floats(cosine) == pytest.approx((math.cos(angle), 0), abs=1e-15)
-
-
-def moved(motions: list[object], *point: int) -> list[float]:
-    found = duals.image(motions, [duals.number(Fraction(v), 1) for v in point])  # type: ignore[arg-type]
-    return [float(v.value) for v in found]
-
-
-QUARTER = duals.multiple_of_pi(6, 1)
-
-
-def test_motions_in_their_order() -> None:
-    up = duals.shift("z", duals.number(Fraction(5), 1))
-    assert moved([duals.turn("z", QUARTER)], 1, 2, 3) == pytest.approx([-2, 1, 3])
-    assert moved([duals.turn("x", QUARTER)], 1, 2, 3) == pytest.approx([1, -3, 2])
-    assert moved([duals.shift("x", duals.number(Fraction(5), 1))], 1, 2, 3) == pytest.approx([6, 2, 3])
-    assert moved([duals.turn("x", QUARTER), up], 1, 2, 3) == pytest.approx([1, -8, 2])  # the last one first
-    assert moved([up, duals.turn("x", QUARTER)], 1, 2, 3) == pytest.approx([1, -3, 7])
-    both = [duals.turn("x", QUARTER), up, duals.turn("z", QUARTER)]
-    assert moved([duals.together(both, 1)], 1, 2, 3) == pytest.approx(moved(both, 1, 2, 3))
+def test_motions() -> None:
+    x, y, z = variables(Fraction(1), Fraction(2), Fraction(3))
+    half = motions.turn((1, 2), (Surd.of([(3, Fraction(1, 2))]), Surd.rational(Fraction(1, 2))), (ONE, ZERO, ZERO))
+    root = math.sqrt(3) / 2
+    found = [floats(v) for v in duals.rigid(half)([x, y, z])]
+    expected = [(2, 1, 0, 0), (2 * root - 1.5, 0, root, -0.5), (1 + 3 * root, 0, 0.5, root)]
+    assert [v for row in found for v in row] == pytest.approx([v for row in expected for v in row])
+    assert [floats(v) for v in duals.moved(False, x, [x, y, z])] == [floats(x), floats(y), floats(z + x)]
+    turned = [floats(v)[0] for v in duals.moved(True, x, [x, y, z])]
+    c, s = math.cos(1), math.sin(1)
+    assert turned == pytest.approx([c - 2 * s, s + 2 * c, 3])
+    assert [floats(-v)[0] for v in (x, y)] == [-1, -2] and floats(-x)[1:] == (-1, 0, 0)
 
 
 RADII = [Fraction(1, 4), Fraction(1, 4), Fraction(1, 2)]

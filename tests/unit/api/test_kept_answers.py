@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import pytest
 
 import qe
 from qe.api.verify import with_derivation
 from qe.errors import InternalError, Unable
-from qe.processes.execution import Budgets, Limits, perform
+from qe.options import Budget
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
+from qe.processes.worker import end_idle
 from qe.proof.answer import UNPROVED
+from tests.workers import killed, replace_in_worker, stuck
 
 pytestmark = pytest.mark.processes
 
@@ -30,18 +33,10 @@ CALLS: dict[str, Callable[[], object]] = {
 }
 
 
-def ended(*_: object) -> None:
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-def stuck(*_: object) -> None:
-    time.sleep(LONG)
-
-
 @pytest.mark.parametrize("name", CALLS)
-def test_an_answer_whose_proof_was_ended_comes_back_derived(name, monkeypatch):
-    monkeypatch.setattr("qe.proving.certificates.derived", ended)
-    monkeypatch.setattr("qe.optimization.values.proved", ended)
+def test_an_answer_whose_proof_was_ended_comes_back_derived(name):
+    replace_in_worker("qe.proving.certificates.derived", killed)
+    replace_in_worker("qe.optimization.values.proved", killed)
     found = CALLS[name]()
     answer = found if isinstance(found, qe.Answer) else found.answer  # type: ignore[attr-defined]
     assert answer.formula is not None and answer.certificate is None
@@ -50,33 +45,40 @@ def test_an_answer_whose_proof_was_ended_comes_back_derived(name, monkeypatch):
             assert (part.guarantee, part.reason) == (qe.Guarantee.DERIVED, UNPROVED)
 
 
-def test_an_answer_found_before_the_limit_is_not_lost_by_a_slow_proof(monkeypatch):
+def test_an_answer_found_before_the_limit_is_not_lost_by_a_slow_proof():
     asked = "ex x, y. x^2 + y^2 = a and x + y = b"
-    monkeypatch.setattr("qe.proving.certificates.derived", stuck)
+    replace_in_worker("qe.proving.certificates.derived", stuck)
     answer = qe.eliminate(asked, timeout=3, check=True)
     assert answer.guarantee is qe.Guarantee.DERIVED and answer.reason == UNPROVED
     assert answer.formula == qe.eliminate(asked).formula
 
 
-def test_a_slow_derivation_of_a_known_answer_ends_at_its_limit(monkeypatch):
+def test_a_slow_derivation_of_a_known_answer_ends_at_its_limit():
     answer = qe.eliminate("ex x. a*x^2 + b*x + 1 = 0")
-    monkeypatch.setattr("qe.proving.certificates.derived", stuck)
+    replace_in_worker("qe.proving.certificates.derived", stuck)
     found = with_derivation(answer, timeout=0.2)
     assert found.formula == answer.formula and found.certificate is None and UNPROVED in found.why_unchecked
 
 
-def keeps(then: Callable[[], object], at: float) -> Callable[[Budgets], object]:
+@pytest.fixture(autouse=True)
+def afresh() -> Iterator[None]:
+    """What was replaced in a worker ends with it."""
+    yield
+    end_idle()
+
+
+def keeps(then: Callable[[], object], at: float, budget: Budget) -> object:
     """Work that keeps two results after some seconds, and goes on."""
+    end = time.monotonic() + at
+    while time.monotonic() < end:
+        budget.check("waiting")
+    budget.keep("first")
+    budget.keep("last")
+    return then()
 
-    def work(budgets: Budgets) -> object:
-        budget, end = budgets(), time.monotonic() + at
-        while time.monotonic() < end:
-            budget.check("waiting")
-        budget.keep("first")
-        budget.keep("last")
-        return then()
 
-    return work
+def done() -> str:
+    return "done"
 
 
 def unable() -> None:
@@ -90,14 +92,14 @@ def wrong() -> None:
 WAYS = [
     (Limits(process=False), False, 0.0),  # in this process
     (Limits(), False, 0.0),  # in this process, from which it might move
-    (Limits(), False, 0.2),  # moved
+    (Limits(), False, 0.5),  # moved
     (Limits(timeout=LONG), True, 0.0),  # in another one from the start
 ]
 
 
 @pytest.mark.parametrize(("limits", "at_once", "seconds"), WAYS)
 def test_work_that_is_unable_to_go_on_gives_what_it_kept_last(limits, at_once, seconds):
-    assert perform(keeps(unable, seconds), limits, at_once=at_once) == "last"
-    assert perform(keeps(lambda: "done", seconds), limits, at_once=at_once) == "done"
+    assert perform(partial(keeps, unable, seconds), limits, at_once=at_once) == "last"
+    assert perform(partial(keeps, done, seconds), limits, at_once=at_once) == "done"
     with pytest.raises(InternalError):  # a fault is not hidden by what was known before it
-        perform(keeps(wrong, seconds), limits, at_once=at_once)
+        perform(partial(keeps, wrong, seconds), limits, at_once=at_once)

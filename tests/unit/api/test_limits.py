@@ -10,7 +10,7 @@ from qe.api.limits import limits_of, reading
 from qe.api.race import raced
 from qe.io.text import read
 from qe.options import Budget, Method
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.answer import Answer, Status
 
 pytestmark = pytest.mark.processes
@@ -31,13 +31,14 @@ def test_reading() -> None:
     assert asked == [(read("x > 0"), "text", True)]
 
 
-def test_the_first_answer_wins_and_reasons_are_told() -> None:
-    def asked(method: Method, budget: Budget) -> Answer:
-        if method is Method.CAD:
-            return Answer(Status.SOLVED, read("x > 0"))
-        return Answer(Status.UNABLE, None, reason="not mine")
+def asked(method: Method, budget: Budget) -> Answer:
+    if method is Method.CAD:
+        return Answer(Status.SOLVED, read("x > 0"))
+    return Answer(Status.UNABLE, None, reason="not mine")
 
-    won = raced(asked, [Method.VS, Method.CAD], Budget(60))
+
+def test_the_first_answer_wins_and_reasons_are_told() -> None:
+    won = raced(asked, [Method.VS, Method.CAD], Limits(60))
     assert won.formula == read("x > 0") and "first answer was that of cad, ahead of vs" in won.explanation
-    lost = raced(asked, [Method.VS], Budget(60))
+    lost = raced(asked, [Method.VS], Limits(60))
     assert lost.status is Status.UNABLE and lost.reason == "vs: not mine"

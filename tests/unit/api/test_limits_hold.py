@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
 
@@ -12,10 +12,13 @@ import pytest
 import sympy
 
 import qe
+import qe.api.eliminate  # else this is a function
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.options import Budget
+from qe.processes.worker import end_idle
 from qe.progress import Event
+from tests.workers import large, replace_in_worker, stuck
 
 pytestmark = pytest.mark.processes
 
@@ -29,12 +32,15 @@ ASKED_BEFORE = 0.5
 """The limit of a region that is made within it, before it is asked for more."""
 
 
-def stuck(*arguments: object, **keywords: object) -> None:
-    time.sleep(120)
-
-
 def witness() -> qe.ParametricWitness:
     return qe.parametric_witnesses("ex x. a*x^2 + b*x + 1 = 0")[0]
+
+
+@pytest.fixture(autouse=True)
+def afresh() -> Iterator[None]:
+    """What was replaced in a worker ends with it."""
+    yield
+    end_idle()
 
 
 Call = Callable[[], object]
@@ -155,10 +161,10 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_limit_holds(name, monkeypatch):
+def test_the_limit_holds(name):
     place, prepared = CASES[name]
     call = prepared()
-    monkeypatch.setattr(place, stuck)
+    replace_in_worker(place, stuck)
     start = time.monotonic()
     with pytest.raises(Unable, match="limit"):
         call()
@@ -178,10 +184,10 @@ def test_what_a_volume_is_known_to_be_is_told_at_the_limit():
         region.volume(1e-40, timeout=1)
 
 
-def test_memory_limits_hold_for_regions_and_their_questions(monkeypatch):
+def test_memory_limits_hold_for_regions_and_their_questions():
     region = qe.region(DISC, memory=2000)
-    monkeypatch.setattr("qe.regions.region.decompose", lambda *arguments, **keywords: bytearray(1 << 33))
     for call in (lambda: qe.region(DISC, memory=2000), lambda: region.bounds("y")):
+        replace_in_worker("qe.regions.region.decompose", large)
         with pytest.raises(BudgetExceeded) as caught:
             call()
         assert caught.value.limit == "memory"
@@ -253,7 +259,8 @@ LONG = "(x + y + z + 1)^70"
 )
 def test_reading_holds_the_limit_in_every_function(place, call, monkeypatch):
     """Texts and SymPy objects that have to be multiplied out were read without the limit, for seconds."""
-    monkeypatch.setattr(place, stuck)
+    monkeypatch.setattr(place, stuck)  # where it is what is sent
+    replace_in_worker(place, stuck)
     start = time.monotonic()
     with pytest.raises(Unable, match="limit"):
         call()

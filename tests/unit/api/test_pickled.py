@@ -9,7 +9,7 @@ import pytest
 
 import bezier
 import qe
-from qe.processes.worker import Known, WorkerStopped
+from qe.processes.channel import Known, WorkerStopped
 
 X, Y = qe.variables("x y")
 GIVEN: dict[str, Callable[[], object]] = {

@@ -18,7 +18,7 @@ from qe.options import Budget
 from qe.proof.entry import Entry, formula_to_json, poly_to_text
 
 RING = Ring.of(("a", "b", "c", "x", "y", "z"))
-NO_LEMMAS: dict[str, Any] = {"polynomials": [], "lemmas": []}
+NO_LEMMAS: dict[str, Any] = {"polynomials": [], "lemmas": [], "cases": []}
 
 
 def formula(text: str | Formula) -> Formula:

@@ -18,7 +18,7 @@ from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.io.text import read
 from qe.options import Budget, Options
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import formula_to_json
 from qe.proof.partial import Partial

@@ -6,12 +6,14 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
+from flint import acb, arb
 
 from qe.errors import InternalError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.io.text import read
 from qe.kernel.arithmetic.fibre import AlgebraicFibre, SimplePart, fibre, lazard_evaluation, values
+from qe.kernel.arithmetic.sturm import count_real_roots, real_among
 from qe.kernel.arithmetic.triangular import ORIGIN, Coordinate, Point
 
 RING = Ring.of(("x", "y", "z"))
@@ -105,8 +107,9 @@ def test_common_roots_are_found_and_told_from_near_ones() -> None:
     assert f.gcd(g).degree == 0
     assert h.count() == 2
     near = AlgebraicFibre(FOURTH, 2, poly("z^2 - x*z + y*z - x*y"))  # roots x and -y
-    assert g.shares_root(near, Fraction(-2), Fraction(0))
-    assert not g.shares_root(near, Fraction(0), Fraction(2))
+    common = g.gcd(near)
+    low, middle, high = common.signs(values((Fraction(-2), Fraction(0), Fraction(2))))
+    assert common.degree == 1 and low == -middle and middle == high
 
 
 def test_lazard_evaluation_keeps_the_hidden_root() -> None:
@@ -117,3 +120,39 @@ def test_lazard_evaluation_keeps_the_hidden_root() -> None:
     assert evaluated.signs(values((Fraction(1, 2), Fraction(1), Fraction(3, 2)))) == [-1, 0, 1]
     rational = lazard_evaluation(poly("x^2*z - x*y^2*z - x^3"), ORIGIN, {0: Fraction(0), 1: Fraction(0)}, 2)
     assert rational.normal()[1] == poly("z")
+
+
+def test_a_small_number_is_no_zero() -> None:
+    """(x - 1)^200 for the cube root x of 2 is less than 2^-389, its coefficients have 195 bits."""
+    p, x = RING.constant(1), RING.gen(0)
+    for _ in range(200):
+        p = p * (x - 1)
+        high = p.coefficients(0)[3:]
+        p = p - (high[0] * (x**3 - 2) if high else 0)
+    cube = point(("x^3 - 2", 1, 2))
+    assert cube.sign(p) == 1 and cube.sign(-p) == -1 and not cube.vanishes(p)
+    assert cube.sign(p * (x**3 - 2)) == 0
+
+
+def test_two_factors_with_roots_between_two_numbers_are_no_coordinate() -> None:
+    assert fibre(ORIGIN, poly("(x^2 - 2)*(x^2 - 3)"), 0).coordinate(Fraction(1), Fraction(2)) is None
+    assert fibre(ORIGIN, poly("(x^2 - 2)*(x^2 - 3)"), 0).coordinate(Fraction(1), Fraction(3, 2)) is not None
+
+
+def test_enclosures_that_meet_their_mirror_images_do_not_tell_real_roots() -> None:
+    near, far = (acb(arb(1, 0.1), arb(y, 0.1)) for y in ("0.05", "-0.1"))
+    assert real_among([near, acb(5)]) == 2 and real_among([near, far]) is None
+    assert real_among([acb(0, 1), acb(0, -1), acb(2)]) == 1
+
+
+@pytest.mark.parametrize("roots", range(6))
+def test_real_roots_are_counted(roots: int) -> None:
+    """Also where leading coefficients of remainders are negative and degrees drop by more than one."""
+    for extra in ("1", "x^2 + 1", "x^4 + x + 1", "-x^2 - x - 1", "x^6 + 3"):
+        p = poly(extra) if extra != "1" else RING.constant(1)
+        for k in range(roots):
+            p = p * (2 * RING.gen(0) - 3 * k + 1)
+        if p.degree(0) > 0:
+            q = p.to_univariate(0)
+            assert count_real_roots(q) == roots == count_real_roots(-q)
+            assert count_real_roots(q * q) == roots

@@ -48,11 +48,15 @@ def _leaf(signs: str, truth: bool | None) -> Cell:
     return Cell(signs, truth)
 
 
-def test_a_factor_nullified_away_from_the_sample() -> None:
-    """x*z + y - 1 is zero on the whole line over (0, 1), but not over the sample (0, 0)."""
+def _flat() -> Cell:
     flat = Cell("", False, _stack((0,), "0", (), _leaf("-", False)))
     middle = Cell("0", False, _stack((), "0", (), flat))
-    root = Cell("", False, _stack((0,), "-1 1", ((0,),), _leaf("-", False), middle, _leaf("+", False)))
+    return Cell("", False, _stack((0,), "-1 1", ((0,),), _leaf("-", False), middle, _leaf("+", False)))
+
+
+def test_a_factor_nullified_away_from_the_sample() -> None:
+    """x*z + y - 1 is zero on the whole line over (0, 1), but not over the sample (0, 0)."""
+    root = _flat()
     names = ("x", "y", "z")
     verdict = _verdict(names, ("E",) * 3, read("x = 0 and x*z + y - 1 = 0"), [["x"], [], ["x*z + y - 1"]], root)
     assert not verdict.accepted
@@ -61,9 +65,8 @@ def test_a_factor_nullified_away_from_the_sample() -> None:
 
 
 def test_the_same_table_is_not_closed_under_lazard() -> None:
-    names = ("x", "y", "z")
-    root = Cell("", False, _stack((0,), "0", (), _leaf("0", False)))
-    verdict = _verdict(names, ("E",) * 3, read("x = 0 and x*z + y - 1 = 0"), [["x"], [], ["x*z + y - 1"]], root, LAZARD)
+    names, factors = ("x", "y", "z"), [["x"], [], ["x*z + y - 1"]]
+    verdict = _verdict(names, ("E",) * 3, read("x = 0 and x*z + y - 1 = 0"), factors, _flat(), LAZARD)
     assert verdict.step == "payload.factors[2][0]"
     assert "trailing coefficient" in verdict.reason
 
@@ -159,6 +162,9 @@ def test_a_list_must_be_squarefree_and_coprime() -> None:
     root = Cell("", None)
     verdict = _verdict(("x", "y"), ("", ""), read("x*y + y = 0"), [["x"], ["x*y + y"]], root)
     assert not verdict.accepted
+    leaves = [_leaf(signs, signs[0] == "0") for signs in ("-+", "0+", "++", "+0", "++")]
+    over = Cell("", None, _stack((0, 1), "-1 1/2 2", ((0,), (1,)), *leaves))
+    root = Cell("", None, _stack((), "1", (), over))
     verdict = _verdict(("x", "y"), ("", ""), read("y = 0"), [[], ["y", "y^2 - 2*y*x + x^2"]], root)
     assert "squarefree" in verdict.reason
 
@@ -170,8 +176,8 @@ def test_a_sector_beside_a_constraint_is_decomposed() -> None:
     root = Cell("", False, _stack((0, 1), "-1 1/2", ((0,),), *cells))
     factors = [["x", "x - 1"], ["y^2 - x + 1"]]
     verdict = _verdict(("x", "y"), ("E", "E"), read("y^2 = x - 1"), factors, root, constraints=((0,), ()))
-    assert verdict.step == "payload.root.stack.cells[0].stack"
-    assert "only the sections" in verdict.reason
+    assert verdict.step == "payload.root.stack.cells[0].stack.cells"
+    assert "may change its sign" in verdict.reason
 
 
 def test_a_leaf_beside_a_constraint_that_is_not_implied() -> None:
@@ -193,10 +199,9 @@ def _over_a_nullified_factor(constraints: tuple[tuple[int, ...], ...]) -> Verdic
     return _verdict(names, ("E",) * 4, matrix, factors, root, constraints=constraints)
 
 
-def test_a_factor_beside_a_constraint_is_nullified_below_the_last_level() -> None:
-    verdict = _over_a_nullified_factor(((), (), (0,), ()))
-    assert verdict.step == "payload.root.stack.cells[1].stack.cells[1].stack.used"
-    assert "not well-oriented" in verdict.reason
+def test_a_factor_beside_a_constraint_may_be_nullified_over_a_point() -> None:
+    """What is true there is true, and nothing is said of other points (over more: ``kernel/test_line.py``)."""
+    assert _over_a_nullified_factor(((), (), (0,), ())).accepted
 
 
 @pytest.mark.parametrize(
@@ -231,3 +236,22 @@ def test_roots_of_a_factor_beside_a_constraint_are_not_known() -> None:
     assert verify(Certificate.cells(sound)).accepted
     answer = convert(read("x^2 - 1 = 0 and x > root(1, x^2 - 4*x, x)"), ring)
     assert verify(Certificate.cells(sound, answer)).step == "payload.answer"
+
+
+def test_a_decomposition_shows_all_factors_of_a_level_below_the_last() -> None:
+    """Who reads the cells of a table relies on that; what is not used is not known, so nothing else would notice."""
+    leaves = [_leaf(sign, sign == "+") for sign in "-0+"]
+    over = Cell("", None, _stack((0,), "-1 1", ((0,),), *leaves))
+    root = Cell("", None, _stack((), "0", (), over))
+    verdict = _verdict(("x", "y"), ("", ""), read("y > 0"), [["x"], ["y"]], root)
+    assert (verdict.step, verdict.reason) == ("payload.root.stack.used", "a factor of this level is missing")
+    assert _verdict(("x", "y"), ("", ""), read("y > 0"), [[], ["y"]], root).accepted
+
+
+def test_a_decomposition_shows_all_cells_of_a_line() -> None:
+    """Also where one of them decides the quantifier."""
+    leaves = [_leaf("-", True), _leaf("0", False), _leaf("+", False)]
+    for count in (1, 2, 3):
+        root = Cell("", True, _stack((0,), "-1 1", ((0,),), *leaves[:count]))
+        verdict = _verdict(("x",), ("E",), read("x < 0"), [["x"]], root)
+        assert verdict.accepted is (count == 3) and (count == 3 or "where 3 are needed" in verdict.reason)

@@ -11,7 +11,7 @@ import typer
 
 from qe.cli import shell
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
-from qe.processes.worker import WorkerStopped
+from qe.processes.channel import WorkerStopped
 
 
 @pytest.mark.parametrize(

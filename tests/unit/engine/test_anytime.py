@@ -19,7 +19,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.io.text import read
 from qe.options import Budget, Options
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from tests.strategies import polynomials
 
 RING = Ring.of(("a", "b", "x", "y"))

@@ -27,6 +27,14 @@ def test_each_name_is_noted_once() -> None:
     assert doubts(formats.read(text)) == ("x does not occur",)  # no text: nobody has typed it
 
 
+def test_a_variable_to_solve_for_is_to_occur() -> None:
+    """ ``solve("ax^2 + bx + c = 0", "x")`` was c = -ax^2 - bx, without a word."""
+    text = "ax^2 + bx + c = 0"
+    assert doubts(formats.read(text), text, "text", ("x",)) == ("x does not occur; did you mean a*x^2?",)
+    assert doubts(formats.read(text), "", "", ("x", "c")) == ("x does not occur",)
+    assert doubts(formats.read("x*0 = y"), "x*0 = y", "text", ("x", "y")) == ()  # typed, and simplified away
+
+
 def test_products_are_letters_side_by_side() -> None:
     assert joined_names(("ax", "xa", "abx", "aax", "x1", "x_a", "tax", "xx"), ("x",)) == {
         "ax": "a*x",

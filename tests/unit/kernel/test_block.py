@@ -14,6 +14,7 @@ PRODUCT = {
     "theory": {
         "polynomials": ["a*x", "a", "x"],
         "lemmas": [{"identity": [["1", [[0, 1]]], ["-1", [[1, 1], [2, 1]]]]}],
+        "cases": [],
     }
 }
 """a*x is the product of a and x."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
@@ -15,7 +16,7 @@ from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.kernel.cells import check_cells, sectors_suffice
 from qe.options import Budget
-from qe.proof.cells import Cell, CellTable
+from qe.proof.cells import Cell, CellTable, Stack
 from qe.proof.cells_json import CellEvidence
 from tests.certificates.producing import cell_table
 
@@ -117,7 +118,7 @@ def test_no_truth_value_and_no_sign_can_be_turned(case: Any) -> None:
         (lambda t: replace(t, quantifiers=("",)), "one entry per variable"),
         (lambda t: replace(t, quantifiers=("", "U")), 'expected "", "E" or "A"'),
         (lambda t: replace(t, quantifiers=("E", "")), "a free variable after a quantified one"),
-        (lambda t: replace(t, quantifiers=("", "A")), "follows to be"),
+        (lambda t: replace(t, quantifiers=("", "A")), "does not follow from the signs"),
         (lambda t: replace(t, root=replace(t.root, signs="+")), "the whole space has no signs"),
         (lambda t: replace(t, matrix=read("x^2 + y^2 > 1")), "does not follow from the signs"),
         (lambda t: replace(t, root=replace(t.root, stack=None)), "no truth value"),
@@ -137,9 +138,15 @@ def test_between_the_sections_of_a_constraint_nothing_is_decomposed() -> None:
     open_sectors = [p for p in places(root) if p and "?" in at(root, p).signs]
     assert open_sectors
     for place in open_sectors:
-        section = next(p for p in places(root) if len(p) == len(place) and at(root, p).stack is not None)
-        table = replace(given.table, root=changed(root, place, stack=at(root, section).stack))
-        with pytest.raises(CertificateRejected, match="only the sections of a constraint may be decomposed"):
+        stack = at(root, place[:-1]).stack
+        assert stack is not None
+        y = stack.sectors[place[-1] // 2]
+        cells = tuple(Cell(sign, False) for sign in ("-0+" if y > 0 else "+0-"))
+        above = Stack((0,), (Fraction(),), (), (Cell("-", False),))  # the right one
+        if y:
+            above = Stack((0,), (1 / y - 1, 1 / y + 1), ((0,),), cells)
+        table = replace(given.table, root=changed(root, place, stack=above))
+        with pytest.raises(CertificateRejected, match="may change its sign or order"):
             check_cells(replace(given, table=table), Budget())
 
 

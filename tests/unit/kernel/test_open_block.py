@@ -20,7 +20,6 @@ def point(coefficients: list[str], shift: int) -> dict[str, Any]:
 
 SET = {
     "variable": "x",
-    "exponent": 1,
     "side": 1,
     "quadratics": [],
     "points": [point([], -1), point(["y", "-1"], 1)],
@@ -36,7 +35,7 @@ def by(pieces: list[str], parts: list[Any], steps: list[Any], variable: str = "x
 
 
 def cases(before: str, after: str) -> dict[str, Any]:
-    return step("simplification", before, after, {"theory": NO_LEMMAS})
+    return step("signs", before, after, {"theory": NO_LEMMAS})
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,6 @@ from qe.errors import CertificateRejected, Unable
 from qe.kernel.signs import (
     ANY,
     NEGATIVE,
-    OPPOSITE,
     POSITIVE,
     PRODUCT,
     SQUARE,
@@ -42,7 +41,6 @@ def test_tables_of_signs() -> None:
         if a and b:
             assert PRODUCT[a][b] == bits([s * t for s in signs(a) for t in signs(b)])
         assert SQUARE[a] == bits([s * s for s in signs(a)])
-        assert OPPOSITE[a] == bits([-s for s in signs(a)])
 
 
 def lemma(content: Any, *polys: str) -> Any:
@@ -76,7 +74,7 @@ def identities(draw: st.DrawFn) -> Identity:
 def test_an_identity_takes_no_possible_sign_away(given_: Identity, domains: list[int]) -> None:
     left = list(domains)
     cut = given_.cut(left)
-    assert cut is (left != domains)
+    assert {k for k in range(3) if left[k] != domains[k]} <= set(cut) and bool(cut) is (left != domains)
     for chosen in possible(given_.terms, domains):
         assert all(bits([s]) & d for s, d in zip(chosen, left, strict=True))
     single = list(map(len, map(signs, domains))) == [1, 1, 1]
@@ -96,7 +94,7 @@ def test_an_identity_takes_no_possible_sign_away(given_: Identity, domains: list
         # p = q + r
         ([(1, [(0, True)]), (-1, [(1, True)]), (-1, [(2, True)])], (ANY, POSITIVE, POSITIVE | ZERO), (POSITIVE,)),
         # 1 + p^2 = 0
-        ([(1, []), (1, [(0, False)])], (ANY, ANY, ANY), (0, 0, 0)),
+        ([(1, []), (1, [(0, False)])], (ANY, ANY, ANY), (0, ANY, ANY)),
     ],
 )
 def test_what_an_identity_takes_away(terms: Any, before: Any, after: Any) -> None:
@@ -128,9 +126,9 @@ def test_identities_are_multiplied_out() -> None:
         ([], "do not add up"),
         ([["0", [[0, 1]]], *GOOD], "an integer that is not 0"),
         ([["1/2", [[0, 1]]], ["-1/2", [[1, 1], [2, 1]]]], "an integer that is not 0"),
-        ([["1", [[0, 1]]], ["-1", [[1, 1], [1, 1]]]], "twice in a product"),
-        ([["1", [[3, 1]]]], "there is no such polynomial"),
-        ([["1", [[0, 0]]]], "at least 1"),
+        ([["1", [[0, 1]]], ["-1", [[1, 1], [1, 1]]]], "once in a product"),
+        ([["1", [[3, 1]]]], "expected a listed polynomial"),
+        ([["1", [[0, 0]]]], "a positive exponent"),
         ([["1", [[0, 1, 1]]]], "expected [polynomial, exponent]"),
         ([["1"]], "expected [coefficient"),
     ],

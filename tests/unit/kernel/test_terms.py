@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from qe.errors import CertificateRejected
+from qe.formula.traverse import conjuncts
 from qe.kernel.step import Claim
 from qe.kernel.terms import terms_goals
 from qe.proof.entry import Entry
@@ -58,3 +59,35 @@ def test_a_change_of_variables_is_accepted(name: str) -> None:
 @pytest.mark.parametrize("name", REJECTED)
 def test_what_is_no_change_of_variables_is_rejected(name: str) -> None:
     assert refused(*REJECTED[name])
+
+
+def under(before: str, after: str, there: Terms, back: Terms, given: str) -> str:
+    """As ``refused``, where something is known."""
+    evidence = {"there": rows(there), "back": rows(back), "theory": NO_LEMMAS}
+    claim = Claim("terms", formula(before), formula(after), RING, Entry(evidence, "evidence"), "step")
+    goals = terms_goals(claim, tuple(conjuncts(formula(given))))
+    found = {**evidence, "theory": refuting(goals, RING, limits()) or NO_LEMMAS}
+    return objection("terms", before, after, found, given=given)
+
+
+NESTED = "ex x. x > b and (ex z. x - z > 0 and z > c)", "ex y. a*y > b and (ex z. a*y - z > 0 and z > c)"
+ALONG: tuple[Terms, Terms] = {"x": "a*y"}, {"y": ("x", "a")}
+
+
+def test_squares_of_denominators_go_below_quantifiers_too() -> None:
+    """What a quantifier binds inside is compared as it stands: a^2*x - a^2*z was not x - z."""
+    assert not under(*NESTED, *ALONG, "a > 0") and not under(*NESTED, *ALONG, "a /= 0")
+    assert under(*NESTED, *ALONG, "a >= 0")
+
+
+@pytest.mark.parametrize("given", ["a /= 0", "a < 0"])
+def test_of_an_odd_power_its_sign_stays(given: str) -> None:
+    """For a < 0 and b > 0 the left side holds and the right one does not."""
+    assert under("ex x. x = b and x > 0", "ex y. a*y = b and y > 0", *ALONG, given)
+
+
+@pytest.mark.parametrize("given", ["a >= 0", "a <= 0", "b > 0"])
+def test_what_may_be_zero_is_not_divided_out(given: str) -> None:
+    """At a = 0 the left side holds for b > 0, the right one never."""
+    assert under("ex x. x = b and x > 0", "ex y. y = b and a^2*y > 0", {"x": "y"}, {"y": "x"}, given)
+    assert not under("ex x. x = b and x > 0", "ex y. y = b and a^2*y > 0", {"x": "y"}, {"y": "x"}, "a > 0")

@@ -10,6 +10,8 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
 
 import pytest
 
@@ -17,10 +19,13 @@ import qe
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.formula.weight import may_block, text_may_block
 from qe.options import Budget
-from qe.processes.execution import HERE, SWITCH, Budgets, Limits, perform
+from qe.processes.execution import COLD, HERE, SWITCH, perform
+from qe.processes.limits import Limits
+from qe.processes.worker import IDLE, end_idle
 from qe.progress import Event
 from tests.conftest import ROOT
 from tests.waiting import ending
+from tests.workers import only_idle_children
 
 pytestmark = pytest.mark.processes
 
@@ -29,157 +34,178 @@ HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^
 
 
 @pytest.fixture(autouse=True)
-def no_child() -> Iterator[None]:
-    """After every test there is no child of this process, dead or alive, that was made on the way."""
-    before = children()
-    yield
-    assert children() <= before
+def no_process_is_left() -> Iterator[None]:
+    """There is a worker, which has loaded this; none but those that wait is left."""
+    perform(partial(spent, 0.0, process), Limits(), at_once=True)
+    with only_idle_children():
+        yield
 
 
-def children() -> set[int]:
-    with open(f"/proc/self/task/{os.getpid()}/children") as handle:
-        return {int(n) for n in handle.read().split()}
+def process(budget: Budget) -> int:
+    return os.getpid()
 
 
-def spent(seconds: float, then: Callable[[Budget], object] = lambda budget: os.getpid()) -> Callable[[Budgets], object]:
-    """Work that checks its budget all the time, and says where it ended."""
-
-    def work(budgets: Budgets) -> object:
-        budget, end = budgets(), time.monotonic() + seconds
-        part = budget.share(0.9).part(10)  # parts of a budget move with it
-        while time.monotonic() < end:
-            part.check("waiting")
-            time.sleep(0.002)
-        if seconds:
-            part.check("at the end")  # a busy machine may have slept through all the checks before
-        return then(budget)
-
-    return work
+def spent(seconds: float, then: Callable[[Budget], object], budget: Budget) -> object:
+    """Work that checks its budget all the time."""
+    end = time.monotonic() + seconds
+    part = budget.share(0.9).part(10)  # parts of a budget move with it
+    while time.monotonic() < end:
+        part.check("waiting")
+        time.sleep(0.002)
+    if seconds:
+        part.check("at the end")  # a busy machine may have slept through all the checks before
+    return then(budget)
 
 
-def test_short_work_stays_and_long_work_moves():
-    assert perform(spent(0.0), Limits()) == os.getpid()
-    assert perform(spent(3 * HERE), Limits()) != os.getpid()
-    assert perform(spent(0.0), Limits(), at_once=True) != os.getpid()
+def work(seconds: float, then: Callable[[Budget], object] = process) -> Callable[[Budget], object]:
+    return partial(spent, seconds, then)
+
+
+def test_short_work_stays_and_long_work_moves() -> None:
+    assert perform(work(0.0), Limits()) == os.getpid()
+    assert perform(work(3 * HERE), Limits()) != os.getpid()
+    assert perform(work(0.0), Limits(), at_once=True) != os.getpid()
+
+
+def test_where_no_worker_runs_work_stays_as_long_as_one_takes_to_start() -> None:
+    end_idle()
+    assert perform(work(2 * HERE), Limits()) == os.getpid() and not IDLE
+    assert perform(work(2 * COLD), Limits()) != os.getpid() and IDLE
+
+
+def loading(budget: Budget) -> int:
+    time.sleep(2 * HERE)
+    sys.modules[f"a module that is loaded by {os.getpid()}"] = sys
+    budget.check("loaded")
+    return os.getpid()
+
+
+def test_time_in_which_modules_are_loaded_does_not_count() -> None:
+    try:
+        assert perform(loading, Limits()) == os.getpid()
+        assert perform(loading, Limits()) != os.getpid()  # it is there already
+    finally:
+        del sys.modules[f"a module that is loaded by {os.getpid()}"]
 
 
 @pytest.mark.parametrize("limits", [Limits(process=False), Limits(timeout=60, process=False)])
-def test_the_keyword_keeps_it_here(limits):
-    assert perform(spent(2 * HERE), limits, at_once=True) == os.getpid()
+def test_the_keyword_keeps_it_here(limits: Limits) -> None:
+    assert perform(work(2 * HERE), limits, at_once=True) == os.getpid()
 
 
-def test_the_environment_keeps_it_here(monkeypatch):
+def test_the_environment_keeps_it_here(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(SWITCH, "off")
-    assert perform(spent(2 * HERE), Limits(timeout=60), at_once=True) == os.getpid()
+    assert perform(work(2 * HERE), Limits(timeout=60), at_once=True) == os.getpid()
 
 
-def test_without_fork_limits_are_checked_between_steps(monkeypatch):
-    monkeypatch.delattr(os, "fork")
-    assert perform(spent(2 * HERE), Limits()) == os.getpid()
+def test_without_processes_limits_are_checked_between_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "executable", "")  # as in an application that has Python inside
+    assert perform(work(2 * HERE), Limits()) == os.getpid()
     with pytest.raises(BudgetExceeded):
-        perform(spent(60), Limits(timeout=0.1))
+        perform(work(60), Limits(timeout=0.1))
     assert qe.eliminate("ex x. x^2 + b*x + c = 0", timeout=60).formula is not None
 
 
-def test_what_was_done_before_the_move_is_not_done_again():
-    done: list[int] = []
-
-    def work(budgets: Budgets) -> list[int]:
-        budget = budgets()
-        for k in range(40):
-            done.append(k)
-            time.sleep(HERE / 10)
-            budget.check("step")
-        return done
-
-    assert perform(work, Limits()) == list(range(40))
-    assert 0 < len(done) < 40  # the rest was done elsewhere
+def test_each_block_is_left_once_in_each_process(tmp_path: Path) -> None:
+    """Forks in the middle of a computation ended every ``finally`` on the stack twice."""
+    assert perform(partial(noting, str(tmp_path / "left")), Limits()) != os.getpid()
+    lines = (tmp_path / "left").read_text().split()
+    assert len(lines) == len(set(lines)) == 2 and lines[0] == str(os.getpid())
 
 
-def test_events_arrive_before_and_after_the_move():
+def noting(file: str, budget: Budget) -> int:
+    try:
+        return spent(3 * HERE, process, budget)  # type: ignore[return-value]
+    finally:
+        with open(file, "a") as handle:
+            print(os.getpid(), file=handle)
+
+
+def counting(budget: Budget) -> int:
+    for k in range(5):
+        budget.listener(Event("count", k))
+        time.sleep(HERE / 2)
+        budget.check("step")
+    return os.getpid()
+
+
+def test_events_arrive_before_and_after_the_move() -> None:
     seen: list[Event] = []
-
-    def work(budgets: Budgets) -> int:
-        budget = budgets()
-        for k in range(5):
-            budget.listener(Event("count", k))
-            time.sleep(HERE / 2)
-            budget.check("step")
-        return os.getpid()
-
-    assert perform(work, Limits(progress=seen.append)) != os.getpid()
-    assert [e.done for e in seen if e.phase == "count"] == list(range(5))
+    assert perform(counting, Limits(progress=seen.append)) != os.getpid()
+    done = [e.done for e in seen if e.phase == "count"]
+    assert done[0] == 0 and done[-5:] == list(range(5)) and len(done) > 5
 
 
-@pytest.mark.parametrize("seconds", [0.0, 2 * HERE])
+def failing(error: Exception, budget: Budget) -> None:
+    raise error
+
+
+@pytest.mark.parametrize("seconds", [0.0, 3 * HERE])
 @pytest.mark.parametrize("error", [InputError("wrong"), Unable("too hard"), BudgetExceeded("cells", limit="cells")])
-def test_own_errors_are_the_same_on_both_sides(seconds, error):
-    def fail(budget: Budget) -> None:
-        raise error
-
+def test_own_errors_are_the_same_on_both_sides(seconds: float, error: Exception) -> None:
     with pytest.raises(type(error), match=str(error)):
-        perform(spent(seconds, fail), Limits())
+        perform(work(seconds, partial(failing, error)), Limits())
 
 
-def test_other_errors_of_moved_work_are_internal_errors():
+def test_other_errors_of_moved_work_are_internal_errors() -> None:
     with pytest.raises(InternalError, match="ZeroDivisionError"):
-        perform(spent(2 * HERE, lambda budget: 1 // 0), Limits())
+        perform(work(3 * HERE, partial(failing, ZeroDivisionError())), Limits())
 
 
-def test_an_error_of_the_listener_ends_the_work():
+def heedless(budget: Budget) -> str:
+    time.sleep(2 * HERE)
+    try:
+        while True:
+            budget.check("step")
+    except Unable:
+        return "the work went on"
+
+
+def test_an_error_of_the_listener_ends_the_work() -> None:
     """Even an ``Unable``, which the engine would take for one of its own if it met it inside a method."""
 
     def listener(event: Event) -> None:
         raise Unable("enough")
 
-    def work(budgets: Budgets) -> str:
-        budget = budgets()
-        time.sleep(2 * HERE)  # the first event comes from the other process
-        try:
-            while True:
-                budget.check("step")
-        except Unable:
-            return "the work went on"
-
     with pytest.raises(Unable, match="enough"):
-        perform(work, Limits(progress=listener))
+        perform(heedless, Limits(progress=listener))
 
 
-def test_the_limit_kills_work_that_never_looks_up():
-    def stuck(budget: Budget) -> None:
-        signal.sigtimedwait([], 30)
+def stuck(budget: Budget) -> None:
+    signal.sigtimedwait([], 30)
 
+
+def test_the_limit_kills_work_that_never_looks_up() -> None:
     start = time.monotonic()
     with pytest.raises(BudgetExceeded) as caught:
-        perform(spent(2 * HERE, stuck), Limits(timeout=0.3))
+        perform(work(2 * HERE, stuck), Limits(timeout=0.3))
     assert caught.value.limit == "time" and time.monotonic() - start < 30
 
 
-def test_inside_a_worker_only_an_earlier_limit_forks():
-    def inside(budgets: Budgets) -> tuple[int, object, object, object]:
-        late, early = Limits(timeout=100), Limits(timeout=1)
-        moved = [perform(spent(0.0), limits, at_once=True) for limits in (Limits(), late, early)]
-        return os.getpid(), *moved
-
-    own, free, late, early = perform(inside, Limits(timeout=30), at_once=True)
-    assert own == free == late != early
+def inside(several: list[Limits], budget: Budget) -> list[object]:
+    return [os.getpid(), *(perform(work(0.0), limits, at_once=True) for limits in several)]
 
 
-def test_one_journey_inside_another():
-    def outer(budgets: Budgets) -> tuple[object, object, int]:
-        budget = budgets()
-        first = perform(spent(2 * HERE), Limits())  # moves and comes back
-        budget.check("outer")  # moves here
-        second = perform(spent(2 * HERE), Limits())  # stays in the worker
-        return first, second, os.getpid()
-
-    first, second, last = perform(outer, Limits())
-    assert first != os.getpid() and second == last != os.getpid()
+def test_inside_a_worker_only_a_tighter_limit_needs_another() -> None:
+    several = [Limits(), Limits(timeout=100), Limits(memory=5000), Limits(timeout=20), Limits(memory=3000)]
+    this, *found = perform(partial(inside, several), Limits(timeout=60, memory=5000), at_once=True)
+    assert [pid == this for pid in found] == [True, True, True, False, False] and this != os.getpid()
 
 
-def test_work_of_a_thread_moves_too():
+def outer(first: Callable[[Budget], object], at_once: bool, budget: Budget) -> tuple[object, int]:
+    return perform(first, Limits(), at_once=at_once), os.getpid()
+
+
+@pytest.mark.parametrize(("seconds", "at_once"), [(3 * HERE, False), (0.0, True)])
+def test_a_question_inside_another_moves_with_it(seconds: float, at_once: bool) -> None:
+    """Else the outer one would begin again after the inner one was answered."""
+    first, last = perform(partial(outer, work(seconds), at_once), Limits())
+    assert first == last != os.getpid()
+
+
+def test_work_of_a_thread_moves_too() -> None:
     found: list[object] = []
-    thread = threading.Thread(target=lambda: found.append(perform(spent(2 * HERE), Limits())))
+    thread = threading.Thread(target=lambda: found.append(perform(work(3 * HERE), Limits())))
     thread.start()
     thread.join(30)
     assert found and found[0] != os.getpid()
@@ -189,27 +215,35 @@ CALLS = {
     "eliminate": f"qe.eliminate({HARD!r})",
     "find_instance": "qe.find_instance('all a, b. ex x. all y. a*x^4*y^3 + b*x^3*y^5 + x^2*y + z*x > a^2*y^4 + x*y')",
     "region": "qe.region('x^6*y^5+z^7*x-y*z^3+3 > 0 and x^7+y^6*z^5-x*y*z = 1')",
-    "a long FLINT call": "perform(lambda budgets: fmpz.fac_ui(10**9), Limits(), at_once=True)",
+    "a long FLINT call": "perform(partial(t.factorial, 10**9), Limits(), at_once=True)",
 }
+
+
+def factorial(n: int, budget: Budget) -> int:
+    from flint import fmpz
+
+    return int(fmpz.fac_ui(n).bit_length())
 
 
 @pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
 def test_ctrl_c_ends_it_at_once_and_leaves_nothing_behind(call):
     code = f"""
-import qe, signal
-from flint import fmpz
-from qe.processes.execution import Limits, perform
+import os, qe, signal, sys
+from functools import partial
+sys.path.insert(0, os.getcwd())
+from tests.unit.processes import test_execution as t
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 signal.pthread_sigmask(signal.SIG_UNBLOCK, {{signal.SIGINT}})  # whoever started this, and
 signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever was ignored there (nohup make test &)
 print("go", flush=True)
 try:
     {call}
 except KeyboardInterrupt:
-    import os
     left = open(f"/proc/self/task/{{os.getpid()}}/children").read().split()
     print("interrupted", left, flush=True)
 """
-    with ending(subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)) as process:
+    with ending(subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, cwd=ROOT)) as process:
         assert process.stdout is not None and process.stdout.readline() == "go\n"
         time.sleep(1.0)
         assert process.poll() is None, "it is no longer at work"
@@ -230,7 +264,7 @@ def test_ctrl_c_is_tested_also_where_the_tests_were_started_without_it():
     assert b"1 passed" in done.stdout and done.returncode == 0
 
 
-def test_what_may_block_is_forked_at_once():
+def test_what_may_block_moves_at_once():
     from qe.io import formats
 
     for small in ("ex x. x^2 + b*x + c = 0", "x > 0 and y^3 < 2", "a*x^4 + b*x^2 + c*x < 0"):

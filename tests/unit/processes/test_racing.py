@@ -6,14 +6,17 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import qe
-from qe.errors import InternalError
+from qe.errors import InternalError, QEError
+from qe.processes.channel import Channel, WorkerDied
+from qe.processes.limits import Limits
 from qe.processes.racing import first
-from qe.processes.worker import Channel, run
+from tests.workers import only_idle_children
 
 pytestmark = pytest.mark.processes
 
@@ -37,33 +40,27 @@ def gone(channel: Channel) -> str:
     os._exit(3)
 
 
-def raced(**works: object) -> object:
-    def referee(channel: Channel) -> object:
-        found = first(works, lambda value: value == "early", seconds=60, progress=channel.event)  # type: ignore[arg-type, var-annotated]
-        try:
-            os.waitpid(-1, os.WNOHANG)
-        except ChildProcessError:
-            return found
-        return "a process is left"
+def bad(channel: Channel) -> str:
+    raise ZeroDivisionError
 
-    return run(referee, timeout=120)
+
+def raced(**works: Callable[[Channel], str]) -> tuple[str | None, dict[str, str | QEError]]:
+    with only_idle_children():
+        return first(works, lambda value: value == "early", Limits(timeout=60))
 
 
 def test_the_first_answer_ends_the_others() -> None:
-    winner, found = raced(slow=asleep, fast=answered, wrong=broken)  # type: ignore[misc]
+    winner, found = raced(slow=asleep, fast=answered, wrong=broken)
     assert winner == "fast" and found["fast"] == "early" and "slow" not in found
 
 
 def test_where_nobody_wins_everything_is_told() -> None:
-    winner, found = raced(wrong=broken, dead=gone)  # type: ignore[misc]
-    assert winner is None and set(found) == {"wrong"} and str(found["wrong"]) == "cannot"
+    winner, found = raced(wrong=broken, dead=gone)
+    assert winner is None and str(found["wrong"]) == "cannot" and isinstance(found["dead"], WorkerDied)
 
 
 def test_an_error_in_a_work_is_a_result_like_others() -> None:
-    def bad(channel: Channel) -> str:
-        raise ZeroDivisionError
-
-    winner, found = raced(bad=bad, fast=answered)  # type: ignore[misc]
+    winner, found = raced(bad=bad, fast=answered)
     assert winner == "fast" and isinstance(found.get("bad", InternalError("")), InternalError)
 
 

@@ -11,7 +11,6 @@ from qe.certify.verify import check_certificate
 from qe.exact.ring import Ring
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.io.text import read
-from qe.kernel.boolean import equivalence
 from qe.kernel.derivation import check_derivation
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
@@ -19,6 +18,7 @@ from qe.proof.derivation import moved, put_together
 from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
 from qe.proving.prover import proved
+from qe.proving.remembering import remembering
 from qe.simplify.simplify import simplify
 from tests.strategies import formulas
 
@@ -84,26 +84,16 @@ def test_what_both_sides_share_hides_no_difference(before, after):
         assert certificate(over(left), over(right)) is None
 
 
-def test_common_parts_are_left_out_of_what_is_refuted():
-    shared, p, q = over("x > 0"), over("y > 0"), over("z > 0")
-    assert equivalence(shared & p, shared & p, ()) == []
-    first, second = equivalence(shared & p, shared & q, ())
-    assert first == (shared & p, over("z <= 0")) and second == (shared & q, over("y <= 0"))
-    first, second = equivalence(shared | p, shared | q, ())
-    assert first == (p, over("x <= 0 and z <= 0")) and second == (q, over("x <= 0 and y <= 0"))
-    assert equivalence(shared & p, shared, ()) == [(shared & p, over("x <= 0")), (shared, over("x <= 0 or y <= 0"))]
-
-
 def test_a_step_that_was_accepted_is_known_by_all_that_it_depends_on():
     start, wrong = over("x > 0 and x > -1"), over("x > -1")
     good = certificate(start, over("x > 0"))
     assert good is not None and isinstance(good.payload, dict)
     known: set[tuple[object, ...]] = set()
-    check_derivation(good.payload, Budget(), RULES, check_certificate, known)
+    check_derivation(good.payload, Budget(), remembering(RULES, known), check_certificate)
     assert len(known) == 1
     step = good.payload["steps"][0]  # type: ignore[call-overload, index]
     for entry, value in (("after", wrong), ("after", TRUE), ("after", FALSE)):
         changed = {**step, entry: formula_to_json(value)}
         payload = {**good.payload, "steps": [changed], "answer": changed["after"]}
         with pytest.raises(qe.CertificateRejected):
-            check_derivation(payload, Budget(), RULES, check_certificate, known)
+            check_derivation(payload, Budget(), remembering(RULES, known), check_certificate)

@@ -18,6 +18,7 @@ from qe.options import Budget
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json
 from qe.proving.lemmas import refuting
+from qe.proving.made import FRESH
 from qe.proving.substitution_steps import steps
 from qe.simplify.simplify import simplify
 
@@ -30,12 +31,12 @@ def simplification(before: Formula, after: Formula) -> Json:
     evidence = refuting(([before, neg(after)], [after, neg(before)]), ring, LIMITS)
     if evidence is None:
         raise CertificateRejected("simplification", "none found")
-    return written("simplification", (), before, after, (), evidence)
+    return written("signs", (), before, after, (), evidence)
 
 
 def eliminated(text: str) -> tuple[Exists, Formula, list[Json], Ring]:
     start = read(text)
-    ring = Ring.of(start.ring.names if start.ring else ())
+    ring = Ring.of((*(start.ring.names if start.ring else ()), *FRESH))
     block = convert(start, ring)
     assert isinstance(block, Exists)
     found = eliminate_block(block.variables, block.body, budget=Budget(20), simplify=simplify)
@@ -48,15 +49,15 @@ def eliminated(text: str) -> tuple[Exists, Formula, list[Json], Ring]:
     [
         ("ex x. x > a and x < b", ["elimination set"]),
         ("ex x. a*x = b and x > 0", ["elimination set"]),
-        ("ex x, y. x > a and y < b and y > 0", ["independent parts"]),
-        ("ex x. x > a and x < 0 or x < b and x > 1", ["alternatives"]),
+        ("ex x, y. x > a and y < b and y > 0", ["quantifiers", "steps", "steps"]),
+        ("ex x. x > a and x < 0 or x < b and x > 1", ["quantifiers", "steps", "steps"]),
         ("ex x. x^2 = 2", ["instance"]),
-        ("ex x. x^2 < a", ["elimination set"]),
+        ("ex x. x^2 < a", ["steps", "converse", "quantifiers", "root", "quantifiers", "elimination set"]),
     ],
 )
 def test_steps_lead_from_the_block_to_the_answer(text: str, rules: list[str]) -> None:
     block, answer, made, ring = eliminated(text)
-    assert [step["rule"] for step in made if step["rule"] != "simplification"] == rules  # type: ignore[index,call-overload]
+    assert [step["rule"] for step in made if step["rule"] != "signs"] == rules  # type: ignore[index,call-overload]
     assert LIMITS.replay(Entry(made, "steps"), block, (), ring) == answer
     for left_out in range(len(made)):
         try:

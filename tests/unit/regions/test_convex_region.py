@@ -157,7 +157,7 @@ def test_every_question_has_a_budget_of_its_own(monkeypatch: pytest.MonkeyPatch)
         made.append(Budget(60))
         return made[-1]
 
-    monkeypatch.setattr("qe.processes.execution.Budget", counted)
+    monkeypatch.setattr("qe.processes.channel.Budget", counted)
     found = shadow_of(formats.read(BALL, "text"), lambda formula, budget: formula)
     assert found is not None
     region = ConvexRegion(found, None)

@@ -16,7 +16,7 @@ from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.io.text import read
 from qe.options import Budget
-from qe.processes.execution import Limits
+from qe.processes.limits import Limits
 from qe.regions import build, operators, picture, planar, sketch, slices, solutions, turnable, volume, walk
 from qe.regions.region import Region
 from qe.regions.upright import isolated, uprights
@@ -148,11 +148,11 @@ def test_walks_end_in_the_region(text: str) -> None:
 
 
 def test_different_points() -> None:
-    found = walk.different_points(region("x^2 + y^2 <= 1", "x y"), 7, Random(0), Budget(60))
+    found = walk.different_points(region("x^2 + y^2 <= 1", "x y"), 7, 0, Budget(60))
     assert len({tuple(p.values()) for p in found}) == 7
-    few = walk.different_points(region("x^2 = 2 and y^2 = 1", "x y"), 9, Random(0), Budget(60))
+    few = walk.different_points(region("x^2 = 2 and y^2 = 1", "x y"), 9, 0, Budget(60))
     assert len({tuple(p.values()) for p in few}) == 4
-    assert walk.different_points(region("x^2 < 0", "x"), 3, Random(0), Budget(60)) == []
+    assert walk.different_points(region("x^2 < 0", "x"), 3, 0, Budget(60)) == []
 
 
 @pytest.mark.parametrize(

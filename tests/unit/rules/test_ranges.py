@@ -13,20 +13,16 @@ from hypothesis import strategies as st
 
 import qe
 import qe.rules.ranges as ranges
-from qe.certify.registry import RULES
-from qe.errors import CertificateRejected
-from qe.expert.ranges import check_ranges
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Exists, Formula
 from qe.io.text import read
-from qe.kernel.step import Claim
 from qe.options import Budget, Options
-from qe.proof.entry import Entry
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.prover import Prover
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
+from tests.unit.proving.elaborated import refused
 
 ONLY = frozenset({StepKind.RANGES})
 RULE = StepKind.RANGES.value
@@ -124,30 +120,25 @@ def test_no_point_is_lost(conditions: list[tuple[str, str, int]]) -> None:
     )
 
 
-def claim(text: str, change: Callable[[dict[str, Any]], None] = lambda evidence: None) -> Claim:
+def said(text: str, change: Callable[[dict[str, Any]], None] = lambda evidence: None) -> str:
+    """Why a step with this evidence is none of the kernel's; nothing where it is."""
     (step,) = steps(read(text))
     evidence = prover(step)._plain(step.evidence["proof"])  # type: ignore[arg-type]
     change(evidence)
-    assert step.before.ring is not None
-    return Claim(RULE, step.before, step.after, step.before.ring, Entry(evidence, "step"), "step")
+    return refused(RULE, step.before, step.after, evidence)
 
 
 def test_the_evidence_as_it_is() -> None:
-    limits = prover(steps(read(FALSE_ONES[0]))[0]).limits
-    assert RULES[RULE] is check_ranges
-    check_ranges(claim(FALSE_ONES[0]), (), limits)
+    assert said(FALSE_ONES[0]) == ""
 
 
-CHANGES: dict[str, Callable[[dict[str, Any]], None]] = {
+CHANGES: dict[str, Callable[[dict[str, Any]], None]] = {  # which leave too little to go by
     "tighter": lambda e: e["bounds"][0].__setitem__(4, "1/2"),
     "no bounds": lambda e: e.__setitem__("bounds", []),
-    "other condition": lambda e: e["bounds"][0].__setitem__(0, 1),
     "other condition fails": lambda e: e.__setitem__("fails", 0),
     "no such condition": lambda e: e.__setitem__("fails", 7),
     "negative": lambda e: e.__setitem__("fails", -1),
     "other variable": lambda e: e["bounds"][0].__setitem__(1, "nobody"),
-    "other power": lambda e: e["bounds"][0].__setitem__(2, 1),
-    "huge power": lambda e: e["bounds"][0].__setitem__(2, 10**9),
     "other side": lambda e: e["bounds"][0].__setitem__(3, -e["bounds"][0][3]),
     "no side": lambda e: e["bounds"][0].__setitem__(3, 0),
     "not a number": lambda e: e["bounds"][0].__setitem__(4, 1),
@@ -157,18 +148,15 @@ CHANGES: dict[str, Callable[[dict[str, Any]], None]] = {
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_what_the_checker_refuses(name: str) -> None:
-    limits = prover(steps(read(FALSE_ONES[0]))[0]).limits
-    with pytest.raises(CertificateRejected):
-        check_ranges(claim(FALSE_ONES[0], CHANGES[name]), (), limits)
+def test_what_is_refused(name: str) -> None:
+    assert said(FALSE_ONES[0], CHANGES[name])
 
 
 def test_only_a_block_that_becomes_false() -> None:
-    limits = prover(steps(read(FALSE_ONES[0]))[0]).limits
-    own = claim(FALSE_ONES[0])
-    for before, after in ((own.before, read("x0 > 1")), (read("x0*x1 > 1"), FALSE)):
-        with pytest.raises(CertificateRejected):
-            check_ranges(Claim(RULE, before, after, own.ring, own.evidence, "step"), (), limits)
+    (step,) = steps(read(FALSE_ONES[0]))
+    evidence = prover(step)._plain(step.evidence["proof"])  # type: ignore[arg-type]
+    for before, after in ((step.before, read("x0 > 1")), (read("x0*x1 > 1"), FALSE)):
+        assert refused(RULE, before, after, evidence)
 
 
 @given(st.lists(st.tuples(st.integers(-9, 9), st.integers(1, 3), st.integers(-9, 9)), min_size=2, max_size=4))

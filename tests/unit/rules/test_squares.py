@@ -78,7 +78,7 @@ def altered(text: str, change: Callable[[list[Any]], Iterator[None]]) -> list[Ve
     assert answer.certificate is not None and answer.formula is not None
     payload = json.loads(answer.certificate.to_json())["payload"]
     steps = payload["steps"]
-    (place,) = [k for k, step in enumerate(steps) if step["rule"] == RULE]
+    (place,) = [k for k, step in enumerate(steps) if step["rule"] == "signs" and step["evidence"]["theory"]["lemmas"]]
 
     def verdict() -> Verdict:
         return qe.verify(qe.Certificate.derivation(payload["order"], read(text), steps, answer.formula))

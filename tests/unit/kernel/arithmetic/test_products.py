@@ -86,3 +86,11 @@ def test_signs_of_two_known_factors(unit: int, exponents: tuple[int, int]) -> No
     for s, t in product((-1, 0, 1), repeat=2):
         wanted = unit * s ** exponents[0] * t ** exponents[1]
         assert sign(found, [[s], [t]]) == wanted and possible_signs(found, [[s], [t]]) == {wanted}
+
+
+def test_signs_of_powers_of_an_unknown_factor() -> None:
+    for exponent, known in ((2, {0, 1}), (1, {-1, 0, 1}), (3, {-1, 0, 1})):
+        found = Product(1, ((0, 0, exponent), (1, 0, 1)))
+        assert possible_signs(found, [[None], [1]]) == known
+        assert possible_signs(found, [[None], [-1]]) == {-s for s in known}
+        assert sign(found, [[None], [1]]) is None and sign(found, [[None], [0]]) == 0

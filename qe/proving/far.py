@@ -1,0 +1,72 @@
+"""Solutions near infinity in steps of the kernel: where one of the two ends is a solution, there is one."""
+
+from __future__ import annotations
+
+from qe.formula.build import conj, disj, exists
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Not
+from qe.formula.traverse import atoms, conjuncts, disjuncts
+from qe.kernel.block import existential
+from qe.kernel.negation import negation
+from qe.kernel.step import Claim, Context, Limits, only, outside
+from qe.kernel.virtual_substitution import TestPoint, put
+from qe.proof.entry import Json, formula_from_json
+from qe.proving.lemma_list import Term, identities
+from qe.proving.made import Made, by_signs
+
+
+def infinity_first(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """Either end where it is a solution, and what remains in cases of a sign."""
+    variable, cases, parts = only(claim, "variable", "cases", "parts")
+    (before, after), name, ring = existential(claim), variable.text(), claim.ring
+    first, *others = parts.items()
+    listed = [formula_from_json(entry, ring) for entry in cases.items()]
+    if not isinstance(before, Exists) or before.variables != (name,) or len(listed) != len(others):
+        raise variable.fail("expected the one variable of a block, and steps for each case")
+    made = Made(claim, limits, before, outside(context, (name,)))
+    ends = {side: put(before.body, ring.index[name], TestPoint((), 0, side)) for side in (-1, 1)}
+    far = disj(ends.values())
+    rest = exists((name,), conj((before.body, negation(far))))
+    split = disj((*(exists((name,), conj((end, before.body))) for end in ends.values()), rest))
+    made.simplified(before, split)
+    made.moved(split, disj((*(conj((end, before)) for end in ends.values()), rest)))
+    for side, end in ends.items():
+        if end != FALSE and conj((end, before)) in disjuncts(made.current):
+            _taken(made, before, name, side, end)
+    near = limits.replay(first, far, made.known, ring)
+    if far not in (near, FALSE):
+        made.derived(far, near, first.value)
+    left = exists((name,), conj((before.body, negation(near))))
+    if left != rest:
+        made.moved(rest, exists((name,), And((*conjuncts(before.body), Not(far)))))
+        made.derived(far, near, first.value)
+        made.moved(exists((name,), And((*conjuncts(before.body), Not(near)))), left)
+    starts = [exists((name,), conj((before.body, negation(near), case))) for case in listed]
+    if left != FALSE:
+        made.simplified(left, disj(starts))
+    for start, steps in zip(starts, others, strict=True):
+        end = limits.replay(steps, start, made.known, ring)
+        if start in disjuncts(made.current):
+            made.derived(start, end, steps.value)
+    return made.finished(after)
+
+
+def _taken(made: Made, block: Exists, name: str, side: int, end: Formula) -> None:
+    """The block is true where the body is near an end of the line, of which the test point there tells."""
+    known = tuple(f for f in conjuncts(end) if f != TRUE)
+    point: Json = {"coefficients": [], "branch": 0, "shift": side}
+    tried: Json = {"point": point, "guard": True, "formula": None, "settled": []}
+    steps: list[Json] = [by_signs(made.claim, made.limits, end, TRUE, known)] if known else []
+    evidence: dict[str, Json] = {"variable": name, "side": 1, "quadratics": []}
+    made.step("elimination set", block, TRUE, {**evidence, "points": [tried], "parts": [steps]}, known)
+
+
+def zeros(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """Which variables are 0 decides the terms of the polynomials, one by one."""
+    only(claim)
+    (before, after), ring = existential(claim), claim.ring
+    polys = dict.fromkeys(a.poly for side in (before, after) for a in atoms(side) if isinstance(a, Atom))
+    listed: list[list[Term]] = []
+    for poly in polys:
+        terms = [(-c, tuple((ring.gen(i), e) for i, e in powers)) for powers, c in poly.sparse_terms()]
+        listed.append([(1, ((poly, 1),)), *terms])
+    return [by_signs(claim, limits, before, after, context, identities(listed, ring))]

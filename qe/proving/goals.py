@@ -1,0 +1,54 @@
+"""What has to be refuted, before a search: its polynomials, its alternatives, and whether there is any hope."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from qe.exact.ring import Poly
+from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.traverse import children, disjuncts
+from qe.kernel.boolean import Goal
+from qe.kernel.negation import negation, normal
+from qe.kernel.renaming import shape
+from qe.proof.entry import poly_to_text
+
+
+def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
+    """The polynomials of comparisons that stand under no quantifier; whether one of them is an equation or not =."""
+    found: dict[Poly, bool] = {}
+    pending = list(formulas)
+    while pending:
+        formula = pending.pop()
+        if isinstance(formula, Atom):
+            found[formula.poly] = found.get(formula.poly, False) or formula.relation in (Relation.EQ, Relation.NE)
+        elif not isinstance(formula, Exists | ForAll):
+            pending += children(formula)
+    return dict(sorted(found.items(), key=lambda entry: poly_to_text(entry[0])))
+
+
+def alternatives(goal: Goal) -> list[Goal]:
+    """The goal with what may be wrong one alternative at a time: one that is refuted need not be so again."""
+    *known, last = [normal(f) for f in goal] or [TRUE]
+    return [(*known, case) for case in disjuncts(last)] if isinstance(last, Or) else [goal]
+
+
+def is_hopeless(goal: Sequence[Formula]) -> bool:
+    """Whether an alternative of what may be wrong is a quantified part of which nothing else in the goal speaks."""
+    *known, last = [normal(f) for f in goal] or [FALSE]
+    cases = disjuncts(last)
+    alone = [_name(f) for f in cases if isinstance(f, Exists | ForAll)]
+    if not alone:
+        return False
+    pending, seen = [*known, *(f for f in cases if not isinstance(f, Exists | ForAll))], set[object]()
+    while pending:
+        part = pending.pop()
+        if isinstance(part, Exists | ForAll):
+            seen.add(_name(part))
+        elif not part.is_quantifier_free:
+            pending += children(part)
+    return any(name not in seen and alone.count(name) == 1 for name in alone)
+
+
+def _name(formula: Exists | ForAll) -> object:
+    """What a quantified part has in common with its negation, as a search sees it."""
+    return shape(negation(formula) if isinstance(formula, ForAll) else formula)

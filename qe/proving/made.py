@@ -1,0 +1,199 @@
+"""Steps of the kernel, one after the other, and the formula to which they lead: what elaborators write with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from qe.errors import CertificateRejected
+from qe.exact.ring import Poly, Ring
+from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.traverse import children, conjuncts
+from qe.kernel.block import block_goals
+from qe.kernel.boolean import Goal, equivalence
+from qe.kernel.derivation import replaced
+from qe.kernel.negation import normal
+from qe.kernel.root import root_goals
+from qe.kernel.step import Claim, Context, Limits
+from qe.kernel.terms import Quotient, terms_goals
+from qe.proof.certificate import written
+from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proof.step import Place
+from qe.proving.lemma_list import EMPTY, with_cases
+from qe.proving.lemmas import refuting
+from qe.proving.primitive_names import SIGNS
+from qe.proving.simplified import Simplified
+
+FRESH = ("'", "''")
+"""Names for variables that steps need on their way; where a formula has them, there are no steps."""
+
+
+Obligations = Callable[[Claim, Context], Sequence[Goal]]
+
+
+def by_signs(
+    claim: Claim, limits: Limits, before: Formula, after: Formula, context: Context, lemmas: Json = EMPTY
+) -> Json:
+    """The step that these lemmas prove, with the cases in which they do. ``CertificateRejected`` where they do not."""
+    step = replace(claim, rule=SIGNS, before=before, after=after, evidence=Entry({"theory": lemmas}, claim.path))
+    theory = with_cases(lemmas, block_goals(step, context), claim.ring, limits)
+    if theory is None:
+        raise claim.fail("the lemmas do not show this step")
+    return written(SIGNS, (), before, after, context, {"theory": theory})
+
+
+@dataclass(slots=True)
+class Made:
+    """``steps`` so far, which lead to ``current``; ``known`` holds around all of it.
+
+    Each method adds a step about a part of it and raises ``CertificateRejected`` where lemmas for it are not found.
+    """
+
+    claim: Claim
+    limits: Limits
+    current: Formula
+    known: Context = ()
+    steps: list[Json] = field(default_factory=list)
+
+    @property
+    def ring(self) -> Ring:
+        return self.claim.ring
+
+    def fresh(self) -> str:
+        """A name that the formula does not have."""
+        taken = {*self.current.free, *self.current.bound}
+        name = next((n for n in FRESH if n in self.ring.index and n not in taken), "")
+        if not name:
+            raise self.claim.fail("no name is free")
+        return name
+
+    def step(self, rule: str, before: Formula, after: Formula, evidence: Json, used: Context = ()) -> None:
+        """Any step, at the first place where ``before`` stands."""
+        place = self.place(before)
+        changed = self.beside(place, before, after)[1]
+        if before != after:
+            self.steps.append(written(rule, place, before, after, used, evidence))
+        self.current = changed
+
+    def signs(self, before: Formula, after: Formula, lemmas: Json = EMPTY, used: Context = ()) -> None:
+        """A step that these lemmas prove."""
+        step = by_signs(self.claim, self.limits, before, after, used, lemmas)
+        assert isinstance(step, dict)
+        self.step(SIGNS, before, after, step["evidence"], used)
+
+    def place(self, part: Formula) -> Place:
+        """Where it stands, as a whole or among the members of a conjunction or disjunction."""
+        found = _place(self.current, part)
+        if found is None:
+            raise self.claim.fail("a part that is to be replaced is not there")
+        return found
+
+    def beside(self, place: Place, before: Formula, after: Formula) -> tuple[Context, Formula]:
+        """The facts at a place, and what the whole becomes."""
+        return replaced(self.current, place, before, after, self.known, Entry(None, self.claim.path))
+
+    def moved(self, before: Formula, after: Formula) -> None:
+        """Quantifiers that move."""
+        if before != after:
+            self.step("quantifiers", before, after, {})
+
+    def named(self, before: Formula, after: Formula, name: str, equation: Atom) -> None:
+        """An equation that gives a new variable a value."""
+        back = written("linear equation solved", (), after, before, (), solved(equation, name))
+        self.step("converse", before, after, {"steps": [back]})
+
+    def finished(self, after: Formula) -> list[Json]:
+        """The steps, with one to the order in which the formula after has its parts."""
+        self.moved(self.current, after)
+        return self.steps
+
+    def back(self, before: Formula, after: Formula, made: Made) -> None:
+        """Steps from what stands after to what stands before."""
+        self.step("converse", before, after, {"steps": made.steps})
+
+    def derived(self, before: Formula, after: Formula, steps: Json) -> None:
+        """Steps that lead from the one to the other, under what holds around all."""
+        if normal(before) == before and normal(after) == after and not isinstance(before, ForAll):
+            return self.step("steps", before, after, {"steps": steps}, self.known)
+        back = written("converse", (), after, before, self.known, {"steps": steps})  # both sides as they stand
+        return self.step("converse", before, after, {"steps": [back]}, self.known)
+
+    def simplified(self, before: Formula, after: Formula) -> None:
+        """What signs of polynomials prove, with what stands beside it where that is needed, a part after the other."""
+
+        def evidence(one: Formula, other: Formula, used: Context) -> tuple[str, Json] | None:
+            try:
+                goals = block_goals(self._step(SIGNS, one, other, {"theory": EMPTY}), used)
+            except CertificateRejected:
+                goals = equivalence(one, other, used)
+            lemmas = refuting(goals, self.ring, self.limits) if goals else EMPTY
+            return None if lemmas is None else (SIGNS, {"theory": lemmas})
+
+        found = Simplified(evidence, self.known, self.steps).inside(self.place(before), before, after, self.current)
+        if found is None:
+            raise self.claim.fail("not shown that this was simplified to that")
+        self.current = found
+
+    def terms(
+        self, before: Formula, after: Formula, there: Mapping[str, Quotient], back: Mapping[str, Quotient]
+    ) -> None:
+        """A change of variables by these terms."""
+        self.by_lemmas("terms", terms_goals, before, after, {"there": rows(there), "back": rows(back)})
+
+    def root(self, block: Exists, low: Poly | None = None) -> None:
+        """An equation for x that rises, or falls, from a place (or the left end) to the right end has a root."""
+        part = next(f for f in conjuncts(block.body) if isinstance(f, Atom) and f.relation is Relation.EQ)
+        lead = part.poly.leading(self.ring.index[block.variables[0]])
+        sign = 0 if low is None else 1 if lead.is_constant and lead.constant_value() > 0 else -1
+        start: Json = None if low is None else [poly_to_text(low), "1"]
+        self.by_lemmas("root", root_goals, block, TRUE, {"low": start, "high": None, "rising": sign})
+
+    def by_lemmas(
+        self, rule: str, obligations: Obligations, before: Formula, after: Formula, evidence: dict[str, Json]
+    ) -> None:
+        """A step whose obligations follow from signs, with what stands beside it."""
+        facts = self.beside(self.place(before), before, after)[0]
+        goals = obligations(self._step(rule, before, after, {**evidence, "theory": EMPTY}), facts)
+        self.step(rule, before, after, {**evidence, "theory": theory(goals, self.claim, self.limits)}, facts)
+
+    def _step(self, rule: str, before: Formula, after: Formula, evidence: Json) -> Claim:
+        return replace(self.claim, rule=rule, before=before, after=after, evidence=Entry(evidence, self.claim.path))
+
+
+def _place(formula: Formula, part: Formula) -> Place | None:
+    """The place nearest to the root."""
+    level: list[tuple[Place, Formula]] = [((), formula)]
+    while level:
+        for place, found in level:
+            joined = isinstance(found, And | Or) and type(part) is type(found)
+            if found == part or (joined and set(part.args) <= set(found.args)):  # type: ignore[attr-defined]
+                return place
+        level = [((*place, k), child) for place, found in level for k, child in enumerate(children(found))]
+    return None
+
+
+def rows(of: Mapping[str, Quotient]) -> list[Json]:
+    """Terms as evidence has them."""
+    return [[name, poly_to_text(top), poly_to_text(bottom)] for name, (top, bottom) in of.items()]
+
+
+def theory(goals: Sequence[Goal], claim: Claim, limits: Limits) -> Json:
+    """Lemmas by which all goals are refuted; ``CertificateRejected`` where none are found."""
+    found = refuting(goals, claim.ring, limits) if goals else EMPTY
+    if found is None:
+        raise claim.fail("no lemmas show what has to be shown")
+    return found
+
+
+def solved(equation: Atom, name: str) -> Json:
+    """Evidence that an equation gives the variable, which has a number as its coefficient."""
+    lead = equation.poly.leading(equation.poly.ring.index[name])
+    sign = 1 if lead.constant_value() > 0 else -1
+    return {"solved": [[name, poly_to_text(equation.poly), sign]], "theory": EMPTY}
+
+
+def equal(one: Poly, other: Poly) -> Atom:
+    """That two different polynomials have the same value."""
+    return Atom((one - other).normal()[1], Relation.EQ)
+
+

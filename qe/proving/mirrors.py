@@ -1,0 +1,115 @@
+"""Mirror images of a convex set in steps of the kernel: with a point and its image the middle of both is a solution."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+
+from qe.exact.ring import Poly
+from qe.formula.build import atom, conj, exists, forall
+from qe.formula.syntax import Atom, Exists, ForAll, Formula, RootAtom
+from qe.formula.traverse import atoms, conjuncts, map_atoms
+from qe.kernel.block import existential
+from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.terms import Quotient, at_terms
+from qe.proof.entry import Entry, Json
+from qe.proving.lemma_list import Term, identities
+from qe.proving.made import Made
+
+Images = Mapping[str, Poly]
+Terms = Mapping[int, Quotient]
+
+
+def mirrored(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """The middle of a solution and its image is a solution, and one that the mirror leaves alone."""
+    (before, after), ring = existential(claim), claim.ring
+    images = _images(only(claim, "mirror")[0], claim)
+    made = Made(claim, limits, before, context)
+    block, wanted = (_gathered(f, images) for f in (before, after))
+    made.moved(before, block)
+    if not isinstance(block, Exists):
+        raise claim.fail("a block expected")
+    names, one, two = block.variables, ring.constant(1), ring.constant(2)
+    here = {name: image for name, image in images.items() if name in names and image != ring.var(name)}
+    centre = {name: (ring.var(name) + image, two) for name, image in here.items()}
+    gone = [name for k, name in enumerate(here) if not _is_later(name, here, list(here)[:k])]
+    fixed = {name: (here[name] if here[name] != -ring.var(name) else ring.constant(0), one) for name in gone}
+    for part in conjuncts(block.body):
+        if isinstance(part, ForAll) and {*part.free} & here.keys():
+            _with_middle(made, part, images, here, centre)
+    inner = made.current
+    assert isinstance(inner, Exists)
+    plain = [f for f in conjuncts(inner.body) if not isinstance(f, ForAll)]
+    middle = exists(names, conj((inner.body, *(_put(f, centre, made) for f in plain))))
+    _follow(made, inner, middle, plain, here, centre)
+    made.terms(middle, wanted, fixed, {name: centre[name] for name in here if name not in gone})
+    return made.finished(after)
+
+
+def _is_later(name: str, here: Images, before: list[str]) -> bool:
+    """Whether it is the second of two that are exchanged."""
+    return any(here[name].ring.index[name] in here[other].variables for other in before)
+
+
+def _gathered(formula: Formula, images: Images) -> Formula:
+    """A block with the variables of blocks among its parts that see what is moved."""
+    names, body = (formula.variables, formula.body) if isinstance(formula, Exists) else ((), formula)
+    parts = conjuncts(body)
+    inner = [f for f in parts if isinstance(f, Exists)]
+    names = (*names, *(v for f in inner for v in f.variables))
+    return exists(names, conj(f.body if isinstance(f, Exists) else f for f in parts))
+
+
+def _with_middle(made: Made, part: ForAll, images: Images, here: Images, centre: Mapping[str, Quotient]) -> None:
+    """What holds for all values, at the image and in the middle, too."""
+    there = {v: (images[v], made.ring.constant(1)) for v in part.variables if v in images}
+    turned = ForAll(part.variables, _put(part.body, {v: (p, made.ring.constant(1)) for v, p in here.items()}, made))
+    both = forall(part.variables, conj((part.body, turned.body)))
+    if turned != part:
+        back = Made(made.claim, made.limits, both)
+        back.moved(both, conj((part, turned)))
+        back.terms(turned, part, there, there)
+        made.back(part, both, back)
+    middle = ForAll(part.variables, _put(part.body, centre, made))
+    all_three = forall(part.variables, conj((part.body, turned.body, middle.body)))
+    _follow(made, both, all_three, [part.body], here, centre)
+    made.moved(all_three, conj((part, turned, middle)))
+    if turned != part:
+        made.terms(turned, part, there, there)
+
+
+def _follow(
+    made: Made, before: Formula, after: Formula, parts: list[Formula], here: Images, centre: Mapping[str, Quotient]
+) -> None:
+    """A polynomial of degree 1 has in the middle half the sum of its values at both points."""
+    index, listed = made.ring.index, list[list[Term]]()
+    for poly in dict.fromkeys(a.poly for f in parts for a in atoms(f) if isinstance(a, Atom)):
+        image = poly.compose({index[v]: p for v, p in here.items()})
+        if image != poly:
+            value = at_terms(poly, {index[v]: q for v, q in centre.items()})
+            twice = next((n for n in (1, 2) if (poly + image) * n == value * 2), None)
+            terms: list[Term] = [(twice or 1, ((poly, 1),)), (twice or 1, ((image, 1),))]
+            listed.append([*terms, (-2, ((value, 1),))] if value else terms)
+    made.signs(before, after, identities(listed, made.ring))
+
+
+def _put(formula: Formula, terms: Mapping[str, Quotient], made: Made) -> Formula:
+    by = {made.ring.index[v]: q for v, q in terms.items()}
+    return map_atoms(formula, partial(_at, by=by, made=made))
+
+
+def _at(found: Atom | RootAtom, by: Terms, made: Made) -> Formula:
+    if isinstance(found, RootAtom):
+        raise made.claim.fail("no mirror images of root atoms")
+    return atom(at_terms(found.poly, by), found.relation)
+
+
+def _images(entry: Entry, claim: Claim) -> Images:
+    """What each moved variable is in the mirror."""
+    found: dict[str, Poly] = {}
+    for row in entry.items():
+        variable, image, side = row.row("variable", "variable", "1 or -1")
+        if not {variable.text(), image.text()} <= claim.ring.index.keys():
+            raise row.fail("expected variables")
+        found[variable.text()] = claim.ring.var(image.text()) * side.integer(-1)
+    return found

@@ -1,0 +1,42 @@
+"""Every certificate that a test here reads goes to both readers in the end, right, altered and malformed ones alike."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import wraps
+from pathlib import Path
+
+import pytest
+
+from qe.proof.certificate import Certificate
+from tests.certificates.both_readers import compared
+
+
+@pytest.fixture(scope="session")
+def reader(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The plain reader as one file."""
+    file = tmp_path_factory.mktemp("reader") / "reader.pyz"
+    subprocess.run([sys.executable, "-m", "qe.plain", "--write-reader", str(file)], check=True)
+    return file
+
+
+@pytest.fixture(scope="session", autouse=True)
+def both_readers_agree(reader: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """At the end of the session: the same verdicts on all texts that were read, whatever was made of them then."""
+    read, texts = Certificate.from_json, dict[str, None]()
+
+    @wraps(read)
+    def kept(text: str) -> Certificate:
+        with suppress(AttributeError, UnicodeEncodeError):  # of what no file can hold
+            texts.setdefault(text.encode().decode())
+        return read(text)
+
+    Certificate.from_json = staticmethod(kept)  # type: ignore[method-assign]
+    try:
+        yield
+    finally:
+        Certificate.from_json = staticmethod(read)  # type: ignore[method-assign]
+    compared(reader, list(texts), tmp_path_factory.mktemp("texts"))

@@ -1,0 +1,92 @@
+"""The degree shift before an elimination set, in steps of the kernel."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from qe.certify.registry import RULES
+from qe.errors import CertificateRejected
+from qe.exact.ring import Ring
+from qe.formula.build import convert
+from qe.formula.syntax import Exists, Formula
+from qe.kernel.quantifiers import unordered
+from qe.kernel.step import Claim
+from qe.proof.entry import Entry
+from qe.proving.made import FRESH, Made
+from qe.proving.shifts import elimination_set, lower_first, raised
+from tests.unit.certify.claims import RING, formula, limits, written
+
+ORDER = Ring.of((*RING.names, *FRESH))
+
+
+def claim(before: Formula, after: Formula, evidence: Any = None) -> Claim:
+    return Claim("steps", before, after, ORDER, Entry(evidence or {}, "evidence"), "step")
+
+
+def lowered(text: str, exponent: int) -> Formula:
+    """What becomes of a block over the formula, by steps that the kernel accepts, there and back."""
+    block = convert(formula(f"ex x, y. {text}"), ORDER)
+    assert isinstance(block, Exists)
+    made = Made(claim(block, block), limits(), block)
+    found = lower_first(made, block, "x", exponent)
+    RULES["steps"](claim(block, found, {"steps": made.steps}), (), limits())
+    back: Any = raised(Made(claim(found, block), limits(), found), block, "x", exponent)
+    RULES["steps"](claim(found, block, {"steps": back}), (), limits())
+    return found
+
+
+@pytest.mark.parametrize(
+    ("text", "exponent", "after"),
+    [
+        ("x^6 + a*x^3 = y", 3, "x^2 + a*x = y"),
+        ("x^3 < a and x > 0 and x^3 > y", 3, "x < a and x > 0 and x > y"),
+        ("x^4 + y < 0", 2, "x^2 + y < 0 and x > 0"),  # an open set contains more than 0
+        ("x^4 + y <= 0", 2, "x^2 + y <= 0 and x >= 0"),
+        ("x^4 < a and x^2 /= y and y <= 0", 2, "x^2 < a and x /= y and y <= 0 and x > 0"),
+        ("x^2 = y and x > 0", 2, "x = y and x > 0 and x >= 0"),
+        ("x^2 < y and x >= 0", 2, "x < y and x >= 0"),
+    ],
+)
+def test_exponents_are_divided(text: str, exponent: int, after: str) -> None:
+    assert unordered(lowered(text, exponent)) == unordered(convert(formula(f"ex x, y. {after}"), ORDER))
+
+
+@pytest.mark.parametrize(
+    ("text", "exponent"),
+    [
+        ("x^3 = y", 2),
+        ("x^4 + x^2 + y = 0", 4),
+        ("x^2 = y and x < 0", 2),
+        ("x^2 = y and x <= 0", 2),
+        ("x^2 = y and (x > 0 or y > 1)", 2),  # it is no conjunct
+        ("x^2 = y or x > 0", 2),
+        ("x^2 = a and y*x > 0", 2),  # the sign of x is not known
+        ("x^2 = y and x < root(1, x^2 - a)", 2),
+    ],
+)
+def test_what_the_theorem_does_not_allow(text: str, exponent: int) -> None:
+    with pytest.raises(CertificateRejected):
+        lowered(text, exponent)
+
+
+def point(*coefficients: str) -> dict[str, Any]:
+    where = {"coefficients": list(coefficients), "branch": 0, "shift": 0}
+    return {"point": where, "guard": True, "formula": None, "settled": []}
+
+
+@pytest.mark.parametrize(("after", "accepted"), [("a >= 0", True), ("a > 0", False), ("true", False)])
+def test_an_elimination_set_of_a_former_release_with_a_power(after: str, accepted: bool) -> None:
+    """x^2 = a was solved for x^2, with what that is at least."""
+    block = convert(formula("ex x. x^2 = a"), ORDER)
+    points = {"variable": "x", "exponent": 2, "side": 1, "quadratics": [], "points": [point("-a", "1")], "parts": [[]]}
+    given = claim(block, convert(formula(after), ORDER), points)
+    steps: Any = elimination_set(given, (), limits())
+    made = claim(block, given.after, {"steps": steps})
+    if accepted:
+        RULES["steps"](made, (), limits())
+    else:
+        with pytest.raises(CertificateRejected):
+            RULES["steps"](made, (), limits())
+    assert written("true") is True
