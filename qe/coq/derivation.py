@@ -183,8 +183,8 @@ class _Steps:
         listed, lemmas, _, refuted = _theory(theory)
         polys, found = read_polynomials(listed, self.ring), list[tuple[Formula, Callable[[], str]]]()
         for entry in lemmas.items():
-            line = read_lemma(entry, polys, self.ring)
-            if isinstance(line, Line):
+            is_line = isinstance(entry.value, dict) and "line" in entry.value
+            if is_line and isinstance(line := read_lemma(entry, polys, self.ring), Line):
                 signs = [zip(line.polynomials, cell, strict=True) for cell in line.cells]
                 cells = disj(conj(atom(polys[i], _SIGNS[s]) for i, s in cell) for cell in signs)
                 found.append((cells, partial(self.text.axiom, "Sturm", (), cells, TRUE)))

@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import re
 import shutil
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import qe
 from qe.coq.export import to_coq
+from qe.formula.build import conj, exists
+from qe.kernel.boolean import Goal
+from qe.kernel.step import Claim
+from qe.kernel.terms import terms_goals
 from qe.proof.certificate import Certificate, Kind
+from qe.proof.entry import Entry, formula_to_json
+from qe.proving.lemmas import refuting
+from tests.unit.certify.claims import NO_LEMMAS, RING, formula, limits
 from tests.unit.coq.test_export import accepted_by_coq
 
 PROVED = [
@@ -70,6 +79,53 @@ def bundle(texts: list[str]) -> str:
 @needs_coq
 def test_coq_accepts_two_small_ones(tmp_path: Path) -> None:
     assert accepted_by_coq(bundle(PROVED[:2]), tmp_path)
+
+
+def one_step(rule: str, before: str, after: str, evidence: dict[str, Any]) -> Certificate:
+    """A derivation of one step, which the kernel accepts."""
+    start, answer = formula(before), formula(after)
+    sides = {key: formula_to_json(f, quantified=True) for key, f in (("before", start), ("after", answer))}
+    step = {"rule": rule, "at": [], **sides, "context": [], "evidence": evidence}
+    made = Certificate.derivation(RING.names, start, [step], answer)
+    assert qe.verify(made).accepted
+    return made
+
+
+def theory(goals: Sequence[Goal]) -> Any:
+    return refuting(goals, RING, limits())
+
+
+def comparisons_refuted() -> Certificate:
+    atoms = [formula(text) for text in ("x > 1", "x < -1")]
+    sentence = exists(["x"], conj(atoms))
+    step = {"rule": "signs", "at": [], "before": formula_to_json(sentence, quantified=True), "after": False}
+    steps = [{**step, "context": [], "evidence": {"theory": theory([tuple(atoms)])}}]
+    refuted = [{"atoms": [formula_to_json(a) for a in atoms], "steps": steps}]
+    body = "x > 1 and (y > 0 or x < -1) and (y < 0 or x < -1)"
+    return one_step("signs", f"ex x, y. {body}", "false", {"theory": {**NO_LEMMAS, "refuted": refuted}})
+
+
+def images_divided_by_squares() -> Certificate:
+    """a^2*(x - 1) > 0, which the kernel divides by a^2."""
+    before, after = "ex x. a*x > 1 and a /= 0", "ex x. x > 1 and a /= 0"
+    evidence: dict[str, Any] = {"there": [["x", "x", "a"]], "back": [["x", "a*x", "1"]], "theory": NO_LEMMAS}
+    claim = Claim("terms", formula(before), formula(after), RING, Entry(evidence, ""), "")
+    return one_step("terms", before, after, {**evidence, "theory": theory(terms_goals(claim, ()))})
+
+
+BY_HAND = pytest.mark.parametrize("made", [comparisons_refuted, images_divided_by_squares])
+
+
+@BY_HAND
+def test_steps_by_signs_are_proved(made: Callable[[], Certificate]) -> None:
+    assert not axioms(to_coq(made()))
+
+
+@pytest.mark.deep
+@needs_coq
+@BY_HAND
+def test_coq_accepts_steps_by_signs(made: Callable[[], Certificate], tmp_path: Path) -> None:
+    assert accepted_by_coq(to_coq(made()), tmp_path)
 
 
 @pytest.mark.deep
