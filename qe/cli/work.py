@@ -202,8 +202,8 @@ def check(
 def export_proof(channel: Channel, text: str, seconds: float) -> Reply:
     """``qe export-proof``: exit status 4 when the certificate is rejected, 3 where it cannot be checked or written."""
     from qe.api.verify import checked as verify
+    from qe.coq.export import to_coq
     from qe.proof.certificate import Certificate
-    from qe.proof.coq import to_coq
 
     certificate = Certificate.from_json(text)
     verdict = verify(certificate, Budget(seconds, listener=channel.event))

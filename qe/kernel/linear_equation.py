@@ -36,7 +36,7 @@ def linear_goals(claim: Claim, context: Context) -> list[Goal]:
     block, body = claim.block().variables, claim.block().body
     known = outside(context, block)
     for entry in solved.items():
-        pivot = _pivot(entry, block, body, claim)
+        pivot = pivot_of(entry, block, body, claim)
         if pivot.sign is not None:
             beside = [p for p in conjuncts(pivot.others) if pivot.name not in p.free]
             goals.append((*known, *beside, negation(atom(pivot.lead, _KNOWN[pivot.sign]))))
@@ -54,7 +54,7 @@ def check_guarded_linear(claim: Claim, context: Context, limits: Limits) -> None
     """Both cases are compared with what stands after."""
     (entry,) = only(claim, "solved")[0].row("equation")
     block, body = claim.block().variables, claim.block().body
-    pivot = _pivot(entry, block, body, claim)
+    pivot = pivot_of(entry, block, body, claim)
     if pivot.sign is not None:
         raise claim.fail("expected an equation with a coefficient of unknown sign")
     lead, rest = pivot.lead, pivot.rest
@@ -82,7 +82,8 @@ class Pivot:
         return self.lead * self.lead.ring.gen(self.x) + self.rest
 
 
-def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> Pivot:
+def pivot_of(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> Pivot:
+    """The equation [variable of the block, polynomial, sign of its coefficient], a conjunct of the body."""
     variable, solved, of_lead = entry.row("variable of the block", "equation", "sign")
     name, equation, sign = variable.text(), polynomial_from_json(solved, claim.ring), of_lead.value
     if name not in block:

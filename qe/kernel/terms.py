@@ -36,26 +36,26 @@ Terms = Mapping[int, Quotient]
 def terms_goals(claim: Claim, context: Context) -> list[Goal]:
     """Each body follows from the other at the terms."""
     there, back, _ = only(claim, "there", "back", "theory")
-    before, after = (_opened(side) for side in existential(claim))
+    before, after = (block_opened(side) for side in existential(claim))
     names = {*before[0], *after[0]}
     if names & ({*claim.before.free, *claim.after.free}):
         raise claim.fail("a variable of one block is free in the other formula")
     known = outside(context, names)
     return [
-        *_following(known, after[1], before[1], _terms(there, before[0], after[0], claim), claim),
-        *_following(known, before[1], after[1], _terms(back, after[0], before[0], claim), claim),
+        *_following(known, after[1], before[1], terms_of(there, before[0], after[0], claim), claim),
+        *_following(known, before[1], after[1], terms_of(back, after[0], before[0], claim), claim),
     ]
 
 
 check_terms = ByLemmas(terms_goals)
 
 
-def _opened(formula: Formula) -> tuple[tuple[str, ...], Formula]:
+def block_opened(formula: Formula) -> tuple[tuple[str, ...], Formula]:
     """The variables and the body of a block; a formula that is none has no variables."""
     return (formula.variables, formula.body) if isinstance(formula, Exists) else ((), formula)
 
 
-def _terms(entry: Entry, variables: tuple[str, ...], others: tuple[str, ...], claim: Claim) -> Terms:
+def terms_of(entry: Entry, variables: tuple[str, ...], others: tuple[str, ...], claim: Claim) -> Terms:
     """The quotients for variables of one block, in those of the other and in what is free outside."""
     found: dict[int, Quotient] = {}
     for row in entry.items():
@@ -86,6 +86,15 @@ def _following(known: Context, given: Formula, wanted: Formula, terms: Terms, cl
 
 def at_terms(poly: Poly, terms: Terms, nonzero: Sequence[Poly] = ()) -> Poly:
     """A positive multiple of the polynomial's value at the terms, where no denominator is 0 and none of ``nonzero``."""
+    total, moved = multiplied_out(poly, terms), [i for i in terms if poly.degree(i)]
+    for square in {p**2 for p in (*nonzero, *(terms[i][1] for i in moved)) if moved and not p.is_constant}:
+        while total and total.gcd(square) in (square, -square):
+            total = total.exact_divide(square)
+    return total
+
+
+def multiplied_out(poly: Poly, terms: Terms) -> Poly:
+    """The polynomial's value at the terms times powers of the denominators, none of which is left out."""
     ring, powers = poly.ring, {i: _exponent(poly.degree(i), bottom) for i, (_, bottom) in terms.items()}
     moved = {i: k for i, k in powers.items() if poly.degree(i)}
     total = ring.constant(0)
@@ -94,9 +103,6 @@ def at_terms(poly: Poly, terms: Terms, nonzero: Sequence[Poly] = ()) -> Poly:
             top, bottom = terms[i]
             part = part * _power(top, e) * _power(bottom, power - e)
         total = total + part
-    for square in {p**2 for p in (*nonzero, *(terms[i][1] for i in moved)) if moved and not p.is_constant}:
-        while total and total.gcd(square) in (square, -square):
-            total = total.exact_divide(square)
     return total
 
 

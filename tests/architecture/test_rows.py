@@ -32,6 +32,7 @@ ROWS = {
     "qe.theorems": 4,
     "qe.simplify": 4,
     "qe.positivity": 4,
+    "qe.coq": 5,
     "qe.plain": 5,
     "qe.rules": 5,
     "qe.cad": 5,

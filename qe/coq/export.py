@@ -12,8 +12,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from importlib.resources import files
 from typing import Any
 
+from qe.coq.derivation import derivation
+from qe.coq.squares import Form, read_form, squares
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.normal import nnf
@@ -21,7 +24,6 @@ from qe.formula.relation import Relation
 from qe.formula.syntax import And, Atom, Constant, Formula, Or
 from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Certificate, Kind
-from qe.proof.coq_squares import Form, read_form, squares
 from qe.proof.entry import Entry, formula_from_json, parse_poly
 
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9]*", re.ASCII)
@@ -44,7 +46,9 @@ Ltac close :=
 
 def to_coq(certificate: Certificate) -> str:
     """A file that ``coqc`` accepts if the certificate is right. Raises ``Unable`` for what cannot be written."""
-    return "\n".join((_HEADER, *_lemmas(certificate, "main")))
+    lines = "\n".join(_lemmas(certificate, "main"))
+    first = files("qe").joinpath("coq", "primitives.v").read_text("utf-8") if "env_of" in lines else ""
+    return "\n".join((_HEADER, first, lines))
 
 
 def _lemmas(certificate: Certificate, name: str) -> Iterator[str]:
@@ -243,45 +247,9 @@ def _positive(parts: Sequence[tuple[Fraction, Form]], point: Sequence[Fraction],
     return lines
 
 
-# --- derivations ---------------------------------------------------------------------------------------------
-
-
-def _derivation(payload: dict[str, Any], name: str) -> Iterator[str]:
-    """The identities on which the steps rest, each once."""
-    ring = Ring.of(payload["order"])
-    names = _identifiers(payload["order"])
-    found = dict.fromkeys(_identities(payload["steps"], ring, names))
-    if not found:
-        raise Unable("a derivation without polynomial identities: nothing of it can be written for Coq")
-    yield "(* The polynomial identities on which a derivation rests; its steps themselves are not part of this. *)\n"
-    for k, statement in enumerate(found, start=1):
-        yield _lemma(f"{name}_identity_{k}", f"{_all(names)}{statement}", "intros; ring.")
-
-
-def _identities(node: Any, ring: Ring, names: Sequence[str]) -> Iterator[str]:
-    if isinstance(node, dict):
-        polys = node.get("polynomials")
-        for lemma in node.get("lemmas", ()) if isinstance(polys, list) else ():
-            if "identity" in lemma:
-                yield _identity(lemma["identity"], [parse_poly(p, ring) for p in polys or ()], names)
-        for value in node.values():
-            yield from _identities(value, ring, names)
-    elif isinstance(node, list):
-        for value in node:
-            yield from _identities(value, ring, names)
-
-
-def _identity(terms: Sequence[Any], polys: Sequence[Poly], names: Sequence[str]) -> str:
-    parts = []
-    for coefficient, powers in terms:
-        factors = [f"({_poly(polys[i], names)}) ^ {e}" for i, e in powers]
-        parts.append(" * ".join([_number(Fraction(coefficient)), *factors]))
-    return " + ".join(parts) + " = 0"
-
-
 _WRITERS = {
     Kind.WITNESS: _witness,
     Kind.SUBSTITUTION: _substitution,
     Kind.OPTIMUM: _optimum,
-    Kind.DERIVATION: _derivation,
+    Kind.DERIVATION: derivation,
 }

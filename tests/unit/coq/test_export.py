@@ -12,11 +12,11 @@ from typing import Any
 import pytest
 
 import qe
+from qe.coq.export import to_coq
+from qe.coq.squares import read_form, squares
 from qe.errors import Unable
 from qe.io.text import read
 from qe.proof.certificate import Certificate, Kind
-from qe.proof.coq import to_coq
-from qe.proof.coq_squares import read_form, squares
 
 FORMULAS = [
     "ex x, y. 2*x + 3*y = a and x - y = 1 and x*y > 2",

@@ -1,0 +1,1 @@
+"""Certificates as files for the proof assistant Coq: what is wrong in one, ``coqc`` refuses."""
