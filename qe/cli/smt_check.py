@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Sequence
+from copy import copy
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
@@ -120,10 +121,17 @@ class Checks:
         """What the nodes mean together; in a process of its own, which a limit ends, if there is one."""
         if seconds is None and self.memory is None and len(self.script.used(nodes)) <= MOST_PARTS:
             return self.script.formula_of(nodes, total), total
-        return perform(partial(_formula, self.script, nodes, total), Limits(seconds, self.memory), at_once=True)
+        script = copy(self.script)
+        script.tick = unwatched  # what watches here holds the streams of this process
+        return perform(partial(_formula, script, nodes, total), Limits(seconds, self.memory), at_once=True)
+
+
+def unwatched() -> None:
+    """Nothing is looked at while reading."""
 
 
 def _formula(script: Script, nodes: Sequence[s.Node], total: Total, budget: Budget) -> tuple[Formula, Total]:
+    script.tick = budget.check
     return script.formula_of(nodes, total), total
 
 

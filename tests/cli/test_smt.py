@@ -280,3 +280,12 @@ def test_a_command_without_an_end_is_not_read_for_ever(first: str, rest: str, mo
     solver = Solver(lines.append, lines.append)
     solver.run(itertools.chain([first], itertools.repeat(rest)), "<test>")
     assert solver.failed and len(lines) == 1 and "has no end within the limits" in lines[0]
+
+
+@pytest.mark.parametrize("limit", [("--timeout", "60"), ("--memory", "1000")])
+def test_a_script_under_a_limit_is_answered(tmp_path: Path, limit: tuple[str, str]) -> None:
+    """It was unknown: what watches over reading holds streams, which cannot be sent to the worker."""
+    script = tmp_path / "a.smt2"
+    script.write_text("(declare-const x Real)(assert (> (* x x) 2))(check-sat)")
+    done = subprocess.run([QE, "smt", script, *limit], capture_output=True, text=True, timeout=120)
+    assert (done.stdout, done.stderr) == ("sat\n", "")
