@@ -24,14 +24,14 @@ def reader(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 MOST = 1_000
-"""So many texts of a session go to both readers, evenly chosen; in a run of the deep tests all of them."""
+"""So many texts that tests of this folder read go to both readers, evenly chosen; with the deep tests all of them."""
 
 
-@pytest.fixture(scope="session", autouse=True)
+@pytest.fixture(scope="package", autouse=True)
 def both_readers_agree(
     reader: Path, tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
 ) -> Iterator[None]:
-    """At the end of the session: the same verdicts on the texts that were read, whatever was made of them then."""
+    """After the tests of this folder: the same verdicts on the texts that were read, whatever was made of them then."""
     read, texts = Certificate.from_json, dict[str, None]()
 
     @wraps(read)
