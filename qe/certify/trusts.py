@@ -29,38 +29,34 @@ def expert_parts(certificate: Certificate) -> tuple[str, ...]:
 
 
 def _expert(certificate: Certificate) -> Iterator[str]:
-    if certificate.kind.value not in CORE_KINDS:
-        yield certificate.kind.value
-    if isinstance(certificate.payload, tuple):
-        for member in certificate.payload:
-            yield from _expert(member.certificate)
-    pending: list[Json] = [certificate.payload] if isinstance(certificate.payload, dict) else []
-    while pending:
-        node = pending.pop()
-        if isinstance(node, list):
-            pending += reversed(node)
-        elif isinstance(node, dict):
-            pending += reversed(node.values())
-            if isinstance(rule := node.get("rule"), str) and "before" in node and rule not in PRIMITIVES:
-                yield rule
-            if isinstance(kind := node.get("kind"), str) and "payload" in node and kind not in CORE_KINDS:
-                yield kind
+    for node in _nodes(certificate):
+        if isinstance(rule := node.get("rule"), str) and "before" in node and rule not in PRIMITIVES:
+            yield rule
+        if isinstance(kind := node.get("kind"), str) and "payload" in node and kind not in CORE_KINDS:
+            yield kind
 
 
 def _names(certificate: Certificate) -> Iterator[str]:
-    if isinstance(certificate.payload, tuple):
-        for member in certificate.payload:
-            yield from _names(member.certificate)
     axioms = [row for row in rows().values() if "axiom" in row.data]
     names, families = {row.name for row in axioms}, {row.family for row in axioms}
+    for node in _nodes(certificate):
+        if isinstance(name := node.get("theorem"), str) and name in names:
+            yield name
+        if isinstance(rule := node.get("rule"), str) and rule in families:
+            yield from (row.name for row in axioms if row.family == rule)
+
+
+def _nodes(certificate: Certificate) -> Iterator[dict[str, Json]]:
+    """All objects in the data of a certificate and of its members, itself the first."""
     pending: list[Json] = [certificate.payload] if isinstance(certificate.payload, dict) else []
+    yield {"kind": certificate.kind.value, "payload": None}
+    if isinstance(certificate.payload, tuple):
+        for member in certificate.payload:
+            yield from _nodes(member.certificate)
     while pending:
         node = pending.pop()
         if isinstance(node, list):
             pending += reversed(node)
         elif isinstance(node, dict):
+            yield node
             pending += reversed(node.values())
-            if isinstance(name := node.get("theorem"), str) and name in names:
-                yield name
-            if isinstance(rule := node.get("rule"), str) and rule in families:
-                yield from (row.name for row in axioms if row.family == rule)
