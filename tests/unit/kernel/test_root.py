@@ -64,6 +64,8 @@ def test_a_value_that_is_taken(block: str, low: Any, high: Any, rising: int, giv
         ("ex x. x = 0 and x >= 1 and x <= a", ONE, A, -1, "a <= 0"),  # the places change order
         ("ex x. c*x > b", None, None, 1, "c >= 0"),
         ("ex x. c*x > b", None, None, 0, "c >= 0"),
+        ("ex x. c*x >= b", None, None, 1, "c >= 0"),  # with c = 0 nothing rises
+        ("ex x. c*x >= b", None, None, 0, "c >= 0"),
         ("ex x. c*x^2 > b", None, None, 0, "c /= 0"),
         ("ex x. x^2 < b", None, None, 1, "true"),
         ("ex x. x^2 = b and x >= 0", ["x", "1"], None, 1, "b >= 0"),
@@ -74,3 +76,13 @@ def test_a_value_that_is_taken(block: str, low: Any, high: Any, rising: int, giv
 )
 def test_a_value_that_need_not_be_taken(block: str, low: Any, high: Any, rising: int, given: str) -> None:
     assert refused(block, low, high, rising, given)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"), [("false", "ex x. x = 0"), ("b > 0", "ex x. x = b"), ("ex x. x = 0", "false")]
+)
+def test_one_of_both_sides_is_true(before: str, after: str) -> None:
+    """That the block is true says nothing of what is no constant."""
+    evidence = {"low": None, "high": None, "rising": 1, "theory": NO_LEMMAS}
+    assert objection("root", before, after, evidence)
+    assert not objection("root", "true", "ex x. x = 0", evidence)
