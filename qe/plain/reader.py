@@ -31,21 +31,35 @@ from qe.options import VERIFY_SECONDS, Budget
 from qe.proof.certificate import Certificate
 
 OK, BAD_INPUT, UNABLE, REJECTED = 0, 2, 3, 4
+MOST_SECONDS = 10_000_000.0
+"""What a timer of the system takes."""
 
 
 def main() -> NoReturn:
-    """Run the command line. Exit status 0: accepted, 2: no such file, 3: not decided, 4: rejected."""
+    """Run the command line. Exit status 0: accepted, 2: wrong arguments or files, 3: not decided, 4: rejected."""
     parser = argparse.ArgumentParser(prog="reader", description="Check certificates, in plain Python.")
     parser.add_argument("certificate", nargs="*", metavar="CERTIFICATE", help="a file, or - for standard input")
-    parser.add_argument("--timeout", type=float, default=VERIFY_SECONDS, help="seconds for each")
+    parser.add_argument("--timeout", type=_seconds, default=VERIFY_SECONDS, help="seconds for each")
     parser.add_argument("--json", action="store_true", help="one JSON object a line")
     parser.add_argument("--write-reader", type=Path, metavar="FILE", help="write this reader as one file")
     given = parser.parse_args()
     sys.set_int_max_str_digits(0)
     sys.setrecursionlimit(10_000)
+    if not given.certificate and not given.write_reader:
+        parser.error("a certificate expected")
     if given.write_reader:
-        write_reader(given.write_reader)
+        try:
+            write_reader(given.write_reader)
+        except OSError as error:
+            parser.error(f"--write-reader: {error}")
     sys.exit(max((_checked(name, given.timeout, given.json) for name in given.certificate), default=OK))
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds <= MOST_SECONDS:
+        raise argparse.ArgumentTypeError(f"a positive number of seconds expected, {text} found")
+    return seconds
 
 
 def _checked(name: str, seconds: float, as_json: bool) -> int:

@@ -166,3 +166,18 @@ def test_polynomials_of_lemmas_have_one_spelling_and_are_listed_once(
     payload = {"order": ["x"], "start": claim, "steps": [step], "answer": claim}
     text = text_of({"format": "bezier-qe certificate", "version": 2, "kind": "derivation", "payload": payload})
     assert compared(reader, [text], tmp_path) == ["accepted" if listed == ["x"] else "rejected"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([], "a certificate expected"),
+        (["--write-reader", "no/such/folder/reader.pyz"], "No such file"),
+        (["--timeout", "0", "c.json"], "a positive number of seconds"),
+        (["--timeout", "nan", "c.json"], "a positive number of seconds"),
+    ],
+)
+def test_wrong_arguments_get_one_line_and_no_traceback(arguments: list[str], said: str, reader: Path) -> None:
+    command = [sys.executable, "-I", "-S", str(reader), *arguments]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
