@@ -153,7 +153,7 @@ def test_another_method_takes_over_what_it_knows():
 
 def test_a_time_limit_ends_the_alternatives_with_what_is_known():
     with pytest.raises(BudgetExceeded, match="known so far"):
-        make_plan(read_problem(START + "via = [[-1, 2, 3], [1, 2, 3]]\n" + WALL), Clock(limit=0.4))
+        make_plan(read_problem(START + "via = [[-1, 2, 3], [1, 2, 3]]\n" + WALL), Clock(limit=0.1))
 
 
 KINDS = """
