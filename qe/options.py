@@ -34,7 +34,7 @@ class Method(Enum):
 
 
 class Projection(Enum):
-    """Projection operators of the cylindrical algebraic decomposition (``qe.cad.operators``).
+    """Projection operators of the cylindrical algebraic decomposition (``qe.decomposition.operators``).
 
     Where one does not apply, Lazard's takes over.
     """

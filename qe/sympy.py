@@ -18,7 +18,7 @@ import qe.api.eliminate as api
 import qe.api.solve as api_solve
 from qe import arguments
 from qe.api.limits import read_under
-from qe.cells.pieces import Range, RootFunction
+from qe.decomposition.pieces import Range, RootFunction
 from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall
 from qe.formula.syntax import Formula

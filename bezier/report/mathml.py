@@ -14,7 +14,7 @@ from math import gcd, isqrt
 from typing import Any
 
 from bezier.curves.scalar import exact_text
-from qe.cells.pieces import Piece, Range, RootFunction
+from qe.decomposition.pieces import Piece, Range, RootFunction
 from qe.exact.ring import Poly
 from qe.formula.notation import monomials
 from qe.formula.syntax import Formula

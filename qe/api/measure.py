@@ -16,7 +16,7 @@ from typing import Any
 
 import sympy
 
-from qe.cells.pieces import Piece, Range, RootFunction
+from qe.decomposition.pieces import Piece, Range, RootFunction
 from qe.errors import Unable
 from qe.exact.ring import Poly
 from qe.io.sympy_numbers import number_to_sympy

@@ -13,8 +13,8 @@ from typing import Any, TypeVar
 from qe import arguments
 from qe.api.input import together
 from qe.api.limits import performed, reading
-from qe.cells.interval import Coordinate, Interval, Number, number_of
 from qe.convex.optimum import exact, minimize
+from qe.decomposition.interval import Coordinate, Interval, Number, number_of
 from qe.engine.run import solve as eliminated
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic

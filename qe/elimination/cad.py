@@ -6,13 +6,13 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from qe.cad.decompose import Decomposition as Table
-from qe.cad.decompose import Tactics, decompose
-from qe.cad.operators.table import OPERATORS
-from qe.cad.order_by_projection import variable_order
-from qe.cells.follows import follows
-from qe.cells.formulas import construct
-from qe.cells.sampled_cells import deciding_point
+from qe.decomposition.decompose import Decomposition as Table
+from qe.decomposition.decompose import Tactics, decompose
+from qe.decomposition.follows import follows
+from qe.decomposition.formulas import construct
+from qe.decomposition.operators.table import OPERATORS
+from qe.decomposition.order_by_projection import variable_order
+from qe.decomposition.sampled_cells import deciding_point
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import BudgetExceeded, Contradiction
 from qe.exact.number import Values
@@ -155,7 +155,7 @@ class _Question:
 
         answer, proof = construct(found.table, refined)
         if self.options.root_atoms:
-            from qe.cells.extended_tarski import extended_formula
+            from qe.decomposition.extended_tarski import extended_formula
 
             answer = extended_formula(proof)
         simple = simplify(convert(answer, Ring.of(self.free)), watch=budget.check)

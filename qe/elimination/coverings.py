@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from qe.cad.order_by_projection import variable_order
-from qe.cells.formulas import formula_of_cells, undistinguished
-from qe.coverings.cover import Search
-from qe.coverings.evidence import tree
-from qe.coverings.line import Cover
-from qe.coverings.parameters import parameter_cells
+from qe.decomposition.cover import Search
+from qe.decomposition.evidence import tree
+from qe.decomposition.formulas import formula_of_cells, undistinguished
+from qe.decomposition.line import Cover
+from qe.decomposition.order_by_projection import variable_order
+from qe.decomposition.parameters import parameter_cells
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import InternalError
 from qe.exact.number import Values
@@ -28,7 +28,7 @@ from qe.simplify.simplify import simplify
 
 
 class Coverings:
-    """Any block, with what is quantified inside it, by coverings of lines (see ``qe.coverings.cover``)."""
+    """Any block, with what is quantified inside it, by coverings of lines (see ``qe.decomposition.cover``)."""
 
     name = "coverings"
 

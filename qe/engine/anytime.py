@@ -15,10 +15,10 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TypeVar
 
-from qe.cad.decompose import Tactics, decompose
-from qe.cad.order_by_projection import variable_order
-from qe.cells.extended_tarski import extended_formula
-from qe.cells.sampled_cells import free_part
+from qe.decomposition.decompose import Tactics, decompose
+from qe.decomposition.extended_tarski import extended_formula
+from qe.decomposition.order_by_projection import variable_order
+from qe.decomposition.sampled_cells import free_part
 from qe.elimination.protocol import Outcome
 from qe.engine.run import answered, proved
 from qe.errors import Unable

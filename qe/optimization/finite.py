@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from qe.cad.decompose import decompose
-from qe.cells.sampled_cells import coordinates, leaves
+from qe.decomposition.decompose import decompose
+from qe.decomposition.sampled_cells import coordinates, leaves
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.number import ExactPoint, simplest

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from qe.cad.decompose import decompose
-from qe.cells.pieces import merge
+from qe.decomposition.decompose import decompose
+from qe.decomposition.pieces import merge
 from qe.elimination.protocol import witness_of
 from qe.engine.run import solve
 from qe.errors import Unable

@@ -16,12 +16,12 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from qe.cad.decompose import decompose
-from qe.cad.matrix import Node, compile_matrix, specialise
-from qe.cells.follows import signs_of
-from qe.cells.formulas import construct
-from qe.cells.pieces import Piece, merge
-from qe.cells.sampled_cells import Place, child, rational, root_place
+from qe.decomposition.decompose import decompose
+from qe.decomposition.follows import signs_of
+from qe.decomposition.formulas import construct
+from qe.decomposition.matrix import Node, compile_matrix, specialise
+from qe.decomposition.pieces import Piece, merge
+from qe.decomposition.sampled_cells import Place, child, rational, root_place
 from qe.engine.run import solve
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.ring import Poly, Ring

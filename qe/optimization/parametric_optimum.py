@@ -10,11 +10,11 @@ from functools import partial
 from itertools import groupby
 
 from qe.arguments import by_name, flag, seconds, whole
-from qe.cad.decompose import decompose
-from qe.cells.fibres import fibre_of
-from qe.cells.interval import Coordinate, number_of
-from qe.cells.pieces import Piece, Range, RootFunction, merge
-from qe.cells.sampled_cells import child, root_place
+from qe.decomposition.decompose import decompose
+from qe.decomposition.fibres import fibre_of
+from qe.decomposition.interval import Coordinate, number_of
+from qe.decomposition.pieces import Piece, Range, RootFunction, merge
+from qe.decomposition.sampled_cells import child, root_place
 from qe.engine.run import solve
 from qe.errors import InputError
 from qe.exact.number import Number, simplest

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from qe.cells.pieces import Range, RootFunction
+from qe.decomposition.pieces import Range, RootFunction
 from qe.io import latex
 
 Place = Sequence[Range]

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
-from qe.cad.projection import factor_lists
 from qe.convex.violation import proposed
+from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.decomposition.projection import factor_lists
 from qe.elimination.cad import certificate_for
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.method import procedures

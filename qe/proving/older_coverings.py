@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.coverings.evidence import tree
-from qe.coverings.line import Bound, Cover, Found, Interval
+from qe.decomposition.evidence import tree
+from qe.decomposition.line import Bound, Cover, Found, Interval
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point

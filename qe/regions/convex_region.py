@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.arguments import name, seconds
-from qe.cad.decompose import decompose
-from qe.cells.interval import Interval, Number
-from qe.cells.sampled_cells import leaves
 from qe.convex.optimum import OptimumStatus, decide, exact, maximize, minimize
 from qe.convex.system import NotConvex, read_system
+from qe.decomposition.decompose import decompose
+from qe.decomposition.interval import Interval, Number
+from qe.decomposition.sampled_cells import leaves
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring

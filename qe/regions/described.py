@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from qe.cells.interval import Interval
-from qe.cells.pieces import Piece
+from qe.decomposition.interval import Interval
+from qe.decomposition.pieces import Piece
 from qe.formula.syntax import Formula
 
 

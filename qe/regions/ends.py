@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy
 
-from qe.cells.pieces import Piece, RootFunction
+from qe.decomposition.pieces import Piece, RootFunction
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 from qe.services import Service, service
 
 if TYPE_CHECKING:  # loaded with ``qe`` itself, which loads nothing of the engine
-    from qe.cells.interval import Coordinate, Interval, Number
+    from qe.decomposition.interval import Coordinate, Interval, Number
 
 
 class SetOperations:

@@ -15,10 +15,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.cad.decompose import Tactics, decompose
-from qe.cells.formulas import construct
-from qe.cells.interval import Number
-from qe.cells.sampled_cells import child, root_place
+from qe.decomposition.decompose import Tactics, decompose
+from qe.decomposition.formulas import construct
+from qe.decomposition.interval import Number
+from qe.decomposition.sampled_cells import child, root_place
 from qe.exact.algebraic import real_roots
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import rational_between

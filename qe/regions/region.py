@@ -13,11 +13,11 @@ from typing import Any, TypeVar
 from qe.arguments import by_name, by_place, instance, name, ratio, seconds
 from qe.arguments import path as name_of_file
 from qe.arguments import point as point_of
-from qe.cad.decompose import decompose
-from qe.cells.fibres import any_true, fibre_of, first_shadow
-from qe.cells.interval import Coordinate, Interval, Number, number_of
-from qe.cells.pieces import Piece, merge
-from qe.cells.sampled_cells import Place, coordinates, free_part, leaves
+from qe.decomposition.decompose import decompose
+from qe.decomposition.fibres import any_true, fibre_of, first_shadow
+from qe.decomposition.interval import Coordinate, Interval, Number, number_of
+from qe.decomposition.pieces import Piece, merge
+from qe.decomposition.sampled_cells import Place, coordinates, free_part, leaves
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import ExactPoint

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from qe.cells.pieces import Piece, Range
+from qe.decomposition.pieces import Piece, Range
 from qe.errors import InputError, Unable
 from qe.regions.described import Described as Region
 from qe.regions.ends import Span, ends

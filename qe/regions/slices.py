@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from qe.cells.pieces import Piece, RootFunction
+from qe.decomposition.pieces import Piece, RootFunction
 from qe.exact.enclosure import Jet, Sides, evaluate, whole_number
 from qe.exact.ring import Poly
 

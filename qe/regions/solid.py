@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from qe.cells.pieces import Piece
+from qe.decomposition.pieces import Piece
 from qe.regions.ends import Span, ends
 
 Array = NDArray[np.float64]

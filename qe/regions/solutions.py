@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 
-from qe.cells.pieces import Piece
+from qe.decomposition.pieces import Piece
 from qe.formula.build import disj
 from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring

@@ -24,10 +24,10 @@ from fractions import Fraction
 from functools import partial
 from itertools import pairwise, product
 
-from qe.cad.decompose import decompose
-from qe.cells.formulas import construct
-from qe.cells.interval import Number
-from qe.cells.sampled_cells import child, rational, root_place
+from qe.decomposition.decompose import decompose
+from qe.decomposition.formulas import construct
+from qe.decomposition.interval import Number
+from qe.decomposition.sampled_cells import child, rational, root_place
 from qe.errors import InternalError, Unable
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import enclosure, without_zeros

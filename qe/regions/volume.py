@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from qe.cells.pieces import Piece, RootFunction
+from qe.decomposition.pieces import Piece, RootFunction
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.balls import ends, precision

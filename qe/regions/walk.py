@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import islice
 from random import Random
 
-from qe.cells.interval import Interval, Number
+from qe.decomposition.interval import Interval, Number
 from qe.exact.nearby import rational_between
 from qe.exact.number import ExactPoint, Values, simplest
 from qe.options import Budget

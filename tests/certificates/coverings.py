@@ -11,8 +11,8 @@ from typing import Any
 
 from qe.certify.registry import RULES
 from qe.certify.verify import check_certificate
-from qe.coverings.cover import Search
-from qe.coverings.evidence import tree
+from qe.decomposition.cover import Search
+from qe.decomposition.evidence import tree
 from qe.elimination.coverings import Coverings
 from qe.elimination.protocol import Context
 from qe.errors import CertificateRejected, InputError, InternalError

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from qe.cad.decompose import decompose
-from qe.cad.operators.table import OPERATORS
+from qe.decomposition.decompose import decompose
+from qe.decomposition.operators.table import OPERATORS
 from qe.io.text import read
 from qe.options import Budget, Projection
 from qe.proof.certificate import Certificate

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from qe.cad.decompose import decompose
-from qe.cad.operators.operator import Operator
-from qe.cad.operators.table import OPERATORS
 from qe.certify.verify import verify, verify_json
+from qe.decomposition.decompose import decompose
+from qe.decomposition.operators.operator import Operator
+from qe.decomposition.operators.table import OPERATORS
 from qe.errors import InputError
 from qe.exact.from_projection import discriminant
 from qe.exact.ring import Poly

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator
 import pytest
 
 import qe
-from qe.coverings import cover
-from qe.coverings.line import Cover
+from qe.decomposition import cover
+from qe.decomposition.line import Cover
 from qe.errors import InternalError, NotWellOriented, Unable
 from qe.exact.ring import Poly
 from qe.formula.build import exists, forall
@@ -29,7 +29,7 @@ from tests.certificates.coverings import (
     read,
     verdict,
 )
-from tests.unit.coverings.test_cover import random_body
+from tests.unit.decomposition.test_cover import random_body
 
 
 @pytest.mark.parametrize("text", BODIES)

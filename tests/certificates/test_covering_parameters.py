@@ -8,10 +8,10 @@ from collections.abc import Iterable, Iterator
 import pytest
 
 import qe
-from qe.coverings import cover
-from qe.coverings import line as lines
-from qe.coverings.cover import Search
-from qe.coverings.line import Cover
+from qe.decomposition import cover
+from qe.decomposition import line as lines
+from qe.decomposition.cover import Search
+from qe.decomposition.line import Cover
 from qe.elimination.cad import decomposed
 from qe.errors import InternalError, NotWellOriented, Unable
 from qe.exact.ring import Poly

@@ -7,12 +7,12 @@ from itertools import groupby, permutations, product
 import pytest
 
 import qe
-from qe.cad.decompose import Tactics, decompose
-from qe.cad.operators.table import OPERATORS
-from qe.cad.order import OrderRule
-from qe.cad.order_by_projection import choose_order
-from qe.cells.formulas import construct
 from qe.certify.verify import verify
+from qe.decomposition.decompose import Tactics, decompose
+from qe.decomposition.formulas import construct
+from qe.decomposition.operators.table import OPERATORS
+from qe.decomposition.order import OrderRule
+from qe.decomposition.order_by_projection import choose_order
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 import qe as qe_package
-from qe.cad.decompose import decompose
-from qe.cad.operators.operator import Operator
-from qe.cad.operators.table import OPERATORS
-from qe.cad.projection import FactorSet, factor_lists, project
+from qe.decomposition.decompose import decompose
+from qe.decomposition.operators.operator import Operator
+from qe.decomposition.operators.table import OPERATORS
+from qe.decomposition.projection import FactorSet, factor_lists, project
 from qe.errors import NotWellOriented
 from qe.exact.ring import Poly, Ring
 from qe.formula.traverse import polynomials

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from qe.cad.decompose import decompose
-from qe.cad.operators.table import OPERATORS
-from qe.cells.formulas import construct
+from qe.decomposition.decompose import decompose
+from qe.decomposition.formulas import construct
+from qe.decomposition.operators.table import OPERATORS
 from qe.elimination.coverings import Coverings
 from qe.elimination.protocol import Context
 from qe.elimination.vs.block import eliminate_block

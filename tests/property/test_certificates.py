@@ -12,9 +12,9 @@ from flint import fmpz_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from qe.cad.decompose import decompose
-from qe.cad.operators.table import OPERATORS
 from qe.certify.verify import verify
+from qe.decomposition.decompose import decompose
+from qe.decomposition.operators.table import OPERATORS
 from qe.errors import BudgetExceeded
 from qe.exact.algebraic import real_roots
 from qe.exact.ring import Ring

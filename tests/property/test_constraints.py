@@ -14,10 +14,10 @@ from hypothesis import assume
 from hypothesis import strategies as st
 
 from qe import Guarantee, eliminate, reference
-from qe.cad.decompose import Decomposition, Tactics, decompose
-from qe.cad.operators.table import OPERATORS
-from qe.cells.formulas import construct
 from qe.certify.verify import verify
+from qe.decomposition.decompose import Decomposition, Tactics, decompose
+from qe.decomposition.formulas import construct
+from qe.decomposition.operators.table import OPERATORS
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall, neg

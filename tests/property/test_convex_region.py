@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.cells.interval import Interval
+from qe.decomposition.interval import Interval
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import Formula, Relation

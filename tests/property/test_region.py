@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.cells.sampled_cells import child, root_place
+from qe.decomposition.sampled_cells import child, root_place
 from qe.formula.evaluate import holds_at
 from qe.regions.region import Region
 from tests.strategies import formulas, points

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.cells.interval import Interval, Number
+from qe.decomposition.interval import Interval, Number
 from qe.errors import InputError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, exists

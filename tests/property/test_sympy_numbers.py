@@ -9,7 +9,7 @@ from flint import fmpz_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from qe.cells.interval import number_of
+from qe.decomposition.interval import number_of
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.field import NumberField
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
 
-from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
-from qe.cad.operators.operator import Operator
+from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.decomposition.operators.operator import Operator
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations
 
-from qe.cad.decompose import decompose
-from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
-from qe.cad.order import brown_order
-from qe.cad.over_point import over_point
-from qe.cad.projection import factor_lists
-from qe.cells.confirm_convex import strangers
-from qe.cells.formulas import construct, formula_of_open_cells
 from qe.convex.facial_reduction import on_flat
 from qe.convex.feasible import feasible
 from qe.convex.violation import proposed
+from qe.decomposition.confirm_convex import strangers
+from qe.decomposition.decompose import decompose
+from qe.decomposition.formulas import construct, formula_of_open_cells
+from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.decomposition.order import brown_order
+from qe.decomposition.over_point import over_point
+from qe.decomposition.projection import factor_lists
 from qe.elimination.critical import (
     ConvexBody,
     Disjunct,

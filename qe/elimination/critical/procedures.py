@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.cad.operators.operator import Operator
+from qe.decomposition.operators.operator import Operator
 from qe.exact.quadratic_form import Quadratic
 from qe.exact.ring import Poly
 from qe.exact.sample import Point

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 
-from qe.cad.operators.operator import Operator
+from qe.decomposition.operators.operator import Operator
 from qe.elimination.critical.procedures import Levels
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Poly

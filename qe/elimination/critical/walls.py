@@ -23,8 +23,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from qe.cells.interval import Number
 from qe.convex.optimum import exact, maximize, minimize
+from qe.decomposition.interval import Number
 from qe.elimination.critical.open_cells import Holds, Values, true_run
 from qe.elimination.critical.system import System
 from qe.errors import BudgetExceeded, Unable

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from qe.cells.formulas import formula_of_cells
+from qe.decomposition.formulas import formula_of_cells
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation

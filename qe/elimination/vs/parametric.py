@@ -13,7 +13,7 @@ from functools import partial
 from itertools import islice
 
 from qe.arguments import by_name, flag, seconds
-from qe.cells.interval import Coordinate, number_of
+from qe.decomposition.interval import Coordinate, number_of
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.result import Answer
 from qe.elimination.vs.witness import witness

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from qe.cad.operators.lazard import LAZARD
-from qe.cad.projection import factor_lists
+from qe.decomposition.operators.lazard import LAZARD
+from qe.decomposition.projection import factor_lists
 from qe.exact import fibre_stack, sample
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.from_projection import discriminant, have_common_root, most_distinct, resultant

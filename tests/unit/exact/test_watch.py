@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.cad.decompose import decompose
-from qe.cad.lifting import Lifter
+from qe.decomposition.decompose import decompose
+from qe.decomposition.lifting import Lifter
 from qe.errors import BudgetExceeded
 from qe.exact import watch
 from qe.exact.algebraic import real_roots

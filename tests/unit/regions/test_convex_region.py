@@ -7,7 +7,7 @@ from fractions import Fraction as F
 import pytest
 
 import qe
-from qe.cells.interval import Interval
+from qe.decomposition.interval import Interval
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.formula.build import exists

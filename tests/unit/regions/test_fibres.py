@@ -7,7 +7,7 @@ from fractions import Fraction as F
 import pytest
 
 import qe
-from qe.cells.interval import Interval
+from qe.decomposition.interval import Interval
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 

@@ -9,7 +9,7 @@ from random import Random
 import pytest
 
 import qe
-from qe.cells.interval import Interval
+from qe.decomposition.interval import Interval
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.formula.build import exists

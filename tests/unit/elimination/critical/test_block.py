@@ -6,9 +6,9 @@ from fractions import Fraction as F
 
 import pytest
 
-from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
-from qe.cad.operators.lazard import LAZARD
-from qe.cad.operators.operator import Operator
+from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.decomposition.operators.lazard import LAZARD
+from qe.decomposition.operators.operator import Operator
 from qe.elimination.critical import block
 from qe.elimination.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
 from qe.elimination.critical.method import procedures

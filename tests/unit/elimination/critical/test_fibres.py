@@ -6,7 +6,7 @@ from fractions import Fraction as F
 
 import pytest
 
-from qe.cad.over_point import over_point
+from qe.decomposition.over_point import over_point
 from qe.elimination.critical.fibres import Fibres
 from qe.elimination.critical.method import procedures
 from qe.elimination.critical.procedures import Procedures, Proposal

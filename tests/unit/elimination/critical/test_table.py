@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import pytest
 
-from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
-from qe.cad.operators.lazard import LAZARD
+from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.decomposition.operators.lazard import LAZARD
 from qe.elimination.critical.table import Shape, TableBuilder
 from qe.errors import BudgetExceeded, NotWellOriented
 from qe.exact.ring import Poly, Ring

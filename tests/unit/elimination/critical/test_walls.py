@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.cad.operators.brown_mccallum import BROWN_MCCALLUM
-from qe.cad.projection import factor_lists
+from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.decomposition.projection import factor_lists
 from qe.elimination.critical.open_cells import OpenCells
 from qe.elimination.critical.system import System, systems
 from qe.elimination.critical.walls import Walls, box_around, walls_in_plane

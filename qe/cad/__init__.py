@@ -1,1 +1,0 @@
-"""Cylindrical algebraic decomposition, the shared machinery: projection, constraints, order, stacks, lifting."""

@@ -1,1 +1,0 @@
-"""Reading a cell table: formulas, extended formulas, pieces, fibres, truth."""

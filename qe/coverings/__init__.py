@@ -1,1 +1,0 @@
-"""Cylindrical algebraic coverings: existential sentences decided by intervals that overlap, one sample at a time."""

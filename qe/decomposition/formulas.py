@@ -1,0 +1,199 @@
+"""From true and false cells to a short quantifier-free formula (after Brown 1999, "solution formula construction").
+
+A table is projection-definable when no true and false cell share the signs of all factors. Then implicants
+(conjunctions of literals satisfied by no false cell) that cover the true cells give a formula. Where it is not,
+derivatives of the factors of the level at which such cells part are added: by Thom's lemma the signs of a
+polynomial and its derivatives separate its roots, so this ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from qe.decomposition.sign_table import Literal, SignTable, free_cells
+from qe.errors import InternalError
+from qe.exact.ring import Poly
+from qe.formula.build import atom, conj, disj, neg
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import map_atoms
+from qe.proof.cells import CellTable, FreeCell
+
+Factors = Sequence[Sequence[Poly]]
+Refine = Callable[[frozenset[int]], CellTable]
+
+
+def construct(table: CellTable, refine: Refine) -> tuple[Formula, CellTable]:
+    """A formula over the free variables that is true exactly on the true cells, and the table it was read from.
+
+    ``refine(levels)`` makes a new table whose factor lists of these levels are closed under differentiation.
+    """
+    levels: frozenset[int] = frozenset()
+    while True:
+        cells = list(free_cells(table))
+        clash = _clash(cells)
+        if clash is None:
+            return formula_of_cells(table.factors[: _free(table)], cells), table
+        if clash in levels:
+            raise InternalError("derivatives do not separate the cells, against Thom's lemma")
+        levels |= {clash}
+        table = refine(levels)
+
+
+def undistinguished(factors: Factors, cells: list[FreeCell]) -> tuple[FreeCell, FreeCell] | None:
+    """A true and a false cell that differ in no sign that is known on both, or None."""
+    signs = SignTable(factors, cells)
+    everything = (1 << len(signs.false)) - 1
+    for k, cell in enumerate(signs.true):
+        left = everything
+        for x in signs.literals:
+            if x.holds >> k & 1:
+                left &= x.keeps
+        if left:
+            return cell, signs.false[(left & -left).bit_length() - 1]
+    return None
+
+
+def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mapping[Poly, int]) -> Formula:
+    """A formula without negation, true on the true open cells and false on the false ones.
+
+    ``cells``: all open cells of a decomposition; true and false ones differ in the sign of a factor. The atoms are
+    weak, so that limits of true cells are true; but where a polynomial f with an owner -1 (or 1) vanishes its atoms are
+    those of the side f < 0 (or f > 0), so that the conditions of two sides do not hold there together.
+    """
+
+    def closed(found: Atom | RootAtom) -> Formula:
+        below = found.relation in (Relation.LT, Relation.LE)
+        strict = owners.get(found.poly) == (1 if below else -1)
+        relation = (Relation.LT if strict else Relation.LE) if below else (Relation.GT if strict else Relation.GE)
+        return atom(found.poly, relation)
+
+    return map_atoms(formula_of_cells(factors, cells), closed)
+
+
+def _free(table: CellTable) -> int:
+    return sum(q == "" for q in table.quantifiers)
+
+
+def _clash(cells: list[FreeCell]) -> int | None:
+    """The level at which two cells of equal signs and different truth part, or None.
+
+    A cell left undecomposed has no signs above its depth, so prefixes are compared as well.
+    """
+    seen: dict[tuple[str, ...], FreeCell] = {}
+    by_depth: dict[int, list[FreeCell]] = {}
+    for cell in cells:
+        by_depth.setdefault(len(cell.signs), []).append(cell)
+    depths = sorted(by_depth)
+    for depth in depths:
+        for cell in by_depth[depth]:
+            for d in depths:
+                other = seen.get(cell.signs[:d]) if d <= depth else None
+                if other is not None and other.truth is not cell.truth:
+                    return next(k for k, (a, b) in enumerate(zip(other.path, cell.path, strict=False)) if a != b)
+        for cell in by_depth[depth]:
+            other = seen.setdefault(cell.signs, cell)
+            if other.truth is not cell.truth:
+                return next(k for k, (a, b) in enumerate(zip(other.path, cell.path, strict=False)) if a != b)
+    return None
+
+
+def formula_of_cells(factors: Factors, cells: list[FreeCell]) -> Formula:
+    """The shorter of a disjunction for the true cells and the negation of one for the false cells, which together are
+    everything and differ in signs. On every cell its truth follows from the signs that are known there."""
+    if all(c.truth for c in cells):
+        return TRUE
+    if not any(c.truth for c in cells):
+        return FALSE
+    signs = SignTable(factors, cells)
+    positive, negative = _cover(signs), _cover(signs.flipped())
+    if _size(negative) < _size(positive):
+        return nnf(neg(_formula(negative)))
+    return _formula(positive)
+
+
+Implicant = tuple[Literal, ...]
+
+
+def _formula(cover: list[Implicant]) -> Formula:
+    return disj(conj(atom(x.poly, x.relation) for x in implicant) for implicant in cover)
+
+
+def _size(cover: list[Implicant]) -> int:
+    return sum(x.cost + 2 for implicant in cover for x in implicant)
+
+
+def _cover(signs: SignTable) -> list[Implicant]:
+    """Implicants that together hold on every true cell, none of them superfluous."""
+    uncovered = (1 << len(signs.true)) - 1
+    chosen: list[tuple[Implicant, int]] = []
+    while uncovered:
+        implicant, holds = _implicant(signs, uncovered)
+        chosen.append((implicant, holds))
+        uncovered &= ~holds
+    chosen.sort(key=lambda pair: -sum(x.cost for x in pair[0]))
+    for pair in list(chosen):  # dearest first: drop what the others cover
+        rest = 0
+        for other in chosen:
+            if other is not pair:
+                rest |= other[1]
+        if pair[1] & ~rest == 0:
+            chosen.remove(pair)
+    return [implicant for implicant, _ in reversed(chosen)]
+
+
+def _implicant(signs: SignTable, uncovered: int) -> tuple[Implicant, int]:
+    """A short implicant that holds on the first uncovered true cell and on as many more as it can."""
+    seed = uncovered & -uncovered
+    usable = [x for x in signs.literals if x.holds & seed]
+    everything = (1 << len(signs.true)) - 1
+    remaining, covered = (1 << len(signs.false)) - 1, everything
+    picked: list[Literal] = []
+    while remaining:
+        best, remaining = _best(usable, remaining, covered & uncovered)
+        if best is None:
+            raise InternalError("a true cell cannot be distinguished from a false one")
+        picked.append(best)
+        covered &= best.holds
+    return _pruned(signs, usable, picked)
+
+
+def _best(usable: list[Literal], remaining: int, covered: int) -> tuple[Literal | None, int]:
+    """The literal that excludes and covers most for its cost, with the false cells it leaves; None if none excludes."""
+    total, wanted = remaining.bit_count(), max(1, covered.bit_count())
+    best: Literal | None = None
+    most, left = (0.0, 0), remaining
+    for x in usable:
+        kept = x.keeps & remaining
+        if kept == remaining:
+            continue
+        share = (x.holds & covered).bit_count() / wanted
+        gain = (total - kept.bit_count()) / total + 1.5 * share - 0.004 * x.cost, -x.cost
+        if best is None or gain > most:
+            best, most, left = x, gain, kept
+    return best, left
+
+
+def _pruned(signs: SignTable, usable: list[Literal], picked: list[Literal]) -> tuple[Implicant, int]:
+    """Drop literals that are not needed (dearest first), then weaken strict ones while no false cell enters."""
+    for x in sorted(picked, key=lambda x: -x.cost):
+        others = [y for y in picked if y is not x]
+        if _kept(signs, others) == 0:
+            picked = others
+    for i, x in enumerate(picked):
+        for y in usable:
+            wider = y.poly == x.poly and x.relation.signs < y.relation.signs
+            if wider and _kept(signs, [*picked[:i], y, *picked[i + 1 :]]) == 0:
+                picked[i] = y
+                break
+    holds = (1 << len(signs.true)) - 1
+    for x in picked:
+        holds &= x.holds
+    return tuple(picked), holds
+
+
+def _kept(signs: SignTable, literals: list[Literal]) -> int:
+    mask = (1 << len(signs.false)) - 1
+    for x in literals:
+        mask &= x.keeps
+    return mask
