@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 
 from qe.decomposition.fibres import any_true
 from qe.decomposition.sampled_cells import Place, child, root_place
+from qe.decomposition.stack import sign_by_factors
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import nearby, rational_values
-from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.formula.evaluate import truth_under
 from qe.proof.cells import CellTable
@@ -69,8 +70,8 @@ def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, boun
     factors = table.factors[1]
     isolation = isolate_over(point, factors)
     below = {f: point.sign(f) for f in table.factors[0]}
-    signs = (below | known for known in isolation.sign_maps())
-    true = [position for position, known in enumerate(signs) if truth_under(table.matrix, _signs(known))]
+    signs = [(below | known).__getitem__ for known in isolation.sign_maps()]
+    true = [p for p, sign in enumerate(signs) if truth_under(table.matrix, partial(sign_by_factors, sign=sign))]
     sample = isolation.sample
     if not sides:
         return [sample(p) for p in true]
@@ -114,15 +115,3 @@ def _centre(table: CellTable) -> tuple[Fraction, Fraction] | None:
                 return x, y
     return None
 
-
-def _signs(known: dict[Poly, int]) -> Callable[[Poly], int | None]:
-    """The sign of a product of factors with known signs."""
-
-    def sign(poly: Poly) -> int | None:
-        unit, parts = poly.factors()
-        total = 1 if unit > 0 else -1
-        for f, multiplicity in parts:
-            total *= known[f] ** multiplicity
-        return total
-
-    return sign

@@ -27,7 +27,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from qe.decomposition.implicant import Decided, decided_by, value
+from qe.decomposition.implicant import Signs, implicant
 from qe.decomposition.line import Cover, Found, Interval, Line
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.projection import EFFORT_OF_A_CELL, FactorSet, effort, project
@@ -35,7 +35,9 @@ from qe.errors import InternalError
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
 from qe.exact.watch import Watch
+from qe.formula.evaluate import truth_under
 from qe.formula.syntax import Formula
+from qe.formula.traverse import polynomials
 from qe.options import Budget
 
 
@@ -64,17 +66,17 @@ class Search:
         """
         return self._over(Point(self.ring, watch=Watch(self.budget.check)), {})
 
-    def _over(self, point: Point, decided: Decided) -> Cover:
+    def _over(self, point: Point, signs: Signs) -> Cover:
         level = point.depth
         if level == len(self.ring.names):
             raise InternalError("a formula is open at a full sample")
         kind = self.quantifiers[level]
-        line = Line(point, self.formula, decided, whole=level in self.whole, thom=level in self.thom)
+        line = Line(point, polynomials(self.formula), whole=level in self.whole, thom=level in self.thom)
         while (position := line.uncovered()) is not None:
             self.samples += 1
             self.budget.spend(1 + len(line.isolation.sections))
             self.budget.check("cover", self.samples)
-            found = self._at(line, position, decided)
+            found = self._at(line, position, signs)
             ends = bool(kind) and found.truth is (kind == "E")
             if ends and self.is_leading(level):
                 return Cover(point, found.truth, (Interval(None, None, False, (), (), found, is_bare=True),))
@@ -87,13 +89,13 @@ class Search:
         truths = {interval.found.truth for interval in intervals}
         return Cover(point, truths.pop() if len(truths) == 1 else None, intervals)
 
-    def _at(self, line: Line, position: int, decided: Decided) -> Found:
+    def _at(self, line: Line, position: int, signs: Signs) -> Found:
         """What is known at a position of a line."""
         sample = line.isolation.sample(position)
-        known = {**decided, **line.truths(position)}
-        truth = value(self.formula, known)
+        known = {**signs, **line.signs(position)}
+        truth = truth_under(self.formula, known.get)
         if truth is not None:
-            return line.found(position, sample, truth, decided_by(self.formula, known, truth))
+            return line.found(position, sample, truth, implicant(self.formula, known, truth))
         above = self._over(sample, known)
         return line.found(position, sample, above.truth, above)
 

@@ -10,9 +10,8 @@ from qe.decomposition.line import Cover, Interval
 from qe.decomposition.projection import FactorSet
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
-from qe.exact.sample import Point
 from qe.formula.syntax import Atom, Formula
-from qe.formula.traverse import atoms
+from qe.formula.traverse import polynomials
 from qe.options import Projection
 from qe.proof.cells import Cell, CellTable, Stack
 
@@ -22,7 +21,7 @@ def tree(cover: Cover, quantifiers: Sequence[str], matrix: Formula) -> CellTable
     names = cover.point.ring.names
     levels: list[dict[Poly, int]] = [{} for _ in names]
     _collect(cover, levels)
-    for f in FactorSet(a.poly for a in atoms(matrix) if isinstance(a, Atom)):
+    for f in FactorSet(polynomials(matrix)):
         levels[f.level].setdefault(f, len(levels[f.level]))
     root = Cell("", None if quantifiers[0] == "" else cover.truth, _Writer(tuple(levels)).line(cover))
     factors = tuple(tuple(level) for level in levels)
@@ -82,12 +81,12 @@ class _Cuts:
     """A stack whose sectors are cut where they hold several samples: every rational sample is that of a sector."""
 
     def __init__(self, stack: Isolation, cover: Cover) -> None:
-        self.stack, depth = stack, cover.point.depth
+        self.stack = stack
         within: list[set[Fraction]] = [set() for _ in stack.samples]
         for interval in cover.intervals:
-            value = _rational(interval.found.sample, depth) if interval.found.at is None else None
-            if value is not None and not stack.place_of(value)[1]:
-                within[stack.place_of(value)[0]].add(value)
+            position = interval.found.position(stack)
+            if not position % 2:
+                within[position // 2].add(interval.found.value)
         self.sectors: list[Fraction] = []
         self.between: list[int | None] = []
         """Between two sectors the section of the stack, or None for a cut."""
@@ -109,15 +108,5 @@ class _Cuts:
 
     def sample(self, interval: Interval) -> int:
         """The position of the sample of an interval."""
-        found = interval.found
-        if found.at is not None:
-            return self.moved(2 * found.at.section(self.stack) + 1)[0]
-        value = _rational(found.sample, self.stack.point.depth)
-        place, met = self.stack.place_of(value)
-        return self.moved(2 * place + 1)[0] if met else 2 * self.sectors.index(value)
-
-
-def _rational(point: Point, depth: int) -> Fraction:
-    value = point.number(depth)
-    assert isinstance(value, Fraction)
-    return value
+        position = interval.found.position(self.stack)
+        return self.moved(position)[0] if position % 2 else 2 * self.sectors.index(interval.found.value)

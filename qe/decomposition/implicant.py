@@ -1,35 +1,22 @@
-"""The truth of a formula of which some atoms are decided, and which of these decide it."""
+"""Which atoms of a formula decide it where the signs of some polynomials are known."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 from qe.errors import InternalError
+from qe.exact.ring import Poly
+from qe.formula.evaluate import truth_under
 from qe.formula.syntax import And, Atom, Constant, Formula, Or
-from qe.truth import Truth, conjunction, disjunction
 
-Decided = Mapping[Atom, bool]
-
-
-def value(formula: Formula, decided: Decided) -> Truth:
-    """The truth of a formula in negation normal form by the atoms decided so far; None while it is open."""
-    match formula:
-        case Constant(truth):
-            return truth
-        case Atom():
-            return decided.get(formula)
-        case And(args):
-            return conjunction(value(a, decided) for a in args)
-        case Or(args):
-            return disjunction(value(a, decided) for a in args)
-    raise InternalError(f"not in negation normal form: {type(formula).__name__}")
+Signs = Mapping[Poly, int]
 
 
-def decided_by(formula: Formula, decided: Decided, truth: bool) -> frozenset[Atom]:
+def implicant(formula: Formula, signs: Signs, truth: bool) -> frozenset[Atom]:
     """Few atoms, all of this truth value, that give it to a formula that has it: an implicant of it or its negation.
 
-    Of a conjunction that is false one false member is enough, and that of lowest level and degree is taken; dually of a
-    disjunction that is true.
+    The formula is in negation normal form. Of a conjunction that is false one false member is enough, and that of
+    lowest level and degree is taken; dually of a disjunction that is true.
     """
     match formula:
         case Constant():
@@ -37,9 +24,9 @@ def decided_by(formula: Formula, decided: Decided, truth: bool) -> frozenset[Ato
         case Atom():
             return frozenset((formula,))
         case And(args) | Or(args) if isinstance(formula, And) is truth:
-            return frozenset[Atom]().union(*(decided_by(a, decided, truth) for a in args))
+            return frozenset[Atom]().union(*(implicant(a, signs, truth) for a in args))
         case And(args) | Or(args):
-            enough = (decided_by(a, decided, truth) for a in args if value(a, decided) is truth)
+            enough = (implicant(a, signs, truth) for a in args if truth_under(a, signs.get) is truth)
             return min(enough, key=_weight)
     raise InternalError(f"not in negation normal form: {type(formula).__name__}")
 

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.decomposition.implicant import Decided
 from qe.decomposition.projection import FactorSet
-from qe.decomposition.stack import is_nullified
+from qe.decomposition.stack import is_nullified, sign_by_factors
 from qe.errors import InternalError, NotWellOriented
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
-from qe.formula.syntax import Atom, Formula
-from qe.formula.traverse import atoms
+from qe.formula.syntax import Atom
 from qe.truth import Truth
 
 
@@ -46,6 +44,20 @@ class Found:
     at: Bound | None
     truth: Truth
     reason: frozenset[Atom] | Cover
+
+    @property
+    def value(self) -> Fraction:
+        """A rational sample's last coordinate."""
+        value = self.sample.number(self.sample.depth - 1)
+        assert isinstance(value, Fraction)
+        return value
+
+    def position(self, stack: Isolation) -> int:
+        """That of the sample in a stack over the point of the line."""
+        if self.at is not None:
+            return 2 * self.at.section(stack) + 1
+        below, is_section = stack.place_of(self.value)
+        return 2 * below + is_section
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,12 +112,13 @@ class Line:
     ``whole``: every interval keeps the signs of all polynomials of all intervals; ``thom``: and of their derivatives.
     """
 
-    def __init__(self, point: Point, formula: Formula, decided: Decided, *, whole: bool, thom: bool) -> None:
+    def __init__(self, point: Point, polys: Iterable[Poly], *, whole: bool, thom: bool) -> None:
+        """``polys``: those of the formula, of any level."""
         level = point.depth
         self.point, self.whole, self.thom = point, whole, thom
         self.intervals: list[Interval] = []
-        self._open = [a for a in atoms(formula) if isinstance(a, Atom) and a not in decided and a.poly.level == level]
-        self.isolation = isolate_over(point, tuple(FactorSet(a.poly for a in self._open).at(level)))
+        self._polys = [f for f in polys if f.level == level]
+        self.isolation = isolate_over(point, tuple(FactorSet(self._polys).at(level)))
 
     def uncovered(self) -> int | None:
         """A position that no interval covers: sectors before sections, whose samples may be irrational."""
@@ -117,18 +130,14 @@ class Line:
         left = [p for p in range(size) if free[p]]
         return min(left, key=lambda p: (p % 2, abs(p - size // 2)), default=None)
 
-    def truths(self, position: int) -> dict[Atom, bool]:
-        """The truth at a position of the atoms of this level."""
-        signs = self.isolation.signs_at(position)
-        return {a: self._sign(a.poly, signs) in a.relation.signs for a in self._open}
+    def signs(self, position: int) -> dict[Poly, int]:
+        """The signs at a position of the formula's polynomials of this level."""
+        known = self.isolation.signs_at(position)
 
-    def _sign(self, poly: Poly, signs: Mapping[Poly, int]) -> int:
-        unit, factors = poly.factors()
-        sign = 1 if unit > 0 else -1
-        for factor, exponent in factors:
-            own = signs[factor] if factor in signs else self.point.sign(factor)
-            sign *= own if exponent % 2 else own * own
-        return sign
+        def sign(factor: Poly) -> int:
+            return known[factor] if factor in known else self.point.sign(factor)
+
+        return {f: sign_by_factors(f, sign) for f in self._polys}
 
     # --- intervals ----------------------------------------------------------------------------------
     def found(self, position: int, sample: Point, truth: Truth, reason: frozenset[Atom] | Cover) -> Found:
@@ -191,7 +200,7 @@ class Line:
 
     def _around(self, interval: Interval) -> Interval:
         """The same with its ends: the next roots of its own polynomials on both sides of its sample."""
-        position = self._position(interval.found)
+        position = interval.found.position(self.isolation)
         sections = self.isolation.sections
         mine = {self.isolation.polys.index(f) for f in interval.own}
         half = position // 2
@@ -201,15 +210,6 @@ class Line:
         upper = next((k for k in range(start, len(sections)) if mine & {*sections[k].members}), None)
         ends = self._bound(lower, mine), self._bound(upper, mine)
         return replace(interval, lower=ends[0], upper=ends[1], is_point=bool(here))
-
-    def _position(self, found: Found) -> int:
-        """The position of a sample."""
-        if found.at is not None:
-            return 2 * found.at.section(self.isolation) + 1
-        value = found.sample.number(self.point.depth)
-        assert isinstance(value, Fraction)
-        place, met = self.isolation.place_of(value)
-        return 2 * place + met
 
     def _bound(self, section: int | None, mine: set[int]) -> Bound | None:
         """A section as a root of the simplest polynomial among ``mine`` that vanishes there."""

@@ -6,9 +6,10 @@ of the other factors are known on the sections and left open (``?``) in the sect
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
@@ -82,6 +83,12 @@ def _common_stack(
                 # a factor without a root on the section has the same sign on it as in the sector below
                 found[j].append(0 if place in section.members else fine.signs[place][sector])
     return found
+
+
+def sign_by_factors(poly: Poly, sign: Callable[[Poly], int]) -> int:
+    """The sign of a polynomial, by those of its irreducible factors."""
+    unit, factors = poly.factors()
+    return prod((sign(f) if exponent % 2 else abs(sign(f)) for f, exponent in factors), start=1 if unit > 0 else -1)
 
 
 def is_nullified(point: Point, factor: Poly) -> bool:

@@ -9,16 +9,17 @@ import pytest
 
 import qe
 from qe.decomposition.cover import Search, characterization
-from qe.decomposition.implicant import decided_by, value
+from qe.decomposition.implicant import implicant
 from qe.decomposition.line import Cover
 from qe.decomposition.parameters import parameter_cells
 from qe.errors import BudgetExceeded, NotWellOriented
 from qe.exact.ring import Ring, format_poly
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
+from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
-from qe.formula.syntax import Atom, Constant, Formula, Relation
-from qe.formula.traverse import atoms
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Relation
+from qe.formula.traverse import map_atoms, polynomials
 from qe.io import formats
 from qe.options import Budget
 from tests.differential.generate import random_poly
@@ -183,9 +184,10 @@ def test_the_limit_on_work_holds() -> None:
 def test_an_implicant_decides_the_formula_by_itself(seed: int) -> None:
     rng = random.Random(seed)
     body = random_body(rng, 4)
-    known = {a: rng.random() < 0.4 for a in atoms(body) if isinstance(a, Atom) and rng.random() < 0.8}
-    truth = value(body, known)
+    signs = {p: rng.choice([-1, 0, 1]) for p in polynomials(body) if rng.random() < 0.8}
+    truth = truth_under(body, signs.get)
     if truth is not None:
-        chosen = decided_by(body, known, truth)
-        assert chosen <= {a for a, own in known.items() if own is truth}
-        assert value(body, dict.fromkeys(chosen, truth)) is truth
+        chosen = implicant(body, signs, truth)
+        assert all(a.poly in signs and a.relation.holds(signs[a.poly]) is truth for a in chosen)
+        decided = map_atoms(body, lambda a: (TRUE if truth else FALSE) if a in chosen else a)
+        assert decided == (TRUE if truth else FALSE)
