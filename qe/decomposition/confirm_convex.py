@@ -6,8 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
 
-from qe.decomposition.fibres import any_true
-from qe.decomposition.sampled_cells import Place, child, root_place
+from qe.decomposition.sampled_cells import Place, any_true, child, root_place
 from qe.decomposition.stack import sign_by_factors
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import nearby, rational_values
@@ -114,4 +113,3 @@ def _centre(table: CellTable) -> tuple[Fraction, Fraction] | None:
             if above.truth:
                 return x, y
     return None
-

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import lru_cache
 
 from qe.decomposition.interval import Interval, Number
 from qe.decomposition.operators.table import OPERATORS
+from qe.decomposition.sampled_cells import any_true
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly, Ring
@@ -35,25 +35,6 @@ def fibre_of(table: CellTable, values: Sequence[Number], *, budget: Budget) -> l
     budget.check("fibre", point.depth)
     isolation = _stack_over(table, cell, point)
     return [_interval(isolation, run) for run in _runs(cell.stack.cells)]
-
-
-def any_true(cell: Cell) -> bool:
-    """Whether some cell over this one is true."""
-    if cell.stack is None:
-        return cell.truth is True
-    return any(any_true(c) for c in cell.stack.cells)
-
-
-def first_shadow(table: CellTable) -> CellTable:
-    """The projection onto the first variable of the set of a table without quantifiers: over a cell of its stack
-    either all points have one of the set above them, or none."""
-    root, ring = table.root, Ring.of(table.order[:1])
-    if root.stack is not None:
-        root = replace(
-            root, stack=replace(root.stack, cells=tuple(Cell(c.signs, any_true(c)) for c in root.stack.cells))
-        )
-    factors = tuple(tuple(f.convert(ring) for f in level) for level in table.factors[:1])
-    return CellTable(table.order[:1], ("",), table.matrix, table.projection, factors, root)
 
 
 def _stack_over(table: CellTable, cell: Cell, point: Point) -> Isolation:

@@ -23,6 +23,14 @@ Factors = Sequence[Sequence[Poly]]
 Refine = Callable[[frozenset[int]], CellTable]
 
 
+class Undistinguished(InternalError):
+    """A true and a false cell differ in no sign that is known on both. ``level``: where their ways part."""
+
+    def __init__(self, one: FreeCell, other: FreeCell) -> None:
+        super().__init__("a true cell cannot be distinguished from a false one")
+        self.level = next(k for k, (a, b) in enumerate(zip(one.path, other.path, strict=False)) if a != b)
+
+
 def construct(table: CellTable, refine: Refine) -> tuple[Formula, CellTable]:
     """A formula over the free variables that is true exactly on the true cells, and the table it was read from.
 
@@ -30,28 +38,13 @@ def construct(table: CellTable, refine: Refine) -> tuple[Formula, CellTable]:
     """
     levels: frozenset[int] = frozenset()
     while True:
-        cells = list(free_cells(table))
-        clash = _clash(cells)
-        if clash is None:
-            return formula_of_cells(table.factors[: _free(table)], cells), table
-        if clash in levels:
-            raise InternalError("derivatives do not separate the cells, against Thom's lemma")
-        levels |= {clash}
+        try:
+            return formula_of_cells(table.factors[: table.free], list(free_cells(table))), table
+        except Undistinguished as pair:
+            if pair.level in levels:
+                raise InternalError("derivatives do not separate the cells, against Thom's lemma") from pair
+            levels |= {pair.level}
         table = refine(levels)
-
-
-def undistinguished(factors: Factors, cells: list[FreeCell]) -> tuple[FreeCell, FreeCell] | None:
-    """A true and a false cell that differ in no sign that is known on both, or None."""
-    signs = SignTable(factors, cells)
-    everything = (1 << len(signs.false)) - 1
-    for k, cell in enumerate(signs.true):
-        left = everything
-        for x in signs.literals:
-            if x.holds >> k & 1:
-                left &= x.keeps
-        if left:
-            return cell, signs.false[(left & -left).bit_length() - 1]
-    return None
 
 
 def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mapping[Poly, int]) -> Formula:
@@ -71,36 +64,9 @@ def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mappi
     return map_atoms(formula_of_cells(factors, cells), closed)
 
 
-def _free(table: CellTable) -> int:
-    return sum(q == "" for q in table.quantifiers)
-
-
-def _clash(cells: list[FreeCell]) -> int | None:
-    """The level at which two cells of equal signs and different truth part, or None.
-
-    A cell left undecomposed has no signs above its depth, so prefixes are compared as well.
-    """
-    seen: dict[tuple[str, ...], FreeCell] = {}
-    by_depth: dict[int, list[FreeCell]] = {}
-    for cell in cells:
-        by_depth.setdefault(len(cell.signs), []).append(cell)
-    depths = sorted(by_depth)
-    for depth in depths:
-        for cell in by_depth[depth]:
-            for d in depths:
-                other = seen.get(cell.signs[:d]) if d <= depth else None
-                if other is not None and other.truth is not cell.truth:
-                    return next(k for k, (a, b) in enumerate(zip(other.path, cell.path, strict=False)) if a != b)
-        for cell in by_depth[depth]:
-            other = seen.setdefault(cell.signs, cell)
-            if other.truth is not cell.truth:
-                return next(k for k, (a, b) in enumerate(zip(other.path, cell.path, strict=False)) if a != b)
-    return None
-
-
 def formula_of_cells(factors: Factors, cells: list[FreeCell]) -> Formula:
     """The shorter of a disjunction for the true cells and the negation of one for the false cells, which together are
-    everything and differ in signs. On every cell its truth follows from the signs that are known there."""
+    everything. On every cell its truth follows from the signs that are known there. Raises ``Undistinguished``."""
     if all(c.truth for c in cells):
         return TRUE
     if not any(c.truth for c in cells):
@@ -125,7 +91,7 @@ def _size(cover: list[Implicant]) -> int:
 
 def _cover(signs: SignTable) -> list[Implicant]:
     """Implicants that together hold on every true cell, none of them superfluous."""
-    uncovered = (1 << len(signs.true)) - 1
+    uncovered = signs.on_true.everything
     chosen: list[tuple[Implicant, int]] = []
     while uncovered:
         implicant, holds = _implicant(signs, uncovered)
@@ -146,16 +112,19 @@ def _implicant(signs: SignTable, uncovered: int) -> tuple[Implicant, int]:
     """A short implicant that holds on the first uncovered true cell and on as many more as it can."""
     seed = uncovered & -uncovered
     usable = [x for x in signs.literals if x.holds & seed]
-    everything = (1 << len(signs.true)) - 1
-    remaining, covered = (1 << len(signs.false)) - 1, everything
+    remaining, covered = signs.on_false.everything, signs.on_true.everything
     picked: list[Literal] = []
     while remaining:
         best, remaining = _best(usable, remaining, covered & uncovered)
         if best is None:
-            raise InternalError("a true cell cannot be distinguished from a false one")
+            raise Undistinguished(signs.true[_lowest(seed)], signs.false[_lowest(remaining)])
         picked.append(best)
         covered &= best.holds
     return _pruned(signs, usable, picked)
+
+
+def _lowest(bits: int) -> int:
+    return (bits & -bits).bit_length() - 1
 
 
 def _best(usable: list[Literal], remaining: int, covered: int) -> tuple[Literal | None, int]:
@@ -186,14 +155,14 @@ def _pruned(signs: SignTable, usable: list[Literal], picked: list[Literal]) -> t
             if wider and _kept(signs, [*picked[:i], y, *picked[i + 1 :]]) == 0:
                 picked[i] = y
                 break
-    holds = (1 << len(signs.true)) - 1
+    holds = signs.on_true.everything
     for x in picked:
         holds &= x.holds
     return tuple(picked), holds
 
 
 def _kept(signs: SignTable, literals: list[Literal]) -> int:
-    mask = (1 << len(signs.false)) - 1
+    mask = signs.on_false.everything
     for x in literals:
         mask &= x.keeps
     return mask

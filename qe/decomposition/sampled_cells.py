@@ -74,16 +74,22 @@ def leaves(
                 yield place
             return
         for position, below in enumerate(cell.stack.cells):
-            if _holds(below, wanted, limit - place.depth - 1):
+            if _any(below, wanted, limit - place.depth - 1):
                 yield from walk(child(table, place, position))
 
     yield from walk(root_place(table))
 
 
-def _holds(cell: Cell, wanted: Callable[[Cell], bool], limit: int) -> bool:
+def any_true(cell: Cell) -> bool:
+    """Whether some cell over this one is true."""
+    return _any(cell, lambda leaf: leaf.truth is True, -1)
+
+
+def _any(cell: Cell, wanted: Callable[[Cell], bool], limit: int) -> bool:
+    """Whether a leaf over this cell, or a cell so many levels above it, is wanted."""
     if cell.stack is None or limit == 0:
         return wanted(cell)
-    return any(_holds(below, wanted, limit - 1) for below in cell.stack.cells)
+    return any(_any(below, wanted, limit - 1) for below in cell.stack.cells)
 
 
 def coordinates(table: CellTable, place: Place) -> dict[str, Number]:
@@ -109,16 +115,26 @@ def deciding_point(table: CellTable, wanted: bool) -> dict[str, Number] | None:
 
 def free_part(table: CellTable) -> CellTable:
     """The table cut off above its free variables: the truth values of the quantified formula on their space."""
-    free = sum(q == "" for q in table.quantifiers)
+    return _first_levels(table, table.free, lambda cell: cell.truth)
+
+
+def first_shadow(table: CellTable) -> CellTable:
+    """The projection onto the first variable of the set of a table without quantifiers: over a cell of its stack
+    either all points have one of the set above them, or none."""
+    return _first_levels(table, 1, any_true)
+
+
+def _first_levels(table: CellTable, size: int, truth: Callable[[Cell], bool | None]) -> CellTable:
+    """The table cut off above its first variables, where cells have the truth that is read off what is above them."""
 
     def cut(cell: Cell, depth: int) -> Cell:
         if cell.stack is None:
             return cell
-        if depth == free:
-            return Cell(cell.signs, cell.truth)
+        if depth == size:
+            return Cell(cell.signs, truth(cell))
         return replace(cell, stack=replace(cell.stack, cells=tuple(cut(c, depth + 1) for c in cell.stack.cells)))
 
-    ring = Ring.of(table.order[:free])
-    factors = tuple(tuple(f.convert(ring) for f in level) for level in table.factors[:free])
-    root, constraints = cut(table.root, 0), table.constraints[:free]
-    return CellTable(table.order[:free], ("",) * free, table.matrix, table.projection, factors, root, constraints)
+    ring = Ring.of(table.order[:size])
+    factors = tuple(tuple(f.convert(ring) for f in level) for level in table.factors[:size])
+    root, constraints = cut(table.root, 0), table.constraints[:size]
+    return CellTable(table.order[:size], ("",) * size, table.matrix, table.projection, factors, root, constraints)

@@ -1,22 +1,24 @@
-"""Sign tables of the free cells: which literals hold on which cells, as bit masks."""
+"""Sign tables of the free cells: which literals, and which formulas, hold on which cells, as bit masks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import and_, or_
 
+from qe.errors import InternalError
 from qe.exact.ring import Poly
-from qe.formula.syntax import Relation
-from qe.proof.cells import CHARACTER_OF, Cell, CellTable, FreeCell
+from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
+from qe.proof.cells import SIGN_OF, Cell, CellTable, FreeCell
 
-_BITS = {own: {ord(c): "01"[c == own] for c in "+-0?"} for own in "+-0?"}
+_MAY_BE = {sign: {ord(c): "01"[c in (character, "?")] for c in "+-0?"} for character, sign in SIGN_OF.items()}
 _WEAK_FIRST = (Relation.LE, Relation.GE, Relation.NE, Relation.EQ, Relation.LT, Relation.GT)
 
 
 def free_cells(table: CellTable) -> Iterator[FreeCell]:
     """All cells over the free variables at which the truth value is known."""
-    free = sum(q == "" for q in table.quantifiers)
+    free = table.free
 
     def walk(cell: Cell, path: tuple[int, ...], signs: tuple[str, ...]) -> Iterator[FreeCell]:
         if cell.stack is None or len(path) == free:
@@ -38,7 +40,60 @@ def _placed(used: tuple[int, ...], signs: str) -> str:
     return "".join([known.get(j, "?") for j in range(max(used, default=-1) + 1)])
 
 
-Masks = Mapping[int | None, int]
+Masks = Mapping[int, int]
+"""For every sign the cells, as bits, that may have it: one where it is known, all three where it is not."""
+
+
+def where(formula: Formula, masks: Callable[[Poly], Masks], cells: int) -> tuple[int, int]:
+    """Those of some cells (bits) on which a quantifier-free Tarski formula is true, and those on which it is false, by
+    what is known of the signs of its polynomials (Kleene's strong logic, on all cells at once)."""
+    match formula:
+        case Atom(poly, relation):
+            return _atom_where(relation, masks(poly), cells)
+        case And(args) | Or(args):
+            true, false = zip(*(where(arg, masks, cells) for arg in args), strict=True)
+            if isinstance(formula, And):
+                return reduce(and_, true), reduce(or_, false)
+            return reduce(or_, true), reduce(and_, false)
+        case Not(arg):
+            return where(arg, masks, cells)[::-1]
+        case Constant(value):
+            return (cells, 0) if value else (0, cells)
+    raise InternalError(f"not a quantifier-free Tarski formula: {type(formula).__name__}")
+
+
+def _atom_where(relation: Relation, masks: Masks, cells: int) -> tuple[int, int]:
+    true = false = cells
+    for sign, mask in masks.items():
+        if sign in relation.signs:
+            false &= ~mask
+        else:
+            true &= ~mask
+    return true, false
+
+
+class Columns:
+    """The signs of factors on a list of cells, one bit for each."""
+
+    def __init__(self, cells: Sequence[FreeCell], factors: Sequence[Sequence[Poly]]) -> None:
+        self.everything = (1 << len(cells)) - 1
+        self.of_factor = dict(_masks(cells, factors))
+
+    def of(self, poly: Poly) -> Masks:
+        """The signs of a product of the factors."""
+        unit, factors = poly.factors()
+        plus, zero, minus = (self.everything, 0, 0) if unit > 0 else (0, 0, self.everything)
+        for factor, exponent in factors:
+            masks = self.of_factor[factor]
+            above, below = masks[1], masks[-1]
+            if exponent % 2 == 0:
+                above, below = above | below, 0
+            plus, zero, minus = plus & above | minus & below, zero | masks[0], plus & below | minus & above
+        return {1: plus, 0: zero, -1: minus}
+
+    def where(self, formula: Formula) -> tuple[int, int]:
+        """The cells on which a formula in products of the factors is true, and those on which it is false."""
+        return where(formula, self.of, self.everything)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,43 +108,42 @@ class Literal:
 
 
 class SignTable:
-    """Bit masks over the true cells and over the false cells, one bit for all that have the same signs."""
+    """The signs on the true cells and on the false cells, one bit for all that have the same."""
 
     def __init__(self, factors: Sequence[Sequence[Poly]], cells: Iterable[FreeCell]) -> None:
         listing = list({(c.truth, *c.signs): c for c in reversed(list(cells))}.values())[::-1]
         self.true = [c for c in listing if c.truth]
         self.false = [c for c in listing if not c.truth]
-        polys = [factor for level in factors for factor in level]
-        self._columns = tuple(zip(polys, _columns(self.true, factors), _columns(self.false, factors), strict=True))
+        self.on_true, self.on_false = Columns(self.true, factors), Columns(self.false, factors)
 
     def flipped(self) -> SignTable:
         """The table with true and false exchanged."""
         other = SignTable((), ())
         other.true, other.false = self.false, self.true
-        other._columns = tuple((poly, false, true) for poly, true, false in self._columns)
+        other.on_true, other.on_false = self.on_false, self.on_true
         return other
 
     @cached_property
     def literals(self) -> list[Literal]:
         """What covers a true cell and excludes a false one; a sign that is not known on a cell covers nothing there."""
-        found: list[Literal] = []
-        everything = (1 << len(self.false)) - 1
-        for factor, holds, keeps in self._columns:
-            cost = factor.total_degree + factor.term_count()
+        listed: list[Literal] = []
+        everything = self.on_false.everything
+        for factor, masks in self.on_true.of_factor.items():
+            cost, others = factor.total_degree + factor.term_count(), self.on_false.of_factor[factor]
             for relation in _WEAK_FIRST:
-                covered = sum(holds[s] for s in relation.signs)
-                kept = sum(keeps[s] for s in relation.signs) | keeps[None]
-                if covered and kept != everything:
-                    found.append(Literal(factor, relation, covered, kept, cost))
-        return found
+                holds, _ = _atom_where(relation, masks, self.on_true.everything)
+                kept = everything & ~_atom_where(relation, others, everything)[1]
+                if holds and kept != everything:
+                    listed.append(Literal(factor, relation, holds, kept, cost))
+        return listed
 
 
-def _columns(cells: Sequence[FreeCell], factors: Sequence[Sequence[Poly]]) -> Iterator[Masks]:
-    """For every factor and every sign, None for one that is not known, the cells that have it."""
+def _masks(cells: Sequence[FreeCell], factors: Sequence[Sequence[Poly]]) -> Iterator[tuple[Poly, Masks]]:
+    """For every factor and every sign the cells that may have it."""
     for level, polys in enumerate(factors):
         width = len(polys)
         rows = [c.signs[level] if level < len(c.signs) else "" for c in reversed(cells)]
         text = "".join([row.ljust(width, "?") for row in rows])
-        for j in range(width):
+        for j, factor in enumerate(polys):
             column = text[j::width]
-            yield {sign: int("0" + column.translate(_BITS[own]), 2) for sign, own in CHARACTER_OF.items()}
+            yield factor, {sign: int("0" + column.translate(table), 2) for sign, table in _MAY_BE.items()}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from qe.decomposition.decompose import Decomposition as Table
@@ -11,7 +10,7 @@ from qe.decomposition.decompose import Tactics, decompose
 from qe.decomposition.follows import follows
 from qe.decomposition.formulas import construct
 from qe.decomposition.operators.table import OPERATORS
-from qe.decomposition.order_by_projection import variable_order
+from qe.decomposition.order import Prenex
 from qe.decomposition.sampled_cells import deciding_point
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import BudgetExceeded, Contradiction
@@ -53,24 +52,21 @@ class Decomposition:
 def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) -> Outcome:
     """Any formula, as a whole, by cylindrical algebraic decomposition. Raises ``BudgetExceeded``."""
     start = time.perf_counter()
-    prefix, matrix = prenex(formula)
-    matrix = nnf(matrix)
+    question = _Question(Prenex.of(formula, options, budget), formula.free, options)
+    matrix = question.prenex.matrix
     if isinstance(matrix, Constant):
         return Outcome(matrix, {} if matrix.value else None)
-    free = formula.free
-    order, quantifiers, reason = variable_order(prefix, free, matrix, options, budget)
-    question = _Question(matrix, order, quantifiers, free, options)
     first = question.table(budget)
     values: Values | None = None
-    if free:
+    if formula.free:
         answer, proof = question.shortest(first, budget)
     else:
         truth, proof = first.table.root.truth is True, first.table
         answer = TRUE if truth else FALSE
-        if truth is (quantifiers[0] == "E"):
+        if truth is (proof.quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
-    log.work("cad", _figures(order, reason, first, time.perf_counter() - start))
-    certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if follows(answer, proof) else None
+    log.work("cad", question.prenex.figures | _figures(first, time.perf_counter() - start))
+    certificate = Certificate.cells(proof, convert(answer, Ring.of(proof.order))) if follows(answer, proof) else None
     log.step("cells", formula, answer, evidence=kept(formula, certificate, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = formula.ring
@@ -92,17 +88,12 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     table has their signs on every cell. None where the formula has no matrix to decompose. Raises ``BudgetExceeded``,
     and ``Contradiction`` where the decomposition decides a sentence otherwise.
     """
-    prefix, matrix = prenex(formula)
-    matrix = nnf(matrix)
-    if isinstance(matrix, Constant):
+    question = _Question(Prenex.of(formula, options, budget), formula.free, options)
+    if isinstance(question.prenex.matrix, Constant):
         return None
-    free = formula.free
-    order, quantifiers, _ = variable_order(prefix, free, matrix, options, budget)
-    ring = Ring.of(order)
-    claim = convert(answer, ring)
-    question = _Question(matrix, order, quantifiers, free, options)
+    claim = convert(answer, Ring.of(question.prenex.order))
     proof = question.table(budget, whole_free=True, extra=tuple(polynomials(claim))).table
-    if not free and answer != (TRUE if proof.root.truth else FALSE):
+    if not formula.free and answer != (TRUE if proof.root.truth else FALSE):
         raise Contradiction(f"a decomposition says {proof.root.truth} where the answer is {answer}")
     return Certificate.cells(proof, claim)
 
@@ -111,9 +102,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
 class _Question:
     """A prenex formula with the order of its variables."""
 
-    matrix: Formula
-    order: tuple[str, ...]
-    quantifiers: tuple[str, ...]
+    prenex: Prenex
     free: tuple[str, ...]
     options: Options
 
@@ -131,9 +120,9 @@ class _Question:
         """
         without, operator = self.options.without, OPERATORS[self.options.projection]
         return decompose(
-            self.matrix,
-            self.order,
-            self.quantifiers,
+            self.prenex.matrix,
+            self.prenex.order,
+            self.prenex.quantifiers,
             budget=budget,
             operator=operator.complete if Stage.MCCALLUM in without else operator,
             thom_levels=thom_levels,
@@ -193,10 +182,8 @@ def claims(certificate: Certificate, question: Formula, answer: Formula) -> bool
     )
 
 
-def _figures(order: Sequence[str], reason: str, found: Table, seconds: float) -> dict[str, object]:
+def _figures(found: Table, seconds: float) -> dict[str, object]:
     return {
-        "order": list(order),
-        "order by": reason,
         "projection": found.operator.name.value,
         "factors": found.factors,
         "cells": found.cells,

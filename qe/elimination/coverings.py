@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 from qe.decomposition.cover import Search
 from qe.decomposition.evidence import tree
-from qe.decomposition.formulas import formula_of_cells, undistinguished
+from qe.decomposition.formulas import Undistinguished, formula_of_cells
 from qe.decomposition.line import Cover
-from qe.decomposition.order_by_projection import variable_order
+from qe.decomposition.order import Prenex
 from qe.decomposition.parameters import parameter_cells
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import InternalError
@@ -17,10 +17,8 @@ from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.formula.block import Block
 from qe.formula.build import convert
-from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.options import Budget, Options
-from qe.proof.cells import FreeCell
 from qe.proof.certificate import Certificate
 from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
@@ -41,25 +39,22 @@ class Coverings:
         some. Raises ``NotWellOriented`` where a polynomial is zero on a whole line and its order is needed beside it,
         ``BudgetExceeded``.
         """
-        prefix, matrix = prenex(problem.formula)
-        matrix = nnf(matrix)
+        question = Prenex.of(problem.formula, context.options, context.budget)
+        matrix, quantifiers = question.matrix, question.quantifiers
         if isinstance(matrix, Constant):
             return Outcome(matrix, {} if matrix.value is not problem.universal else None)
-        free = len(problem.free)
-        order, quantifiers, reason = variable_order(prefix, problem.free, matrix, context.options, context.budget)
-        ring = Ring.of(order)
-        search = Search(convert(matrix, ring), ring, quantifiers, context.budget)
-        found = _answered(search, free)
-        figures = {"order": list(order), "order by": reason, "samples": found.samples, "cells": found.cells}
+        free, ring = len(problem.free), Ring.of(question.order)
+        found = _answered(Search(convert(matrix, ring), ring, quantifiers, context.budget), free)
+        figures = {**question.figures, "samples": found.samples, "cells": found.cells}
         context.log.work("coverings", figures)
         values = None
         if not free and found.cover.truth is (quantifiers[0] == "E"):
-            values = _values(found.cover, search)
+            values = _values(found.cover, quantifiers)
         proof: dict[str, object] = {}
         if values is None or not problem.is_flat:  # values prove the answer otherwise
             wanted = context.options.certify
             again = OnDemand(Repeated(covered, problem.formula, context.options))
-            proof["proof"] = _evidence(found, quantifiers, search.formula) if wanted else again
+            proof["proof"] = _evidence(found, quantifiers, convert(matrix, ring)) if wanted else again
         given = problem.formula.ring
         answer = found.formula if given is None else convert(found.formula, given)
         context.log.step("covering", problem.formula, answer, evidence=proof)
@@ -98,19 +93,18 @@ def _answered(search: Search, free: int) -> _Answered:
         if not free:
             return _Answered(cover, TRUE if cover.truth else FALSE, samples)
         factors, cells = parameter_cells(cover, free)
-        pair = undistinguished(factors, cells)
-        if pair is None:
+        try:
             return _Answered(cover, formula_of_cells(factors, cells), samples, len(cells))
-        search = _finer(search, *pair)
+        except Undistinguished as pair:
+            search = _finer(search, pair.level)
 
 
-def _finer(search: Search, one: FreeCell, other: FreeCell) -> Search:
+def _finer(search: Search, level: int) -> Search:
     """The search with more signs on the level at which two cells part.
 
     First every interval of a line there keeps the signs of all polynomials of the line, so that intervals are disjoint
     and have these in common; then also of their derivatives: by Thom's lemma these signs tell the intervals apart.
     """
-    level = next(k for k, (a, b) in enumerate(zip(one.path, other.path, strict=False)) if a != b)
     if level not in search.whole:
         return replace(search, whole=search.whole | {level}, samples=0)
     if level in search.thom:
@@ -118,9 +112,10 @@ def _finer(search: Search, one: FreeCell, other: FreeCell) -> Search:
     return replace(search, thom=search.thom | {level}, samples=0)
 
 
-def _values(cover: Cover, search: Search) -> Values:
+def _values(cover: Cover, quantifiers: Sequence[str]) -> Values:
     """The values of the first block that decide a sentence."""
-    while isinstance(above := cover.intervals[0].found.reason, Cover) and search.is_leading(above.point.depth):
-        cover = above
-    sample = cover.intervals[0].found.sample
-    return {name: sample.number(i) for i, name in enumerate(search.ring.names[: sample.depth])}
+    found = cover.intervals[0].found
+    while isinstance(above := found.reason, Cover) and quantifiers[above.point.depth] == quantifiers[0]:
+        found = above.intervals[0].found
+    sample = found.sample
+    return {name: sample.number(i) for i, name in enumerate(sample.ring.names[: sample.depth])}

@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from qe.decomposition.decompose import Tactics, decompose
 from qe.decomposition.extended_tarski import extended_formula
-from qe.decomposition.order_by_projection import variable_order
+from qe.decomposition.order import Prenex
 from qe.decomposition.sampled_cells import free_part
 from qe.elimination.protocol import Outcome
 from qe.engine.run import answered, proved
@@ -25,7 +25,7 @@ from qe.errors import Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert, disj, exists, neg
 from qe.formula.counting import without_root_atoms
-from qe.formula.normal import nnf, prenex, rename_apart, without_clashes
+from qe.formula.normal import nnf, rename_apart, without_clashes
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.io.names import names_in
 from qe.options import Budget, Options
@@ -160,13 +160,11 @@ def _apportioned(budget: Budget, share: float) -> Budget:
 
 def _decided_cells(formula: Formula, options: Options, budget: Budget) -> Partial:
     """The decided cells of the space of the free variables. Raises ``Unable`` where there is none."""
-    prefix, matrix = prenex(formula)
-    matrix = nnf(matrix)
-    if isinstance(matrix, Constant):
-        return _answered(matrix)
-    order, quantifiers, _ = variable_order(prefix, formula.free, matrix, options, _apportioned(budget, SHARE))
-    lifting = _apportioned(budget, 1 - WRITING)
-    table = decompose(matrix, order, quantifiers, budget=lifting, tactics=Tactics(anytime=True)).table
+    question = Prenex.of(formula, options, _apportioned(budget, SHARE))
+    if isinstance(question.matrix, Constant):
+        return _answered(question.matrix)
+    order, lifting, tactics = question.order, _apportioned(budget, 1 - WRITING), Tactics(anytime=True)
+    table = decompose(question.matrix, order, question.quantifiers, budget=lifting, tactics=tactics).table
     if not formula.free:
         known = _answered(TRUE if table.root.truth else FALSE)
     else:

@@ -17,7 +17,6 @@ from dataclasses import replace
 from fractions import Fraction
 
 from qe.decomposition.decompose import decompose
-from qe.decomposition.follows import signs_of
 from qe.decomposition.formulas import construct
 from qe.decomposition.matrix import Node, compile_matrix, specialise
 from qe.decomposition.pieces import Piece, merge
@@ -127,7 +126,7 @@ class _Labels:
         cell, known = place.cell, self.values if values is None else values
         if cell.stack is None:
             return replace(cell, truth=bool(cell.truth) and self.has_value(place))
-        above = [specialise(known, place.depth, signs_of(cell.stack, c)) for c in cell.stack.cells]
+        above = [specialise(known, place.depth, cell.stack.signs_of(c)) for c in cell.stack.cells]
         wanted = [c.truth is not False or c.stack is not None for c in cell.stack.cells]
         if self.table.order[place.depth] == self.value:
             taken = [k for k, node in enumerate(above) if node is True]

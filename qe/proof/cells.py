@@ -45,6 +45,10 @@ class Stack:
         """Its sectors and sections, from below."""
         return range(2 * len(self.sections) + 1)
 
+    def signs_of(self, cell: Cell) -> dict[int, int]:
+        """The signs of the level's factors, by their numbers, on a cell of the stack; without those that are open."""
+        return {j: SIGN_OF[c] for j, c in zip(self.used, cell.signs, strict=True) if c != "?"}
+
     def __reduce__(self) -> tuple[type[Stack], tuple[object, ...]]:
         """Tables are sent between processes by the hundred thousand cells; the way of all dataclasses is slow."""
         return Stack, (self.used, self.sectors, self.sections, self.cells)
@@ -95,6 +99,11 @@ class CellTable:
     factors: tuple[tuple[Poly, ...], ...]
     root: Cell
     constraints: tuple[tuple[int, ...], ...] = ()
+
+    @property
+    def free(self) -> int:
+        """The number of free variables."""
+        return sum(quantifier == "" for quantifier in self.quantifiers)
 
     @property
     def is_decomposition(self) -> bool:

@@ -14,10 +14,10 @@ from qe.arguments import by_name, by_place, instance, name, ratio, seconds
 from qe.arguments import path as name_of_file
 from qe.arguments import point as point_of
 from qe.decomposition.decompose import decompose
-from qe.decomposition.fibres import any_true, fibre_of, first_shadow
+from qe.decomposition.fibres import fibre_of
 from qe.decomposition.interval import Coordinate, Interval, Number, number_of
 from qe.decomposition.pieces import Piece, merge
-from qe.decomposition.sampled_cells import Place, coordinates, free_part, leaves
+from qe.decomposition.sampled_cells import Place, any_true, coordinates, first_shadow, free_part, leaves
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import ExactPoint

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from qe.decomposition.formulas import formula_of_cells
+from qe.decomposition.sign_table import Masks, where
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Formula, Or, Relation
 from qe.formula.traverse import atoms
 from qe.proof.cells import CHARACTER_OF, FreeCell
 
@@ -27,35 +28,18 @@ class Rows:
     signs: tuple[Signs, ...]
 
     @cached_property
-    def _columns(self) -> dict[Poly, tuple[int, dict[int, int]]]:
-        """By the polynomial of an atom: the sign of its factor, and where the column has which sign, as bits."""
-        found = {}
+    def _columns(self) -> dict[Poly, Masks]:
+        """By the polynomial of an atom the rows, as bits, on which it has which sign."""
+        listed: dict[Poly, Masks] = {}
         for k, p in enumerate(self.polys):
             unit, normal = p.normal()
-            text = [row[k] for row in reversed(self.signs)]
-            masks = {s: int("0" + "".join("01"[t == s] for t in text), 2) for s in (1, 0, -1)}
-            found[normal] = (1 if unit > 0 else -1), masks
-        return found
+            text = [row[k] if unit > 0 else -row[k] for row in reversed(self.signs)]
+            listed[normal] = {s: int("0" + "".join("01"[t == s] for t in text), 2) for s in (1, 0, -1)}
+        return listed
 
     def where(self, formula: Formula) -> int:
         """The rows on which a formula holds, as bits."""
-        match formula:
-            case Atom(poly, relation):
-                turn, masks = self._columns[poly]
-                return sum(masks[turn * s] for s in relation.signs)
-            case And(args):
-                found = (1 << len(self.signs)) - 1
-                for arg in args:
-                    found &= self.where(arg)
-                return found
-            case Or(args):
-                found = 0
-                for arg in args:
-                    found |= self.where(arg)
-                return found
-            case Constant(value):
-                return (1 << len(self.signs)) - 1 if value else 0
-        raise TypeError(formula)
+        return where(formula, self._columns.__getitem__, (1 << len(self.signs)) - 1)[0]
 
     def formula(self, true: int, false: int, splitting: Sequence[Poly]) -> Formula:
         """Holds on the true rows and not on the false ones; cases by the sign of a polynomial where that is shorter."""

@@ -7,8 +7,9 @@ from fractions import Fraction
 import pytest
 
 from qe.decomposition.extended_tarski import extended_formula
-from qe.decomposition.fibres import any_true, fibre_of
+from qe.decomposition.fibres import fibre_of
 from qe.decomposition.interval import Interval, Number
+from qe.decomposition.sampled_cells import any_true
 from qe.exact.algebraic import RealAlgebraic
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import random
+from math import prod
 
 import pytest
 
-from qe.decomposition import follows as following
-from qe.decomposition import matrix
 from qe.decomposition.decompose import decompose
 from qe.decomposition.follows import follows, is_listed
-from qe.decomposition.formulas import formula_of_cells
-from qe.decomposition.matrix import Node, join, specialise
-from qe.decomposition.sign_table import SignTable, free_cells
+from qe.decomposition.formulas import Undistinguished, formula_of_cells
+from qe.decomposition.matrix import compile_matrix, specialise
+from qe.decomposition.sign_table import Columns, SignTable, free_cells
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
-from qe.formula.syntax import FALSE, TRUE, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Not, Or, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.options import Budget
@@ -117,24 +116,35 @@ def test_polynomials_of_huge_degree_are_told_apart() -> None:
     assert holds_at(found, {"x": 2, "y": 0}) and not holds_at(found, {"x": 2, "y": 2**1500})
 
 
-def test_the_cells_of_a_stack_at_once_as_one_by_one() -> None:
-    rng = random.Random(5)
+def test_all_cells_at_once_as_one_by_one() -> None:
+    """Signs that are not known among them; products with even and odd exponents, and negative units."""
+    rng, polys = random.Random(5), (X, Y, X + Y, X - 2)
 
-    def node(depth: int) -> Node:
+    def part(depth: int) -> Formula:
         if depth and rng.random() < 0.7:
-            return join(rng.random() < 0.5, [node(depth - 1) for _ in range(3)])
-        parts = tuple((1, j, rng.random() < 0.5) for j in rng.sample(range(4), rng.randint(1, 3)))
-        return matrix.Test(parts, frozenset(rng.sample((-1, 0, 1), rng.randint(1, 2))))
+            return rng.choice([And, Or])(tuple(part(depth - 1) for _ in range(3)))
+        if depth and rng.random() < 0.2:
+            return Not(part(depth - 1))
+        product = prod((p ** rng.randint(1, 2) for p in rng.sample(polys, rng.randint(1, 3))), start=RING.constant(1))
+        return Atom(rng.choice([product, -product]), rng.choice(list(Relation)))
 
+    places = {p: (0, j) for j, p in enumerate(polys)}
     for _ in range(200):
-        rows, asked = ["".join(rng.choices("+-0", k=4)) for _ in range(9)], node(3)
-        columns = following._columns(rows, range(4))
-        assert columns is not None
-        found = following._where_true(asked, columns, (1 << len(rows)) - 1)
-        signs = [{j: {"+": 1, "-": -1, "0": 0}[c] for j, c in enumerate(row)} for row in rows]
-        one_by_one = [specialise(asked, 1, sign) for sign in signs]
-        assert [bit == "1" for bit in f"{found:09b}"] == one_by_one
+        rows, claim = ["".join(rng.choices("+-0?", k=4)) for _ in range(9)], part(3)
+        columns = Columns([FreeCell((k,), (row,), True) for k, row in enumerate(rows)], [polys])
+        true, false = columns.where(claim)
+        for k, row in enumerate(rows):
+            signs = {j: {"+": 1, "-": -1, "0": 0}[c] for j, c in enumerate(row) if c != "?"}
+            known = specialise(compile_matrix(claim, places), 0, signs)
+            assert (bool(true >> k & 1), bool(false >> k & 1)) == (known is True, known is False)
 
 
-def test_signs_that_are_not_known_have_no_columns() -> None:
-    assert following._columns(["+?", "-0"], range(2)) is None
+def test_cells_of_one_sign_name_the_level_at_which_they_part() -> None:
+    cells = [FreeCell((0, 2), ("+", "-"), True), FreeCell((0, 4), ("+", "-"), False), FreeCell((1,), ("0",), False)]
+    with pytest.raises(Undistinguished) as raised:
+        formula_of_cells([[X], [Y]], cells)
+    assert raised.value.level == 1
+    shallow = [FreeCell((0,), ("+",), True), FreeCell((2, 1), ("+", "0"), False)]
+    with pytest.raises(Undistinguished) as raised:
+        formula_of_cells([[X], [Y]], shallow)
+    assert raised.value.level == 0
