@@ -14,6 +14,7 @@ from qe.formula.syntax import Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Root
 from qe.proof.run_log import RunLog
+from qe.proof.step import Nested
 
 
 def witness_of(block: Block, values: Values) -> Certificate:
@@ -28,7 +29,9 @@ class Outcome:
 
     ``witness``: exact values for the block's variables that make a true existential sentence true, or a false universal
     one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one.
-    ``order``: that of the free variables in which the formula was found, where that matters to who goes on.
+    ``order``: that of the free variables in which the formula was read off, where that matters to who goes on.
+    ``back``: where a method reduces the problem to another question, which is ``formula`` then: the outcome for the
+    problem from the one for that question.
     ``unchecked``: the rules of the steps that no checker has accepted, where that was asked for. ``checked``: whether
     the checkers have accepted the certificate; ``reason``: why there is none. ``log``: how the whole answer was found;
     the engine fills these in.
@@ -42,6 +45,11 @@ class Outcome:
     checked: bool = False
     reason: str = ""
     log: RunLog = field(default_factory=RunLog)
+    back: Callable[[Outcome], Outcome] | None = None
+
+    def nested(self, question: Formula) -> Nested:
+        """How the answer to the question was derived, as evidence of a step to another."""
+        return Nested(question, tuple(self.log.steps()), self.formula)
 
     @property
     def stats(self) -> Mapping[str, object]:
@@ -51,13 +59,13 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """What every method is given beside its problem. ``decide``: the outcome for a sentence of its own, by any method,
-    within a budget; raises ``Unable``."""
+    """What every method is given with its problem. ``decide``: the outcome for another question, by any methods that
+    the options allow; raises ``Unable``."""
 
     options: Options
     budget: Budget
     log: RunLog
-    decide: Callable[[Formula, Budget], Outcome] | None = None
+    decide: Callable[[Formula, Options, Budget], Outcome] | None = None
 
 
 class Method(Protocol):

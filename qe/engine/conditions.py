@@ -8,7 +8,8 @@ from math import prod
 from qe.formula.block import Block
 from qe.formula.syntax import And, Atom, Formula, Or, Relation
 from qe.formula.traverse import connected, subformulas
-from qe.options import Options, Stage
+from qe.options import Method, Options, Stage
+from qe.rules.linear import may_define
 
 Condition = Callable[[Block, Options], str | None]
 
@@ -83,6 +84,22 @@ def hopeless_cases(problem: Block, options: Options) -> str | None:
     if cases and len(problem.variables) >= LINEAR_VARIABLES and not problem.curved:
         return f"a linear sentence with {cases} case distinctions"
     return f"a sentence with {cases} case distinctions, too many for other methods" if cases >= HOPELESS_CASES else None
+
+
+def many_linear_cases(problem: Block, options: Options) -> str | None:
+    """A linear sentence with ``CASES_FROM`` disjunctions or more, where no method is asked for."""
+    cases = 0 if problem.curved or options.method is not Method.AUTO else case_count(problem)
+    return f"a linear sentence with {cases} case distinctions" if cases >= CASES_FROM else None
+
+
+def definitions(problem: Block, options: Options) -> str | None:
+    """An equation that is linear in a bound variable."""
+    return "an equation may define a variable" if may_define(problem.formula) else None
+
+
+def solvable_equations(problem: Block, options: Options) -> str | None:
+    """Where equations may prepare what stands with them."""
+    return None if Stage.EQUATIONS in options.without else "equations prepare the other parts"
 
 
 def case_count(problem: Block) -> int:

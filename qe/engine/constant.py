@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 
+from qe.elimination.protocol import Context
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.formula.features import features
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
+from qe.proof.step import Nested
 
 PATTERNS = ((0,), (1,), (-1,), (1, -2, 3, -5), (-3, 2, -1, 4), (Fraction(1, 7), 2), (9, Fraction(-1, 3)), (1, 8, 64))
 """Coordinates of the points that are tried, repeated as far as needed: signs and sizes in several combinations."""
@@ -38,8 +41,43 @@ BEYOND, INSIDE = 1.7, 1e-4
 FINE = 10**6
 """The denominators of the place where that ends."""
 
+SETTLE_WORK = 2000
+"""Units of work for the question whether an answer is constant."""
+
 ATOMS, LONG = 40, 1000
 """A formula of more atoms is not decided; one of more than ``LONG`` is not even evaluated."""
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """The question that an answer is to, and where its steps begin in the log."""
+
+    question: Formula
+    mark: int
+
+
+def constant(formula: Formula, context: Context, start: Start | None) -> Formula:
+    """TRUE or FALSE where the answer turns out to be that, if this is cheap to find out.
+
+    Where the question itself has no solution, the steps to the answer are left out.
+    """
+    if start is None or (decide := context.decide) is None:
+        return formula
+    budget, decisions, question = context.budget.part(SETTLE_WORK), list[Nested](), start.question
+
+    def satisfiable(sentence: Formula) -> bool:
+        decisions.append(decide(sentence, context.options, budget).nested(sentence))
+        return decisions[-1].answer == TRUE
+
+    value = constant_value(formula, satisfiable, question)
+    if value is None:
+        return formula
+    context.log.choice("", (), f"the answer was decided to be {value}")
+    (decision,), before = decisions, formula
+    if decision.start == exists(question.free, question):
+        context.log.forget_steps(start.mark)
+        before = question
+    return context.log.step("constant", before, value, evidence={"proof": {"exceptions": [decision]}})
 
 
 def constant_value(

@@ -21,6 +21,7 @@ from qe.formula.features import length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms
+from qe.options import Stage
 from qe.proof.step import Nested, Place, Step
 from qe.simplify.simplify import simplify
 
@@ -68,24 +69,28 @@ class Part:
         return exists(body.free, body)
 
 
-def without_redundant_parts(formula: Formula, context: Context) -> Formula:
-    """The formula without parts that make no difference, as far as little work shows them."""
-    if context.decide is None or not _is_worth_questions(formula):
+def without_redundant_parts(formula: Formula, context: Context, start: object = None) -> Formula:
+    """The formula without parts that make no difference, as far as little work shows them.
+
+    The sentences are likely to be false, so that trials at points would be in vain.
+    """
+    if context.decide is None:
         return formula
     if not _is_suited(formula):
         return _without_excluded_parts(formula, context)
     points = _Points(formula.free, context.budget.check)
+    options = context.options.with_(without=context.options.without | {Stage.SAMPLES})
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
     while patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept), None)) is not None:
         sentence = part.sentence
         linear = all(a.poly.total_degree <= 1 for a in atoms(sentence))
         try:
-            found = context.decide(sentence, budget.part(LINEAR_WORK if linear else QUESTION_WORK))
+            found = context.decide(sentence, options, budget.part(LINEAR_WORK if linear else QUESTION_WORK))
         except Unable:
             context.budget.check("shorten")
             found = None
         if found is not None and found.formula == FALSE:
-            formula = _dropped(formula, part, Nested(sentence, tuple(found.log.steps()), FALSE), context)
+            formula = _dropped(formula, part, found.nested(sentence), context)
             patience = PATIENCE
         else:
             kept.add(sentence)
@@ -120,7 +125,7 @@ def _dropped(formula: Formula, part: Part, nested: Nested, context: Context) -> 
     return context.log.step("simplification", shorter, simplify(shorter, watch=context.budget.check))
 
 
-def _is_worth_questions(formula: Formula) -> bool:
+def is_worth_questions(formula: Formula, context: Context) -> bool:
     """Whether cases are told apart, or there are more linear conditions side by side than variables."""
     if not isinstance(formula, And | Or):
         return False

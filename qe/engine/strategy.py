@@ -41,6 +41,11 @@ class Listed:
 
 
 METHODS = {
+    "definitions": Listed("qe.engine.reductions", "Definitions", "substituting definitions", Stage.EQUATIONS),
+    "local variables": Listed(
+        "qe.engine.reductions", "LocalVariables", "eliminating local variables", Stage.MINISCOPING
+    ),
+    "parts first": Listed("qe.engine.reductions", "PartsFirst", "eliminating small parts first", Stage.EARLY),
     "vs": Listed(
         "qe.elimination.vs.method", "VirtualSubstitution", "virtual substitution", Stage.SUBSTITUTION, Method.VS
     ),
@@ -78,15 +83,22 @@ METHODS = {
 """Every method by its name. Attempts of ``STRATEGY`` say when it is tried, with how much work at most."""
 
 class Scope(Enum):
-    """What a method is shown: the question as it was asked; the prepared question, one block with conditions outside;
-    one block over a quantifier-free body; such a block inside another; a block with blocks inside.
+    """What a method is shown: any question, where no block need be outermost; a block as it was asked, and again
+    prepared; the prepared question, one block with conditions outside; one block over a quantifier-free body; such a
+    block inside another; a block with blocks inside, before these are tried and after.
     """
 
+    QUESTION = "question"
     ASKED = "as asked"
     PREPARED = "prepared"
     BLOCK = "block"
     INNER = "inner block"
+    OUTER = "outer block"
     NESTED = "nested"
+
+
+REDUCING = Scope.QUESTION, Scope.OUTER
+"""Where questions are reduced to others; these are then for the method that the caller chose."""
 
 
 def any_outcome(outcome: Outcome, problem: Block) -> bool:
@@ -167,6 +179,8 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 """
 
 STRATEGY: tuple[Attempt, ...] = (
+    Attempt(Scope.QUESTION, "definitions", on.definitions),
+    Attempt(Scope.QUESTION, "local variables", on.many_linear_cases),
     Attempt(Scope.ASKED, "witness", on.inner_blocks, SHORTCUT),
     Attempt(Scope.ASKED, "search", on.hopeless_cases),
     Attempt(Scope.ASKED, "search", on.many_cases, SHORTCUT),
@@ -176,6 +190,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, SHORTCUT),
     Attempt(Scope.ASKED, "linear form named", on.several_parameters),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
+    Attempt(Scope.OUTER, "parts first", on.solvable_equations, SHORTCUT),
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),
     Attempt(Scope.BLOCK, "critical", on.convex_conditions, FIRST),
     Attempt(Scope.BLOCK, "vs", on.low_degrees, FIRST, complete_if_closed, shorten=True),
@@ -211,7 +226,7 @@ def attempts(scope: Scope, problem: Block, options: Options) -> Iterator[tuple[A
     for attempt in STRATEGY:
         if attempt.scope is not scope:
             continue
-        if options.method is not Method.AUTO:
+        if options.method is not Method.AUTO and scope not in REDUCING:
             if attempt.listed.choice is not options.method or attempt.method in seen:
                 continue
             seen.add(attempt.method)

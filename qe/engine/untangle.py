@@ -6,9 +6,10 @@ from qe.elimination.protocol import Context
 from qe.errors import InternalError, Unable
 from qe.formula.build import conj, convert, disj
 from qe.formula.features import length
-from qe.formula.syntax import And, Exists, Formula, Or
-from qe.formula.traverse import atoms, ring_of
-from qe.options import Stage
+from qe.formula.normal import nnf
+from qe.formula.syntax import And, Atom, Exists, Formula, Or, Relation
+from qe.formula.traverse import atoms, conjuncts, disjuncts, ring_of
+from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
 from qe.rules.block import reduce_block
 from qe.rules.block_context import BlockContext
@@ -23,27 +24,51 @@ UNTANGLED_ATOMS = 120
 """The equations of an answer of more atoms are left as they are."""
 
 
-def untangled(formula: Formula, context: Context) -> Formula:
+def untangled(formula: Formula, context: Context, start: object = None) -> Formula:
     """The answer with its equations by a better basis of their ideal, factor by factor, where that makes it shorter.
 
     The rules about equations (``qe.rules.cases``) are equivalences at every point, of whatever variables the block is
     made: here of the free ones, so that what the side conditions exclude goes with the factor that it belongs to.
     """
-    if sum(1 for _ in atoms(formula)) > UNTANGLED_ATOMS or Stage.EQUATIONS in context.options.without:
+    if sum(1 for _ in atoms(formula)) > UNTANGLED_ATOMS:
         return formula
-    whole = _attempt(formula, context, POINTWISE_STEPS)
-    return whole if whole != formula else _attempt(formula, context, POINTWISE_STEPS - {StepKind.FACTOR_SPLIT})
+    for enabled in (POINTWISE_STEPS, POINTWISE_STEPS - {StepKind.FACTOR_SPLIT}):
+        try:
+            shorter = _untangled_by(enabled, formula, context)
+        except Unable:
+            context.budget.check("shorten")
+        else:
+            if shorter != formula:
+                return shorter
+    return formula
 
 
-def _attempt(formula: Formula, context: Context, enabled: frozenset[StepKind]) -> Formula:
+def untangled_negation(formula: Formula, context: Context, start: object = None) -> Formula:
+    """The same by the equations of the negation: in a disjunction with p /= 0 the others matter only where p = 0."""
+    dual = nnf(formula, negate=True)
+    if not has_equations(dual, context):
+        return formula
+    log = RunLog()
+    shorter = untangled(dual, Context(context.options, context.budget, log))
+    result = nnf(shorter, negate=True)
+    if shorter == dual or length(result) >= length(formula):
+        return formula
+    context.log.step("negation normal form", formula, negated(dual))
+    context.log.take_up(tuple(log.steps()))
+    return context.log.step("negation normal form", negated(shorter), result)
+
+
+def has_equations(formula: Formula, context: Context) -> bool:
+    """Whether an equation stands in the formula, or in a disjunct of it."""
+    parts = (conjuncts(part) for part in disjuncts(formula))
+    return any(isinstance(a, Atom) and a.relation is Relation.EQ for part in parts for a in part)
+
+
+def _untangled_by(enabled: frozenset[StepKind], formula: Formula, context: Context) -> Formula:
     """As ``untangled``, by these rules."""
     rules, steps = BlockContext(context.budget.part(UNTANGLE_WORK), enabled), RunLog()
-    try:
-        apart = _matrix(reduce_block(formula.free, formula, rules))
-        shorter = simplify(apart, watch=context.budget.check)
-    except Unable:
-        context.budget.check("shorten")
-        return formula
+    matrix = _matrix(reduce_block(formula.free, formula, rules))
+    shorter = simplify(matrix, watch=context.budget.check)
     ring = ring_of(formula)
     shorter = shorter if ring is None else convert(shorter, ring)
     if length(shorter) >= length(formula):
@@ -51,7 +76,7 @@ def _attempt(formula: Formula, context: Context, enabled: frozenset[StepKind]) -
     for step in rules.log.steps():
         rule = StepKind.SIMPLIFY.value if step.rule == StepKind.MINISCOPE.value else step.rule
         steps.step(rule, _unquantified(step.before), _unquantified(step.after), context=step.context)
-    steps.step(StepKind.SIMPLIFY.value, apart, shorter)
+    steps.step(StepKind.SIMPLIFY.value, matrix, shorter)
     return context.log.step("equations taken apart", formula, shorter, evidence={"trace": steps})
 
 

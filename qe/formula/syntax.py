@@ -24,7 +24,7 @@ LONGEST = 300
 NO_NAMES = frozenset[str]()
 
 
-class Formula(Connected, SymPyForm):
+class FormulaNode(Connected, SymPyForm):
     """Base class of all nodes; ``str()`` prints the text syntax.
 
     ``ring``, ``free``, ``bound``, ``is_quantifier_free``, ``is_normal`` and the hash are worked out when they are first
@@ -132,19 +132,19 @@ class Formula(Connected, SymPyForm):
         raise TypeError(f"not a formula: {self!r}")
 
 
-Node = TypeVar("Node", bound=Formula)
+Kind = TypeVar("Kind", bound="FormulaNode")
 
 
 @dataclass_transform(frozen_default=True)
-def _node(kind: type[Node]) -> type[Node]:
+def _node(kind: type[Kind]) -> type[Kind]:
     """A frozen dataclass whose hash is the one that a formula keeps."""
     made = dataclass(frozen=True, slots=True, repr=False)(kind)
-    made.__hash__ = Formula.__hash__  # type: ignore[method-assign]
+    made.__hash__ = FormulaNode.__hash__  # type: ignore[method-assign]
     return made
 
 
 @_node
-class Constant(Formula):
+class Constant(FormulaNode):
     """TRUE or FALSE."""
 
     value: bool
@@ -160,7 +160,7 @@ TRUE, FALSE = Constant(True), Constant(False)
 
 
 @_node
-class Atom(Formula):
+class Atom(FormulaNode):
     """``poly relation 0``. Invariant: poly is non-constant, primitive, with positive leading coefficient."""
 
     poly: Poly
@@ -180,7 +180,7 @@ class Atom(Formula):
 
 
 @_node
-class RootAtom(Formula):
+class RootAtom(FormulaNode):
     """``variable relation root_k(poly)``: the k-th smallest distinct real root of ``poly`` in ``variable``.
 
     ``k`` counts from 1; negative k counts from the largest (-1). The atom is false where fewer than |k| real
@@ -206,7 +206,7 @@ class RootAtom(Formula):
 
 
 @_node
-class Connective(Formula):
+class Connective(FormulaNode):
     """Two or more formulas joined by one connective. Raises ``InternalError`` for parts over different rings."""
 
     args: tuple[Formula, ...]
@@ -253,7 +253,7 @@ class Or(Connective):
 
 
 @_node
-class Not(Formula):
+class Not(FormulaNode):
     """Negation."""
 
     arg: Formula
@@ -280,7 +280,7 @@ class Not(Formula):
 
 
 @_node
-class Quantified(Formula):
+class Quantified(FormulaNode):
     """A block of one kind of quantifier over a body."""
 
     variables: tuple[str, ...]
@@ -318,6 +318,13 @@ class Exists(Quantified):
 @_node
 class ForAll(Quantified):
     """For all real values of ``variables``, ``body``."""
+
+
+Atomic = Atom | RootAtom
+"""The kinds of atomic formulas."""
+
+Formula = Atom | RootAtom | Constant | And | Or | Not | Exists | ForAll
+"""All kinds of nodes: a ``match`` that ends with ``assert_never`` is one that mypy holds against this list."""
 
 
 def _together(ring: Ring | None, parts: tuple[Formula, ...]) -> tuple[str, ...]:

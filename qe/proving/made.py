@@ -165,8 +165,9 @@ def _place(formula: Formula, part: Formula) -> Place | None:
     level: list[tuple[Place, Formula]] = [((), formula)]
     while level:
         for place, found in level:
-            joined = isinstance(found, And | Or) and type(part) is type(found)
-            if found == part or (joined and set(part.args) <= set(found.args)):  # type: ignore[attr-defined]
+            if found == part or (
+                isinstance(found, And | Or) and isinstance(part, type(found)) and set(part.args) <= set(found.args)
+            ):
                 return place
         level = [((*place, k), child) for place, found in level for k, child in enumerate(children(found))]
     return None

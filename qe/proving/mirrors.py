@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 
 from qe.exact.ring import Poly
@@ -79,7 +79,7 @@ def _with_middle(made: Made, part: ForAll, images: Images, here: Images, centre:
 
 
 def _follow(
-    made: Made, before: Formula, after: Formula, parts: list[Formula], here: Images, centre: Mapping[str, Quotient]
+    made: Made, before: Formula, after: Formula, parts: Sequence[Formula], here: Images, centre: Mapping[str, Quotient]
 ) -> None:
     """A polynomial of degree 1 has in the middle half the sum of its values at both points."""
     index, listed = made.ring.index, list[list[Term]]()

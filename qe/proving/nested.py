@@ -42,7 +42,7 @@ def derivations_within(value: object) -> Iterator[Nested]:
 def names_within(value: object) -> Iterator[str]:
     """The names in the formulas and polynomials of evidence, also in derivations inside it."""
     match value:
-        case Formula():
+        case _ if isinstance(value, Formula):
             yield from names_in(value)
         case Poly():
             yield from (value.ring.names[i] for i in value.variables)

@@ -162,8 +162,9 @@ class Prover:
 
     def _places(self, formula: Formula, before: Formula, path: Place = ()) -> Iterator[Place]:
         """Where a formula stands, or is a part of a conjunction or disjunction."""
-        part = isinstance(formula, And | Or) and type(before) is type(formula)
-        if formula == before or (part and set(before.args) <= set(formula.args)):  # type: ignore[attr-defined]
+        if formula == before or (
+            isinstance(formula, And | Or) and isinstance(before, type(formula)) and {*before.args} <= {*formula.args}
+        ):
             yield path
             return
         for k, child in enumerate(children(formula)):
@@ -405,7 +406,7 @@ class Prover:
                 return value.to_data()
             case Nested():
                 return value  # type: ignore[return-value]  # becomes a list of steps when they are proved
-            case Formula():
+            case _ if isinstance(value, Formula):
                 return formula_to_json(moved(value, self.ring), quantified=True)
             case None | bool() | int() | str():
                 return value

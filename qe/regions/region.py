@@ -27,7 +27,7 @@ from qe.extras import wanted
 from qe.formula.build import conj, convert
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
-from qe.formula.syntax import Formula
+from qe.formula.syntax import Formula, FormulaNode
 from qe.options import Budget
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
@@ -99,7 +99,7 @@ class Region(SetOperations):
 
         Raises ``InputError`` when ``order`` misses a free variable.
         """
-        formula = instance(formula, Formula, "formula", "a formula")
+        instance(formula, FormulaNode, "formula", "a formula")
         chosen = checked_order(formula.free, order)
         matrix = nnf(convert(formula, Ring.of(chosen)))
         done = decompose(matrix, chosen, ("",) * len(chosen), budget=budget or Budget())
@@ -312,7 +312,7 @@ class Region(SetOperations):
     def within(self, condition: Formula) -> Region:
         """The part where a quantifier-free condition on the region's variables holds, decomposed in the same order."""
         ring = Ring.of(self.order)
-        condition = instance(condition, Formula, "condition", "a formula")
+        instance(condition, FormulaNode, "condition", "a formula")
         both = conj((convert(self.formula, ring), convert(condition, ring)))
         return Region.of(both, self.order, budget=self._budget, limits=self.limits)
 

@@ -51,7 +51,7 @@ def _merge_pair(
             union = join((earlier[1], part))
             if not isinstance(union, Atom | Constant):
                 continue
-            ordered = [p for p in member.args if p is not part and p in rest]  # type: ignore[attr-defined]
+            ordered = [p for p in member.args if p is not part and p in rest]  # type: ignore[union-attr]
             if isinstance(union, Atom):
                 ordered.append(union)
             replacement = build(ordered)

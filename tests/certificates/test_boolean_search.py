@@ -15,7 +15,7 @@ from qe.elimination.protocol import Context, Outcome
 from qe.elimination.search.clauses import Clauses
 from qe.elimination.search.method import RULE, BooleanSearch
 from qe.elimination.search.theory import Theory
-from qe.engine.run import _Run
+from qe.engine.run import outcome_for
 from qe.errors import InternalError
 from qe.exact.difference_graph import DifferenceGraph
 from qe.formula.block import Block
@@ -35,9 +35,9 @@ pytest.importorskip("pysat")
 CASES = "ex x, y. (x > 1 or x*y > 1) and (x > 1 or x*y < 0) and (x < 0 or y > 2) and (x < 0 or y^2 < 1)"
 
 
-def decide(sentence: Formula, budget: Budget) -> Outcome:
+def decide(sentence: Formula, options: Options, budget: Budget) -> Outcome:
     """As the engine decides for the search."""
-    return _Run(WITHOUT.with_(certify=True), budget).apart(sentence, budget)
+    return outcome_for(sentence, WITHOUT.with_(certify=True), budget)
 
 
 def step_of(sentence: Formula) -> Step:
@@ -199,9 +199,9 @@ def test_a_conjunction_of_few_variables_of_many_is_refuted_in_their_own_ring() -
     assert problem is not None and sentence.ring is not None and sentence.ring.is_wide
     asked: list[Formula] = []
 
-    def noted(part: Formula, budget: Budget) -> Outcome:
+    def noted(part: Formula, options: Options, budget: Budget) -> Outcome:
         asked.append(part)
-        return decide(part, budget)
+        return decide(part, options, budget)
 
     log = RunLog()
     found = BooleanSearch().run(problem, Context(Options(certify=True), Budget(120), log, noted))

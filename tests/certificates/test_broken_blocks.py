@@ -133,7 +133,7 @@ def one_root_fewer(m: pytest.MonkeyPatch) -> None:
 
 def no_exception(m: pytest.MonkeyPatch) -> None:
     """Every sentence that is asked on the way is false."""
-    m.setattr(run._Run, "decision", lambda self, sentence, context: Nested(sentence, (), FALSE))
+    m.setattr(run, "outcome_for", lambda sentence, options, budget: Outcome(FALSE))
     m.setattr("qe.engine.constant._at", lambda formula, names, pattern: False)
     m.setattr("qe.engine.constant.holds_at", lambda formula, point: False)
 

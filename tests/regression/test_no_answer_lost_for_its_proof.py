@@ -74,7 +74,7 @@ def test_a_contradiction_between_two_methods_is_never_a_reason_only(monkeypatch)
     """An answer that a decomposition refutes is not handed out."""
     from qe.elimination.protocol import Outcome
 
-    monkeypatch.setattr("qe.engine.run._Run.question", lambda self, formula: Outcome(FALSE))
+    monkeypatch.setattr("qe.engine.run._Run.outcome", lambda self, formula: Outcome(FALSE))
     with pytest.raises(Contradiction):
         qe.eliminate("ex x, y. x^2 + y^2 < 1 and x^3 > y", check=True, process=False)
 

@@ -91,10 +91,11 @@ def found_point(body: Formula, context: Context) -> Values | Refuted:
     refutations: dict[frozenset[Formula], Nested] = {}
 
     def decided(sentence: Formula, budget: Budget) -> Values | None:
-        outcome = decide(_in_own_ring(sentence), budget)
+        own = _in_own_ring(sentence)
+        outcome = decide(own, context.options, budget)
         if outcome.formula == FALSE:
             body = sentence.body if isinstance(sentence, Exists) else sentence
-            refutations[frozenset(conjuncts(body))] = Nested(_in_own_ring(sentence), tuple(outcome.log.steps()), FALSE)
+            refutations[frozenset(conjuncts(body))] = outcome.nested(own)
             return None
         if outcome.witness is None:
             raise Unable("a conjunction is satisfiable, but no point was found")

@@ -8,8 +8,9 @@ import pytest
 
 import qe
 from qe.elimination.protocol import Outcome
-from qe.engine.local import without_locals
-from qe.engine.run import _Run, solve
+from qe.engine.local import WORK, without_locals
+from qe.engine.run import outcome_for, solve
+from qe.errors import Unable
 from qe.formula.block import Block
 from qe.formula.build import forall
 from qe.formula.normal import nnf
@@ -17,6 +18,7 @@ from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.options import Budget, Options, Stage
+from qe.proof.step import Nested
 from qe.rules.lift import holds_at
 
 pytest.importorskip("pysat")
@@ -33,11 +35,17 @@ def diamonds(count: int, last: str) -> Exists:
     return found
 
 
+def eliminated(block: Formula) -> Nested | None:
+    try:
+        return outcome_for(block, Options(without=frozenset({Stage.SHORTENING})), Budget(60, work=WORK)).nested(block)
+    except Unable:
+        return None
+
+
 def without(sentence: Formula) -> Formula | None:
-    run = _Run(Options(), Budget(60))
     problem = Block.of(sentence)
     assert problem is not None
-    found = without_locals(problem, run.options, run.shortly)
+    found = without_locals(problem, Options(), eliminated)
     return None if found is None else found.formula
 
 
@@ -112,9 +120,9 @@ def test_answers_are_those_without_it(seed: int) -> None:
 
 def test_no_values_where_the_sentence_has_none() -> None:
     sentence = diamonds(12, "x12 < x0")
-    problem, run = Block.of(sentence), _Run(Options(), Budget(60))
+    problem = Block.of(sentence)
     assert problem is not None
-    found = without_locals(problem, run.options, run.shortly)
+    found = without_locals(problem, Options(), eliminated)
     assert found is not None
-    assert found.values(Outcome(FALSE), lambda inner: run.apart(inner, run.budget)) is None
-    assert found.values(Outcome(TRUE), lambda inner: run.apart(inner, run.budget)) is None
+    assert found.values(Outcome(FALSE), lambda inner: outcome_for(inner, Options(), Budget(60))) is None
+    assert found.values(Outcome(TRUE), lambda inner: outcome_for(inner, Options(), Budget(60))) is None

@@ -13,7 +13,7 @@ import qe
 import qe.engine.redundant as redundant
 from qe.api.input import read_formula
 from qe.elimination.protocol import Context, Outcome
-from qe.engine.redundant import without_part, without_redundant_parts
+from qe.engine.redundant import is_worth_questions, without_part, without_redundant_parts
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Formula
 from qe.options import Budget, Options
@@ -38,13 +38,14 @@ SHORT = {
 
 def shorter(formula: Formula, log: RunLog | None = None) -> Formula:
     """By this rule alone."""
-    return without_redundant_parts(formula, asked(log or RunLog()))
+    context = asked(log or RunLog())
+    return without_redundant_parts(formula, context) if is_worth_questions(formula, context) else formula
 
 
 def asked(log: RunLog) -> Context:
     """Sentences are decided by the engine."""
 
-    def decide(sentence: Formula, budget: Budget) -> Outcome:
+    def decide(sentence: Formula, options: Options, budget: Budget) -> Outcome:
         answer = qe.eliminate(sentence, process=False)
         assert answer.formula is not None
         return Outcome(answer.formula, answer.witness, log=answer.log or RunLog())
@@ -134,7 +135,7 @@ def test_what_is_beside_the_way_is_looked_at(monkeypatch: pytest.MonkeyPatch) ->
             assert not accepted(replace(steps[0], evidence={"proof": {**proof, "at": at}}))
     assert not accepted(replace(steps[0], after=FALSE))
 
-    def careless(sentence: Formula, budget: Budget) -> Outcome:
+    def careless(sentence: Formula, options: Options, budget: Budget) -> Outcome:
         return Outcome(FALSE)
 
     log = RunLog()
@@ -162,13 +163,14 @@ def test_what_is_left_keeps_its_connective() -> None:
 def test_a_region_of_balls_in_space_is_not_looked_at_for_minutes() -> None:
     """The region of a plan, six parameters and conditions of nine terms, took minutes: no unit of work is that long."""
 
-    def decide(sentence: Formula, budget: Budget) -> Outcome:
+    def decide(sentence: Formula, options: Options, budget: Budget) -> Outcome:
         raise AssertionError("asked about a long sentence in six variables")
 
     distance = "(x - u)^2 + (y - v)^2 + (z - w)^2"
     region = f"x^2 + y^2 + z^2 <= 9 and u^2 + v^2 + w^2 <= 9 and {distance} <= 9 and 4*({distance}) <= 37"
     formula = read_formula(region)
-    assert without_redundant_parts(formula, Context(Options(), Budget(), RunLog(), decide)) == formula
+    context = Context(Options(), Budget(), RunLog(), decide)
+    assert not is_worth_questions(formula, context) or without_redundant_parts(formula, context) == formula
 
 
 def test_the_part_at_a_place() -> None:

@@ -51,12 +51,12 @@ FORMULAS = st.recursive(
 WITHOUT = Options(without=frozenset({Stage.SEARCH}))
 
 
-def decide(sentence: Formula, budget: Budget) -> Outcome:
+def decide(sentence: Formula, options: Options, budget: Budget) -> Outcome:
     return solve(sentence, WITHOUT, budget)
 
 
 def values(sentence: Formula, budget: Budget) -> Values | None:
-    found = decide(sentence, budget)
+    found = decide(sentence, WITHOUT, budget)
     assert found.formula == FALSE or found.witness is not None
     return found.witness
 
@@ -71,7 +71,7 @@ def test_the_search_decides_what_other_methods_decide(body: Formula) -> None:
     found = found_point(nnf(body), context())
     sentence = exists(body.free, body)
     if isinstance(found, Refuted):
-        assert decide(sentence, Budget(60)).formula == FALSE
+        assert decide(sentence, WITHOUT, Budget(60)).formula == FALSE
     else:
         assert holds_at(body, found)
 
@@ -86,7 +86,7 @@ def test_a_reason_is_a_part_that_cannot_hold(chosen: Sequence[Atom]) -> None:
         assert found
         for reason in found:
             assert set(reason) <= set(chosen)
-            assert decide(exists(RING.names, conj(reason)), Budget(60)).formula == FALSE
+            assert decide(exists(RING.names, conj(reason)), WITHOUT, Budget(60)).formula == FALSE
 
 
 def test_one_choice_gives_a_reason_for_each_of_its_contradictions() -> None:
@@ -145,8 +145,8 @@ def test_what_the_guided_solver_learns_holds_at_all_points(body: Formula) -> Non
     says = clauses.says()
     for lemma in found:
         refuted = conj(says[-literal] for literal in lemma)
-        assert decide(exists(RING.names, refuted), Budget(60)).formula == FALSE
-    assert decide(exists(RING.names, body), Budget(60)).formula == FALSE
+        assert decide(exists(RING.names, refuted), WITHOUT, Budget(60)).formula == FALSE
+    assert decide(exists(RING.names, body), WITHOUT, Budget(60)).formula == FALSE
 
 
 def test_a_solver_that_was_told_of_nothing_does_not_decide() -> None:

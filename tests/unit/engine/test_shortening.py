@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 import qe
 from qe.certify.verify import verify
 from qe.elimination.protocol import Context
-from qe.engine import finish
-from qe.engine.finish import shortened
+from qe.engine import shortening
+from qe.engine.shortening import shortened
 from qe.formula.features import length
 from qe.io.text import read
 from qe.options import Budget, Options
@@ -27,7 +27,7 @@ def rules(given_: Context) -> list[str]:
 
 def test_where_an_equation_is_denied_the_others_are_reduced(monkeypatch: pytest.MonkeyPatch) -> None:
     """In ``a /= b or p`` the polynomial p matters only where a = b."""
-    monkeypatch.setattr(finish, "SHORTEN_DEGREE", {})
+    monkeypatch.setattr(shortening, "SHORTEN_DEGREE", {})
     given_ = context()
     found = shortened(read("c > 0 and (a /= b or a^4*b - b^5 + a^2*c - b^2*c + c*d > 0)"), given_)
     assert str(found) == "c > 0 and (a - b /= 0 or d > 0)"
@@ -35,7 +35,7 @@ def test_where_an_equation_is_denied_the_others_are_reduced(monkeypatch: pytest.
 
 
 def test_products_are_not_split_where_that_makes_it_longer(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(finish, "SHORTEN_DEGREE", {})
+    monkeypatch.setattr(shortening, "SHORTEN_DEGREE", {})
     found = shortened(read("a^2 /= b^2 or a^4 - b^4 + c^2 + a^2*c - b^2*c > 0 or d^3 > a^2 - b^2"), context())
     assert length(found) < (3, 9)
     assert qe.decide(f"all a, b, c, d. ({found}) <-> (a^2 /= b^2 or c /= 0 or d > 0)", process=False)

@@ -1,0 +1,127 @@
+"""Methods that reduce a question to another one, with the way back from the outcome of that."""
+
+from __future__ import annotations
+
+from qe.elimination.protocol import Context, Outcome
+from qe.engine.early import early_parts, equations
+from qe.engine.local import WORK, without_locals
+from qe.errors import Unable
+from qe.exact.number import Values
+from qe.exact.ring import Ring
+from qe.formula.block import Block
+from qe.formula.build import conj, convert, exists
+from qe.formula.features import features
+from qe.formula.syntax import TRUE, Constant, Formula
+from qe.options import Options, Stage
+from qe.proof.derivation import negated
+from qe.proof.run_log import RunLog
+from qe.proof.step import Nested
+from qe.rules.preparation import Prepared, prepare
+from qe.rules.step import StepKind
+
+
+def to_dual(problem: Block, log: RunLog) -> None:
+    """The step from a problem to its existential dual."""
+    rule, dual = "duality" if problem.universal else "negation normal form", problem.dual.formula
+    log.step(rule, problem.formula, negated(dual) if problem.universal else dual)
+
+
+def lifted_values(ready: Prepared, outcome: Outcome, log: RunLog) -> Values | None:
+    """The values of all variables of a block from those that preparation kept; None where there are none, or they are
+    too hard."""
+    if outcome.formula != TRUE or outcome.witness is None:
+        return None
+    try:
+        return ready.lift(outcome.witness)
+    except Unable as error:
+        log.switch("no witness", error)
+        return None
+
+
+class Definitions:
+    """What is there only to name a term is substituted first: no choice after that depends on it."""
+
+    name = "definitions"
+
+    def suits(self, problem: Block, options: Options) -> str | None:
+        return "equations that are linear in a bound variable"
+
+    def run(self, problem: Block, context: Context) -> Outcome | None:
+        question, mark, ring = problem.formula, context.log.mark(), problem.formula.ring
+        ready = prepare(question, budget=context.budget, enabled={StepKind.DEFINITION}, log=context.log)
+        if ring is None or not any(step.rule == StepKind.LINEAR.value for step in context.log.steps(mark)):
+            return None
+        gone = {*features(question).bound} - {*features(ready.formula).bound}
+        narrow = Ring.of(name for name in ring.names if name not in gone)  # as without the names: orders go by the ring
+
+        def back(rest: Outcome) -> Outcome:
+            formula = convert(rest.formula, ring)
+            witness = rest.witness if type(ready.formula) is type(question) else {}
+            if problem.free or witness is None or formula != problem.asked(TRUE) or not problem.variables:
+                return Outcome(formula, order=rest.order)
+            values = lifted_values(ready, Outcome(TRUE, witness), context.log)
+            return Outcome(formula, values and {v: values[v] for v in problem.variables})
+
+        return Outcome(convert(ready.formula, narrow), back=back)
+
+
+class LocalVariables:
+    """A sentence by one without its local variables (``qe.engine.local``)."""
+
+    name = "local variables"
+
+    def suits(self, problem: Block, options: Options) -> str | None:
+        return "variables of one condition each"
+
+    def run(self, problem: Block, context: Context) -> Outcome | None:
+        decide, budget = context.decide, context.budget
+        if decide is None:
+            return None
+        options = context.options.with_(without=context.options.without | {Stage.SHORTENING})
+
+        def eliminated(block: Formula) -> Nested | None:
+            try:
+                return decide(block, options, budget.part(WORK)).nested(block)
+            except Unable:
+                budget.check("local variables")
+                return None
+
+        shorter = without_locals(problem, context.options, eliminated)
+        if shorter is None:
+            return None
+        to_dual(problem, context.log)
+        context.log.take_up(shorter.steps)
+
+        def back(rest: Outcome) -> Outcome:
+            values = shorter.values(rest, lambda sentence: decide(sentence, context.options, budget))
+            return Outcome(problem.asked(rest.formula), values)
+
+        return Outcome(shorter.formula, back=back)
+
+
+class PartsFirst:
+    """Parts that amount to equations are eliminated first: these prepare the others (``qe.engine.early``)."""
+
+    name = "parts first"
+
+    def suits(self, problem: Block, options: Options) -> str | None:
+        return "small blocks about the same variables" if early_parts(problem.dual.body) is not None else None
+
+    def run(self, problem: Block, context: Context) -> Outcome | None:
+        dual, parts = problem.dual, early_parts(problem.dual.body)
+        if parts is None or context.decide is None:
+            return None
+        early = context.decide(parts[0], context.options, context.budget)
+        if not isinstance(early.formula, Constant) and not any(equations(early.formula, dual.variables)):
+            context.log.switch(self.name, "they give no equations")
+            return None
+        to_dual(problem, context.log)
+        context.log.take_up(tuple(early.log.steps()))
+
+        def back(rest: Outcome) -> Outcome:
+            answer = problem.asked(rest.formula)
+            if problem.universal:
+                context.log.step("negation normal form", negated(rest.formula), answer)
+            return Outcome(answer, rest.witness)
+
+        return Outcome(exists(dual.variables, conj((early.formula, parts[1]))), back=back)
