@@ -20,7 +20,7 @@ from collections.abc import Iterator, Sequence
 from functools import reduce
 from itertools import combinations
 
-from qe.elimination.critical.procedures import Procedures
+from qe.decomposition.over_point import over_point
 from qe.elimination.critical.system import System
 from qe.errors import Unable
 from qe.exact.groebner import groebner_basis
@@ -31,9 +31,7 @@ from qe.formula.syntax import Relation
 from qe.options import Budget
 
 
-def critical_hypersurfaces(
-    system: System, *, thin_parts: bool, procedures: Procedures, budget: Budget
-) -> frozenset[Poly]:
+def critical_hypersurfaces(system: System, *, thin_parts: bool, budget: Budget) -> frozenset[Poly]:
     """Irreducible polynomials in the parameters whose zero sets together contain the boundary.
 
     Without ``thin_parts`` pieces of codimension two or more may be missing. Raises ``Unable`` when the critical points
@@ -44,7 +42,7 @@ def critical_hypersurfaces(
         budget.check("critical sets", len(found))
         active = [*system.equations, *chosen]
         eliminated = _eliminated([*active, *_minors(active, system.bound)], system, thin_parts)
-        if not eliminated and _may_balance(system, chosen, procedures):
+        if not eliminated and _may_balance(system, chosen, budget):
             raise Unable("critical-value elimination: critical points over all of parameter space")
         for p in eliminated:
             found |= {f for f, _ in p.factors()[1]}
@@ -59,7 +57,7 @@ def _active_sets(system: System) -> Iterator[tuple[Poly, ...]]:
             yield from combinations(system.inequalities, count)
 
 
-def _may_balance(system: System, chosen: Sequence[Poly], procedures: Procedures) -> bool:
+def _may_balance(system: System, chosen: Sequence[Poly], budget: Budget) -> bool:
     """Whether the set has Fritz John points for some parameters, as far as that is easy to tell: without parameters
     it is a sentence, in which the multipliers of inequalities are not negative."""
     active = [*system.equations, *chosen]
@@ -78,7 +76,7 @@ def _may_balance(system: System, chosen: Sequence[Poly], procedures: Procedures)
             *(atom(m, Relation.GE) for m in signed),
         )
     )
-    return procedures.decide(matrix, ring.names, 0)(Point(ring))
+    return over_point(matrix, ring.names, 0, budget=budget)(Point(ring))
 
 
 def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
