@@ -24,6 +24,7 @@ from qe.decomposition.over_point import over_point
 from qe.elimination.critical.system import System
 from qe.errors import Unable
 from qe.exact.groebner import groebner_basis
+from qe.exact.hermite import leading_minors
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj
@@ -89,15 +90,9 @@ def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
 
 
 def determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
-    """The determinant, by expansion along the first row; the matrices have a few rows."""
-    if len(rows) == 1:
-        return rows[0][0]
-    total = rows[0][0].ring.constant(0)
-    for c, entry in enumerate(rows[0]):
-        if entry:
-            minor = determinant([[*row[:c], *row[c + 1 :]] for row in rows[1:]])
-            total = total + (-1) ** c * entry * minor
-    return total
+    """The determinant; the matrices have a few rows."""
+    *_, last = leading_minors(lambda i, j: rows[i][j], len(rows), rows[0][0].ring.constant(1))
+    return last
 
 
 def _eliminated(polys: Sequence[Poly], system: System, thin_parts: bool) -> tuple[Poly, ...]:
