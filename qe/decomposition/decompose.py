@@ -80,64 +80,36 @@ def decompose(
     ``extra``: polynomials over the ring of ``order`` whose factors are to be in the lists too.
     Raises ``BudgetExceeded``.
     """
-    job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, thom_levels, tactics, operator)
-    return operator.applied(lambda used: job.attempt(used, extra))
+    matrix, size = convert(matrix, Ring.of(order)), len(order)
+    free = sum(quantifier == "" for quantifier in quantifiers)
+    takes_part = tactics.constraints and operator.restricted and any(quantifiers[-1:])
+    found = equational_constraints(matrix, size) if takes_part else Constraints()
+    kept = {k: own for k, own in found.factors.items() if tactics.free_constraints or quantifiers[k]}
+    restricting = Constraints(kept, found.implied)
+    sectors_from = sector_levels(matrix, quantifiers) if tactics.open_only else size
+    way = direction(matrix, free - 1) if tactics.monotone and 0 < free < size else 0
 
-
-@dataclass(frozen=True, slots=True)
-class _Job:
-    matrix: Formula
-    order: tuple[str, ...]
-    quantifiers: tuple[str, ...]
-    budget: Budget
-    thom_levels: frozenset[int]
-    tactics: Tactics
-    chosen: Operator
-
-    def _constraints(self) -> Constraints:
-        """The equational constraints that the tactics let take part."""
-        if not self.tactics.constraints or not any(self.quantifiers[-1:]):
-            return Constraints()
-        found = equational_constraints(self.matrix, len(self.order))
-        if self.tactics.free_constraints:
-            return found
-        return Constraints({k: own for k, own in found.factors.items() if self.quantifiers[k]}, found.implied)
-
-    def _direction(self) -> int:
-        """In which direction of the last free variable the matrix stays true."""
-        free = sum(quantifier == "" for quantifier in self.quantifiers)
-        return direction(self.matrix, free - 1) if 0 < free < len(self.order) else 0
-
-    def attempt(self, operator: Operator, added: tuple[Poly, ...]) -> Decomposition:
+    def attempt(used: Operator, added: tuple[Poly, ...]) -> Decomposition:
         """``added``: polynomials in the factor lists besides those of the matrix."""
-        size = len(self.order)
-        constraints = self._constraints() if operator.restricted else Constraints()
-        listed = [*polynomials(self.matrix), *added]
-        levels = factor_lists(listed, size, operator, self.budget, self.thom_levels, constraints.factors)
+        constraints = restricting if used.restricted else Constraints()
+        listed = [*polynomials(matrix), *added]
+        levels = factor_lists(listed, size, used, budget, thom_levels, constraints.factors)
         places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
-        strong = strengthened(self.matrix, constraints.implied, places)
+        strong = strengthened(matrix, constraints.implied, places)
         indices = {
             k: frozenset(places[f][1] for f in own)
             for k, own in constraints.factors.items()
             if len(own) < len(levels[k])  # a constraint made of all factors restricts nothing
         }
-        sectors_from = sector_levels(self.matrix, self.quantifiers) if self.tactics.open_only else size
         plan = Plan(
-            levels,
-            self.quantifiers,
-            operator,
-            sectors_from,
-            indices,
-            self.tactics.partial,
-            self.tactics.whole_free,
-            self.thom_levels,
-            self._direction() if self.tactics.monotone else 0,
+            levels, quantifiers, used, sectors_from, indices, tactics.partial, tactics.whole_free, thom_levels, way
         )
-        lifter = Lifter(plan, self.budget, anytime=self.tactics.anytime)
-        root = lifter.run(Point(Ring.of(self.order), watch=Watch(self.budget.check)), compile_matrix(strong, places))
+        lifter = Lifter(plan, budget, anytime=tactics.anytime)
+        root = lifter.run(Point(Ring.of(order), watch=Watch(budget.check)), compile_matrix(strong, places))
         if lifter.lacking:
-            return self.attempt(operator, (*added, *lifter.lacking))
+            return attempt(used, (*added, *lifter.lacking))
         restricted = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()
-        table = CellTable(self.order, self.quantifiers, self.matrix, operator.proof, levels, root, restricted)
-        nullified = operator != self.chosen
-        return Decomposition(table, operator, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified)
+        table = CellTable(order, quantifiers, matrix, used.proof, levels, root, restricted)
+        return Decomposition(table, used, lifter.cells, lifter.stacks, sum(map(len, levels)), used != operator)
+
+    return operator.applied(lambda used: attempt(used, extra))

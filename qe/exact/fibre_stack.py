@@ -320,22 +320,13 @@ def _signs(shape: Shape, sectors: list[fmpq], changes: list[int]) -> tuple[int, 
 
 def root_between(point: Point, f: Poly, lo: Fraction, hi: Fraction) -> fmpq | RealAlgebraic | FibreRoot:
     """The only root of f (if nullified, of its Lazard evaluation) over the point strictly between two rationals."""
-    shape = _specialise(point, f, point.depth)
-    if shape is None:
-        shape = _specialise(point, lazard_evaluation(point, f), point.depth)
-    low, high = fmpq(lo.numerator, lo.denominator), fmpq(hi.numerator, hi.denominator)
-    sections: dict[tuple[object, int], Section] = {}
-    loose: list[Section] = []
-    _collect(point, point.depth, 0, shape, sections, loose)
-    for s in (*sections.values(), *loose):
-        if _inside(s, low, high):
-            return s.value
+    stack = isolate_over(point, (f,), lazard=True)
+    below, is_root = stack.place_of(lo)
+    for section in stack.sections[below + is_root :]:
+        if _compared(section.value, fmpq(hi.numerator, hi.denominator)) < 0:
+            return section.value
+        break
     raise InternalError("no root of the factor between the sector samples")
-
-
-def _inside(s: Section, low: fmpq, high: fmpq) -> bool:
-    """Whether the section lies in (low, high)."""
-    return _compared(s.value, low) > 0 > _compared(s.value, high)
 
 
 def _compared(value: fmpq | RealAlgebraic | FibreRoot, q: fmpq) -> int:

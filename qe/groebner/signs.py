@@ -23,6 +23,7 @@ from functools import cache
 from itertools import product
 
 from qe.errors import Unable
+from qe.exact.hermite import added_signature
 from qe.exact.ring import Poly
 from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj, disj
@@ -79,10 +80,8 @@ class SignatureConditions:
             gap = state.zeros + 1
             if state.signature is None or (gap > 3 and not self.is_hankel):
                 return _State(sign, 0, None)
-            if gap % 2:
-                return _State(sign, 0, state.signature + (-1) ** (gap // 2) * sign * state.last)
-            fits = sign * state.last == (-1) ** (gap // 2)
-            return _State(sign, 0, state.signature) if fits else None
+            added = added_signature(gap, sign, state.last)
+            return None if added is None else _State(sign, 0, state.signature + added)
 
         def end(state: _State) -> Formula | None:
             if state.zeros and regular:

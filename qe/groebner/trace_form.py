@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
 from math import lcm, prod
 
 from qe.errors import Unable
 from qe.exact.block_order import Exponents
+from qe.exact.hermite import leading_minors
 from qe.exact.ring import Poly
 from qe.groebner.reduction import divides
 from qe.groebner.segment import Segment
@@ -208,30 +208,20 @@ class ParametricQuotient:
         return SignatureConditions(minors, lambda: self.characteristic(matrix), is_hankel, least, self.budget.check)
 
     def _leading_minors(self, matrix: Matrix) -> list[Poly]:
-        """The determinants of the leading blocks, from 1 by 1 on.
+        """The determinants of the leading blocks, each reduced modulo the equations, which allow no divisions."""
+        if self.size > MOST_EXPANDED:
+            raise Unable(f"a trace form of {self.size} complex solutions is too large for sign conditions")
 
-        By expansion along the rows, each determinant of a set of columns once and reduced modulo the equations: without
-        divisions, which these would not allow.
-        """
-        size, found = self.size, []
-        if size > MOST_EXPANDED:
-            raise Unable(f"a trace form of {size} complex solutions is too large for sign conditions")
-        previous: dict[tuple[int, ...], Poly] = {(): self.ring.constant(1)}
-        for k in range(size):
-            current: dict[tuple[int, ...], Poly] = {}
-            for columns in combinations(range(size), k + 1):
-                total = self.ring.constant(0)
-                for position, column in enumerate(columns):
-                    self.budget.check("determinants of trace forms")
-                    entry, rest = matrix[k][column], previous[columns[:position] + columns[position + 1 :]]
-                    if entry and rest:
-                        total = total + entry * rest * (-1) ** (k - position)
-                current[columns] = self._reduced(total)
-                if total.term_count() > MOST_TERMS:
-                    raise Unable("a determinant of a trace form grows past its limits")
-            previous = current
-            found.append(current[tuple(range(k + 1))])
-        return found
+        def reduced(minor: Poly) -> Poly:
+            if minor.term_count() > MOST_TERMS:
+                raise Unable("a determinant of a trace form grows past its limits")
+            return self._reduced(minor)
+
+        def entry(i: int, j: int) -> Poly:
+            self.budget.check("determinants of trace forms")
+            return matrix[i][j]
+
+        return list(leading_minors(entry, self.size, self.ring.constant(1), reduced=reduced))
 
     def characteristic(self, matrix: Matrix) -> tuple[Poly, ...]:
         """The coefficients of the characteristic polynomial, highest first, each with its sign, up to positive factors.

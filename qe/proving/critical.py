@@ -12,7 +12,6 @@ from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.projection import factor_lists
 from qe.elimination.cad import certificate_for
 from qe.elimination.critical.boundary import critical_hypersurfaces
-from qe.elimination.critical.method import procedures
 from qe.elimination.critical.system import systems
 from qe.errors import CertificateRejected
 from qe.exact.algebraic import RealAlgebraic, real_roots
@@ -61,7 +60,7 @@ def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budg
     conditions = read_conditions(block.body, ring, claim, strict=strict)
     regular = _table(after, outer, strict, claim, options, budget)
     (system,) = systems(convert(block.body, ring), ring, len(names))
-    surfaces = critical_hypersurfaces(system, thin_parts=False, procedures=procedures(budget), budget=budget)
+    surfaces = critical_hypersurfaces(system, thin_parts=False, budget=budget)
     walls = {f.convert(outer).normal()[1] for f in surfaces}
     chains = _chains(conditions, len(names), walls, claim, budget)
     answer = [f for p in polynomials(holds) for f, _ in p.factors()[1]]

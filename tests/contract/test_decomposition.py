@@ -13,7 +13,7 @@ from qe.decomposition.formulas import construct
 from qe.decomposition.operators.table import OPERATORS
 from qe.decomposition.order import choose_order
 from qe.exact.ring import Ring
-from qe.formula.build import convert
+from qe.formula.build import convert, exists, forall
 from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Budget, Projection
@@ -91,3 +91,15 @@ def test_chosen_orders_keep_the_blocks(name: str, written: bool) -> None:
         assert set(chosen[: len(block)]) == set(block)
         chosen = chosen[len(block) :]
     assert not chosen
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_coverings_say_the_same(name: str) -> None:
+    """The other decomposition, by intervals that overlap."""
+    matrix, order, quantifiers, expected = _setting(name)
+    formula = matrix
+    for variable, quantifier in reversed(list(zip(order, quantifiers, strict=True))):
+        formula = formula if not quantifier else (exists if quantifier == "E" else forall)((variable,), formula)
+    answer = qe.eliminate(formula, method="coverings", check=True, process=False)
+    assert qe.equivalent(answer, expected)
+    assert answer.guarantee.name == "CHECKED"

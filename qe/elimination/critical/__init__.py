@@ -2,15 +2,12 @@
 
 from qe.elimination.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
 from qe.elimination.critical.open_cells import OpenCell
-from qe.elimination.critical.procedures import Procedures, Proposal
 from qe.elimination.critical.universal import eliminate_universal, necessary_conditions
 
 __all__ = [
     "ConvexBody",
     "Disjunct",
     "OpenCell",
-    "Procedures",
-    "Proposal",
     "Tabulated",
     "eliminate_block",
     "eliminate_universal",

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
 
+from qe.convex.violation import proposed
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.operators.operator import Operator
+from qe.decomposition.projection import Levels, factor_lists
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres
 from qe.elimination.critical.open_cells import OpenCell, OpenCells
-from qe.elimination.critical.procedures import Levels, Procedures
 from qe.elimination.critical.separate import separated
 from qe.elimination.critical.system import System, systems
 from qe.elimination.critical.table import Shape, TableBuilder, Truth
@@ -73,7 +74,7 @@ class Disjunct:
 
 
 def eliminate_block(
-    variables: Sequence[str], body: Formula, parameters: Sequence[str], *, procedures: Procedures, budget: Budget
+    variables: Sequence[str], body: Formula, parameters: Sequence[str], *, budget: Budget
 ) -> list[Disjunct]:
     """The disjuncts of ``exists variables. body``, each with its truth set; the block is true where one of them is.
 
@@ -86,15 +87,15 @@ def eliminate_block(
     for system in parts:
         if not has_bounded_fibres(system):
             raise Unable("critical-value elimination: the quantified variables are not seen to be bounded")
-    return [_eliminated(system, procedures, budget) for system in parts]
+    return [_eliminated(system, budget) for system in parts]
 
 
-def _eliminated(system: System, procedures: Procedures, budget: Budget) -> Disjunct:
-    fibres = Fibres(system, procedures)
+def _eliminated(system: System, budget: Budget) -> Disjunct:
+    fibres = Fibres(system, budget)
     stats: dict[str, object] = {"decided": fibres.decided}
     if not system.free:
         return Disjunct(system.formula, fibres.hold_at(()), stats)
-    run = Run(system, fibres, procedures, budget, stats)
+    run = Run(system, fibres, budget, stats)
     body = run.convex() if system.is_convex and system.is_closed else None
     return Disjunct(system.formula, run.general() if body is None else body, stats)
 
@@ -118,13 +119,12 @@ class Run:
 
     system: System
     fibres: Oracle
-    procedures: Procedures
     budget: Budget
     stats: dict[str, object]
 
     def general(self) -> Tabulated:
         """Any truth set: cells off the hypersurfaces by rational points next to them, single points exactly."""
-        boundary = critical_hypersurfaces(self.system, thin_parts=True, procedures=self.procedures, budget=self.budget)
+        boundary = critical_hypersurfaces(self.system, thin_parts=True, budget=self.budget)
         self.stats["hypersurfaces"] = len(boundary)
 
         def truth(point: Point, vanishing: frozenset[Poly]) -> bool:
@@ -137,7 +137,7 @@ class Run:
 
     def convex(self) -> ConvexBody | None:
         """A closed convex truth set, if it has interior points."""
-        surfaces = critical_hypersurfaces(self.system, thin_parts=False, procedures=self.procedures, budget=self.budget)
+        surfaces = critical_hypersurfaces(self.system, thin_parts=False, budget=self.budget)
         many = self.system.free == 2 and len(surfaces) > FEW
         return self.body(surfaces, self._hint(), box_around(self.system, self.budget) if many else None)
 
@@ -191,11 +191,11 @@ class Run:
         size = self.system.ring.size
         conditions = self.system.without_parameters().conditions
         forms = [form for c in conditions if (form := quadratic(c.poly, range(size))) is not None]
-        witness = self.procedures.propose(forms).witness
+        witness, _ = proposed(forms)
         return (witness or (Fraction(0),) * size)[: self.system.free]
 
     def _levels(self, polys: frozenset[Poly]) -> Levels:
-        return self.procedures.project(polys, self.system.free, BROWN_MCCALLUM, self.budget, frozenset())
+        return factor_lists(polys, self.system.free, BROWN_MCCALLUM, self.budget)
 
     def _tabulated(self, boundary: frozenset[Poly], shape: Shape, truth: Truth) -> Tabulated:
         """The table for the boundary polynomials, closed under projection, with the truth of every cell."""
@@ -204,7 +204,7 @@ class Run:
             shape = Shape.CLOSED  # the theorem of ``Shape.CONVEX`` then has only been proved in the plane
 
         def attempt(closed: frozenset[int], operator: Operator) -> tuple[CellTable, frozenset[Poly]]:
-            levels = self.procedures.project(boundary, size, operator, self.budget, closed)
+            levels = factor_lists(boundary, size, operator, self.budget, closed)
             known = Shape.CLOSED if shape is Shape.CONVEX and size > 2 and operator.evaluates else shape
             builder = TableBuilder(levels, operator, boundary, known, truth, self.budget)
             root = builder.run(Point(self.system.ring, watch=Watch(self.budget.check)))

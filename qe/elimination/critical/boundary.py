@@ -20,10 +20,11 @@ from collections.abc import Iterator, Sequence
 from functools import reduce
 from itertools import combinations
 
-from qe.elimination.critical.procedures import Procedures
+from qe.decomposition.over_point import over_point
 from qe.elimination.critical.system import System
 from qe.errors import Unable
 from qe.exact.groebner import groebner_basis
+from qe.exact.hermite import leading_minors
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj
@@ -31,9 +32,7 @@ from qe.formula.syntax import Relation
 from qe.options import Budget
 
 
-def critical_hypersurfaces(
-    system: System, *, thin_parts: bool, procedures: Procedures, budget: Budget
-) -> frozenset[Poly]:
+def critical_hypersurfaces(system: System, *, thin_parts: bool, budget: Budget) -> frozenset[Poly]:
     """Irreducible polynomials in the parameters whose zero sets together contain the boundary.
 
     Without ``thin_parts`` pieces of codimension two or more may be missing. Raises ``Unable`` when the critical points
@@ -44,7 +43,7 @@ def critical_hypersurfaces(
         budget.check("critical sets", len(found))
         active = [*system.equations, *chosen]
         eliminated = _eliminated([*active, *_minors(active, system.bound)], system, thin_parts)
-        if not eliminated and _may_balance(system, chosen, procedures):
+        if not eliminated and _may_balance(system, chosen, budget):
             raise Unable("critical-value elimination: critical points over all of parameter space")
         for p in eliminated:
             found |= {f for f, _ in p.factors()[1]}
@@ -59,7 +58,7 @@ def _active_sets(system: System) -> Iterator[tuple[Poly, ...]]:
             yield from combinations(system.inequalities, count)
 
 
-def _may_balance(system: System, chosen: Sequence[Poly], procedures: Procedures) -> bool:
+def _may_balance(system: System, chosen: Sequence[Poly], budget: Budget) -> bool:
     """Whether the set has Fritz John points for some parameters, as far as that is easy to tell: without parameters
     it is a sentence, in which the multipliers of inequalities are not negative."""
     active = [*system.equations, *chosen]
@@ -78,7 +77,7 @@ def _may_balance(system: System, chosen: Sequence[Poly], procedures: Procedures)
             *(atom(m, Relation.GE) for m in signed),
         )
     )
-    return procedures.decide(matrix, ring.names, 0)(Point(ring))
+    return over_point(matrix, ring.names, 0, budget=budget)(Point(ring))
 
 
 def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
@@ -91,15 +90,9 @@ def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
 
 
 def determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
-    """The determinant, by expansion along the first row; the matrices have a few rows."""
-    if len(rows) == 1:
-        return rows[0][0]
-    total = rows[0][0].ring.constant(0)
-    for c, entry in enumerate(rows[0]):
-        if entry:
-            minor = determinant([[*row[:c], *row[c + 1 :]] for row in rows[1:]])
-            total = total + (-1) ** c * entry * minor
-    return total
+    """The determinant; the matrices have a few rows."""
+    *_, last = leading_minors(lambda i, j: rows[i][j], len(rows), rows[0][0].ring.constant(1))
+    return last
 
 
 def _eliminated(polys: Sequence[Poly], system: System, thin_parts: bool) -> tuple[Poly, ...]:

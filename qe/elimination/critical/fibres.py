@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import inf, lcm
 
+from qe.convex.feasible import feasible
 from qe.convex.system import is_convex
+from qe.convex.violation import proposed
+from qe.decomposition.over_point import over_point
 from qe.elimination.critical.forms import ParametricForm, parametric_form
-from qe.elimination.critical.procedures import Decide, Procedures
 from qe.elimination.critical.system import System
 from qe.errors import Unable
 from qe.exact.nearby import rational_values
@@ -18,6 +20,7 @@ from qe.exact.quadratic_form import Quadratic, combine, solve_linear
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.formula.syntax import Relation
+from qe.options import Budget
 from qe.proof.multipliers import FormRelation
 
 Values = tuple[Fraction, ...]
@@ -49,8 +52,8 @@ class Fibres:
     and ``separations`` of earlier points, by rational arithmetic. What they leave open is decided exactly.
     """
 
-    def __init__(self, system: System, procedures: Procedures) -> None:
-        self.system, self.procedures = system, procedures
+    def __init__(self, system: System, budget: Budget) -> None:
+        self.system, self.budget = system, budget
         self.witnesses: list[Values] = []
         self.separations: list[Separation] = []
         self.decided: dict[str, int] = {}
@@ -68,8 +71,8 @@ class Fibres:
         return forms
 
     @cached_property
-    def _decide(self) -> Decide:
-        return self.procedures.decide(self.system.inner, self.system.ring.names, self.system.free)
+    def _decide(self) -> Callable[[Point], bool]:
+        return over_point(self.system.inner, self.system.ring.names, self.system.free, budget=self.budget)
 
     def hold_at(self, parameters: Values) -> bool:
         """Whether the block is true over a rational point; remembered."""
@@ -154,18 +157,18 @@ class Fibres:
 
     def _convex(self, forms: Sequence[Fibre], parameters: Values) -> bool:
         if FormRelation.EQ not in self._relations:
-            proposal = self.procedures.propose([form.exact for form in forms])
-            if proposal.witness is not None and self._solves(proposal.witness, forms):
-                self.witnesses.insert(0, proposal.witness)
+            witness, weights = proposed([form.exact for form in forms])
+            if witness is not None and self._solves(witness, forms):
+                self.witnesses.insert(0, witness)
                 self._count("proposed")
                 return True
-            separation = None if proposal.weights is None else Separation.of(proposal.weights, forms)
+            separation = None if weights is None else Separation.of(weights, forms)
             if separation is not None and separation.excludes(forms):
                 self.separations.insert(0, separation)
                 self._count("proposed")
                 return False
         try:
-            found = self.procedures.feasible([form.exact for form in forms], self._relations)
+            found = feasible([form.exact for form in forms], self._relations, budget=self.budget)
             self._count("optimisation")
             return found
         except Unable:

@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations
 
 from qe.convex.facial_reduction import on_flat
-from qe.convex.feasible import feasible
-from qe.convex.violation import proposed
 from qe.decomposition.confirm_convex import strangers
 from qe.decomposition.decompose import decompose
 from qe.decomposition.formulas import construct, formula_of_open_cells
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.order import brown_order
-from qe.decomposition.over_point import over_point
 from qe.decomposition.projection import factor_lists
 from qe.elimination.critical import (
     ConvexBody,
     Disjunct,
     OpenCell,
-    Procedures,
-    Proposal,
     eliminate_block,
     eliminate_universal,
 )
@@ -31,13 +26,11 @@ from qe.elimination.critical.apart import Piece, taken_apart
 from qe.elimination.critical.degenerate import thin_universal
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import Unable
-from qe.exact.fibre_stack import isolate_over
-from qe.exact.nearby import approximation, rational_values
+from qe.exact.nearby import approximation
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, forall
-from qe.formula.evaluate import substituted, truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
@@ -158,7 +151,7 @@ class ConvexUniversal:
     ) -> Formula | None:
         """``all variables. not negated``, if its truth set is seen to be convex with interior points."""
         start, budget = time.perf_counter(), context.budget
-        found = eliminate_universal(variables, negated, order, procedures=procedures(budget), budget=budget)
+        found = eliminate_universal(variables, negated, order, budget=budget)
         if found is None:
             return None
         assert isinstance(found.found, ConvexBody)
@@ -187,7 +180,7 @@ def by_critical_values(variables: Sequence[str], body: Formula, context: Context
         whole = conj(convert(part, ring) for part in (*outside, inside.formula))
         return Found(simplify(whole, watch=budget.check), inside.order)
     parameters = _order(variables, body, context.options)
-    found = eliminate_block(variables, body, parameters, procedures=procedures(budget), budget=budget)
+    found = eliminate_block(variables, body, parameters, budget=budget)
     formulas = [convert(_formula(variables, parameters, part, budget), ring) for part in found]
     parts = [
         Part(convert(exists(variables, part.body), ring), formula)
@@ -220,50 +213,6 @@ def _order(variables: Sequence[str], body: Formula, options: Options) -> tuple[s
     if len(named) == len(names):
         return named
     return names if Stage.ORDER in options.without else brown_order(polynomials(body), names)
-
-
-def procedures(budget: Budget) -> Procedures:
-    """What the engine offers to critical-value elimination."""
-
-    def propose(forms: Sequence[object]) -> Proposal:
-        return Proposal(*proposed(forms))  # type: ignore[arg-type]
-
-    def decide(matrix: Formula, order: tuple[str, ...], free: int) -> Callable[[Point], bool]:
-        lifted: list[Callable[[Point], bool]] = []
-
-        def at(point: Point) -> bool:
-            if point.algebraic:
-                if not lifted:
-                    lifted.append(over_point(matrix, order, free, budget=budget))
-                return lifted[0](point)
-            return _decided(matrix, order[free:], dict(zip(order, rational_values(point), strict=False)), budget)
-
-        return at
-
-    return Procedures(
-        project=factor_lists,
-        propose=propose,
-        feasible=lambda forms, relations: feasible(forms, relations, budget=budget),
-        decide=decide,
-    )
-
-
-def _decided(matrix: Formula, variables: tuple[str, ...], values: dict[str, Fraction], budget: Budget) -> bool:
-    """The truth of ``exists variables. matrix`` at rational values of the other variables, by decomposition."""
-    rest = substituted(matrix, values)
-    if rest in (TRUE, FALSE):
-        return rest == TRUE
-    if len(variables) == 1:
-        return _has_solution(convert(rest, Ring.of(variables)))
-    order = brown_order(polynomials(rest), variables)
-    return decompose(rest, order, ("E",) * len(order), budget=budget).table.root.truth is True
-
-
-def _has_solution(formula: Formula) -> bool:
-    """Whether a formula in one variable holds somewhere: its polynomials have constant signs between their roots."""
-    polys = tuple(polynomials(formula))
-    stack = isolate_over(Point(polys[0].ring), polys)
-    return any(truth_under(formula, signs.get) for signs in stack.sign_maps())
 
 
 def _formula(

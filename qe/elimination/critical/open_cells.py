@@ -21,7 +21,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from qe.elimination.critical.procedures import Levels
+from qe.decomposition.projection import Levels
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point

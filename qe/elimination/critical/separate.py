@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from qe.decomposition.projection import Levels
 from qe.elimination.critical.open_cells import OpenCell
-from qe.elimination.critical.procedures import Levels
 from qe.errors import InternalError
 from qe.exact.ring import Poly
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from qe.decomposition.operators.operator import Operator
-from qe.elimination.critical.procedures import Levels
+from qe.decomposition.projection import Levels
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point

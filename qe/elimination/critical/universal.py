@@ -19,7 +19,6 @@ from qe.elimination.critical.block import Disjunct, Run
 from qe.elimination.critical.boundary import critical_hypersurfaces, determinant
 from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres, Values
-from qe.elimination.critical.procedures import Procedures
 from qe.elimination.critical.system import System, systems
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
@@ -51,7 +50,7 @@ class Spared:
 
 
 def eliminate_universal(
-    variables: Sequence[str], negated: Formula, parameters: Sequence[str], *, procedures: Procedures, budget: Budget
+    variables: Sequence[str], negated: Formula, parameters: Sequence[str], *, budget: Budget
 ) -> Disjunct | None:
     """The truth set of ``all variables. not negated``; None where it is not seen to be convex with interior points.
 
@@ -59,17 +58,17 @@ def eliminate_universal(
     """
     ring = Ring.of((*parameters, *variables))
     parts = systems(convert(negated, ring), ring, len(parameters))
-    if not parameters or not all(has_bounded_fibres(part) and _spares_a_convex_set(part, procedures) for part in parts):
+    if not parameters or not all(has_bounded_fibres(part) and _spares_a_convex_set(part, budget) for part in parts):
         return None
-    surfaces = [critical_hypersurfaces(part, thin_parts=False, procedures=procedures, budget=budget) for part in parts]
+    surfaces = [critical_hypersurfaces(part, thin_parts=False, budget=budget) for part in parts]
     stats: dict[str, object] = {"universal": len(parts)}
-    spared = Spared(tuple(Fibres(part, procedures) for part in parts))
+    spared = Spared(tuple(Fibres(part, budget) for part in parts))
     hint = (Fraction(0),) * len(parameters)
-    found = Run(parts[0], spared, procedures, budget, stats).body(frozenset().union(*surfaces), hint)
+    found = Run(parts[0], spared, budget, stats).body(frozenset().union(*surfaces), hint)
     return None if found is None else Disjunct(negated, found, stats)
 
 
-def _spares_a_convex_set(part: System, procedures: Procedures) -> bool:
+def _spares_a_convex_set(part: System, budget: Budget) -> bool:
     """Whether the part says: y is in a set D, and g(p, y) > 0 for one polynomial g, convex in p for every y in D."""
     domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
     others = [c for c in part.conditions if c not in domain]
@@ -82,9 +81,7 @@ def _spares_a_convex_set(part: System, procedures: Procedures) -> bool:
         return False
     inner = Ring.of(part.ring.names[part.free :])
     inside = tuple(Condition(c.poly.convert(inner), c.relation) for c in domain)
-    return not any(
-        _somewhere_negative(minor.convert(inner), inside, procedures) for minor in _principal_minors(hessian)
-    )
+    return not any(_somewhere_negative(minor.convert(inner), inside, budget) for minor in _principal_minors(hessian))
 
 
 def _principal_minors(matrix: Sequence[Sequence[Poly]]) -> list[Poly]:
@@ -94,11 +91,11 @@ def _principal_minors(matrix: Sequence[Sequence[Poly]]) -> list[Poly]:
     return [determinant([[matrix[i][j] for j in rows] for i in rows]) for rows in chosen]
 
 
-def _somewhere_negative(poly: Poly, inside: tuple[Condition, ...], procedures: Procedures) -> bool:
+def _somewhere_negative(poly: Poly, inside: tuple[Condition, ...], budget: Budget) -> bool:
     if poly.is_constant:
         return poly.constant_value() < 0
     system = System(poly.ring, 0, (), (*inside, Condition(poly, FormRelation.LT)))
-    return Fibres(system, procedures).hold_at(())
+    return Fibres(system, budget).hold_at(())
 
 
 def necessary_conditions(

@@ -11,14 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from itertools import combinations
 
 from qe.errors import Unable
+from qe.exact.hermite import leading_minors
 from qe.exact.ring import Poly, Ring
 from qe.options import Budget
-
-Minors = dict[tuple[int, ...], Poly]
-"""By columns."""
 
 MOST_TERMS = 4_000
 """With more terms in a minor the answer is of no use."""
@@ -81,24 +78,12 @@ def minors(c: Sequence[Poly], g: Sequence[Poly], budget: Budget) -> list[Poly]:
     weights = [p * a ** (m - j) for j, p in enumerate(g)]
     entries = [sum((w * sums[k + j] for j, w in enumerate(weights) if w), start=zero) for k in range(2 * n - 1)]
     found: list[Poly] = []
-    previous: Minors = {(): a.ring.constant(1)}
-    for k in range(n):
-        previous = _wider(entries, previous, k, n, budget)
-        spare = k * (k - 1 + m)
-        minor = previous[tuple(range(k + 1))]
-        found.append(minor.exact_divide(a**spare) if spare and a != 1 else minor)
-    return found
 
-
-def _wider(entries: Sequence[Poly], previous: Minors, k: int, n: int, budget: Budget) -> Minors:
-    """The minors of the first k + 1 rows of the matrix with entries[i + j], expanded along the last of them."""
-    found: Minors = {}
-    for columns in combinations(range(n), k + 1):
+    def times(one: Poly, other: Poly) -> Poly:
         budget.check("minors of Hermite's forms")
-        total = entries[0].ring.constant(0)
-        for position, column in enumerate(columns):
-            entry, rest = entries[k + column], previous[columns[:position] + columns[position + 1 :]]
-            if entry and rest:
-                total = total + _product(entry, rest, budget) * (-1) ** (k - position)
-        found[columns] = total
+        return _product(one, other, budget)
+
+    for k, minor in enumerate(leading_minors(lambda i, j: entries[i + j], n, a.ring.constant(1), times=times)):
+        spare = k * (k - 1 + m)
+        found.append(minor.exact_divide(a**spare) if spare and a != 1 else minor)
     return found

@@ -4,10 +4,8 @@ Let f have degree n in x, and let g be a polynomial. ``RootType`` says for every
 how often the root is one. The forms Tr(x^(i+j)) and Tr(g*x^(i+j)), summed over the roots with their multiplicities, are
 Hankel matrices. THEOREM (Hermite 1853; Basu, Pollack, Roy 2006, theorem 4.57). The rank of the form of g is the number
 of distinct roots of f at which g /= 0, its signature the number of real ones with g > 0 minus that of those with g < 0.
-THEOREM (Frobenius 1894; Gantmacher, volume 1, chapter X, section 10). The last leading minor of a Hankel matrix of rank
-r that is not 0 (where f has r roots with g /= 0) is that of size r, and the signature is the sum of
-(-1)^((k-1)/2)*sign(D_i*D_(i+k)) over neighbouring minors D_i, D_(i+k) that are not 0, k odd; for even k
-D_i*D_(i+k) has the sign (-1)^(k/2).
+By Frobenius' theorem (``qe.exact.hermite``) the last leading minor that is not 0 is that of size r where f has r roots
+with g /= 0, and the signs of the minors give the signature.
 THEOREM (Descartes). The number of positive roots, with multiplicities, is that of the changes of sign of the
 coefficients or an even number less; so for negative ones with x -> -x.
 THEOREM. I = 12*a*e - 3*b*d + c^2 of a*x^4 + b*x^3 + c*x^2 + d*x + e is 0 where a root is triple, and positive where a
@@ -25,6 +23,8 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
 from itertools import pairwise, product
+
+from qe.exact.hermite import added_signature
 
 Signs = tuple[int, ...]
 Name = tuple[str, int]
@@ -155,11 +155,10 @@ def _signature(signs: Signs) -> int | None:
         gap += 1
         if not sign:
             continue
-        if gap % 2:
-            total += (-1) ** (gap // 2) * sign * last
-        elif sign * last != (-1) ** (gap // 2):
+        added = added_signature(gap, sign, last)
+        if added is None:
             return None
-        last, gap = sign, 0
+        total, last, gap = total + added, sign, 0
     return total
 
 

@@ -11,7 +11,6 @@ from qe.decomposition.operators.lazard import LAZARD
 from qe.decomposition.operators.operator import Operator
 from qe.elimination.critical import block
 from qe.elimination.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
-from qe.elimination.critical.method import procedures
 from qe.elimination.critical.table import Shape
 from qe.errors import NotWellOriented, Unable
 from qe.formula.syntax import Exists
@@ -23,7 +22,7 @@ from qe.proof.cells import CellTable
 def found(text: str, *parameters: str) -> list[Disjunct]:
     asked = read(text)
     assert isinstance(asked, Exists)
-    return eliminate_block(asked.variables, asked.body, parameters, procedures=procedures(Budget()), budget=Budget())
+    return eliminate_block(asked.variables, asked.body, parameters, budget=Budget())
 
 
 def truths(table: CellTable) -> dict[str, bool | None]:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from fractions import Fraction as F
 
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
-from qe.decomposition.projection import factor_lists
+from qe.decomposition.projection import Levels, factor_lists
 from qe.elimination.critical.open_cells import OpenCell, OpenCells
-from qe.elimination.critical.procedures import Levels
 from qe.elimination.critical.separate import separated
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point

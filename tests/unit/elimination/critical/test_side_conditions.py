@@ -7,7 +7,6 @@ import pytest
 import qe
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.bounded import has_bounded_fibres
-from qe.elimination.critical.method import procedures
 from qe.elimination.critical.system import System, systems
 from qe.errors import Unable
 from qe.exact.ring import Ring
@@ -84,9 +83,7 @@ def test_shapes_of_truth_sets() -> None:
 
 
 def surfaces(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> set[str]:
-    found = critical_hypersurfaces(
-        only(text, free, bound), thin_parts=False, procedures=procedures(Budget()), budget=Budget()
-    )
+    found = critical_hypersurfaces(only(text, free, bound), thin_parts=False, budget=Budget())
     return {str(f)[5:-1] for f in found}
 
 
