@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.test_bezier_plan import QE, refused, run
+from tests.tables import each
 
 PROBLEM = """\
 method = "cubic"
@@ -63,17 +64,14 @@ def test_the_summary(joins: Path) -> None:
     assert set(found["points"]) == {f"{curve}{k}" for curve in "PQR" for k in range(4)}
 
 
-@pytest.mark.parametrize(
-    ("name", "path"),
-    [
-        ("path.json", ("points", "Q1", 0, "in_field", 0)),
-        ("path.json", ("points", "P1", 2, "decimal")),
-        ("path.json", ("joins", 0, "smoothness")),
-        ("summary.json", ("problem", "radius_squared")),
-        ("certificate.json", None),
-    ],
+@each(
+    ("path.json", ("points", "Q1", 0, "in_field", 0)),
+    ("path.json", ("points", "P1", 2, "decimal")),
+    ("path.json", ("joins", 0, "smoothness")),
+    ("summary.json", ("problem", "radius_squared")),
+    ("certificate.json", None),
 )
-def test_altered_files_are_rejected(joins: Path, tmp_path: Path, name: str, path: tuple[object, ...] | None) -> None:
+def test_altered_files_are_rejected(name: str, path: tuple[object, ...] | None, joins: Path, tmp_path: Path) -> None:
     for file in joins.iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())
     text = (tmp_path / name).read_text()
@@ -136,7 +134,7 @@ def test_bad_problems_get_one_line_and_nothing_is_written(tmp_path: Path, more: 
     assert sorted(p.name for p in tmp_path.iterdir()) == ["p.toml"]
 
 
-@pytest.mark.parametrize("key", ["ratio", "join_speed"])
-def test_keys_of_the_cubic_method_only(tmp_path: Path, key: str) -> None:
+@each("ratio", "join_speed")
+def test_keys_of_the_cubic_method_only(key: str, tmp_path: Path) -> None:
     (tmp_path / "p.toml").write_text(PROBLEM.replace("cubic", "quadratic") + f"{key} = 2\n")
     refused(run("plan", tmp_path / "p.toml", "--out", tmp_path / "out"), 2, key, "cubic")

@@ -9,6 +9,7 @@ from experiments.problem import Problem
 from experiments.results import Log, Status
 from qe.errors import InputError
 from tests.experiments.test_results import result
+from tests.tables import each
 
 
 def entry(id="a", cpu=1.0, status=Status.SOLVED, answer="x > 0", set="public", length=None):
@@ -34,8 +35,8 @@ def test_no_baseline_without_problems(tmp_path):
     assert not (tmp_path / "b.jsonl").exists()
 
 
-@pytest.mark.parametrize("text", ["no JSON", "[1]", '{"set": "public"}', '{"set": "a", "status": "perhaps"}'])
-def test_other_files_are_refused(tmp_path, text):
+@each("no JSON", "[1]", '{"set": "public"}', '{"set": "a", "status": "perhaps"}')
+def test_other_files_are_refused(text, tmp_path):
     (tmp_path / "b.jsonl").write_text(text)
     with pytest.raises(InputError, match="a baseline file expected"):
         baseline.read(tmp_path / "b.jsonl")

@@ -4,10 +4,9 @@ import os
 import sys
 import time
 
-import pytest
-
 from experiments.limits import Ending, group_use, run_limited
 from tests.experiments.fakes import BUSY, HOG, Solver, fake
+from tests.tables import each
 
 TASK = "{}"
 
@@ -67,7 +66,7 @@ def alive(pid: int) -> bool:
         return file.read().rpartition(")")[2].split()[0] != "Z"
 
 
-@pytest.mark.parametrize("after", ["", "while True: pass"])
+@each("", "while True: pass")
 def test_a_helper_that_stays_behind_is_ended(after):
     body = f"helper = subprocess.Popen(['sleep', '60'])\nprint(helper.pid, flush=True)\n{after}"
     done = run(fake("parent", body), seconds=0.5)

@@ -5,6 +5,7 @@ import pytest
 from experiments import measures
 from experiments.results import Log, Status
 from tests.experiments.test_results import result
+from tests.tables import each
 
 
 def log_of(*rows) -> Log:
@@ -18,14 +19,11 @@ def test_par2_counts_unsolved_twice():
     assert measures.par2([result(seconds=3), result(status="timeout", limit=10), result(status="WRONG", limit=4)]) == 31
 
 
-@pytest.mark.parametrize(
-    ("rows", "seconds", "status"),
-    [
-        ([(1, "solved"), (9, "solved"), (2, "solved")], 2, Status.SOLVED),
-        ([(1, "solved"), (9, "timeout"), (9, "timeout")], 9, Status.TIMEOUT),
-        ([(1, "solved"), (9, "timeout")], 9, Status.TIMEOUT),
-        ([(1, "solved"), (2, "WRONG"), (3, "solved")], 2, Status.WRONG),
-    ],
+@each(
+    ([(1, "solved"), (9, "solved"), (2, "solved")], 2, Status.SOLVED),
+    ([(1, "solved"), (9, "timeout"), (9, "timeout")], 9, Status.TIMEOUT),
+    ([(1, "solved"), (9, "timeout")], 9, Status.TIMEOUT),
+    ([(1, "solved"), (2, "WRONG"), (3, "solved")], 2, Status.WRONG),
 )
 def test_repetitions(rows, seconds, status):
     row = measures.combined([result(seconds=s, status=t, repeat=i) for i, (s, t) in enumerate(rows)])

@@ -3,9 +3,8 @@
 import json
 from dataclasses import asdict
 
-import pytest
-
 from experiments.results import Appender, Comparison, Result, Status, read_log
+from tests.tables import each
 
 OLD = (
     '{"set": "project", "solver": "z3", "id": "p", "status": "unable", "seconds": 0.01, "wall": 0.3, "limit": 15.0, '
@@ -41,11 +40,8 @@ def test_nothing_is_overwritten_and_the_latest_counts(tmp_path):
     assert sorted(r.seconds for r in read_log([path]).results.values()) == [2.0, 3.0]
 
 
-@pytest.mark.parametrize(
-    "bad",
-    ["{", "nonsense", "[1, 2]", '{"set": "s"}', '{"kind": "novel"}', json.dumps({**json.loads(OLD), "status": "x"})],
-)
-def test_a_bad_line_is_reported_with_its_number_and_skipped(tmp_path, bad):
+@each("{", "nonsense", "[1, 2]", '{"set": "s"}', '{"kind": "novel"}', json.dumps({**json.loads(OLD), "status": "x"}))
+def test_a_bad_line_is_reported_with_its_number_and_skipped(bad, tmp_path):
     path = tmp_path / "r.jsonl"
     path.write_text(f"{OLD}\n{bad}\n\n{OLD.replace('z3', 'cvc5')}\n")
     log = read_log([path])

@@ -19,6 +19,7 @@ from bezier.motion.timelaw import Law, TimeLaw
 from bezier.report.joints import page
 from qe.certify.verify import verify_json
 from qe.errors import InputError
+from tests.tables import each
 
 EV3, SIX = Robot.load("ev3-120"), Robot.load("six-joints")
 LINE = {"line": Bezier.of([(10, 40, 80), (40, 100, 20)])}
@@ -79,17 +80,14 @@ a = 90
 """
 
 
-@pytest.mark.parametrize(
-    ("limits", "kept"),
-    [
-        ("-1, 1", True),
-        ("6, 7", True),
-        ("12, 13", True),
-        ("-13, -12", True),
-        ("10, 12", False),
-        ("1, 2", False),
-        ("-4, 4", True),
-    ],
+@each(
+    ("-1, 1", True),
+    ("6, 7", True),
+    ("12, 13", True),
+    ("-13, -12", True),
+    ("10, 12", False),
+    ("1, 2", False),
+    ("-4, 4", True),
 )
 def test_limits_hold_for_an_angle_and_all_full_turns_of_it(limits: str, kept: bool) -> None:
     """Joint 1 is at 0: at 2 pi and 4 pi as well."""

@@ -17,6 +17,7 @@ from bezier.arm.study import study
 from bezier.cli import main
 from bezier.curves.curve import Bezier
 from qe.errors import InputError, Unable
+from tests.tables import each
 
 ARM = load_arm("ev3-120")
 
@@ -48,7 +49,7 @@ CURVES = {
 }
 
 
-@pytest.mark.parametrize("name", ["conic", pytest.param("out and in again", marks=pytest.mark.deep)])
+@each("conic", pytest.param("out and in again", marks=pytest.mark.deep))
 def test_curves_of_any_degree(name: str) -> None:
     """The square root of x² + y² is no polynomial along these; the counts are those of single points."""
     curve = Bezier.of(CURVES[name])
@@ -99,15 +100,12 @@ def test_bad_arms_get_one_line(name: str) -> None:
     assert message in str(caught.value) and "arm.toml" in str(caught.value) and "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["ik", "nobody", "1", "2", "3"], "expected a file .toml or .urdf"),
-        (["ik", "six-joints", "1", "2", "3"], "--quaternion W X Y Z"),
-        (["ik", "six-joints", "1", "2", "3", "--quaternion", "0", "0", "0", "0"], "not all 0"),
-        (["ik", "ev3-120", "1", "2", "x"], "expected an exact number"),
-        (["ik", "ev3-120", "1", "2", "3", "--quaternion", "1", "0", "0", "0"], "three parallel axes"),
-    ],
+@each(
+    (["ik", "nobody", "1", "2", "3"], "expected a file .toml or .urdf"),
+    (["ik", "six-joints", "1", "2", "3"], "--quaternion W X Y Z"),
+    (["ik", "six-joints", "1", "2", "3", "--quaternion", "0", "0", "0", "0"], "not all 0"),
+    (["ik", "ev3-120", "1", "2", "x"], "expected an exact number"),
+    (["ik", "ev3-120", "1", "2", "3", "--quaternion", "1", "0", "0", "0"], "three parallel axes"),
 )
 def test_the_command_says_it_in_one_line(
     arguments: list[str],

@@ -23,6 +23,7 @@ from bezier.arm.ratio import variable
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from qe.errors import InputError, InternalError, Unable
 from qe.exact.ring import Ring
+from tests.tables import each
 
 POINT = (Fraction(599, 66), Fraction(824, 33), Fraction(323, 10))
 
@@ -222,8 +223,8 @@ def test_a_wrong_reduction_does_not_pass() -> None:
             confirm(arm, wrong, point)
 
 
-@pytest.mark.parametrize("length", [112, 120])
-def test_logged_queries(shared: Path, length: int) -> None:
+@each(112, 120)
+def test_logged_queries(length: int, shared: Path) -> None:
     logged = [
         json.loads(line) for line in (shared / "corpora/ev3" / f"queries_L{length}.jsonl").read_text().splitlines()
     ]
@@ -236,18 +237,15 @@ def test_logged_queries(shared: Path, length: int) -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("name", ["queries_L112", "queries_L120", "points_L120_without_log"])
-def test_every_logged_query(shared: Path, name: str) -> None:
+@each("queries_L112", "queries_L120", "points_L120_without_log")
+def test_every_logged_query(name: str, shared: Path) -> None:
     arm = load_arm("ev3-112" if "112" in name else "ev3-120")
     for line in (shared / "corpora" / "ev3" / f"{name}.jsonl").read_text().splitlines():
         row = json.loads(line)
         assert solve(arm, [Fraction(row[c]) for c in "xyz"]).count == row["real_solutions"], row["id"]
 
 
-@pytest.mark.parametrize(
-    "text",
-    ["sqrt(-1)", "sqrt(2", "x", "sqrt(sqrt(2))", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9],
-)
+@each("sqrt(-1)", "sqrt(2", "x", "sqrt(sqrt(2))", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9)
 def test_no_exact_number(text: str) -> None:
     with pytest.raises(InputError):
         read_exact(text)
@@ -259,7 +257,7 @@ def test_exact_numbers() -> None:
     assert float(read_exact("44*sqrt(2) - 8*sqrt(293)/2")) == pytest.approx(44 * sqrt(2) - 4 * sqrt(293))
 
 
-@pytest.mark.parametrize("places", [6, 20, 40, 200])
+@each(6, 20, 40, 200)
 def test_two_solutions_never_print_alike(places: int) -> None:
     """At 1e-36 mm from the border both lines were the same, and so were both boxes."""
     border = read_exact("44*sqrt(2) + 120 + 8*sqrt(293)") - Fraction(1, 10**places)

@@ -26,6 +26,7 @@ from bezier.arm.vertical import Label, vertical_arm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.processes.channel import Channel
+from tests.tables import each
 
 F = Fraction
 E, S, C = "ev3-120", "shoulder-3r", "cylindrical"
@@ -52,25 +53,22 @@ def curves_of(*curves: Points) -> dict[str, Bezier]:
 
 
 # θ1 is 0 or π along the line through the axis, for two elbows each
-@pytest.mark.parametrize(
-    ("limits", "kept"),
-    [
-        ((-1, 1), 2),
-        ((0, 1), 2),
-        ((-1, 0), 2),
-        (("1/1000000000", 1), 0),
-        ((-1, "-1/1000000000"), 0),
-        (("3.141592653", "3.141592654"), 2),
-        (("3.141592654", "3.141592655"), 0),
-        ((3, 6), 2),
-        ((3, "6.2831"), 2),
-        ((3, "6.2832"), 4),
-        ((-3, 3), 2),
-        ((-4, 3), 4),
-        ((1, 2), 0),
-        ((0, 7), 4),
-        ((-20, -10), 4),
-    ],
+@each(
+    ((-1, 1), 2),
+    ((0, 1), 2),
+    ((-1, 0), 2),
+    (("1/1000000000", 1), 0),
+    ((-1, "-1/1000000000"), 0),
+    (("3.141592653", "3.141592654"), 2),
+    (("3.141592654", "3.141592655"), 0),
+    ((3, 6), 2),
+    ((3, "6.2831"), 2),
+    ((3, "6.2832"), 4),
+    ((-3, 3), 2),
+    ((-4, 3), 4),
+    ((1, 2), 0),
+    ((0, 7), 4),
+    ((-20, -10), 4),
 )
 def test_a_side_of_the_axis_is_allowed_or_forbidden(limits: Limits, kept: int) -> None:
     found = joint_path(limited(E, limits), curves_of(THROUGH))

@@ -29,6 +29,7 @@ from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify
 from qe.errors import Unable
 from qe.proof.certificate import Certificate
+from tests.tables import each
 
 CYLINDER = load_arm("cylindrical")
 NAMES = ("cylindrical", "shoulder-3r", "ev3-120")
@@ -66,7 +67,7 @@ def test_a_path_outside_all_limits_is_not_reachable() -> None:
     assert in_words(solve(CYLINDER, (900, 0, 100)))[-1] == "no joint position is within the limits of the joints"
 
 
-@pytest.mark.parametrize(("beyond", "keeps"), [("1e-9", False), ("-1e-9", True), ("0", True), ("14", False)])
+@each(("1e-9", False), ("-1e-9", True), ("0", True), ("14", False))
 def test_what_happens_between_two_samples_counts(beyond: str, keeps: bool) -> None:
     """The lift is highest halfway, 250 mm and ``beyond``; samples were all that was looked at."""
     top = Fraction(600) + 2 * Fraction(beyond)

@@ -15,6 +15,7 @@ from bezier.arm.model import Angle, Arm, field_of, read_angle
 from bezier.arm.reader import load_arm, read_arm, shipped
 from bezier.input.numbers import NotANumber
 from qe.errors import InputError
+from tests.tables import each
 
 ANGLES = st.floats(-3.2, 3.2)
 PUBLISHED = [(0, 0, 80), (0, np.pi / 2, 0), (88, 0, 0), (24, 0, 0), (96, 0, 0), (16, 0, 0), (40, 0, 0), (120, 0, 0)]
@@ -54,7 +55,7 @@ def test_ev3_against_the_published_rows(t1: float, t4: float, t7: float) -> None
     assert np.allclose(skeleton(arm, [t1, t4, t7])[-1], whole[:3, 3], atol=1e-9)
 
 
-@pytest.mark.parametrize(("convention", "matrix"), [("modified", craig), ("standard", classic)])
+@each(("modified", craig), ("standard", classic))
 @given(t=ANGLES, q=ANGLES)
 def test_both_conventions_with_offsets(convention: str, matrix, t: float, q: float) -> None:
     arm = read_arm(TWO.format(convention))
@@ -157,15 +158,13 @@ def test_angles_by_cosine_and_sine() -> None:
     assert str(angle) == "atan2(-4/5, 3/5)"
 
 
-@pytest.mark.parametrize("text", ["0", 0, "pi", "-pi/2", "3*pi/4", "2/3*pi", "pi/12", "3 pi/4"])
+@each("0", 0, "pi", "-pi/2", "3*pi/4", "2/3*pi", "pi/12", "3 pi/4")
 def test_what_is_written_is_read_again(text: object) -> None:
     angle = read_angle(text)
     assert read_angle(str(angle)) == angle
 
 
-@pytest.mark.parametrize(
-    "raw", ["pi/5", "1", 1, "", "pi/0", "pipi", True, {"cos": "1/2", "sin": "1/2"}, {"cos": "1"}, [0], "sqrt(2)"]
-)
+@each("pi/5", "1", 1, "", "pi/0", "pipi", True, {"cos": "1/2", "sin": "1/2"}, {"cos": "1"}, [0], "sqrt(2)")
 def test_what_is_no_exact_angle(raw: object) -> None:
     with pytest.raises(NotANumber):
         read_angle(raw)

@@ -13,6 +13,7 @@ from bezier.arm.kinematics import positions
 from bezier.arm.model import Arm, JointKind
 from bezier.arm.reader import load_arm
 from qe.errors import InputError, Unable
+from tests.tables import each
 
 ARM = """<robot name="desk arm">
   <link name="base"/><link name="turret"/><link name="upper"/><link name="lower"/><link name="tip"/>
@@ -86,34 +87,31 @@ def test_every_axis(axis: str, tmp_path: Path) -> None:
     assert np.allclose(moved, base + frame @ turn @ frame.T @ (at_rest - base), atol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("0.785398", "0.7", "multiples of pi/12"),
-        ('xyz="0 1 0"', 'xyz="0 0.6 0.8"', "an axis along x, y or z"),
-        ('type="prismatic"', 'type="floating"', "one of revolute"),
-        ('lower="0" upper="0.2"', 'lower="1" upper="0.2"', "a lower limit"),
-        ('<parent link="lower"/>', '<parent link="upper"/>', "ends lower, tip"),
-        ("continuous", "fixed", None),
-        (ARM, "robot", "URDF expected"),
-        (ARM, "", "URDF expected"),
-        (ARM, ARM[:300], "no XML"),
-        ("</joint>", "", "no XML"),
-        ('<robot name="desk arm">', '<!DOCTYPE r [<!ENTITY x "desk">]><robot name="&x;">', "a document type"),
-        (ARM, '<robot name="a"><link name="b"/></robot>', "no joint found"),
-        ('<parent link="base"/>', '<parent link="tip"/>', "a circle found"),
-        ('xyz="0 1 0"', 'xyz="nan 1 0"', "an axis along"),
-        ("0.785398", "inf", "finite numbers expected as origin"),
-        ("0.01 0 0.1", "nan 0 0.1", "joint waist-1: finite numbers"),
-        ('lower="-1.5"', 'lower="nan"', "joint shoulder: a finite number"),
-        ('upper="1.5"', 'upper="180"', "limits in rad"),
-        ('name="shoulder"', 'name="waist_1"', "different names"),
-        ('type="prismatic"', 'type="planar"', "planar found"),
-        ('<axis xyz="-1 0 0"/>', '<axis xyz="-1 0 0"/><mimic joint="shoulder"/>', "one that mimics another"),
-        ('name="shoulder"', 'name=""', None),
-        ('<limit lower="-1.5" upper="1.5" effort="1" velocity="2"/>', "", None),
-        ('<joint name="waist-1" type="continuous">', "<joint>", "URDF expected"),
-    ],
+@each(
+    ("0.785398", "0.7", "multiples of pi/12"),
+    ('xyz="0 1 0"', 'xyz="0 0.6 0.8"', "an axis along x, y or z"),
+    ('type="prismatic"', 'type="floating"', "one of revolute"),
+    ('lower="0" upper="0.2"', 'lower="1" upper="0.2"', "a lower limit"),
+    ('<parent link="lower"/>', '<parent link="upper"/>', "ends lower, tip"),
+    ("continuous", "fixed", None),
+    (ARM, "robot", "URDF expected"),
+    (ARM, "", "URDF expected"),
+    (ARM, ARM[:300], "no XML"),
+    ("</joint>", "", "no XML"),
+    ('<robot name="desk arm">', '<!DOCTYPE r [<!ENTITY x "desk">]><robot name="&x;">', "a document type"),
+    (ARM, '<robot name="a"><link name="b"/></robot>', "no joint found"),
+    ('<parent link="base"/>', '<parent link="tip"/>', "a circle found"),
+    ('xyz="0 1 0"', 'xyz="nan 1 0"', "an axis along"),
+    ("0.785398", "inf", "finite numbers expected as origin"),
+    ("0.01 0 0.1", "nan 0 0.1", "joint waist-1: finite numbers"),
+    ('lower="-1.5"', 'lower="nan"', "joint shoulder: a finite number"),
+    ('upper="1.5"', 'upper="180"', "limits in rad"),
+    ('name="shoulder"', 'name="waist_1"', "different names"),
+    ('type="prismatic"', 'type="planar"', "planar found"),
+    ('<axis xyz="-1 0 0"/>', '<axis xyz="-1 0 0"/><mimic joint="shoulder"/>', "one that mimics another"),
+    ('name="shoulder"', 'name=""', None),
+    ('<limit lower="-1.5" upper="1.5" effort="1" velocity="2"/>', "", None),
+    ('<joint name="waist-1" type="continuous">', "<joint>", "URDF expected"),
 )
 def test_what_is_refused(old: str, new: str, message: str | None, tmp_path: Path) -> None:
     pytest.importorskip("yourdfpy")

@@ -5,17 +5,15 @@ import pytest
 
 import qe
 from bezier.compare.pictures import outline
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("text", "order", "area"),
-    [
-        ("x^2 + y^2 <= 1", "x, y", np.pi),
-        ("x^2 + y^2 < 1 and y <= x", "y, x", np.pi / 2),
-        ("x >= 0 and y >= 0 and x + 2*y <= 2", "x, y", 1.0),
-        ("0 <= x and x <= 1 and 0 <= y and y <= 3", "y, x", 3.0),
-        ("x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4 and y <= 1", "y, x", None),
-    ],
+@each(
+    ("x^2 + y^2 <= 1", "x, y", np.pi),
+    ("x^2 + y^2 < 1 and y <= x", "y, x", np.pi / 2),
+    ("x >= 0 and y >= 0 and x + 2*y <= 2", "x, y", 1.0),
+    ("0 <= x and x <= 1 and 0 <= y and y <= 3", "y, x", 3.0),
+    ("x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4 and y <= 1", "y, x", None),
 )
 def test_it_is_closed_and_has_no_gap(text, order, area):
     points = outline(qe.region(text, order=order))

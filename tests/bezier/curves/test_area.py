@@ -9,6 +9,7 @@ import pytest
 import qe
 from bezier.curves.area import convex_area
 from qe.errors import InputError
+from tests.tables import each
 
 PI = Fraction(3141592653589793, 10**15)
 CASES = [
@@ -33,15 +34,13 @@ def test_known_areas(text: str, area: Fraction) -> None:
         assert found.high - found.low <= rel * found.high
 
 
-@pytest.mark.parametrize(
-    "text", ["x^2 + y^2 < 0", "x^2 + y^2 <= 0", "x = y and 0 <= x and x <= 1", "x = 1 and y^2 <= 2"]
-)
+@each("x^2 + y^2 < 0", "x^2 + y^2 <= 0", "x = y and 0 <= x and x <= 1", "x = 1 and y^2 <= 2")
 def test_nothing_and_thin_sets_have_no_area(text: str) -> None:
     found = convex_area(qe.region(text, order=("x", "y")), Fraction(1, 100))
     assert found.low == 0 and found.high == 0
 
 
-@pytest.mark.parametrize("text", ["y >= x^2", "0 <= x and x <= 1", "x > y"])
+@each("y >= x^2", "0 <= x and x <= 1", "x > y")
 def test_unbounded_regions_are_refused(text: str) -> None:
     with pytest.raises(InputError, match="bounded"):
         convex_area(qe.region(text, order=("x", "y")), Fraction(1, 100))

@@ -12,6 +12,7 @@ from bezier.curves.curve import Bezier, Smoothness, curvature_squared, join
 from bezier.curves.scalar import add, dot, is_zero, same, scale, subtract
 from qe.errors import InputError
 from tests.bezier.numbers import control_points, points, small, surds, unit
+from tests.tables import each
 
 HALF = Fraction(1, 2)
 
@@ -109,7 +110,7 @@ def test_gap_and_direction():
     assert not join(a, Bezier.of([(1, 0), (0, 0)])).same_direction
 
 
-@pytest.mark.parametrize("control", [[], [()], [(1, 2), (1, 2, 3)]])
+@each([], [()], [(1, 2), (1, 2, 3)])
 def test_no_curve(control):
     with pytest.raises(InputError):
         Bezier.of(control)

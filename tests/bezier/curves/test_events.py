@@ -3,7 +3,6 @@
 from fractions import Fraction
 from itertools import pairwise
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -11,6 +10,7 @@ from bezier.curves import bernstein as bs
 from bezier.curves.nonnegative import events_of
 from bezier.curves.scalar import sign
 from qe.exact.field import NumberField
+from tests.tables import each
 
 TINY = Fraction(1, 10**30)
 ROOTS = st.sampled_from(
@@ -60,7 +60,7 @@ def test_zero_and_constant_polynomials_have_no_roots():
     assert [event.signs for event in found] == [(0, 1, 0), (0, 1, 1)]
 
 
-@pytest.mark.parametrize("degree", [3, 5])
+@each(3, 5)
 def test_a_root_next_to_the_start_is_apart_from_it(degree):
     form = polynomial([TINY, *([Fraction(0)] * (degree - 1))])
     start, root, end = events_of([form])

@@ -2,21 +2,17 @@
 
 from fractions import Fraction
 
-import pytest
-
 from bezier.curves.scalar import brief, with_decimal
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (Fraction(3), "3"),
-        (Fraction(7, 10), "0.7"),
-        (Fraction(-3, 2), "-1.5"),
-        (Fraction(1, 3), "0.33333333 (exactly 1/3)"),
-        (Fraction(1, 3**100), "about 1.9403252e-48"),
-        (Fraction(1, 2**40), "9.094947e-13 (exactly 1/1099511627776)"),
-    ],
+@each(
+    (Fraction(3), "3"),
+    (Fraction(7, 10), "0.7"),
+    (Fraction(-3, 2), "-1.5"),
+    (Fraction(1, 3), "0.33333333 (exactly 1/3)"),
+    (Fraction(1, 3**100), "about 1.9403252e-48"),
+    (Fraction(1, 2**40), "9.094947e-13 (exactly 1/1099511627776)"),
 )
 def test_numbers_in_words(value, text):
     assert brief(value) == text

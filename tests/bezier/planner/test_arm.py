@@ -9,6 +9,7 @@ from bezier.planner.planning import make_plan
 from bezier.plans import Outcome
 from bezier.problem import from_json, read_problem, to_json
 from qe.errors import InputError
+from tests.tables import each
 
 TEXT = """method = "cubic"
 workspace = "reachable"
@@ -35,15 +36,12 @@ def test_points_are_reached() -> None:
             check_arm(read_problem(TEXT.replace("[60, 200, 240]", point)))
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (TEXT.replace('arm = "ev3"\n', ""), "an arm with the true reachable set"),
-        (TEXT.replace('"ev3"', '"six-joints"'), "three joints"),
-        (TEXT.replace('"ev3"', '"shoulder-3r"'), "reaches expected"),
-        (TEXT.replace('"ev3"', '"planar-3r"'), "reaches expected"),
-        (TEXT.replace('"ev3"', '"nobody"'), "arm: expected a file"),
-    ],
+@each(
+    (TEXT.replace('arm = "ev3"\n', ""), "an arm with the true reachable set"),
+    (TEXT.replace('"ev3"', '"six-joints"'), "three joints"),
+    (TEXT.replace('"ev3"', '"shoulder-3r"'), "reaches expected"),
+    (TEXT.replace('"ev3"', '"planar-3r"'), "reaches expected"),
+    (TEXT.replace('"ev3"', '"nobody"'), "arm: expected a file"),
 )
 def test_what_does_not_fit(text: str, message: str) -> None:
     with pytest.raises(InputError) as caught:

@@ -20,6 +20,7 @@ from bezier.plans import Clock, Outcome
 from bezier.problem import ends_inside, read_problem
 from qe.errors import CertificateRejected, QEError
 from tests.bezier.folder_mutation import Quiet
+from tests.tables import each
 
 CRATE = """
 [[obstacle]]
@@ -48,7 +49,7 @@ def folder_of(text: str, folder: Path) -> dict:
 
 
 @pytest.mark.parametrize("via", ["", VIA], ids=["no via points", "via points"])
-@pytest.mark.parametrize("method", ["quadratic", "cubic"])
+@each("quadratic", "cubic")
 @pytest.mark.parametrize(
     ("start", "goal", "ends"),
     [
@@ -58,7 +59,7 @@ def folder_of(text: str, folder: Path) -> dict:
     ],
     ids=["start", "goal touches", "both"],
 )
-def test_an_end_in_an_obstacle_is_refuted_at_once(tmp_path, method, via, start, goal, ends) -> None:
+def test_an_end_in_an_obstacle_is_refuted_at_once(start, goal, ends, method, via, tmp_path) -> None:
     """Twelve attempts and 20 s, and then "a path may exist all the same"."""
     begin = time.process_time()
     told = folder_of(problem_text(start, goal, method=method, via=via), tmp_path / "out")

@@ -7,6 +7,7 @@ import pytest
 
 from bezier.planner.outputs import all_or_none
 from qe.errors import InputError
+from tests.tables import each
 
 
 def names(folder):
@@ -88,10 +89,8 @@ def test_a_second_run_removes_nothing_else(tmp_path):
     assert (tmp_path / "outside.txt").exists()
 
 
-@pytest.mark.parametrize(
-    "old", ["", "[]", '{"files": 3}', '{"files": [3]}', "[" * 100_000, "\ud800".encode("utf-8", "ignore")]
-)
-def test_an_unreadable_listing_removes_nothing(tmp_path, old):
+@each("", "[]", '{"files": 3}', '{"files": [3]}', "[" * 100_000, "\ud800".encode("utf-8", "ignore"))
+def test_an_unreadable_listing_removes_nothing(old, tmp_path):
     target = tmp_path / "out"
     target.mkdir()
     (target / "path.json").write_text("mine")

@@ -4,7 +4,6 @@ import json
 from dataclasses import replace
 from fractions import Fraction
 
-import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -17,6 +16,7 @@ from bezier.planner.planning import make_plan
 from bezier.plans import Outcome
 from bezier.problem import PlanMethod, read_problem
 from tests.bezier.planner.test_plan import problem_of
+from tests.tables import each
 
 COORDINATE = st.integers(-3, 3).map(Fraction)
 POINT = st.tuples(COORDINATE, COORDINATE, COORDINATE).filter(any)
@@ -109,8 +109,6 @@ def test_nothing_is_forced_inside():
     assert qe.decide(radius_rule.sentence(problem_of(problem.via[0], problem.via[1], 3), "Q0", "Q1").formula) is True
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "short"), [("27.1", "32.5", "30"), ("4.58", "5.4", "5"), ("0.98", "0.99", "0.98")]
-)
+@each(("27.1", "32.5", "30"), ("4.58", "5.4", "5"), ("0.98", "0.99", "0.98"))
 def test_short_numbers(low, high, short):
     assert radius_rule._short_decimal(Fraction(low), Fraction(high)) == Fraction(short)

@@ -8,6 +8,7 @@ import pytest
 
 import qe
 from qe.io import formats
+from tests.tables import each
 
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 
@@ -33,14 +34,11 @@ def test_a_checked_answer_with_free_variables() -> None:
     assert qe.equivalent(answer.formula, "a = 0 and b > 0")
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: qe.eliminate("x > 0", method="magic"), "method"),
-        (lambda: qe.decide("x > 0"), "free: x"),
-        (lambda: qe.region("x^2 + y^2 < 1", order=("x",)), "order"),
-        (lambda: qe.minimize("1/0", "x > 0"), "divi"),
-    ],
+@each(
+    (lambda: qe.eliminate("x > 0", method="magic"), "method"),
+    (lambda: qe.decide("x > 0"), "free: x"),
+    (lambda: qe.region("x^2 + y^2 < 1", order=("x",)), "order"),
+    (lambda: qe.minimize("1/0", "x > 0"), "divi"),
 )
 def test_bad_calls_get_one_line(call, message: str) -> None:
     with pytest.raises(qe.InputError, match=message) as caught:
@@ -57,9 +55,7 @@ def test_equivalence_and_instances() -> None:
 
 
 @pytest.mark.parametrize("stage", [stage.value for stage in qe.Stage])
-@pytest.mark.parametrize(
-    "text", ["ex x. x^2 + b*x + c < 0 and x > 0", "ex x, y. x^2 + y^2 = 1 and y = a*x + b", "all x. x^4 + p*x + q > 0"]
-)
+@each("ex x. x^2 + b*x + c < 0 and x > 0", "ex x, y. x^2 + y^2 = 1 and y = a*x + b", "all x. x^4 + p*x + q > 0")
 def test_leaving_a_stage_out_changes_no_answer(text: str, stage: str) -> None:
     assert qe.equivalent(qe.eliminate(text, without=(stage,)).formula, qe.eliminate(text).formula)
 
@@ -73,16 +69,13 @@ def test_the_explanation_names_what_was_done(capsys: pytest.CaptureFixture[str])
     assert "substitution" not in slow.explanation.split("planned")[1] and "decomposition order" in slow.explanation
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x. a*x + b > 0 and x < c",
-        "ex x, y. x*y = a and x + y = b",
-        "ex x. all y. y^2 + x > b and x < 3",
-        "all x. x > 0 -> x^2 + a*x + 1 > 0",
-        "all x. ex y. y^3 + x*y = 1",
-        "a > 0 and (ex x. x^2 = a) or b = 3",
-    ],
+@each(
+    "ex x. a*x + b > 0 and x < c",
+    "ex x, y. x*y = a and x + y = b",
+    "ex x. all y. y^2 + x > b and x < 3",
+    "all x. x > 0 -> x^2 + a*x + 1 > 0",
+    "all x. ex y. y^3 + x*y = 1",
+    "a > 0 and (ex x. x^2 = a) or b = 3",
 )
 def test_check_gets_a_certificate_whatever_the_method(text: str) -> None:
     answer = qe.eliminate(text, check=True)
@@ -92,13 +85,10 @@ def test_check_gets_a_certificate_whatever_the_method(text: str) -> None:
     assert answer.truth is plain.truth and (answer.truth is not None or qe.equivalent(answer.formula, plain.formula))
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        ("ex x, y, z. x^2 + y^2 + z^2 < 1 and a*x + b*y + c*z > 1", "a^2 + b^2 + c^2 - 1 > 0"),
-        ("ex u, v. x = u*v and y = v and z = u^2", "y^2*z - x^2 = 0 and z >= 0"),
-        ("all x, y. a*x^2 + 2*b*x*y + c*y^2 + d > 0", "a*c - b^2 >= 0 and d > 0 and c >= 0 and a >= 0"),
-    ],
+@each(
+    ("ex x, y, z. x^2 + y^2 + z^2 < 1 and a*x + b*y + c*z > 1", "a^2 + b^2 + c^2 - 1 > 0"),
+    ("ex u, v. x = u*v and y = v and z = u^2", "y^2*z - x^2 = 0 and z >= 0"),
+    ("all x, y. a*x^2 + 2*b*x*y + c*y^2 + d > 0", "a*c - b^2 >= 0 and d > 0 and c >= 0 and a >= 0"),
 )
 def test_answers_are_as_short_as_a_textbook_has_them(text: str, answer: str) -> None:
     found = qe.eliminate(text)

@@ -18,6 +18,7 @@ from qe.optimization.global_optimum import GlobalOptimum
 from qe.optimization.parametric_optimum import ParametricOptimum
 from qe.proof.answer import Guarantee
 from qe.proof.certificate import digest
+from tests.tables import each
 
 REGIONS = ("ex y. x^2 + y^2 < a", "x^2 + y^2 < 1 and x > y", "ex z. x*z = y and z > 1 and z < 2")
 OPTIMA = (
@@ -140,7 +141,7 @@ def test_an_altered_guard_is_refused() -> None:
     assert verdict.step == "payload.answer"
 
 
-@pytest.mark.parametrize("given", [1, "yes", None])
+@each(1, "yes", None)
 def test_check_is_a_truth_value(given: object) -> None:
     for ask in (qe.region, qe.parametric_witnesses):
         with pytest.raises(qe.InputError, match="check"):

@@ -18,6 +18,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.options import Budget
 from qe.processes.worker import end_idle
 from qe.progress import Event
+from tests.tables import each
 from tests.workers import large, replace_in_worker, stuck
 
 pytestmark = pytest.mark.processes
@@ -246,16 +247,13 @@ def test_reading_holds_the_limit(monkeypatch):
 LONG = "(x + y + z + 1)^70"
 
 
-@pytest.mark.parametrize(
-    ("place", "call"),
-    [
-        ("qe.api.optimum.read_objective", lambda: qe.minimize(LONG, timeout=LIMIT)),
-        ("qe.api.optimum.read_constraints", lambda: qe.minimize("x", f"{LONG} > 0", timeout=LIMIT)),
-        ("qe.api.decide.read_polynomial", lambda: qe.check_witness("ex x. x > y", {"x": LONG}, timeout=LIMIT)),
-        ("qe.api.groebner.read_polynomial", lambda: qe.comprehensive_groebner([LONG], "x", timeout=LIMIT)),
-        ("qe.sympy.from_sympy", lambda: qe.sympy.minimum(sum(sympy.symbols("x y z")) ** 70, timeout=LIMIT)),
-        ("qe.api.input.read_polynomial", lambda: qe.maximize(sympy.Symbol("x") ** 70, timeout=LIMIT)),
-    ],
+@each(
+    ("qe.api.optimum.read_objective", lambda: qe.minimize(LONG, timeout=LIMIT)),
+    ("qe.api.optimum.read_constraints", lambda: qe.minimize("x", f"{LONG} > 0", timeout=LIMIT)),
+    ("qe.api.decide.read_polynomial", lambda: qe.check_witness("ex x. x > y", {"x": LONG}, timeout=LIMIT)),
+    ("qe.api.groebner.read_polynomial", lambda: qe.comprehensive_groebner([LONG], "x", timeout=LIMIT)),
+    ("qe.sympy.from_sympy", lambda: qe.sympy.minimum(sum(sympy.symbols("x y z")) ** 70, timeout=LIMIT)),
+    ("qe.api.input.read_polynomial", lambda: qe.maximize(sympy.Symbol("x") ** 70, timeout=LIMIT)),
 )
 def test_reading_holds_the_limit_in_every_function(place, call, monkeypatch):
     """Texts and SymPy objects that have to be multiplied out were read without the limit, for seconds."""

@@ -9,6 +9,7 @@ import pytest
 
 import qe
 from qe.api.input import read_formula
+from tests.tables import each
 
 BLOCKS = [
     "ex x. a*x^2 + b*x + c = 0",
@@ -63,9 +64,7 @@ def test_inner_quantifiers_are_eliminated_first() -> None:
     assert qe.equivalent(found.guard, "a > b")
 
 
-@pytest.mark.parametrize(
-    ("text", "error"), [("x > 0", qe.InputError), ("ex x. x^5 + a*x + b = 0 and x > a", qe.DegreeTooHigh)]
-)
+@each(("x > 0", qe.InputError), ("ex x. x^5 + a*x + b = 0 and x > a", qe.DegreeTooHigh))
 def test_what_has_none_says_so(text: str, error: type[qe.QEError]) -> None:
     with pytest.raises(error):
         qe.parametric_witnesses(text)

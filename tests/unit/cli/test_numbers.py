@@ -4,25 +4,21 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
-
 from qe.cli.numbers import LONGEST, decimal, exact_and_decimal, shown
 from qe.exact.algebraic import RealAlgebraic
+from tests.tables import each
 
 ROOT = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (None, "none"),
-        (Fraction(3), "3"),
-        (Fraction(-3), "-3"),
-        (Fraction(1, 3), "1/3 (about 0.3333333333)"),
-        (ROOT, "sqrt(2) (about 1.414213562)"),
-        (Fraction(10**LONGEST, 1), f"about {float(10**LONGEST):.10g} (the exact text has {LONGEST + 1} characters)"),
-        (Fraction(10 ** (LONGEST - 1), 1), str(10 ** (LONGEST - 1))),
-    ],
+@each(
+    (None, "none"),
+    (Fraction(3), "3"),
+    (Fraction(-3), "-3"),
+    (Fraction(1, 3), "1/3 (about 0.3333333333)"),
+    (ROOT, "sqrt(2) (about 1.414213562)"),
+    (Fraction(10**LONGEST, 1), f"about {float(10**LONGEST):.10g} (the exact text has {LONGEST + 1} characters)"),
+    (Fraction(10 ** (LONGEST - 1), 1), str(10 ** (LONGEST - 1))),
 )
 def test_numbers_for_people(value: object, text: str) -> None:
     assert shown(value, "none") == text

@@ -4,29 +4,25 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
-
 from qe.cli.smt_values import written
 from qe.exact.algebraic import RealAlgebraic
 from qe.io import smtlib
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("number", "text"),
-    [
-        (0, "0.0"),
-        (7, "7.0"),
-        (-7, "(- 7.0)"),
-        (Fraction(2, 3), "(/ 2.0 3.0)"),
-        (Fraction(-2, 3), "(- (/ 2.0 3.0))"),
-        (RealAlgebraic.rational(Fraction(1, 2)), "(/ 1.0 2.0)"),
-    ],
+@each(
+    (0, "0.0"),
+    (7, "7.0"),
+    (-7, "(- 7.0)"),
+    (Fraction(2, 3), "(/ 2.0 3.0)"),
+    (Fraction(-2, 3), "(- (/ 2.0 3.0))"),
+    (RealAlgebraic.rational(Fraction(1, 2)), "(/ 1.0 2.0)"),
 )
 def test_rational_numbers(number: object, text: str) -> None:
     assert written(number) == text
 
 
-@pytest.mark.parametrize("index", [0, 1, 2])
+@each(0, 1, 2)
 def test_an_irrational_number_is_read_back(index: int) -> None:
     """The roots of x^3 - 3x + 1, each between its neighbours' bounds."""
     low, high = [(-2, -1), (0, 1), (1, 2)][index]

@@ -14,12 +14,13 @@ from bezier.cli.app import app as bezier_app
 from experiments.cli import app as experiments_app
 from qe.cli.app import app
 from qe.cli.values import take_leading_minus, take_plain_values
+from tests.tables import each
 
 NUMBERS = ("5", "0.25", "007", "1e3", "-1", " 5", "5 ", "1_000", "inf", "nan", "٣", "12345678901234567890", "5.", "0")
 OTHERS = ("", "abc", "text", "TEXT", "vs", "x", "\udcff")
 
 
-@pytest.mark.parametrize("option", ["--timeout", "--memory", "--format", "--order", "--method", "--certificate"])
+@each("--timeout", "--memory", "--format", "--order", "--method", "--certificate")
 def test_plain_values_are_those_that_typer_would_make(option: str) -> None:
     def parsed(command: Any, value: str) -> object:
         try:

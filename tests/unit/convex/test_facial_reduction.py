@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
-
 from qe.convex.facial_reduction import implied_equations, on_flat
 from qe.exact.ring import format_poly
 from qe.formula.build import conj
@@ -13,6 +11,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE
 from qe.io.text import read
 from qe.options import Budget
+from tests.tables import each
 
 TOUCH = "x^2 + y^2 <= 1 and (x - 2)^2 + y^2 <= 1"  # at (1, 0)
 
@@ -40,7 +39,7 @@ def test_a_slab_of_no_width() -> None:
     assert not holding(text, {"x": 0, "y": 0}) and equations(text)
 
 
-@pytest.mark.parametrize("text", ["x^2 + y^2 <= 1", "x^2 + y^2 <= 1 and x >= 0", "x^2 < 1", "x = 1", "true"])
+@each("x^2 + y^2 <= 1", "x^2 + y^2 <= 1 and x >= 0", "x^2 < 1", "x = 1", "true")
 def test_no_equations_of_what_has_interior_points_or_is_not_weak(text: str) -> None:
     assert equations(text) == []
 

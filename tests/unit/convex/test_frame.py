@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
-
 from qe.convex.frame import centred_frame, lies_far, plain_frame
 from qe.exact.kkt_system import Flat
 from qe.exact.quadratic_form import Quadratic
+from tests.tables import each
 from tests.unit.convex.quadratics import ball, diagonal, line
 
 WHOLE = Flat.whole(2)
@@ -23,17 +22,14 @@ def unit(form: Quadratic, flat: Flat = WHOLE) -> Fraction:
     return factor
 
 
-@pytest.mark.parametrize(
-    ("form", "exponent"),
-    [
-        (ball((0, 0), 1), 0),
-        (ball((0, 0), 4**8), 0),  # a length of 2^8 is near 1
-        (ball((0, 0), 4**12), 12),
-        (ball((0, 0), Fraction(1, 4**20)), -20),
-        (ball((2**30, 0), 1), 30),
-        (line(2**40, 1, constant=2**50), 0),  # half-planes have no size
-        (ball((0, 0), 0), 0),
-    ],
+@each(
+    (ball((0, 0), 1), 0),
+    (ball((0, 0), 4**8), 0),  # a length of 2^8 is near 1
+    (ball((0, 0), 4**12), 12),
+    (ball((0, 0), Fraction(1, 4**20)), -20),
+    (ball((2**30, 0), 1), 30),
+    (line(2**40, 1, constant=2**50), 0),  # half-planes have no size
+    (ball((0, 0), 0), 0),
 )
 def test_one_unit_of_length(form: Quadratic, exponent: int) -> None:
     assert abs(unit(form) / Fraction(2) ** exponent - Fraction(3, 4)) <= Fraction(5, 4)
@@ -73,17 +69,14 @@ def test_where_only_lines_are_the_centre_is_near_all_of_them() -> None:
     assert centred_frame(WHOLE, []).origin == (0, 0)
 
 
-@pytest.mark.parametrize(
-    ("forms", "far"),
-    [
-        ([ball((0, 0), 1)], False),
-        ([ball((1000, 0), 1)], False),
-        ([ball((2**30, 0), 1)], True),
-        ([ball((2**25, 0), 4**24)], False),  # about as large as it is far off
-        ([ball((2**30, 0), 4**30)], True),
-        ([diagonal(1, 2**60, constant=-1)], True),
-        ([line(2**40, 1)], False),
-    ],
+@each(
+    ([ball((0, 0), 1)], False),
+    ([ball((1000, 0), 1)], False),
+    ([ball((2**30, 0), 1)], True),
+    ([ball((2**25, 0), 4**24)], False),  # about as large as it is far off
+    ([ball((2**30, 0), 4**30)], True),
+    ([diagonal(1, 2**60, constant=-1)], True),
+    ([line(2**40, 1)], False),
 )
 def test_what_lies_far(forms: list[Quadratic], far: bool) -> None:
     assert lies_far(WHOLE, forms) is far

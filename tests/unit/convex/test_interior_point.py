@@ -11,20 +11,18 @@ from hypothesis import strategies as st
 
 from qe.convex.interior_point import OutOfFloats, interior_point, natural_scale, solve_floats, to_float
 from qe.exact.quadratic_form import Quadratic
+from tests.tables import each
 from tests.unit.convex.quadratics import ball, diagonal, line
 
 
-@pytest.mark.parametrize(
-    ("objective", "forms", "point", "multipliers"),
-    [
-        (ball((3, -1), 0), [], (3, -1), ()),
-        (ball((3, 0), 0), [ball((0, 0), 1)], (1, 0), (2,)),
-        (line(1, 1), [line(-1, 0, constant=2), line(0, -1, constant=3)], (2, 3), (1, 1)),
-        (line(1, 0), [ball((0, 0), 4)], (-2, 0), (0.25,)),
-        (line(1, 0), [ball((0, 0), 4), line(1, 0, constant=-9)], (-2, 0), (0.25, 0)),
-        (diagonal(1, 100, slope=(-2, -200)), [line(1, 1, constant=-1)], (0.0099, 0.9901), (1.9802,)),
-        (line(1000, 0), [line(-2000, 0, constant=4000), diagonal(0, 1)], (2, 0), (0.5, None)),
-    ],
+@each(
+    (ball((3, -1), 0), [], (3, -1), ()),
+    (ball((3, 0), 0), [ball((0, 0), 1)], (1, 0), (2,)),
+    (line(1, 1), [line(-1, 0, constant=2), line(0, -1, constant=3)], (2, 3), (1, 1)),
+    (line(1, 0), [ball((0, 0), 4)], (-2, 0), (0.25,)),
+    (line(1, 0), [ball((0, 0), 4), line(1, 0, constant=-9)], (-2, 0), (0.25, 0)),
+    (diagonal(1, 100, slope=(-2, -200)), [line(1, 1, constant=-1)], (0.0099, 0.9901), (1.9802,)),
+    (line(1000, 0), [line(-2000, 0, constant=4000), diagonal(0, 1)], (2, 0), (0.5, None)),
 )
 def test_known_optima(objective: Quadratic, forms: list[Quadratic], point: tuple, multipliers: tuple) -> None:  # type: ignore[type-arg]
     found = interior_point(objective, forms, [0.0, 0.0])
@@ -36,12 +34,9 @@ def test_known_optima(objective: Quadratic, forms: list[Quadratic], point: tuple
             assert slack == pytest.approx(-float(form.value([Fraction(c) for c in found.point])), abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("objective", "forms"),
-    [
-        (line(1, 0), [ball((0, 0), 1), ball((5, 0), 1)]),  # infeasible
-        (line(1, 0), [line(0, 1)]),  # unbounded
-    ],
+@each(
+    (line(1, 0), [ball((0, 0), 1), ball((5, 0), 1)]),  # infeasible
+    (line(1, 0), [line(0, 1)]),  # unbounded
 )
 def test_nothing_good_is_said_of_problems_without_optimum(objective: Quadratic, forms: list[Quadratic]) -> None:
     assert not interior_point(objective, forms, [0.0, 0.0]).residual < 1e-5

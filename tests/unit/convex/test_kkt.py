@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +12,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Quadratic
 from qe.options import Budget
+from tests.tables import each
 from tests.unit.convex.quadratics import ball, diagonal, line
 
 
@@ -40,17 +40,14 @@ def test_signs() -> None:
     assert [sign(v) for v in (root - 2, root - root, root - 1)] == [-1, 0, 1]
 
 
-@pytest.mark.parametrize(
-    ("objective", "forms", "value", "unique"),
-    [
-        (ball((3, 0), 0), (), 0, True),
-        (ball((3, 0), 0), (ball((0, 0), 1),), 4, True),
-        (line(1, 1), (ball((0, 0), 2),), -2, True),
-        (line(1, 0), (line(-1, 0, constant=2),), 2, False),  # a whole line of minima
-        (diagonal(1, 0), (line(0, 1, constant=-5),), 0, False),
-        (line(1, 1), (line(-1, 0), line(0, -1)), 0, True),
-        (line(1, 0), (line(-1, 0), line(-1, -1), line(-1, 1)), 0, None),  # three lines through the minimum
-    ],
+@each(
+    (ball((3, 0), 0), (), 0, True),
+    (ball((3, 0), 0), (ball((0, 0), 1),), 4, True),
+    (line(1, 1), (ball((0, 0), 2),), -2, True),
+    (line(1, 0), (line(-1, 0, constant=2),), 2, False),  # a whole line of minima
+    (diagonal(1, 0), (line(0, 1, constant=-5),), 0, False),
+    (line(1, 1), (line(-1, 0), line(0, -1)), 0, True),
+    (line(1, 0), (line(-1, 0), line(-1, -1), line(-1, 1)), 0, None),  # three lines through the minimum
 )
 def test_least_values(objective: Quadratic, forms: tuple[Quadratic, ...], value: int, unique: bool | None) -> None:
     found = least(objective, *forms)
@@ -66,13 +63,10 @@ def test_an_irrational_minimum() -> None:
     assert value == -RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
-@pytest.mark.parametrize(
-    ("objective", "forms"),
-    [
-        (line(1, 0), ()),  # unbounded
-        (line(1, 0), (ball((0, 0), 1), ball((5, 0), 1))),  # infeasible
-        (line(0, 1), (ball((0, 0), 1), ball((2, 0), 1))),  # one point, without multipliers
-    ],
+@each(
+    (line(1, 0), ()),  # unbounded
+    (line(1, 0), (ball((0, 0), 1), ball((5, 0), 1))),  # infeasible
+    (line(0, 1), (ball((0, 0), 1), ball((2, 0), 1))),  # one point, without multipliers
 )
 def test_what_has_no_multipliers(objective: Quadratic, forms: tuple[Quadratic, ...]) -> None:
     assert least(objective, *forms) is None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,48 +14,43 @@ from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
 from qe.io.text import read
 from qe.options import Budget
+from tests.tables import each
 
 
 def point(text: str | Formula) -> dict[str, Fraction] | None:
     return linear_point(read(text) if isinstance(text, str) else text, budget=Budget(60))
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "x > 1 and x < 2",
-        "x >= 1 and x <= 1",
-        "2*x = 3 and y < x",
-        "-3*x > 2 and -3*x < 3",
-        "x + y > 1 and x - y > 1 and x + 2*y < 2",
-        "x + y = 1 and x - y = 1/3 and z > x",
-        "x < 10^40 and x > 10^40 - 1/10^40",
-        "-2*x - 2*y >= 4 and x >= -1 and y >= -1",
-        "3 - x > 0",
-    ],
+@each(
+    "x > 1 and x < 2",
+    "x >= 1 and x <= 1",
+    "2*x = 3 and y < x",
+    "-3*x > 2 and -3*x < 3",
+    "x + y > 1 and x - y > 1 and x + 2*y < 2",
+    "x + y = 1 and x - y = 1/3 and z > x",
+    "x < 10^40 and x > 10^40 - 1/10^40",
+    "-2*x - 2*y >= 4 and x >= -1 and y >= -1",
+    "3 - x > 0",
 )
 def test_points_satisfy_the_conditions(text: str) -> None:
     found = point(text)
     assert found is not None and holds_at(read(text), found)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "x > 1 and x < 1",
-        "x >= 1 and x < 1",
-        "x > 1 and x <= 1",
-        "2*x = 3 and x > 2",
-        "x + y > 2 and x <= 1 and y <= 1",
-        "x + y = 1 and x + y = 2",
-        "x < y and y < z and z < x",
-        "x <= y and y <= z and z <= x and x < z",
-        "x^2 < 1",
-        "x /= 1",
-        "x > 1 or x < 0",
-        "true",
-        "false",
-    ],
+@each(
+    "x > 1 and x < 1",
+    "x >= 1 and x < 1",
+    "x > 1 and x <= 1",
+    "2*x = 3 and x > 2",
+    "x + y > 2 and x <= 1 and y <= 1",
+    "x + y = 1 and x + y = 2",
+    "x < y and y < z and z < x",
+    "x <= y and y <= z and z <= x and x < z",
+    "x^2 < 1",
+    "x /= 1",
+    "x > 1 or x < 0",
+    "true",
+    "false",
 )
 def test_no_point_or_not_linear(text: str) -> None:
     assert point(text) is None

@@ -13,6 +13,7 @@ from qe.expert.optimum import check_optimum
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.options import Budget
+from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
 X, Y, Z = (RING.gen(i) for i in range(3))
@@ -118,14 +119,11 @@ def test_infimum_that_is_not_attained() -> None:
     assert inner[0] * inner[0] + inner[1] * inner[1] < 1
 
 
-@pytest.mark.parametrize(
-    "constraints",
-    [
-        _all((X, LT), (X, GE)),
-        _all((X * X + Y * Y - 1, LT), ((X - 2) * (X - 2) + Y * Y - 1, LE)),
-        _all((X, EQ), (X, LT)),
-        _all((X * X + Y * Y, LE), (X + Y, GT)),
-    ],
+@each(
+    _all((X, LT), (X, GE)),
+    _all((X * X + Y * Y - 1, LT), ((X - 2) * (X - 2) + Y * Y - 1, LE)),
+    _all((X, EQ), (X, LT)),
+    _all((X * X + Y * Y, LE), (X + Y, GT)),
 )
 def test_strict_constraints_without_a_point(constraints: Formula) -> None:
     assert _solved(X + Y, constraints).status is OptimumStatus.INFEASIBLE
@@ -142,18 +140,15 @@ def test_unbounded_along_a_parabola_only_is_not_guessed() -> None:
         minimize(X, _all((X * X - Y, LE)))
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints"),
-    [
-        (X * Y, TRUE),
-        (-X * X, TRUE),
-        (X**3, TRUE),
-        (X, _all((X * X + Y * Y - 1, GE))),
-        (X, _all((X * X + Y * Y - 1, EQ))),
-        (X, _all((X**4 - 1, LE))),
-        (X, atom(X, Relation.NE)),
-        (X, disj((atom(X, GE), atom(Y, GE)))),
-    ],
+@each(
+    (X * Y, TRUE),
+    (-X * X, TRUE),
+    (X**3, TRUE),
+    (X, _all((X * X + Y * Y - 1, GE))),
+    (X, _all((X * X + Y * Y - 1, EQ))),
+    (X, _all((X**4 - 1, LE))),
+    (X, atom(X, Relation.NE)),
+    (X, disj((atom(X, GE), atom(Y, GE)))),
 )
 def test_what_is_not_convex_is_refused(objective, constraints: Formula) -> None:
     with pytest.raises(NotConvex):

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
-
 from qe.convex.kkt import sign
 from qe.convex.minimise import solve
 from qe.convex.strict import settle_strict
@@ -16,6 +14,7 @@ from qe.io.lowering import lower_term
 from qe.io.text import read, read_term
 from qe.options import Budget
 from qe.proof.multipliers import FormRelation, OptimumEvidence, OptimumStatus
+from tests.tables import each
 
 
 def system(objective: str, conditions: str) -> ConvexSystem:
@@ -34,16 +33,13 @@ def satisfies(given: ConvexSystem, point: Point) -> bool:
     return all(sign(f.value(point)) in allowed[r] for f, r in zip(given.forms, given.relations))
 
 
-@pytest.mark.parametrize(
-    ("objective", "conditions", "value"),
-    [
-        ("x^2", "x > -1 and x < 1", 0),
-        ("x", "x >= 0 and y > 0", 0),
-        ("x", "x >= 0 and y > 0 and x + y < 1", 0),
-        ("x + y", "x + y >= 2 and x > 0 and y > 0", 2),
-        ("x^2 + y^2", "x = 3 and y > -1", 9),
-        ("0*x", "x > 0 and x < 1/1000000", 0),
-    ],
+@each(
+    ("x^2", "x > -1 and x < 1", 0),
+    ("x", "x >= 0 and y > 0", 0),
+    ("x", "x >= 0 and y > 0 and x + y < 1", 0),
+    ("x + y", "x + y >= 2 and x > 0 and y > 0", 2),
+    ("x^2 + y^2", "x = 3 and y > -1", 9),
+    ("0*x", "x > 0 and x < 1/1000000", 0),
 )
 def test_attained(objective: str, conditions: str, value: int) -> None:
     given, found = settled(objective, conditions)
@@ -51,16 +47,13 @@ def test_attained(objective: str, conditions: str, value: int) -> None:
     assert satisfies(given, found.point) and given.objective.value(found.point) == value
 
 
-@pytest.mark.parametrize(
-    ("objective", "conditions", "value"),
-    [
-        ("x", "x > 0", 0),
-        ("x", "x > 0 and y^2 < 1", 0),
-        ("x + y", "x + y > 2 and x > 0 and y > 0", 2),
-        ("x", "x^2 + y^2 < 4", -2),
-        ("y", "x^2 <= y and y > 0 and x <= 0", 0),
-        ("x", "x >= 0 and x > 0 and x + y = 1", 0),
-    ],
+@each(
+    ("x", "x > 0", 0),
+    ("x", "x > 0 and y^2 < 1", 0),
+    ("x + y", "x + y > 2 and x > 0 and y > 0", 2),
+    ("x", "x^2 + y^2 < 4", -2),
+    ("y", "x^2 <= y and y > 0 and x <= 0", 0),
+    ("x", "x >= 0 and x > 0 and x + y = 1", 0),
 )
 def test_only_approached(objective: str, conditions: str, value: int) -> None:
     given, found = settled(objective, conditions)
@@ -69,17 +62,14 @@ def test_only_approached(objective: str, conditions: str, value: int) -> None:
     assert satisfies(given, found.inner_point)
 
 
-@pytest.mark.parametrize(
-    "conditions",
-    [
-        "x > 0 and x < 0",
-        "x >= 0 and x < 0",
-        "x^2 + y^2 <= 1 and x > 1",
-        "x^2 + y^2 < 1 and (x - 2)^2 + y^2 <= 1",
-        "x + y = 1 and x > 0 and y > 1",
-        "x >= 0 and x <= y and y <= x and x < y",
-        "x^2 <= 0 and y^2 <= 0 and x + y > 0",
-    ],
+@each(
+    "x > 0 and x < 0",
+    "x >= 0 and x < 0",
+    "x^2 + y^2 <= 1 and x > 1",
+    "x^2 + y^2 < 1 and (x - 2)^2 + y^2 <= 1",
+    "x + y = 1 and x > 0 and y > 1",
+    "x >= 0 and x <= y and y <= x and x < y",
+    "x^2 <= 0 and y^2 <= 0 and x + y > 0",
 )
 def test_empty_though_the_closed_problem_is_not(conditions: str) -> None:
     given = system("x", conditions)

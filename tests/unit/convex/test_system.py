@@ -14,6 +14,7 @@ from qe.formula.syntax import FALSE, TRUE, Atom, Relation
 from qe.io.text import read
 from qe.options import Budget
 from qe.proof.multipliers import FormRelation
+from tests.tables import each
 
 
 def system(text: str) -> ConvexSystem:
@@ -45,16 +46,13 @@ def test_constants() -> None:
     assert decide(FALSE, budget=Budget()).values is None and decide(TRUE, budget=Budget()).values == {}
 
 
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ("x > 0 and x^3 < 1", "constraint 2 has degree above 2"),
-        ("x^2 = 1", "constraint 1 is a nonlinear equation"),
-        ("x^2 >= 1", "constraint 1 does not describe a convex set"),
-        ("x < 1 and x*y <= 1", "constraint 2 does not describe a convex set"),
-        ("x /= 1", "constraint 1 is a disequation"),
-        ("x > 1 or x < 0", "not a conjunction"),
-    ],
+@each(
+    ("x > 0 and x^3 < 1", "constraint 2 has degree above 2"),
+    ("x^2 = 1", "constraint 1 is a nonlinear equation"),
+    ("x^2 >= 1", "constraint 1 does not describe a convex set"),
+    ("x < 1 and x*y <= 1", "constraint 2 does not describe a convex set"),
+    ("x /= 1", "constraint 1 is a disequation"),
+    ("x > 1 or x < 0", "not a conjunction"),
 )
 def test_what_is_not_convex(text: str, reason: str) -> None:
     with pytest.raises(NotConvex, match=reason):
@@ -76,17 +74,14 @@ def test_convexity_of_a_condition() -> None:
         assert is_convex(flat, relation) and is_convex(bowl, relation) and not is_convex(saddle, relation)
 
 
-@pytest.mark.parametrize(
-    ("text", "true"),
-    [
-        ("x^2 + y^2 <= 1 and x + y >= 1", True),
-        ("x^2 + y^2 <= 1 and x + y >= 3/2", False),
-        ("x^2 + y^2 <= 1 and x = 1", True),
-        ("x^2 + y^2 < 1 and x = 1", False),
-        ("x^2 + y^2 <= 2 and x + y >= 2", True),
-        ("x^2 + y^2 < 2 and x + y >= 2", False),
-        ("x < 1 and x > 1 - 10^-30 and y = 0", True),
-    ],
+@each(
+    ("x^2 + y^2 <= 1 and x + y >= 1", True),
+    ("x^2 + y^2 <= 1 and x + y >= 3/2", False),
+    ("x^2 + y^2 <= 1 and x = 1", True),
+    ("x^2 + y^2 < 1 and x = 1", False),
+    ("x^2 + y^2 <= 2 and x + y >= 2", True),
+    ("x^2 + y^2 < 2 and x + y >= 2", False),
+    ("x < 1 and x > 1 - 10^-30 and y = 0", True),
 )
 def test_feasible(text: str, true: bool) -> None:
     formula = read(text.replace("10^-30", "1/10^30"))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-import pytest
 from flint import acb, acb_poly, arb, fmpq, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,6 +11,7 @@ from hypothesis import strategies as st
 from qe.exact.algebraic import real_roots
 from qe.exact.ball_roots import certified_roots, distinct_roots, quadratic_roots
 from qe.exact.balls import precision
+from tests.tables import each
 
 BITS = 128
 
@@ -59,7 +59,7 @@ def test_what_balls_do_not_tell() -> None:
         assert all(ball.contains(root) for ball, root in zip(found, (-arb(2).sqrt(), arb(2).sqrt()), strict=True))
 
 
-@pytest.mark.parametrize("coefficients", [[-1, 10**30, 1], [-1, -(10**30), 1], [1, 10**30, -1], [1, -(10**30), -1]])
+@each([-1, 10**30, 1], [-1, -(10**30), 1], [1, 10**30, -1], [1, -(10**30), -1])
 def test_a_small_root_beside_a_huge_one_keeps_its_digits(coefficients: list[int]) -> None:
     """The textbook formula would lose it by cancellation."""
     with precision(BITS):

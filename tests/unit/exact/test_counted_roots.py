@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from flint import arb, fmpq, fmpq_poly, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
@@ -11,12 +10,13 @@ from qe.exact.algebraic import real_roots
 from qe.exact.ball_roots import certified_roots
 from qe.exact.balls import precision
 from qe.exact.counted_roots import counted_roots
+from tests.tables import each
 
 WIDE = [fmpq(656, 10**359), fmpq(27), fmpq(162, 10**60), fmpq(243, 10**120)]
 """Roots of very different size: for FLINT's tolerance on the roots there is no precision."""
 
 
-@pytest.mark.parametrize("bits", [64, 128, 1024])
+@each(64, 128, 1024)
 def test_roots_of_very_different_sizes_are_found_at_each_precision(bits: int) -> None:
     with precision(bits + 16):
         found = certified_roots([arb(c) for c in WIDE], bits)
@@ -41,14 +41,14 @@ def test_roots_much_closer_than_they_are_large(size: int, root: int, sign: int, 
     assert found is not None
 
 
-@pytest.mark.parametrize("coefficients", [[0, 1, -2, 1], [4, -4, 1, 0, 1], [1, 0, 2, 0, 1]])
+@each([0, 1, -2, 1], [4, -4, 1, 0, 1], [1, 0, 2, 0, 1])
 def test_counting_says_nothing_about_double_roots(coefficients: list[int]) -> None:
     with precision(272):
         found = counted_roots([arb(c) for c in coefficients], 256)
     assert found is None or len(found) == len(real_roots(fmpz_poly(coefficients)))
 
 
-@pytest.mark.parametrize("shift", [fmpq(0), fmpq(1, 10**25), fmpq(-1, 10**25)])
+@each(fmpq(0), fmpq(1, 10**25), fmpq(-1, 10**25))
 def test_balls_that_hold_a_polynomial_with_a_double_root_say_nothing(shift: fmpq) -> None:
     """(x - 1)^2 (x - 3) with a constant term that is known to 10^-20 only, whatever its midpoint."""
     with precision(272):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -12,6 +11,7 @@ from qe.exact.algebraic import real_roots
 from qe.exact.descartes import most_real_roots, most_roots_between
 from qe.exact.ring import Ring
 from qe.io import formats
+from tests.tables import each
 
 RING = Ring.of(("a", "x"))
 TERMS = st.dictionaries(st.integers(0, 9), st.integers(-20, 20).filter(bool), min_size=1, max_size=5)
@@ -27,10 +27,7 @@ def test_no_point_has_more_roots(terms, data):
         assert len(real_roots(at_a_point.to_univariate(1))) <= most_real_roots(whole, 1)
 
 
-@pytest.mark.parametrize(
-    ("text", "most"),
-    [("x^3 - a", 1), ("x^4 - a", 2), ("x^4 - a*x", 2), ("x^9 + a*x^8 + x", 3), ("x^3 + a*x + 1", 2 + 0 + 1), ("a", 0)],
-)
+@each(("x^3 - a", 1), ("x^4 - a", 2), ("x^4 - a*x", 2), ("x^9 + a*x^8 + x", 3), ("x^3 + a*x + 1", 2 + 0 + 1), ("a", 0))
 def test_small_ones(text, most):
     poly = formats.read(f"{text} + 0*x*a = 0", "text").poly.convert(RING)
     assert most_real_roots(poly, 1) == most

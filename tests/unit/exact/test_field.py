@@ -14,6 +14,7 @@ from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement, NumberField
 from tests.strategies import rationals
+from tests.tables import each
 
 FIELDS = [
     NumberField.rationals(),
@@ -85,16 +86,13 @@ def test_text_evaluates_back(one) -> None:
     assert math.isclose(value, float(a), rel_tol=1e-7, abs_tol=1e-7)
 
 
-@pytest.mark.parametrize(
-    ("p", "lo", "hi", "text"),
-    [
-        ([1, -3, 1], 0, 1, "(3 - sqrt(5))/2"),
-        ([1, 0, -10, 0, 1], 3, 4, "sqrt(3) + sqrt(2)"),
-        ([1, 0, -10, 0, 1], -1, 0, "-sqrt(3) + sqrt(2)"),
-        ([-5, 0, -2, 0, 1], -2, -1, "-sqrt(1 + sqrt(6))"),
-        ([-2, 0, 0, 0, 1], 1, 2, "sqrt(sqrt(2))"),
-        ([-1, -1, 0, 1], 1, 2, "root(1, x^3 - x - 1)"),
-    ],
+@each(
+    ([1, -3, 1], 0, 1, "(3 - sqrt(5))/2"),
+    ([1, 0, -10, 0, 1], 3, 4, "sqrt(3) + sqrt(2)"),
+    ([1, 0, -10, 0, 1], -1, 0, "-sqrt(3) + sqrt(2)"),
+    ([-5, 0, -2, 0, 1], -2, -1, "-sqrt(1 + sqrt(6))"),
+    ([-2, 0, 0, 0, 1], 1, 2, "sqrt(sqrt(2))"),
+    ([-1, -1, 0, 1], 1, 2, "root(1, x^3 - x - 1)"),
 )
 def test_text(p: list[int], lo: int, hi: int, text: str) -> None:
     assert str(NumberField.from_root(p, lo, hi).generator()) == text

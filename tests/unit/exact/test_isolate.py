@@ -5,13 +5,13 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise
 
-import pytest
 from flint import fmpq, fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.exact.isolate import isolate, sign_at, simplest_between
 from tests.strategies import HUGE
+from tests.tables import each
 
 X = fmpz_poly([0, 1])
 
@@ -37,15 +37,12 @@ def check(roots: list[Fraction]) -> None:
     assert all(left[1] <= right[0] for left, right in pairwise(found))
 
 
-@pytest.mark.parametrize(
-    "roots",
-    [
-        "1 13/10 2",  # between two dyadic roots, in the half that the middle of the interval does not show
-        "2 8/3 4 5",  # this one did not end
-        "-3 0 11/3",  # zero as an end of two intervals
-        "0",
-        "-2 0 2",
-    ],
+@each(
+    "1 13/10 2",  # between two dyadic roots, in the half that the middle of the interval does not show
+    "2 8/3 4 5",  # this one did not end
+    "-3 0 11/3",  # zero as an end of two intervals
+    "0",
+    "-2 0 2",
 )
 def test_roots_beside_roots_that_are_ends(roots: str) -> None:
     check([Fraction(root) for root in roots.split()])
@@ -77,16 +74,13 @@ def test_the_sign_of_a_long_polynomial_is_the_exact_one(coefficients: list[int],
         assert sign_at(p, point) == (exact > 0) - (exact < 0)
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "between"),
-    [
-        ("0", "1", "1/2"),
-        ("1/2", "1", "2/3"),
-        ("0", "1/3", "1/4"),
-        ("-1", "1", "0"),
-        ("-1", "0", "-1/2"),
-        ("2", "4", "3"),
-    ],
+@each(
+    ("0", "1", "1/2"),
+    ("1/2", "1", "2/3"),
+    ("0", "1/3", "1/4"),
+    ("-1", "1", "0"),
+    ("-1", "0", "-1/2"),
+    ("2", "4", "3"),
 )
 def test_the_simplest_number_is_neither_end(low: str, high: str, between: str) -> None:
     found = simplest_between(*(fmpq(f.numerator, f.denominator) for f in map(Fraction, (low, high))))

@@ -11,6 +11,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.nearby import approximation, nearby, rational_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from tests.tables import each
 
 PLANE = Ring.of(("x", "y"))
 X, Y = PLANE.gen(0), PLANE.gen(1)
@@ -46,9 +47,7 @@ def test_tangential_and_singular_beginnings() -> None:
         nearby(point, [X - Y], frozenset((X - Y,)), (F(1), F(1)))
 
 
-@pytest.mark.parametrize(
-    ("low", "high"), [(SQRT2, F(3, 2)), (F(7, 5), SQRT2), (None, SQRT2), (SQRT2, None), (-SQRT2, SQRT2), (None, None)]
-)
+@each((SQRT2, F(3, 2)), (F(7, 5), SQRT2), (None, SQRT2), (SQRT2, None), (-SQRT2, SQRT2), (None, None))
 def test_rational_between(low: object, high: object) -> None:
     found = rational_between(low, high)  # type: ignore[arg-type]
     assert isinstance(found, F)

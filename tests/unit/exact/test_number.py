@@ -9,18 +9,19 @@ from flint import fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.number import optimum_in_latex, point_text, simplest, square_root
+from tests.tables import each
 
 TRIPLE = real_roots(fmpz_poly([-1, 9, -6, 1]))
 """Three positive numbers with one polynomial, x^3 - 6*x^2 + 9*x - 1."""
 
 
-@pytest.mark.parametrize(("value", "root"), [("0", "0"), ("4", "2"), ("9/4", "3/2")])
+@each(("0", "0"), ("4", "2"), ("9/4", "3/2"))
 def test_roots_of_squares_are_rational(value: str, root: str) -> None:
     found = square_root(Fraction(value))
     assert isinstance(found, Fraction) and found == Fraction(root)
 
 
-@pytest.mark.parametrize(("value", "poly"), [("2", [-2, 0, 1]), ("1/3", [-1, 0, 3])])
+@each(("2", [-2, 0, 1]), ("1/3", [-1, 0, 3]))
 def test_other_roots_are_the_positive_ones(value: str, poly: list[int]) -> None:
     found = square_root(Fraction(value))
     assert isinstance(found, RealAlgebraic) and found.poly == fmpz_poly(poly) and found > 0

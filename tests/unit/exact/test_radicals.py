@@ -12,16 +12,14 @@ from hypothesis import strategies as st
 import qe
 from qe.exact.algebraic import real_roots
 from qe.exact.radicals import format_number
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("coefficients", "texts"),
-    [
-        ([1, 0, -10, 0, 1], ["-sqrt(2) - sqrt(3)", "sqrt(2) - sqrt(3)", "-sqrt(2) + sqrt(3)", "sqrt(2) + sqrt(3)"]),
-        ([-2, 0, 1], ["-sqrt(2)", "sqrt(2)"]),
-        ([-3, 2], ["3/2"]),
-        ([-2, 0, 0, 1], ["root(1, x^3 - 2)"]),
-    ],
+@each(
+    ([1, 0, -10, 0, 1], ["-sqrt(2) - sqrt(3)", "sqrt(2) - sqrt(3)", "-sqrt(2) + sqrt(3)", "sqrt(2) + sqrt(3)"]),
+    ([-2, 0, 1], ["-sqrt(2)", "sqrt(2)"]),
+    ([-3, 2], ["3/2"]),
+    ([-2, 0, 0, 1], ["root(1, x^3 - 2)"]),
 )
 def test_texts(coefficients: list[int], texts: list[str]) -> None:
     found = [format_number(r) for r in sorted(real_roots(fmpz_poly(coefficients)))]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from flint import fmpq, fmpq_mat
 
 from qe.exact.zeros import Zero, zeros_of
+from tests.tables import each
 
 
 def over_basis(points: list[tuple[int, int]], exponents: list[tuple[int, int]]) -> list[fmpq_mat]:
@@ -40,12 +40,9 @@ def coordinates(zero: Zero) -> tuple[Fraction, ...]:
     return tuple(value.to_algebraic().as_fraction() for value in zero.values.values())
 
 
-@pytest.mark.parametrize(
-    ("points", "exponents"),
-    [
-        ([(0, 0), (1, 2), (3, -1)], [(0, 0), (1, 0), (0, 1)]),
-        ([(1, 1), (1, -1), (-1, 1), (-1, -1)], [(0, 0), (1, 0), (0, 1), (1, 1)]),  # no variable separates them
-    ],
+@each(
+    ([(0, 0), (1, 2), (3, -1)], [(0, 0), (1, 0), (0, 1)]),
+    ([(1, 1), (1, -1), (-1, 1), (-1, -1)], [(0, 0), (1, 0), (0, 1), (1, 1)]),  # no variable separates them
 )
 def test_rational_points_are_found_again(points: list[tuple[int, int]], exponents: list[tuple[int, int]]) -> None:
     matrices = over_basis(points, exponents)

@@ -8,6 +8,7 @@ from qe.formula import block as module
 from qe.formula.block import Block
 from qe.formula.syntax import Exists, ForAll
 from qe.io.text import read
+from tests.tables import each
 
 
 def of(text: str) -> Block:
@@ -24,7 +25,7 @@ def test_what_is_read_off_a_block() -> None:
     assert [str(part) for part in block.conditions] == ["a*x^3 + b >= 0", "x - 1 /= 0"]
 
 
-@pytest.mark.parametrize("text", ["ex x. x^2 < a or not x = 1", "all x. x^2 > a -> x = 1", "ex x. all y. x = y"])
+@each("ex x. x^2 < a or not x = 1", "all x. x^2 > a -> x = 1", "ex x. all y. x = y")
 def test_the_dual_is_existential_and_in_normal_form(text: str) -> None:
     block = of(text)
     dual = block.dual

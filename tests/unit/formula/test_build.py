@@ -11,6 +11,7 @@ from qe.errors import InternalError
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall, iff, implies, neg, root_atom
 from qe.formula.syntax import TRUE, And, Formula, Or, Relation
+from tests.tables import each
 
 NARROW, WIDE = Ring.of(("x",)), Ring.of(("x", "y"))
 SMALL = atom(NARROW.var("x"), Relation.GT)
@@ -18,7 +19,7 @@ LARGE = atom(WIDE.var("x") - 1, Relation.LT)
 ROOT = root_atom("x", Relation.EQ, WIDE.var("x") ** 3 - WIDE.var("y"), 1)
 
 
-@pytest.mark.parametrize("join", [conj, disj, And, Or])
+@each(conj, disj, And, Or)
 @pytest.mark.parametrize(
     "foreign",
     [LARGE, ROOT, neg(ROOT), conj((LARGE, ROOT)), disj((LARGE, ROOT)), exists(["y"], ROOT), forall(["x"], LARGE)],
@@ -34,7 +35,7 @@ def test_a_formula_over_two_rings_is_an_error_where_it_is_built(
     assert join((SMALL, own)).ring is NARROW
 
 
-@pytest.mark.parametrize("join", [implies, iff])
+@each(implies, iff)
 def test_implications_are_over_one_ring(join: Callable[[Formula, Formula], Formula]) -> None:
     with pytest.raises(InternalError):
         join(SMALL, LARGE)

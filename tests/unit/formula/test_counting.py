@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -14,6 +13,7 @@ from qe.formula.evaluate import holds_at, substituted
 from qe.formula.syntax import Relation
 from qe.formula.traverse import has_root_atoms
 from tests.strategies import RELATIONS
+from tests.tables import each
 
 POLYNOMIALS = ["x^2 - y", "x^3 - 3*x + y", "y*x^2 + x - 1", "y*x", "x^2*(x - y)", "x^2 + 1 + y^2", "y^2 - 1"]
 INDICES = [1, 2, 3, -1, -2, -3]
@@ -41,14 +41,11 @@ def test_formulas_without_root_atoms_are_left_alone() -> None:
     assert without_root_atoms(formula) is formula
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("ex c. c <= root(2, 4*b^3 + 27*c^2)", "b < 0"),  # two roots in c only there
-        ("all x. x < root(-1, x^2 - y) or x >= root(-1, x^2 - y)", "y >= 0"),  # false where there is no root
-        ("x = root(1, x^2 - y)", "x^2 = y and x <= 0"),
-        ("all t_0. t_0 > root(1, t_0 - a) -> t_0 > b", "b <= a"),  # the new names are new
-    ],
+@each(
+    ("ex c. c <= root(2, 4*b^3 + 27*c^2)", "b < 0"),  # two roots in c only there
+    ("all x. x < root(-1, x^2 - y) or x >= root(-1, x^2 - y)", "y >= 0"),  # false where there is no root
+    ("x = root(1, x^2 - y)", "x^2 = y and x <= 0"),
+    ("all t_0. t_0 > root(1, t_0 - a) -> t_0 > b", "b <= a"),  # the new names are new
 )
 def test_questions_about_roots_are_answered(text: str, expected: str) -> None:
     answer = qe.eliminate(text)

@@ -15,36 +15,34 @@ from qe.formula.syntax import Formula, Relation, RootAtom
 from qe.formula.traverse import polynomials
 from qe.io.text import read
 from tests.strategies import formulas, points, rationals
+from tests.tables import each
 
 HALF = Fraction(1, 2)
 
 
-@pytest.mark.parametrize(
-    ("text", "point", "expected"),
-    [
-        ("x^2 + y^2 <= 1", {"x": Fraction(3, 5), "y": Fraction(4, 5)}, True),
-        ("x^2 + y^2 < 1", {"x": Fraction(3, 5), "y": Fraction(4, 5)}, False),
-        ("x = 1/3 and not y > 0", {"x": Fraction(1, 3), "y": 0}, True),
-        ("x /= 0 or y = 7", {"x": 0, "y": 7}, True),
-        ("true", {}, True),
-        ("x < root(2, x^2 - y)", {"x": 1, "y": 2}, True),
-        ("x < root(2, x^2 - y)", {"x": 2, "y": 2}, False),
-        ("x = root(1, x^2 - y)", {"x": -2, "y": 4}, True),
-        ("x = root(-1, x^2 - y)", {"x": 2, "y": 4}, True),
-        ("x >= root(1, x^2 - y)", {"x": 0, "y": 0}, True),
-        ("x >= root(2, x^2 - y)", {"x": 0, "y": 0}, False),
-        ("x /= root(1, x^2 - y)", {"x": 0, "y": -1}, False),
-        ("not x /= root(1, x^2 - y)", {"x": 0, "y": -1}, True),
-        ("x /= root(1, x*y)", {"x": 3, "y": 0}, False),
-        ("x > root(-2, (x-1)^2*(x-2)*(x-y))", {"x": HALF + 1, "y": 5}, False),
-        ("x > root(-3, (x-1)^2*(x-2)*(x-y))", {"x": HALF + 1, "y": 5}, True),
-    ],
+@each(
+    ("x^2 + y^2 <= 1", {"x": Fraction(3, 5), "y": Fraction(4, 5)}, True),
+    ("x^2 + y^2 < 1", {"x": Fraction(3, 5), "y": Fraction(4, 5)}, False),
+    ("x = 1/3 and not y > 0", {"x": Fraction(1, 3), "y": 0}, True),
+    ("x /= 0 or y = 7", {"x": 0, "y": 7}, True),
+    ("true", {}, True),
+    ("x < root(2, x^2 - y)", {"x": 1, "y": 2}, True),
+    ("x < root(2, x^2 - y)", {"x": 2, "y": 2}, False),
+    ("x = root(1, x^2 - y)", {"x": -2, "y": 4}, True),
+    ("x = root(-1, x^2 - y)", {"x": 2, "y": 4}, True),
+    ("x >= root(1, x^2 - y)", {"x": 0, "y": 0}, True),
+    ("x >= root(2, x^2 - y)", {"x": 0, "y": 0}, False),
+    ("x /= root(1, x^2 - y)", {"x": 0, "y": -1}, False),
+    ("not x /= root(1, x^2 - y)", {"x": 0, "y": -1}, True),
+    ("x /= root(1, x*y)", {"x": 3, "y": 0}, False),
+    ("x > root(-2, (x-1)^2*(x-2)*(x-y))", {"x": HALF + 1, "y": 5}, False),
+    ("x > root(-3, (x-1)^2*(x-2)*(x-y))", {"x": HALF + 1, "y": 5}, True),
 )
 def test_holds_at(text: str, point: dict[str, Fraction], expected: bool) -> None:
     assert holds_at(read(text), point) is expected
 
 
-@pytest.mark.parametrize(("text", "named"), [("x > y", "y"), ("ex y. x > y", "quantifier-free")])
+@each(("x > y", "y"), ("ex y. x > y", "quantifier-free"))
 def test_what_cannot_be_evaluated_is_said(text: str, named: str) -> None:
     with pytest.raises(InputError, match=named):
         holds_at(read(text), {"x": 1})

@@ -22,6 +22,7 @@ from qe.formula.traverse import atoms, children, is_quantifier_free, map_atoms, 
 from qe.io.text import read
 from qe.simplify.simplify import _Recent, simplify
 from tests.strategies import formulas
+from tests.tables import each
 
 ROOT = Path(__file__).resolve().parents[3]
 FACTS = ("_free", "_hash", "_is_quantifier_free", "_ring")
@@ -52,13 +53,10 @@ def test_nodes_know_what_occurs_in_them(formula: Formula) -> None:
         assert is_quantifier_free(formula) is not quantified(formula)
 
 
-@pytest.mark.parametrize(
-    ("text", "free"),
-    [
-        ("x > 0 and (ex y. y > x)", ("x",)),
-        ("(ex y. y > x) or z = 0 or x = 1", ("z", "x")),
-        ("not (all x, z. x*y > z)", ("y",)),
-    ],
+@each(
+    ("x > 0 and (ex y. y > x)", ("x",)),
+    ("(ex y. y > x) or z = 0 or x = 1", ("z", "x")),
+    ("not (all x, z. x*y > z)", ("y",)),
 )
 def test_one_quantifier_among_other_parts(text: str, free: tuple[str, ...]) -> None:
     formula = read(text)

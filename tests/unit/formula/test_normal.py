@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from fractions import Fraction
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -14,6 +13,7 @@ from qe.formula.syntax import Atom, Exists, ForAll, Formula, Not, Or, RootAtom
 from qe.formula.traverse import children, is_quantifier_free, ring_of
 from qe.io.text import read
 from tests.strategies import formulas
+from tests.tables import each
 from tests.universe import UNIVERSE, holds
 
 
@@ -63,21 +63,18 @@ def walk(formula: Formula) -> list[Formula]:
     return [formula, *(part for child in children(formula) for part in walk(child))]
 
 
-@pytest.mark.parametrize(
-    ("text", "blocks"),
-    [
-        ("(ex x. x > a) and (all y. y^2 >= a)", "EA"),
-        ("(ex x. all y. x > y) and (ex z. all w. z > w + a)", "EA"),
-        ("(ex x. all y. x > y) and (all z. ex w. z > w + a)", "EAE"),
-        ("(ex x. x > a) -> (all y. y > a)", "A"),
-        ("not (ex x. all y. x < y and y < a)", "AE"),
-        ("(ex x. x > a) <-> (ex x. x < a)", "EA"),
-        ("ex x. x > 0 and a > 0", "E"),
-        ("ex x. ex y. x > y", "E"),
-        ("a > 0", ""),
-        ("ex x. a > 0", ""),
-        ("ex x. true", ""),
-    ],
+@each(
+    ("(ex x. x > a) and (all y. y^2 >= a)", "EA"),
+    ("(ex x. all y. x > y) and (ex z. all w. z > w + a)", "EA"),
+    ("(ex x. all y. x > y) and (all z. ex w. z > w + a)", "EAE"),
+    ("(ex x. x > a) -> (all y. y > a)", "A"),
+    ("not (ex x. all y. x < y and y < a)", "AE"),
+    ("(ex x. x > a) <-> (ex x. x < a)", "EA"),
+    ("ex x. x > 0 and a > 0", "E"),
+    ("ex x. ex y. x > y", "E"),
+    ("a > 0", ""),
+    ("ex x. a > 0", ""),
+    ("ex x. true", ""),
 )
 def test_prenex_has_few_blocks(text: str, blocks: str) -> None:
     prefix, _ = prenex(read(text))

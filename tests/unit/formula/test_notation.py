@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
 from hypothesis import given
 
 from qe.exact.ring import Poly, Ring
@@ -13,22 +12,20 @@ from qe.formula.relation import Relation
 from qe.formula.text import TEXT, text_notation
 from qe.io.text import read
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.var("x"), RING.var("y")
 
 
-@pytest.mark.parametrize(
-    ("poly", "text"),
-    [
-        (X * Y - X**2 + 1, "-x^2 + x*y + 1"),
-        (3 * Y - 2, "3*y - 2"),
-        (RING.constant(0), "0"),
-        (RING.constant(-1), "-1"),
-        (-X, "-x"),
-        (Y**3 + X**2 * Y, "x^2*y + y^3"),
-        (10**30 * X - 1, f"{10**30}*x - 1"),
-    ],
+@each(
+    (X * Y - X**2 + 1, "-x^2 + x*y + 1"),
+    (3 * Y - 2, "3*y - 2"),
+    (RING.constant(0), "0"),
+    (RING.constant(-1), "-1"),
+    (-X, "-x"),
+    (Y**3 + X**2 * Y, "x^2*y + y^3"),
+    (10**30 * X - 1, f"{10**30}*x - 1"),
 )
 def test_polynomials(poly: Poly, text: str) -> None:
     assert polynomial(monomials(poly), TEXT) == text

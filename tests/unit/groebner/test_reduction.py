@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -11,6 +10,7 @@ from qe.exact.groebner import MonomialOrder, groebner_basis
 from qe.exact.ring import Poly, Ring
 from qe.groebner.reduction import Divisor, cleared, divides, joined, monomial, reduced_basis, remainder
 from tests.strategies import polynomials
+from tests.tables import each
 from tests.unit.exact.ideal_membership import in_ideal
 
 RING = Ring.of(("a", "b", "x", "y"))
@@ -61,15 +61,12 @@ def test_coefficients_are_reduced_where_the_segment_has_equations() -> None:
     assert remainder(A**2 * X - A * B, [Divisor(X - A, BLOCK)], BLOCK, base)[1] == RING.constant(0)
 
 
-@pytest.mark.parametrize(
-    ("poly", "expected"),
-    [
-        (A * X + A * B, X + B),
-        (-2 * A * X - 2 * A, X + 1),
-        (A * X + B, A * X + B),
-        ((A + B) * X**2 + (A**2 - B**2) * Y, X**2 + (A - B) * Y),
-        (6 * X, X),
-    ],
+@each(
+    (A * X + A * B, X + B),
+    (-2 * A * X - 2 * A, X + 1),
+    (A * X + B, A * X + B),
+    ((A + B) * X**2 + (A**2 - B**2) * Y, X**2 + (A - B) * Y),
+    (6 * X, X),
 )
 def test_content_is_divided_out(poly: Poly, expected: Poly) -> None:
     assert cleared(poly, BLOCK) == expected.normal()[1]

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import pickle
 
-import pytest
-
 from qe.exact.block_order import BlockOrder
 from qe.exact.ring import Poly, Ring
 from qe.groebner.segment import Segment, monomial_names
+from tests.tables import each
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.var(name) for name in RING.names)
@@ -21,15 +20,12 @@ def segment(
     return Segment(BLOCK, equal, nonzero, some, basis)
 
 
-@pytest.mark.parametrize(
-    ("basis", "leads", "dimension", "unit"),
-    [
-        ((), (), 2, False),
-        ((RING.constant(1),), ((0, 0),), -1, True),
-        ((A * X - B,), ((1, 0),), 1, False),
-        ((A * X - B, Y**2 - X), ((1, 0), (0, 2)), 0, False),
-        ((X * Y - 1,), ((1, 1),), 1, False),
-    ],
+@each(
+    ((), (), 2, False),
+    ((RING.constant(1),), ((0, 0),), -1, True),
+    ((A * X - B,), ((1, 0),), 1, False),
+    ((A * X - B, Y**2 - X), ((1, 0), (0, 2)), 0, False),
+    ((X * Y - 1,), ((1, 1),), 1, False),
 )
 def test_leading_monomials_and_dimension(basis: tuple[Poly, ...], leads: object, dimension: int, unit: bool) -> None:
     found = segment(*basis)

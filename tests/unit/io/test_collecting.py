@@ -9,6 +9,7 @@ from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.collecting import Names, chain
 from qe.io.text_parser import TextParser
+from tests.tables import each
 
 
 def fail(message: str, at: int) -> InputError:
@@ -22,22 +23,19 @@ def collected(text: str) -> tuple[list[str], list[str], list[str], int, list[tup
     return list(names.free), list(names.bound), names.all(), names.special, met
 
 
-@pytest.mark.parametrize(
-    ("text", "free", "bound", "special"),
-    [
-        ("y > 0 and x > z", "yxz", "", 0),
-        ("ex x. x > a and (all y. y > b)", "ab", "xy", 0),
-        ("x > 0 and (ex x. x > a)", "xa", "x", 0),
-        ("(ex x. x > a) and x > 0", "ax", "x", 0),
-        ("not (a > 0 -> b > 0) or (c > 0 <-> d > 0)", "abcd", "", 0),
-        ("1/x + a/2 > -y^3", "xay", "", 1),  # a number below needs no name
-        ("x^(1/2) + y^2 + z^(2/3) > 0", "xyz", "", 2),
-        ("abs(x) + max(y, z, 1) > 0", "xyz", "", 2),
-        ("(if a > 0 then b else c) > 0", "abc", "", 1),
-        ("a < root(2, x^2 - b, x)", "axb", "", 1),
-        ("ex x. a < root(2, x^2 - b, x)", "ab", "x", 1),
-        ("true or a = 0", "a", "", 0),
-    ],
+@each(
+    ("y > 0 and x > z", "yxz", "", 0),
+    ("ex x. x > a and (all y. y > b)", "ab", "xy", 0),
+    ("x > 0 and (ex x. x > a)", "xa", "x", 0),
+    ("(ex x. x > a) and x > 0", "ax", "x", 0),
+    ("not (a > 0 -> b > 0) or (c > 0 <-> d > 0)", "abcd", "", 0),
+    ("1/x + a/2 > -y^3", "xay", "", 1),  # a number below needs no name
+    ("x^(1/2) + y^2 + z^(2/3) > 0", "xyz", "", 2),
+    ("abs(x) + max(y, z, 1) > 0", "xyz", "", 2),
+    ("(if a > 0 then b else c) > 0", "abc", "", 1),
+    ("a < root(2, x^2 - b, x)", "axb", "", 1),
+    ("ex x. a < root(2, x^2 - b, x)", "ab", "x", 1),
+    ("true or a = 0", "a", "", 0),
 )
 def test_names_free_before_bound(text: str, free: str, bound: str, special: int) -> None:
     found = collected(text)
@@ -67,7 +65,7 @@ def deep_term(depth: int) -> s.Node:
     return s.Comparison([term], [], 0)
 
 
-@pytest.mark.parametrize("made", [nested, deep_term])
+@each(nested, deep_term)
 def test_depth_is_bounded(made: object) -> None:
     names = Names(fail, lambda name, at: None)
     names.node(made(s.MAX_DEPTH - 1), frozenset(), 0)  # type: ignore[operator]
@@ -75,19 +73,16 @@ def test_depth_is_bounded(made: object) -> None:
         names.node(made(s.MAX_DEPTH), frozenset(), 0)  # type: ignore[operator]
 
 
-@pytest.mark.parametrize(
-    "step",
-    [
-        lambda t: s.Sum([t, s.Number(1)]),
-        lambda t: s.Product(s.Number(2), t, 0),
-        lambda t: s.Power(t, s.Number(2), 0),
-        lambda t: s.Power(s.Number(2), t, 0),
-        lambda t: s.Apply("abs", [t], 0),
-        lambda t: s.Root(s.Number(1), t, "x", 0),
-        lambda t: s.Choice(s.Truth(True), t, None, 0),
-        lambda t: s.Choice(s.Truth(True), s.Number(1), t, 0),
-        lambda t: s.Choice(s.Comparison([t], [], 0), s.Number(1), s.Number(2), 0),
-    ],
+@each(
+    lambda t: s.Sum([t, s.Number(1)]),
+    lambda t: s.Product(s.Number(2), t, 0),
+    lambda t: s.Power(t, s.Number(2), 0),
+    lambda t: s.Power(s.Number(2), t, 0),
+    lambda t: s.Apply("abs", [t], 0),
+    lambda t: s.Root(s.Number(1), t, "x", 0),
+    lambda t: s.Choice(s.Truth(True), t, None, 0),
+    lambda t: s.Choice(s.Truth(True), s.Number(1), t, 0),
+    lambda t: s.Choice(s.Comparison([t], [], 0), s.Number(1), s.Number(2), 0),
 )
 def test_every_kind_of_term_counts_a_level(step: object) -> None:
     term: s.Term = s.Name("x", 0)

@@ -16,6 +16,7 @@ from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM
 from qe.io.text_parser import TextParser
 from qe.io.total import Fill, Total
+from tests.tables import each
 
 
 def fail(message: str, at: int) -> InputError:
@@ -31,28 +32,25 @@ def term(text: str) -> s.Term:
     return found
 
 
-@pytest.mark.parametrize(
-    ("text", "holds"),
-    [
-        ("1/x > 0", lambda x: x != 0 and 1 / x > 0),
-        ("not 1/x > 0", lambda x: not (x != 0 and 1 / x > 0)),
-        ("1/x > 0 -> x > 1", lambda x: not (x != 0 and 1 / x > 0) or x > 1),
-        ("x/x = 1", lambda x: x != 0),
-        ("1/(1/x) = x", lambda x: x != 0),
-        ("x^-2 >= 1/4", lambda x: x != 0 and 1 / x**2 >= Fraction(1, 4)),
-        ("-infinity < 1/x < infinity", lambda x: x != 0),
-        ("infinity > x", lambda x: True),
-        ("x > infinity", lambda x: False),
-        ("sign(x)*abs(x) = x", lambda x: True),
-        ("max(x, 1/x) >= 1", lambda x: x != 0 and max(x, 1 / x) >= 1),
-        ("min(x, 2, -x) = -2", lambda x: min(x, 2, -x) == -2),
-        ("sqrt(x^2) = x", lambda x: x >= 0),
-        ("sqrt(x) >= 1", lambda x: x >= 1),
-        ("not sqrt(x) >= 1", lambda x: x < 1),
-        ("(if x > 0 then 1/x else x) <= 1/2", lambda x: (1 / x if x > 0 else x) <= Fraction(1, 2)),
-        ("1 < x <-> x < 2", lambda x: (x > 1) == (x < 2)),
-        ("0 < x < 2 < 3", lambda x: 0 < x < 2),
-    ],
+@each(
+    ("1/x > 0", lambda x: x != 0 and 1 / x > 0),
+    ("not 1/x > 0", lambda x: not (x != 0 and 1 / x > 0)),
+    ("1/x > 0 -> x > 1", lambda x: not (x != 0 and 1 / x > 0) or x > 1),
+    ("x/x = 1", lambda x: x != 0),
+    ("1/(1/x) = x", lambda x: x != 0),
+    ("x^-2 >= 1/4", lambda x: x != 0 and 1 / x**2 >= Fraction(1, 4)),
+    ("-infinity < 1/x < infinity", lambda x: x != 0),
+    ("infinity > x", lambda x: True),
+    ("x > infinity", lambda x: False),
+    ("sign(x)*abs(x) = x", lambda x: True),
+    ("max(x, 1/x) >= 1", lambda x: x != 0 and max(x, 1 / x) >= 1),
+    ("min(x, 2, -x) = -2", lambda x: min(x, 2, -x) == -2),
+    ("sqrt(x^2) = x", lambda x: x >= 0),
+    ("sqrt(x) >= 1", lambda x: x >= 1),
+    ("not sqrt(x) >= 1", lambda x: x < 1),
+    ("(if x > 0 then 1/x else x) <= 1/2", lambda x: (1 / x if x > 0 else x) <= Fraction(1, 2)),
+    ("1 < x <-> x < 2", lambda x: (x > 1) == (x < 2)),
+    ("0 < x < 2 < 3", lambda x: 0 < x < 2),
 )
 def test_comparisons_are_true_where_both_sides_have_a_value(text: str, holds: object) -> None:
     formula = meaning(text)
@@ -109,7 +107,7 @@ def test_terms_that_are_polynomials() -> None:
             lower_term(term(text), fail)
 
 
-@pytest.mark.parametrize(("fill", "text", "after"), [(Fill.ARGUMENT, "1/x = 1", "x = 0 or x = 1")])
+@each((Fill.ARGUMENT, "1/x = 1", "x = 0 or x = 1"))
 def test_functions_that_are_total(fill: Fill, text: str, after: str) -> None:
     total = Total(fill=fill)
     formula = meaning(text, total=total)

@@ -13,15 +13,13 @@ from qe.io import surface as s
 from qe.io.parser import INFIX, PREFIX, parsed
 from qe.io.text_errors import Failing, SyntaxFailure
 from qe.io.text_parser import TextParser
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("text", "place", "said", "expected"),
-    [
-        ("x > 0 and\n  y + > 1", (2, 7), "unexpected '>'", "a number, a variable or '('"),
-        ("x > 0 and\nsin(y) > 1", (2, 1), "sin(y): sin is not algebraic", ""),
-        ("x > 0 and\n y ; z", (2, 4), "unknown character ';'", ""),
-    ],
+@each(
+    ("x > 0 and\n  y + > 1", (2, 7), "unexpected '>'", "a number, a variable or '('"),
+    ("x > 0 and\nsin(y) > 1", (2, 1), "sin(y): sin is not algebraic", ""),
+    ("x > 0 and\n y ; z", (2, 4), "unknown character ';'", ""),
 )
 def test_every_failure_becomes_one_error(text: str, place: tuple[int, int], said: str, expected: str) -> None:
     with pytest.raises(ParseError) as error:
@@ -34,33 +32,27 @@ def test_every_failure_becomes_one_error(text: str, place: tuple[int, int], said
 DEEP = 5000
 
 
-@pytest.mark.parametrize(
-    ("text", "plain"),
-    [
-        ("(" * DEEP + "x > 0" + ")" * DEEP, "x > 0"),
-        ("[" * DEEP + "x > 0" + "]" * DEEP, "x > 0"),
-        ("(" * DEEP + "x" + ")" * DEEP + " > 0", "x > 0"),
-        ("not " * DEEP + "x > 0", "x > 0"),
-        ("-" * DEEP + "x > 0", "x > 0"),
-        ("x" + "*1" * DEEP + " > 0", "x > 0"),
-        ("(" * DEEP + "x" + " + 1)" * DEEP + " > 0", f"x + {DEEP} > 0"),
-        ("(" * DEEP + "x > 0" + " and y > 0)" * DEEP, "x > 0 and y > 0"),
-    ],
+@each(
+    ("(" * DEEP + "x > 0" + ")" * DEEP, "x > 0"),
+    ("[" * DEEP + "x > 0" + "]" * DEEP, "x > 0"),
+    ("(" * DEEP + "x" + ")" * DEEP + " > 0", "x > 0"),
+    ("not " * DEEP + "x > 0", "x > 0"),
+    ("-" * DEEP + "x > 0", "x > 0"),
+    ("x" + "*1" * DEEP + " > 0", "x > 0"),
+    ("(" * DEEP + "x" + " + 1)" * DEEP + " > 0", f"x + {DEEP} > 0"),
+    ("(" * DEEP + "x > 0" + " and y > 0)" * DEEP, "x > 0 and y > 0"),
 )
 def test_brackets_signs_and_chains_may_be_as_deep_as_they_like(text: str, plain: str) -> None:
     assert formats.read(text) == formats.read(plain)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "abs(" * DEEP + "x" + ")" * DEEP + " > 0",
-        "If[x > 0, " * DEEP,
-        "if " * DEEP,
-        "ex x in [if " * DEEP,
-        "ex x. " * DEEP + "x > 0",
-        "x > 0 -> " * DEEP + "x > 0",
-    ],
+@each(
+    "abs(" * DEEP + "x" + ")" * DEEP + " > 0",
+    "If[x > 0, " * DEEP,
+    "if " * DEEP,
+    "ex x in [if " * DEEP,
+    "ex x. " * DEEP + "x > 0",
+    "x > 0 -> " * DEEP + "x > 0",
 )
 def test_what_is_nested_too_deeply_is_refused_in_one_line(text: str) -> None:
     with pytest.raises(ParseError) as error:

@@ -14,33 +14,31 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Relation
 from qe.io import smtlib
 from qe.io.text import read as text
+from tests.tables import each
 
 X = "(declare-const x Real)(declare-fun y () Real)(declare-const p Bool)"
 
 
-@pytest.mark.parametrize(
-    ("term", "printed"),
-    [
-        ("(> x 1.5)", "2*x - 3 > 0"),
-        ("(= (* 2 x y) (/ 1 3) )", "6*x*y - 1 = 0"),
-        ("(< x y 3)", "x - y < 0 and y - 3 < 0"),
-        ("(<= (- x) (- 3) (- x y 1))", "x - 3 >= 0 and x - y + 2 >= 0"),
-        ("(distinct x y 0)", "x - y /= 0 and x /= 0 and y /= 0"),
-        ("(=> (> x 0) (> y 0) (> x y))", "x <= 0 or y <= 0 or x - y > 0"),
-        ("(not (or (> x 0) (< y 0)))", "not (x > 0 or y < 0)"),
-        ("(xor (> x 0) true)", "x <= 0"),
-        ("(let ((a (+ x 1)) (x 5)) (> a x))", "x - 4 > 0"),
-        ("(let ((x y) (y x)) (> x (* 2 y)))", "2*x - y < 0"),
-        ("(exists ((x Real)) (> x y))", "ex x_1. y - x_1 < 0"),
-        ("(let ((a x)) (exists ((x Real)) (> x a)))", "ex x_1. x - x_1 < 0"),
-        ("(forall ((u Real) (q Bool)) (=> q (> u 0)))", "all u, q. q <= 0 or u > 0"),
-        ("(and p (not p))", "p > 0 and p <= 0"),
-        ("(! (> x 0) :named first)", "x > 0"),
-        ("(> (ite (> x 0) x (- x)) 1)", "x > 0 and x - 1 > 0 or x <= 0 and x + 1 < 0"),
-        ("(ite (> x 0) (> y 0) (< y 0))", "(x <= 0 or y > 0) and (x > 0 or y < 0)"),
-        ("(= (> x 0) (> y 0) )", "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
-        ("true", "true"),
-    ],
+@each(
+    ("(> x 1.5)", "2*x - 3 > 0"),
+    ("(= (* 2 x y) (/ 1 3) )", "6*x*y - 1 = 0"),
+    ("(< x y 3)", "x - y < 0 and y - 3 < 0"),
+    ("(<= (- x) (- 3) (- x y 1))", "x - 3 >= 0 and x - y + 2 >= 0"),
+    ("(distinct x y 0)", "x - y /= 0 and x /= 0 and y /= 0"),
+    ("(=> (> x 0) (> y 0) (> x y))", "x <= 0 or y <= 0 or x - y > 0"),
+    ("(not (or (> x 0) (< y 0)))", "not (x > 0 or y < 0)"),
+    ("(xor (> x 0) true)", "x <= 0"),
+    ("(let ((a (+ x 1)) (x 5)) (> a x))", "x - 4 > 0"),
+    ("(let ((x y) (y x)) (> x (* 2 y)))", "2*x - y < 0"),
+    ("(exists ((x Real)) (> x y))", "ex x_1. y - x_1 < 0"),
+    ("(let ((a x)) (exists ((x Real)) (> x a)))", "ex x_1. x - x_1 < 0"),
+    ("(forall ((u Real) (q Bool)) (=> q (> u 0)))", "all u, q. q <= 0 or u > 0"),
+    ("(and p (not p))", "p > 0 and p <= 0"),
+    ("(! (> x 0) :named first)", "x > 0"),
+    ("(> (ite (> x 0) x (- x)) 1)", "x > 0 and x - 1 > 0 or x <= 0 and x + 1 < 0"),
+    ("(ite (> x 0) (> y 0) (< y 0))", "(x <= 0 or y > 0) and (x > 0 or y < 0)"),
+    ("(= (> x 0) (> y 0) )", "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
+    ("true", "true"),
 )
 def test_terms(term: str, printed: str) -> None:
     assert str(smtlib.read(f"{X}(assert {term})")) == printed
@@ -80,32 +78,29 @@ def test_shared_definitions_are_evaluated_once() -> None:
     assert str(smtlib.read(script)) == "x - 3 > 0"
 
 
-@pytest.mark.parametrize(
-    ("script", "line", "column", "part"),
-    [
-        ("(assert", 1, 1, "never closed"),
-        ("(assert true))", 1, 14, "no partner"),
-        ("\n(push 1)", 2, 2, "push is not supported"),
-        ("(declare-const x Int)", 1, 18, "Real or Bool"),
-        ("(declare-fun f (Real) Real)", 1, 16, "without arguments"),
-        ("(declare-const x Real)(assert (> x z))", 1, 36, "z is not declared"),
-        ("(declare-const x Real)(assert (sin x))", 1, 32, "sin is not algebraic"),
-        ("(declare-const x Real)(assert (> x (mod x 2)))", 1, 37, "needs integers"),
-        ("(define-fun-rec f ((x Real)) Real (f x))", 1, 2, "recursive"),
-        ("(declare-sort U 0)", 1, 2, "Real and Bool"),
-        ("(declare-const x Real)(assert (+ x 1))", 1, 31, "sort Bool expected"),
-        ("(declare-const x Real)(assert (and x))", 1, 36, "sort Bool expected"),
-        ("(assert (> true 1))", 1, 12, "sort Real expected"),
-        ("(assert (> 1x 2))", 1, 12, "malformed number"),
-        ("(check-sat)(assert true)", 1, 12, "one question"),
-        ("(declare-const x Real)(declare-const x Real)", 1, 38, "twice"),
-        ("(assert (> |x 1))", 1, 12, "never closed"),
-        ("x", 1, 1, "a command in brackets"),
-        ("(frobnicate)", 1, 2, "not supported"),
-        ("(assert true true)", 1, 1, "1 arguments expected"),
-        ("(assert (exists () true))", 1, 17, "without variables"),
-        ("(assert (> #b1 0))", 1, 12, "unexpected"),
-    ],
+@each(
+    ("(assert", 1, 1, "never closed"),
+    ("(assert true))", 1, 14, "no partner"),
+    ("\n(push 1)", 2, 2, "push is not supported"),
+    ("(declare-const x Int)", 1, 18, "Real or Bool"),
+    ("(declare-fun f (Real) Real)", 1, 16, "without arguments"),
+    ("(declare-const x Real)(assert (> x z))", 1, 36, "z is not declared"),
+    ("(declare-const x Real)(assert (sin x))", 1, 32, "sin is not algebraic"),
+    ("(declare-const x Real)(assert (> x (mod x 2)))", 1, 37, "needs integers"),
+    ("(define-fun-rec f ((x Real)) Real (f x))", 1, 2, "recursive"),
+    ("(declare-sort U 0)", 1, 2, "Real and Bool"),
+    ("(declare-const x Real)(assert (+ x 1))", 1, 31, "sort Bool expected"),
+    ("(declare-const x Real)(assert (and x))", 1, 36, "sort Bool expected"),
+    ("(assert (> true 1))", 1, 12, "sort Real expected"),
+    ("(assert (> 1x 2))", 1, 12, "malformed number"),
+    ("(check-sat)(assert true)", 1, 12, "one question"),
+    ("(declare-const x Real)(declare-const x Real)", 1, 38, "twice"),
+    ("(assert (> |x 1))", 1, 12, "never closed"),
+    ("x", 1, 1, "a command in brackets"),
+    ("(frobnicate)", 1, 2, "not supported"),
+    ("(assert true true)", 1, 1, "1 arguments expected"),
+    ("(assert (exists () true))", 1, 17, "without variables"),
+    ("(assert (> #b1 0))", 1, 12, "unexpected"),
 )
 def test_mistakes(script: str, line: int, column: int, part: str) -> None:
     with pytest.raises(ParseError) as caught:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from qe.errors import InputError
 from qe.io.smtlib_parser import Ends, Expression, Listing, Word, parse, show
+from tests.tables import each
 
 
 def fail(message: str, at: int) -> InputError:
@@ -62,18 +63,15 @@ def test_offsets() -> None:
     assert first.items == [Word("SYMBOL", "f", 1), Word("SYMBOL", "a b", 3), Word("NUMBER", "1.5", 14)]
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("(a (b) c", "0: unbalanced brackets: this '(' is never closed"),
-        ("(a) (b (c", "7: unbalanced brackets: this '(' is never closed"),
-        ("(a)) b", "3: unbalanced brackets: this ')' has no partner"),
-        ("(a |b)", "3: this | is never closed"),
-        ('(a "b)', '3: this " is never closed'),
-        ("(a 1x)", "3: malformed number; write (/ 1 2) for 1/2"),
-        ("(a 1.x)", "3: malformed number; write (/ 1 2) for 1/2"),
-        ("(a ä)", "3: unknown character 'ä'"),
-    ],
+@each(
+    ("(a (b) c", "0: unbalanced brackets: this '(' is never closed"),
+    ("(a) (b (c", "7: unbalanced brackets: this '(' is never closed"),
+    ("(a)) b", "3: unbalanced brackets: this ')' has no partner"),
+    ("(a |b)", "3: this | is never closed"),
+    ('(a "b)', '3: this " is never closed'),
+    ("(a 1x)", "3: malformed number; write (/ 1 2) for 1/2"),
+    ("(a 1.x)", "3: malformed number; write (/ 1 2) for 1/2"),
+    ("(a ä)", "3: unknown character 'ä'"),
 )
 def test_what_cannot_be_read(text: str, said: str) -> None:
     with pytest.raises(InputError) as error:
@@ -81,20 +79,17 @@ def test_what_cannot_be_read(text: str, said: str) -> None:
     assert str(error.value) == said
 
 
-@pytest.mark.parametrize(
-    ("text", "end"),
-    [
-        ("", 0),
-        ("(a) (b", 3),
-        ("(a) (b)", 7),
-        ("(a) b", 3),  # the symbol may go on
-        ("(a) b ", 5),
-        ("(a)\n; rest", 3),
-        ("(a) (b))", 8),  # an error, which is reported at once
-        (") (a", 1),  # the error is told at once
-        ("(a |b", 0),
-        ("(a) |b", 3),
-    ],
+@each(
+    ("", 0),
+    ("(a) (b", 3),
+    ("(a) (b)", 7),
+    ("(a) b", 3),  # the symbol may go on
+    ("(a) b ", 5),
+    ("(a)\n; rest", 3),
+    ("(a) (b))", 8),  # an error, which is reported at once
+    (") (a", 1),  # the error is told at once
+    ("(a |b", 0),
+    ("(a) |b", 3),
 )
 def test_the_end_of_the_last_whole_expression(text: str, end: int) -> None:
     assert max(Ends().found(text), default=0) == end

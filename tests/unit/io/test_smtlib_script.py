@@ -7,6 +7,7 @@ import pytest
 from qe.errors import InputError
 from qe.io.smtlib_parser import Listing, parse, show
 from qe.io.smtlib_script import Script
+from tests.tables import each
 
 
 def fail(message: str, at: int) -> InputError:
@@ -61,24 +62,21 @@ def test_a_name_kept_for_a_later_declaration_is_not_taken_by_a_bound_variable() 
     assert made.constants["x"] == ("Real", "x") and made.bound == {"x_1"}
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("x", "0: a command in brackets expected"),
-        ("()", "0: a command in brackets expected"),
-        ("((a))", "0: a command in brackets expected"),
-        ("(assert)", "0: 1 arguments expected, 0 found"),
-        ("(declare-const x)", "0: 2 arguments expected, 1 found"),
-        ("(declare-fun f (Real) Real)", "15: only functions without arguments"),
-        ("(declare-fun f x Real)", "15: only functions without arguments"),
-        ("(declare-const x Real)(declare-const x Bool)", "37: x is declared twice"),
-        ("(define-const x Real true)", "21: a term of sort Real"),
-        ("(define-const x Real)", "0: 3 arguments expected"),
-        ("(define-fun x () Real)", "0: 4 arguments expected"),
-        ("(define-fun-rec f () Real 1)", "1: recursive functions"),
-        ("(declare-sort A 0)", "1: only the sorts Real and Bool"),
-        ("(assert 1)", "8: a term of sort Bool"),
-    ],
+@each(
+    ("x", "0: a command in brackets expected"),
+    ("()", "0: a command in brackets expected"),
+    ("((a))", "0: a command in brackets expected"),
+    ("(assert)", "0: 1 arguments expected, 0 found"),
+    ("(declare-const x)", "0: 2 arguments expected, 1 found"),
+    ("(declare-fun f (Real) Real)", "15: only functions without arguments"),
+    ("(declare-fun f x Real)", "15: only functions without arguments"),
+    ("(declare-const x Real)(declare-const x Bool)", "37: x is declared twice"),
+    ("(define-const x Real true)", "21: a term of sort Real"),
+    ("(define-const x Real)", "0: 3 arguments expected"),
+    ("(define-fun x () Real)", "0: 4 arguments expected"),
+    ("(define-fun-rec f () Real 1)", "1: recursive functions"),
+    ("(declare-sort A 0)", "1: only the sorts Real and Bool"),
+    ("(assert 1)", "8: a term of sort Bool"),
 )
 def test_what_is_refused(text: str, said: str) -> None:
     with pytest.raises(InputError) as error:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import qe
 from qe.convex.optimum import OptimumStatus
+from tests.tables import each
 
 CASES = [
     ("x^4 - x^2", "x^2 <= 4", "-1/4", True),
@@ -43,14 +44,11 @@ def test_a_maximum_is_minus_the_minimum_of_the_negative(objective, constraints, 
     assert (str(found.value), found.attained) == (str(-qe.minimize(objective, constraints).value), attained)
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "status"),
-    [
-        ("x^3", "true", OptimumStatus.UNBOUNDED),
-        ("x*y", "x > 0", OptimumStatus.UNBOUNDED),
-        ("x^3", "x^4 < 0", OptimumStatus.INFEASIBLE),
-        ("x^4", "y^4 + 1 = 0", OptimumStatus.INFEASIBLE),
-    ],
+@each(
+    ("x^3", "true", OptimumStatus.UNBOUNDED),
+    ("x*y", "x > 0", OptimumStatus.UNBOUNDED),
+    ("x^3", "x^4 < 0", OptimumStatus.INFEASIBLE),
+    ("x^4", "y^4 + 1 = 0", OptimumStatus.INFEASIBLE),
 )
 def test_no_minimum(objective, constraints, status):
     found = qe.minimize(objective, constraints)
@@ -77,7 +75,7 @@ def test_values_of_a_maximum_are_the_values():
     assert qe.equivalent(str(qe.maximize("x^3", "x^4 <= 1").values), "value^2 <= 1")
 
 
-@pytest.mark.parametrize("given", ["sin(x)", "floor(x)", "1/0", "", "x = 1", "pi*x", b"x", ["x"], None, float("nan")])
+@each("sin(x)", "floor(x)", "1/0", "", "x = 1", "pi*x", b"x", ["x"], None, float("nan"))
 def test_objectives_that_are_no_terms(given):
     with pytest.raises(qe.InputError, match=r"^objective: [^\n]*$"):
         qe.minimize(given, "x > 0")
@@ -115,7 +113,7 @@ def test_no_value_on_a_grid_is_smaller_and_the_point_has_it(coefficients, low, w
         assert strict
 
 
-@pytest.mark.parametrize("given", [True, None, ["x"], "x +", "x = 1"])
+@each(True, None, ["x"], "x +", "x = 1")
 def test_bad_objectives(given):
     with pytest.raises(qe.QEError):
         qe.minimize(given, "x^4 < 2", timeout=5)

@@ -14,6 +14,7 @@ from qe.formula.syntax import Relation
 from qe.io.text import read
 from qe.optimization.values import Goal, Objective, new_name
 from qe.options import Budget
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.var("x"), RING.var("y")
@@ -37,20 +38,17 @@ def test_a_taken_name_is_avoided() -> None:
     assert goal.value == "value__" and "value" in goal.variables
 
 
-@pytest.mark.parametrize("parameters", [["b"], ["a", "a"], ["x", "q"]])
+@each(["b"], ["a", "a"], ["x", "q"])
 def test_strange_parameters(parameters: list[str]) -> None:
     with pytest.raises(qe.InputError, match="parameters: "):
         qe.minimize("x", "x > a", parameters=parameters)
 
 
-@pytest.mark.parametrize(
-    ("objective", "scale", "conditions", "values"),
-    [
-        (X, 1, "0 < x and x <= 3", "0 < value and value <= 3"),
-        (X * X, -2, "-1 <= x and x < 2", "-8 < value and value <= 0"),
-        (X + Y, Fraction(1, 2), "x^2 + y^2 <= 2", "-1 <= value and value <= 1"),
-        (X, 1, "x > 0 and x < 0", "false"),
-    ],
+@each(
+    (X, 1, "0 < x and x <= 3", "0 < value and value <= 3"),
+    (X * X, -2, "-1 <= x and x < 2", "-8 < value and value <= 0"),
+    (X + Y, Fraction(1, 2), "x^2 + y^2 <= 2", "-1 <= value and value <= 1"),
+    (X, 1, "x > 0 and x < 0", "false"),
 )
 def test_the_values_that_are_taken(objective: Poly, scale: Fraction, conditions: str, values: str) -> None:
     goal = goal_of(objective, scale, conditions)

@@ -9,20 +9,18 @@ import pytest
 import qe
 from qe.errors import InputError
 from qe.regions.ends import ends
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "x^2 < 2 and x /= 0 or x = 3",
-        "x^2 + y^2 <= 4 and (x - 1)^2 + y^2 < 4 or x = 3 and y = 1",
-        "y > x^2",
-        "y^2 < x^3 - x",
-        "x^2 + y^2 + z^2 <= 4 and x + y + z >= 1",
-        "x^2 < 0",
-    ],
+@each(
+    "x^2 < 2 and x /= 0 or x = 3",
+    "x^2 + y^2 <= 4 and (x - 1)^2 + y^2 < 4 or x = 3 and y = 1",
+    "y > x^2",
+    "y^2 < x^3 - x",
+    "x^2 + y^2 + z^2 <= 4 and x + y + z >= 1",
+    "x^2 < 0",
 )
-def test_one_to_three_variables(tmp_path: Path, text: str) -> None:
+def test_one_to_three_variables(text: str, tmp_path: Path) -> None:
     path = tmp_path / "region.png"
     qe.region(text).plot(path)
     assert path.read_bytes().startswith(b"\x89PNG")

@@ -8,9 +8,10 @@ import pytest
 import sympy
 
 import qe
+from tests.tables import each
 
 
-@pytest.mark.parametrize("point", [1, 0.5, "1/2", Fraction(1, 2), [1], {"x": 1}, sympy.sqrt(2)])
+@each(1, 0.5, "1/2", Fraction(1, 2), [1], {"x": 1}, sympy.sqrt(2))
 def test_points_of_a_line(point: object) -> None:
     line = qe.region("x > 0")
     assert point in line and point not in ~line

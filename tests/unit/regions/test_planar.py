@@ -13,30 +13,28 @@ from qe.io.substitution import over_one_ring
 from qe.regions.region import Region
 from qe.regions.topology import near
 from tests.strategies import formulas
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("text", "count"),
-    [
-        ("x > 0 and x < 1 or x = 2 or x > 3", 3),
-        ("x^3 - 3*x + 1 = 0", 3),
-        ("x*y > 1", 2),
-        ("x*y = 1", 2),
-        ("x*y >= 0", 1),
-        ("x*y > 0", 2),
-        ("x*y = 0 and x^2 + y^2 > 0", 4),
-        ("x^2 + y^2 < 1 or x = 1 and y = 0", 1),
-        ("y^2 = x^3 - x", 2),
-        ("y^2 = x^2*(x - 1)", 2),
-        ("y^2 = x^2*(x + 1)", 1),
-        ("y^2 > x^2*(x + 1)", 1),
-        ("y^2 < x^2*(x + 1)", 2),
-        ("x*y^2 > 1", 2),
-        ("x*y^2 < 1 and x > 0", 1),
-        ("1 < x^2 + y^2 and x^2 + y^2 < 4 and y /= 0", 2),
-        ("x^2 < 0", 0),
-        ("ex y. x = y^2", 1),
-    ],
+@each(
+    ("x > 0 and x < 1 or x = 2 or x > 3", 3),
+    ("x^3 - 3*x + 1 = 0", 3),
+    ("x*y > 1", 2),
+    ("x*y = 1", 2),
+    ("x*y >= 0", 1),
+    ("x*y > 0", 2),
+    ("x*y = 0 and x^2 + y^2 > 0", 4),
+    ("x^2 + y^2 < 1 or x = 1 and y = 0", 1),
+    ("y^2 = x^3 - x", 2),
+    ("y^2 = x^2*(x - 1)", 2),
+    ("y^2 = x^2*(x + 1)", 1),
+    ("y^2 > x^2*(x + 1)", 1),
+    ("y^2 < x^2*(x + 1)", 2),
+    ("x*y^2 > 1", 2),
+    ("x*y^2 < 1 and x > 0", 1),
+    ("1 < x^2 + y^2 and x^2 + y^2 < 4 and y /= 0", 2),
+    ("x^2 < 0", 0),
+    ("ex y. x = y^2", 1),
 )
 def test_components(text: str, count: int) -> None:
     whole = qe.region(text)
@@ -60,7 +58,7 @@ def test_closure_and_interior_in_the_plane(formula) -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("text", ["y^2 < x^2*(x - 1)", "x*y > 1 or y = 0", "x^2 + y^2 > 1 and x*y <= 1", "x*y^2 < 1"])
+@each("y^2 < x^2*(x - 1)", "x*y > 1 or y = 0", "x^2 + y^2 > 1 and x*y <= 1", "x*y^2 < 1")
 def test_closure_and_interior_of_curved_sets(text: str) -> None:
     _agrees(read_formula(text), ("x", "y"))
 

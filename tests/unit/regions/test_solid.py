@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 import qe
 from qe.regions.solid import Solid, Surface
 from qe.regions.space import framed, shape_of
+from tests.tables import each
 
 ORDER = ("x", "y", "z")
 BOX = "0 <= x and x <= 2 and 0 <= y and y <= 1 and -1 <= z and z <= 2"
@@ -74,10 +75,7 @@ def test_a_cylinder_had_no_mantle() -> None:
     assert np.linalg.norm(normals[mantle], axis=1).sum() / 2 == pytest.approx(4 * pi, rel=0.01)
 
 
-@pytest.mark.parametrize(
-    ("text", "exact"),
-    [("z >= x^2 + y^2 and x >= 0", None), ("x^2 + y^2 >= 100 and z >= 0 and z <= 5", None), ("x = x or y = z", 512.0)],
-)
+@each(("z >= x^2 + y^2 and x >= 0", None), ("x^2 + y^2 >= 100 and z >= 0 and z <= 5", None), ("x = x or y = z", 512.0))
 def test_what_goes_on_for_ever_is_cut_by_the_frame(text: str, exact: float | None) -> None:
     region = qe.region(text, order=ORDER)
     inside, frame = framed(region)

@@ -18,6 +18,7 @@ from qe.io.substitution import over_one_ring
 from qe.options import Budget
 from qe.regions.spatial import Coordinates, Space, coordinates
 from tests.strategies import formulas
+from tests.tables import each
 
 ORDER = ("x", "y", "z")
 TORUS = "(x^2 + y^2 + z^2 + 3)^2 <= 16*(x^2 + y^2)"
@@ -67,10 +68,7 @@ def test_known_numbers(text: str, count: int) -> None:
     assert not parts or qe.equivalent(disj(over_one_ring(*(p.formula for p in parts))), whole.formula)
 
 
-@pytest.mark.parametrize(
-    ("text", "count"),
-    [(TORUS, 1), (f"{TORUS} or x^2 + y^2 + z^2 <= 1/2", 2), (f"{TORUS} and x*y /= 0", 4), (f"({TORUS}) = false", 1)],
-)
+@each((TORUS, 1), (f"{TORUS} or x^2 + y^2 + z^2 <= 1/2", 2), (f"{TORUS} and x*y /= 0", 4), (f"({TORUS}) = false", 1))
 def test_a_torus(text: str, count: int) -> None:
     """Alone, with a ball in its hole, without two planes, and what is around it."""
     outside = text.endswith("= false")

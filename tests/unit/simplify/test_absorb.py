@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +12,7 @@ from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
 from qe.io.text import read
 from qe.simplify.absorb import absorb
 from tests.strategies import points
+from tests.tables import each
 
 NAMES = ("a", "b", "c")
 RING = Ring.of(NAMES)
@@ -40,16 +40,13 @@ def absorbed(*members: str, conjunctive: bool = False) -> set[Formula]:
     return set(absorb([formula(m) for m in members], conjunctive, level))
 
 
-@pytest.mark.parametrize(
-    ("members", "left"),
-    [
-        (("a > 0 and b > 0", "a > 0 and b > 0 and c = 0"), ("a > 0 and b > 0",)),
-        (("a > 0 and b > 0", "a > 0 and b = 0"), ("a > 0 and b >= 0",)),
-        (("a > 0 and b > 0", "a > 0 and b <= 0"), ("a > 0",)),
-        (("a > 0 and b > 0", "a > 0 and c > 0"), ("a > 0 and b > 0", "a > 0 and c > 0")),
-        (("a > 0 and b > 0", "a = 0 and b = 0"), ("a > 0 and b > 0", "a = 0 and b = 0")),
-        (("a > 0 and b > 0 and c > 0", "a > 0 and b > 0 and c <= 0", "a > 0 and b <= 0"), ("a > 0",)),
-    ],
+@each(
+    (("a > 0 and b > 0", "a > 0 and b > 0 and c = 0"), ("a > 0 and b > 0",)),
+    (("a > 0 and b > 0", "a > 0 and b = 0"), ("a > 0 and b >= 0",)),
+    (("a > 0 and b > 0", "a > 0 and b <= 0"), ("a > 0",)),
+    (("a > 0 and b > 0", "a > 0 and c > 0"), ("a > 0 and b > 0", "a > 0 and c > 0")),
+    (("a > 0 and b > 0", "a = 0 and b = 0"), ("a > 0 and b > 0", "a = 0 and b = 0")),
+    (("a > 0 and b > 0 and c > 0", "a > 0 and b > 0 and c <= 0", "a > 0 and b <= 0"), ("a > 0",)),
 )
 def test_members_of_a_disjunction(members: tuple[str, ...], left: tuple[str, ...]) -> None:
     assert absorbed(*members) == set(map(formula, left))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from qe.exact.ring import Ring
 from qe.formula.build import atom, convert
 from qe.formula.syntax import FALSE, TRUE, And, Formula, Or, Relation
@@ -11,25 +9,23 @@ from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.simplify.factors import atom_under, reduce_atom
 from qe.simplify.facts import NOTHING, factor_list
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.gen(0), RING.gen(1)
 
 
-@pytest.mark.parametrize(
-    ("known", "poly", "signs"),
-    [
-        ("x > 0", X**2 * Y, {-1, 0, 1}),
-        ("x < 0", X**2 * Y**2, {0, 1}),
-        ("x < 0 and y < 0", X * Y, {1}),
-        ("x < 0 and y < 0", X**2 * Y, {-1}),
-        ("x < 0 and y < 0", -(X**2) * Y, {1}),
-        ("x /= 0 and y <= 0", X**2 * Y, {-1, 0}),
-        ("x - y > 0", (X - Y) ** 3, {1}),
-        ("x - y < 0 and y < 0", (X - Y) ** 2 * Y, {-1}),
-        ("x - y /= 0 and y < 0", -((X - Y) ** 2) * Y, {1}),
-        ("x > 1 and y > 1", X + Y - 2, {1}),
-    ],
+@each(
+    ("x > 0", X**2 * Y, {-1, 0, 1}),
+    ("x < 0", X**2 * Y**2, {0, 1}),
+    ("x < 0 and y < 0", X * Y, {1}),
+    ("x < 0 and y < 0", X**2 * Y, {-1}),
+    ("x < 0 and y < 0", -(X**2) * Y, {1}),
+    ("x /= 0 and y <= 0", X**2 * Y, {-1, 0}),
+    ("x - y > 0", (X - Y) ** 3, {1}),
+    ("x - y < 0 and y < 0", (X - Y) ** 2 * Y, {-1}),
+    ("x - y /= 0 and y < 0", -((X - Y) ** 2) * Y, {1}),
+    ("x > 1 and y > 1", X + Y - 2, {1}),
 )
 def test_signs(known: str, poly: object, signs: set[int]) -> None:
     facts = NOTHING.extended(conjuncts(convert(read(known), RING)))
@@ -37,16 +33,13 @@ def test_signs(known: str, poly: object, signs: set[int]) -> None:
     assert facts.sign(poly) == (next(iter(signs)) if signs in ({1}, {-1}) else None)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(
-    ("known", "poly", "relation", "expected"),
-    [
-        ("x > 0", X * Y, Relation.LT, "y < 0"),
-        ("x < 0", X * Y, Relation.LT, "y > 0"),
-        ("x /= 0", X**2 * Y, Relation.LE, "y <= 0"),
-        ("x >= 0", X * Y, Relation.GT, "x /= 0 and y > 0"),
-        ("x >= 0", X, Relation.LE, "x = 0"),
-        ("y = 0 or x > 0", X * Y, Relation.EQ, "x*y = 0"),
-    ],
+@each(
+    ("x > 0", X * Y, Relation.LT, "y < 0"),
+    ("x < 0", X * Y, Relation.LT, "y > 0"),
+    ("x /= 0", X**2 * Y, Relation.LE, "y <= 0"),
+    ("x >= 0", X * Y, Relation.GT, "x /= 0 and y > 0"),
+    ("x >= 0", X, Relation.LE, "x = 0"),
+    ("y = 0 or x > 0", X * Y, Relation.EQ, "x*y = 0"),
 )
 def test_atoms_made_smaller(known: str, poly: object, relation: Relation, expected: str) -> None:
     facts = NOTHING.extended(conjuncts(convert(read(known), RING)))
@@ -66,21 +59,18 @@ def test_factors_of_any_associate() -> None:
     assert factor_list(3 - 3 * X) == ((X - 1, 1),)
 
 
-@pytest.mark.parametrize(
-    ("text", "conjunctive", "expected"),
-    [
-        ("x*y /= 0", True, "x /= 0 and y /= 0"),
-        ("x*y /= 0", False, "x*y /= 0"),
-        ("x*y = 0", False, "x = 0 or y = 0"),
-        ("x*y = 0", True, "x*y = 0"),
-        ("x^3*y = 0", True, "x*y = 0"),
-        ("x^2 + y^2 = 0", True, "x = 0 and y = 0"),
-        ("x^2 + y^2 = 0", False, "x^2 + y^2 = 0"),
-        ("x^2 + y^2 /= 0", False, "x /= 0 or y /= 0"),
-        ("x^2 + y^2 /= 0", True, "x^2 + y^2 /= 0"),
-        ("(y^2 + 1)*(x^2 + y^2) = 0", True, "x^2 + y^2 = 0"),  # the factor that is left is looked at another time
-        ("x^2 - 2*x*y + y^2 = 0", True, "x - y = 0"),
-    ],
+@each(
+    ("x*y /= 0", True, "x /= 0 and y /= 0"),
+    ("x*y /= 0", False, "x*y /= 0"),
+    ("x*y = 0", False, "x = 0 or y = 0"),
+    ("x*y = 0", True, "x*y = 0"),
+    ("x^3*y = 0", True, "x*y = 0"),
+    ("x^2 + y^2 = 0", True, "x = 0 and y = 0"),
+    ("x^2 + y^2 = 0", False, "x^2 + y^2 = 0"),
+    ("x^2 + y^2 /= 0", False, "x /= 0 or y /= 0"),
+    ("x^2 + y^2 /= 0", True, "x^2 + y^2 /= 0"),
+    ("(y^2 + 1)*(x^2 + y^2) = 0", True, "x^2 + y^2 = 0"),  # the factor that is left is looked at another time
+    ("x^2 - 2*x*y + y^2 = 0", True, "x - y = 0"),
 )
 def test_equations_are_split_where_that_keeps_their_meaning(text: str, conjunctive: bool, expected: str) -> None:
     """Products in /= are split in a conjunction, those in = in a disjunction, and nowhere else."""

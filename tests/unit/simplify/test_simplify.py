@@ -8,6 +8,7 @@ from qe.formula.syntax import FALSE, TRUE
 from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.simplify.simplify import simplify
+from tests.tables import each
 
 CASES = [
     # implied bounds: one polynomial up to a constant
@@ -86,14 +87,11 @@ def test_contradictory_assumptions_allow_everything() -> None:
     assert simplify(read("x > y"), read("x > 0 and x < 0")) == TRUE
 
 
-@pytest.mark.parametrize(
-    "kept",
-    [
-        "x > 1 and ex x. (x > 0 and x*y > 1)",  # the bound x is not the free one
-        "x > 1 and ex x. (x < 0 and x + y > 0)",
-        "x >= 0 and x + y >= 0 and y < 3",
-        "x^2 - 2*x*y + y^2 + z <= 0",
-    ],
+@each(
+    "x > 1 and ex x. (x > 0 and x*y > 1)",  # the bound x is not the free one
+    "x > 1 and ex x. (x < 0 and x + y > 0)",
+    "x >= 0 and x + y >= 0 and y < 3",
+    "x^2 - 2*x*y + y^2 + z <= 0",
 )
 def test_nothing_to_do(kept: str) -> None:
     given = read(kept)
