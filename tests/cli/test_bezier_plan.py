@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli import command
+from tests.tables import each
 
 BEZIER, QE = "bezier", "qe"
 FILES = {"report.html", "region.json", "certificate.json", "path.csv", "path.json", "region.png", "path.png"}
@@ -140,20 +141,18 @@ def test_no_control_point(root: Path, tmp_path: Path) -> None:
     assert words.returncode == 3 and "cubic" in words.stdout
 
 
-ALTERED = {
-    "a coordinate": ("path.json", '"exact": "3"', '"exact": "4"'),
-    "the problem": ("path.json", '"radius_squared": "89/4"', '"radius_squared": "22"'),
-    "the smoothness": ("path.json", '"smoothness": "C1"', '"smoothness": "C2"'),
-    "the region": ("region.json", '"<="', '"<"'),
-    "the table of the path": ("path.csv", "\n0.02,", "\n0.03,"),
-    "the points of the summary": ("summary.json", '"decimal": "3"', '"decimal": "4"'),
-    "the certificate": ("certificate.json", '"relation":"<="', '"relation":"<"'),
-}
-
-
-@pytest.mark.parametrize("what", ALTERED)
-def test_altered_files_are_rejected(main_example: Path, tmp_path: Path, what: str) -> None:
-    name, old, new = ALTERED[what]
+@each(
+    {
+        "a coordinate": ("path.json", '"exact": "3"', '"exact": "4"'),
+        "the problem": ("path.json", '"radius_squared": "89/4"', '"radius_squared": "22"'),
+        "the smoothness": ("path.json", '"smoothness": "C1"', '"smoothness": "C2"'),
+        "the region": ("region.json", '"<="', '"<"'),
+        "the table of the path": ("path.csv", "\n0.02,", "\n0.03,"),
+        "the points of the summary": ("summary.json", '"decimal": "3"', '"decimal": "4"'),
+        "the certificate": ("certificate.json", '"relation":"<="', '"relation":"<"'),
+    }
+)
+def test_altered_files_are_rejected(name: str, old: str, new: str, main_example: Path, tmp_path: Path) -> None:
     for path in main_example.iterdir():
         (tmp_path / path.name).write_bytes(path.read_bytes())
     text = (tmp_path / name).read_text()

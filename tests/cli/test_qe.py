@@ -9,8 +9,6 @@ import sys
 import time
 from pathlib import Path
 
-import pytest
-
 from tests.cli import command
 from tests.tables import each
 from tests.waiting import ending
@@ -158,7 +156,7 @@ def test_what_is_proved_about_an_optimum_that_is_none_has_a_certificate(tmp_path
         assert run("check", "c.json", cwd=tmp_path).stdout.startswith("accepted")
 
 
-BAD_FORMULAS = [
+@each(
     "ex x. x^2 +",
     "x ** ** 2 = 0",
     "x^2 < ",
@@ -176,10 +174,7 @@ BAD_FORMULAS = [
     "x^y = 1",
     "x > 1/(2-2)",
     "x\x01 > 0",
-]
-
-
-@pytest.mark.parametrize("text", BAD_FORMULAS)
+)
 def test_bad_formulas(text: str) -> None:
     refused(run("eliminate", text), 2, "qe: ")
 

@@ -80,21 +80,22 @@ def test_a_path_along_the_border_is_named() -> None:
         study(ARM, Bezier.of([(0, 0, 100), (0, 0, 150)]))
 
 
-BAD_ARMS = {
-    "no rows": ('convention = "modified"\n', "1 to 24 tables [[row]]"),
-    "no joint": ('convention = "modified"\n[[row]]\na = 3\n', "a row with a joint"),
-    "not polynomial": ('convention = "modified"\n[[row]]\njoint = "a"\nalpha = 1\n', "a multiple of pi/12"),
-    "a screw": ('convention = "modified"\n[[row]]\njoint = "a"\nkind = "screw"\n', "revolute"),
-    "no convention": ('[[row]]\njoint = "a"\n', "convention"),
-    "one name twice": ('convention = "modified"\n[[row]]\njoint = "a"\n[[row]]\njoint = "a"\n', "different names"),
-    "limits the wrong way": ('convention = "modified"\n[[row]]\njoint = "a"\nlimits = [2, 1]\n', "below the greatest"),
-    "a float": ('convention = "modified"\n[[row]]\njoint = "a"\nd = nan\n', "d"),
-}
-
-
-@pytest.mark.parametrize("name", BAD_ARMS)
-def test_bad_arms_get_one_line(name: str) -> None:
-    text, message = BAD_ARMS[name]
+@each(
+    {
+        "no rows": ('convention = "modified"\n', "1 to 24 tables [[row]]"),
+        "no joint": ('convention = "modified"\n[[row]]\na = 3\n', "a row with a joint"),
+        "not polynomial": ('convention = "modified"\n[[row]]\njoint = "a"\nalpha = 1\n', "a multiple of pi/12"),
+        "a screw": ('convention = "modified"\n[[row]]\njoint = "a"\nkind = "screw"\n', "revolute"),
+        "no convention": ('[[row]]\njoint = "a"\n', "convention"),
+        "one name twice": ('convention = "modified"\n[[row]]\njoint = "a"\n[[row]]\njoint = "a"\n', "different names"),
+        "limits the wrong way": (
+            'convention = "modified"\n[[row]]\njoint = "a"\nlimits = [2, 1]\n',
+            "below the greatest",
+        ),
+        "a float": ('convention = "modified"\n[[row]]\njoint = "a"\nd = nan\n', "d"),
+    }
+)
+def test_bad_arms_get_one_line(text: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
         read_arm(text, "arm.toml")
     assert message in str(caught.value) and "arm.toml" in str(caught.value) and "\n" not in str(caught.value)

@@ -113,17 +113,14 @@ def test_no_solution_is_missed_by_newton(start: list[float], which: int) -> None
         assert gaps.min() < 1e-4
 
 
-SPECIAL = [
+@each(
     (("44*sqrt(2) + 8*sqrt(293) + 120", "0", "104 + 44*sqrt(2)"), 1, [True]),
     (("44*sqrt(2) + 8*sqrt(293) - 120", "0", "104 + 44*sqrt(2)"), 3, [True, False, False]),
     (("0", "44*sqrt(2)", "104 + 44*sqrt(2) + 8*sqrt(293) + 120"), 1, [True]),
     (("44*sqrt(2)", "0", "104 + 44*sqrt(2)"), 2, [False, False]),
     (("100", "50", "104 + 44*sqrt(2)"), 4, [False] * 4),
     (("0", "0", "500"), 0, []),
-]
-
-
-@pytest.mark.parametrize(("texts", "count", "multiple"), SPECIAL)
+)
 def test_borders_and_circle(texts: tuple[str, ...], count: int, multiple: list[bool]) -> None:
     found = solve(load_arm("ev3-120"), [read_exact(t) for t in texts])
     assert found.count == count

@@ -96,7 +96,7 @@ def test_shipped_arms_are_read(name: str) -> None:
     assert len(positions(arm, [[0.1] * len(arm.joints)])[0]) == 3
 
 
-BAD = [
+@each(
     ("", "row: expected 1 to 24"),
     ('convention = "modified"\n[[row]]\na = 1\n', "a row with a joint"),
     ('[[row]]\njoint = "t"\n', "convention"),
@@ -114,10 +114,7 @@ BAD = [
     ('convention = "modified"\n[[row]]\njoint = "1t"\n', "a name such as theta1"),
     ('convention = "modified"\n[[row]]\njoint = "t"\nb = 1\n', "unknown key"),
     ('name = 1\nconvention = "modified"\n[[row]]\njoint = "t"\n', "a text"),
-]
-
-
-@pytest.mark.parametrize(("text", "message"), BAD)
+)
 def test_bad_files_get_one_clear_line(text: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
         read_arm(text, "arm.toml")

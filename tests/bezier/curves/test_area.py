@@ -12,17 +12,16 @@ from qe.errors import InputError
 from tests.tables import each
 
 PI = Fraction(3141592653589793, 10**15)
-CASES = [
+
+
+@each(
     ("x^2 + y^2 <= 1", PI),
     ("x >= 0 and y >= 0 and x + 2*y <= 3", Fraction(9, 4)),
     ("x^2 <= y and y <= 1", Fraction(4, 3)),
     ("4*x^2 + y^2 <= 4 and x >= 0", PI),
     ("0 <= x and x <= 1 and 0 <= y and y <= 1/1000", Fraction(1, 1000)),
     ("x^2 + y^2 <= 1 and (x - 1)^2 + y^2 <= 1", 2 * PI / 3 - Fraction(8660254037844386, 10**16)),
-]
-
-
-@pytest.mark.parametrize(("text", "area"), CASES)
+)
 def test_known_areas(text: str, area: Fraction) -> None:
     for rel in (Fraction(1, 20), Fraction(1, 1000)):
         found = convex_area(qe.region(text), rel)

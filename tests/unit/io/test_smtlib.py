@@ -141,10 +141,7 @@ def test_writing() -> None:
     assert "QF_NRA" in smtlib.write(text("x > 0"))
 
 
-STRANGE = ["and", "pi", "e", "sin", "x'", "a b", "ä", "_", "let", "Real", "is_int", ".x", "1x", "@y", "declare-x"]
-
-
-@pytest.mark.parametrize("name", STRANGE)
+@each("and", "pi", "e", "sin", "x'", "a b", "ä", "_", "let", "Real", "is_int", ".x", "1x", "@y", "declare-x")
 def test_scripts_with_any_name_are_read_by_z3(name: str) -> None:
     z3 = pytest.importorskip("z3")
     formula = atom(Ring.of((name, f"v_{name}")).gen(0) - Ring.of((name, f"v_{name}")).gen(1), Relation.GT)
