@@ -17,7 +17,9 @@ from qe.formula.build import conj, exists
 from qe.formula.syntax import Formula
 from qe.regions.convex_region import ConvexRegion
 from qe.regions.region import Region
+from tests.enough import enough
 from tests.strict_problems import conditions
+from tests.tables import each
 
 RING = Ring.of(("x", "y", "u", "v"))
 ORDER = ("x", "y")
@@ -82,25 +84,17 @@ def consistent(formula: Formula) -> bool:
     return True
 
 
-def test_questions_agree_with_the_decomposition_in_any_order() -> None:
-    asked: list[bool] = []
-
-    @settings(max_examples=5)
-    @given(shadows())
-    def law(formula: Formula) -> None:
-        asked.append(consistent(formula))
-
-    law()
-    assert sum(asked) >= 4
-
-
-@pytest.mark.deep
-@given(shadows())
-def test_questions_agree_with_the_decomposition_deep(formula: Formula) -> None:
+def decided(formula: Formula) -> bool:
     try:
-        consistent(formula)
+        return consistent(formula)
     except Unable as reason:
         assert "degree above" in str(reason)
+        return False
+
+
+@each((4, 5), pytest.param(200, 400, marks=pytest.mark.deep))
+def test_questions_agree_with_the_decomposition_in_any_order(at_least: int, of: int) -> None:
+    enough(at_least, of, shadows())(decided)()
 
 
 @settings(max_examples=5)
