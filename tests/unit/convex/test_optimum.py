@@ -1,22 +1,41 @@
-"""Small convex problems, one for each thing that can happen."""
+"""Small convex problems, one for each thing that can happen; the conditions of optimality; strict conditions."""
 
 from __future__ import annotations
 
+from fractions import Fraction
 from fractions import Fraction as F
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from qe.convex.kkt import Kkt, kkt_point, sign
+from qe.convex.minimise import solve
 from qe.convex.optimum import NotConvex, Optimum, OptimumStatus, maximize, minimize
-from qe.errors import BudgetExceeded, Unable
+from qe.convex.strict import settle_strict
+from qe.convex.system import ConvexSystem, read_system
+from qe.errors import BudgetExceeded, InputError, Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.field import NumberField
+from qe.exact.kkt_system import Point
+from qe.exact.quadratic_form import Quadratic
 from qe.exact.ring import Poly, Ring
 from qe.expert.optimum import check_optimum
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.io.lowering import lower_term
+from qe.io.text import read, read_term
 from qe.options import Budget
+from qe.proof.multipliers import FormRelation, OptimumEvidence
 from tests.tables import each
+from tests.unit.convex.quadratics import ball, diagonal, line
 
 RING, OTHER = Ring.of(("x", "y", "z")), Ring.of(("b", "x"))
+
+
 X, Y, Z = (RING.gen(i) for i in range(3))
+
+
 LE, LT, EQ, GE, GT = Relation.LE, Relation.LT, Relation.EQ, Relation.GE, Relation.GT
 
 
@@ -32,6 +51,8 @@ def _solved(objective, constraints: Formula, **options) -> Optimum:
 
 
 BALL, SECOND = X * X + Y * Y - 1, (X - 2) * (X - 2) + Y * Y - 1
+
+
 INFEASIBLE, UNBOUNDED = {"status": OptimumStatus.INFEASIBLE, "value": None}, {"status": OptimumStatus.UNBOUNDED}
 
 
@@ -155,3 +176,141 @@ def test_what_is_not_convex_is_refused(objective, constraints: Formula) -> None:
 def test_budget_is_respected() -> None:
     with pytest.raises(BudgetExceeded):
         minimize(X * X, _all((X - 1, GE)), budget=Budget(0.0))
+
+
+def least(objective: Quadratic, *forms: Quadratic) -> Kkt | None:
+    return kkt_point(objective, forms, budget=Budget(60))
+
+
+def proves(objective: Quadratic, forms: tuple[Quadratic, ...], found: Kkt) -> bool:
+    """The theorem's conditions, with everything recomputed."""
+    slope = objective.slope(found.point)
+    for i, m in found.multipliers.items():
+        slope = [a + m * b for a, b in zip(slope, forms[i].slope(found.point))]
+    complementary = all(not sign(forms[i].value(found.point)) for i in found.multipliers)
+    return (
+        all(sign(m) > 0 for m in found.multipliers.values())
+        and complementary
+        and not any(map(sign, slope))
+        and all(sign(g.value(found.point)) <= 0 for g in forms)
+    )
+
+
+def test_signs() -> None:
+    root = NumberField.from_root([-2, 0, 1], 1, 2).generator()
+    assert [sign(v) for v in (Fraction(-1, 3), Fraction(0), Fraction(2))] == [-1, 0, 1]
+    assert [sign(v) for v in (root - 2, root - root, root - 1)] == [-1, 0, 1]
+
+
+@each(
+    (ball((3, 0), 0), (), 0, True),
+    (ball((3, 0), 0), (ball((0, 0), 1),), 4, True),
+    (line(1, 1), (ball((0, 0), 2),), -2, True),
+    (line(1, 0), (line(-1, 0, constant=2),), 2, False),  # a whole line of minima
+    (diagonal(1, 0), (line(0, 1, constant=-5),), 0, False),
+    (line(1, 1), (line(-1, 0), line(0, -1)), 0, True),
+    (line(1, 0), (line(-1, 0), line(-1, -1), line(-1, 1)), 0, None),  # three lines through the minimum
+)
+def test_least_values(objective: Quadratic, forms: tuple[Quadratic, ...], value: int, unique: bool | None) -> None:
+    found = least(objective, *forms)
+    assert found is not None and objective.value(found.point) == value
+    assert proves(objective, forms, found)
+    assert found.unique is unique or unique is None
+
+
+def test_an_irrational_minimum() -> None:
+    found = least(line(1, 1), ball((0, 0), 1))
+    assert found is not None and found.field.degree == 2 and proves(line(1, 1), (ball((0, 0), 1),), found)
+    value = line(1, 1).value(found.point).to_algebraic()  # type: ignore[union-attr]
+    assert value == -RealAlgebraic.from_root([-2, 0, 1], 1, 2)
+
+
+@each(
+    (line(1, 0), ()),  # unbounded
+    (line(1, 0), (ball((0, 0), 1), ball((5, 0), 1))),  # infeasible
+    (line(0, 1), (ball((0, 0), 1), ball((2, 0), 1))),  # one point, without multipliers
+)
+def test_what_has_no_multipliers(objective: Quadratic, forms: tuple[Quadratic, ...]) -> None:
+    assert least(objective, *forms) is None
+
+
+@settings(max_examples=15)
+@given(st.integers(-4, 4), st.integers(-4, 4), st.integers(1, 9), st.integers(-3, 3), st.integers(-3, 3))
+def test_the_nearest_point_of_a_disc(x: int, y: int, square: int, a: int, b: int) -> None:
+    objective, disc = ball((a, b), 0), ball((x, y), square)
+    found = least(objective, disc)
+    assert found is not None and proves(objective, (disc,), found) and found.unique is True
+    inside = sign(disc.value((Fraction(a), Fraction(b)))) <= 0
+    assert (not found.multipliers) is inside or sign(disc.value((Fraction(a), Fraction(b)))) == 0
+
+
+def system(objective: str, conditions: str) -> ConvexSystem:
+    value = lower_term(read_term(objective), lambda message, at: InputError(message))
+    return read_system(read(conditions), value.poly, scale=Fraction(1, value.den))
+
+
+def settled(objective: str, conditions: str) -> tuple[ConvexSystem, OptimumEvidence]:
+    given = system(objective, conditions)
+    return given, settle_strict(given, solve(given, budget=Budget(60)), budget=Budget(60))
+
+
+def satisfies(given: ConvexSystem, point: Point) -> bool:
+    """Every constraint, the strict ones strictly."""
+    allowed = {FormRelation.EQ: (0,), FormRelation.LE: (-1, 0), FormRelation.LT: (-1,)}
+    return all(sign(f.value(point)) in allowed[r] for f, r in zip(given.forms, given.relations))
+
+
+@each(
+    ("x^2", "x > -1 and x < 1", 0),
+    ("x", "x >= 0 and y > 0", 0),
+    ("x", "x >= 0 and y > 0 and x + y < 1", 0),
+    ("x + y", "x + y >= 2 and x > 0 and y > 0", 2),
+    ("x^2 + y^2", "x = 3 and y > -1", 9),
+    ("0*x", "x > 0 and x < 1/1000000", 0),
+)
+def test_attained(objective: str, conditions: str, value: int) -> None:
+    given, found = settled(objective, conditions)
+    assert found.status is OptimumStatus.OPTIMAL and found.attained is True
+    assert satisfies(given, found.point) and given.objective.value(found.point) == value
+
+
+@each(
+    ("x", "x > 0", 0),
+    ("x", "x > 0 and y^2 < 1", 0),
+    ("x + y", "x + y > 2 and x > 0 and y > 0", 2),
+    ("x", "x^2 + y^2 < 4", -2),
+    ("y", "x^2 <= y and y > 0 and x <= 0", 0),
+    ("x", "x >= 0 and x > 0 and x + y = 1", 0),
+)
+def test_only_approached(objective: str, conditions: str, value: int) -> None:
+    given, found = settled(objective, conditions)
+    assert found.status is OptimumStatus.OPTIMAL and found.attained is False
+    assert given.objective.value(found.point) == value and not satisfies(given, found.point)
+    assert satisfies(given, found.inner_point)
+
+
+@each(
+    "x > 0 and x < 0",
+    "x >= 0 and x < 0",
+    "x^2 + y^2 <= 1 and x > 1",
+    "x^2 + y^2 < 1 and (x - 2)^2 + y^2 <= 1",
+    "x + y = 1 and x > 0 and y > 1",
+    "x >= 0 and x <= y and y <= x and x < y",
+    "x^2 <= 0 and y^2 <= 0 and x + y > 0",
+)
+def test_empty_though_the_closed_problem_is_not(conditions: str) -> None:
+    given = system("x", conditions)
+    assert solve(given, budget=Budget(60)).status is OptimumStatus.OPTIMAL
+    assert settled("x", conditions)[1].status is OptimumStatus.INFEASIBLE
+
+
+def test_without_bound_from_a_point_inside() -> None:
+    given, found = settled("x", "y > 0 and y < 1 and x < y")
+    assert found.status is OptimumStatus.UNBOUNDED and satisfies(given, found.point)
+    assert given.objective.value(found.direction) < 0
+
+
+def test_an_empty_problem_stays_empty() -> None:
+    given = system("x", "x > 1 and x < 0")
+    evidence = solve(given, budget=Budget(60))
+    assert settle_strict(given, evidence, budget=Budget(60)) is evidence
