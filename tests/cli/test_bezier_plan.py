@@ -244,6 +244,9 @@ CUBIC_ONLY = 'expected this key with method = "cubic" only'
 
 @each(
     (QUADRATIC, "start = [1,2]", "start"),
+    (QUADRATIC, 'start = [1,2,"x"]', "start[2]"),
+    (QUADRATIC, "start = [1,2,nan]", "start[2]"),
+    (QUADRATIC, "via = [[1,1,1]]", "via"),
     (QUADRATIC, 'start = ["1/0",1,1]', "zero"),
     (QUADRATIC, 'colour = "red"', "colour"),
     (QUADRATIC, 'radius = "1/2"', "radius"),

@@ -12,11 +12,11 @@ import pytest
 import qe
 from bezier.arm.critical import Reason
 from bezier.arm.inverse import solve
-from bezier.arm.reader import load_arm, read_arm, read_exact
+from bezier.arm.reader import load_arm, read_exact
 from bezier.arm.study import study
 from bezier.cli import main
 from bezier.curves.curve import Bezier
-from qe.errors import InputError, Unable
+from qe.errors import Unable
 from tests.tables import each
 
 ARM = load_arm("ev3-120")
@@ -78,27 +78,6 @@ def test_two_branches_merge_and_end_at_an_exact_place() -> None:
 def test_a_path_along_the_border_is_named() -> None:
     with pytest.raises(Unable, match=r"everywhere along the curve: (solutions meet|on the axis)"):
         study(ARM, Bezier.of([(0, 0, 100), (0, 0, 150)]))
-
-
-@each(
-    {
-        "no rows": ('convention = "modified"\n', "1 to 24 tables [[row]]"),
-        "no joint": ('convention = "modified"\n[[row]]\na = 3\n', "a row with a joint"),
-        "not polynomial": ('convention = "modified"\n[[row]]\njoint = "a"\nalpha = 1\n', "a multiple of pi/12"),
-        "a screw": ('convention = "modified"\n[[row]]\njoint = "a"\nkind = "screw"\n', "revolute"),
-        "no convention": ('[[row]]\njoint = "a"\n', "convention"),
-        "one name twice": ('convention = "modified"\n[[row]]\njoint = "a"\n[[row]]\njoint = "a"\n', "different names"),
-        "limits the wrong way": (
-            'convention = "modified"\n[[row]]\njoint = "a"\nlimits = [2, 1]\n',
-            "below the greatest",
-        ),
-        "a float": ('convention = "modified"\n[[row]]\njoint = "a"\nd = nan\n', "d"),
-    }
-)
-def test_bad_arms_get_one_line(text: str, message: str) -> None:
-    with pytest.raises(InputError) as caught:
-        read_arm(text, "arm.toml")
-    assert message in str(caught.value) and "arm.toml" in str(caught.value) and "\n" not in str(caught.value)
 
 
 @each(

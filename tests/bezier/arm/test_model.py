@@ -114,6 +114,9 @@ def test_shipped_arms_are_read(name: str) -> None:
     ('convention = "modified"\n[[row]]\njoint = "t"\nalpha = 1.5\n', "multiple of pi/12"),
     ('convention = "modified"\n[[row]]\njoint = "t"\n[[row]]\njoint = "t"\n', "different names"),
     ('convention = "modified"\n[[row]]\njoint = "t"\nlimits = [1, 1]\n', "below the greatest"),
+    ('convention = "modified"\n[[row]]\njoint = "t"\nlimits = [2, 1]\n', "below the greatest"),
+    ('convention = "modified"\n[[row]]\njoint = "t"\nd = nan\n', "d"),
+    ('convention = "modified"\n', "1 to 24 tables [[row]]"),
     ('convention = "modified"\n[[row]]\njoint = "t"\nlimits = 3\n', "the least and the greatest"),
     ('convention = "modified"\n[[row]]\na = 1\nlimits = [0, 1]\n', "in a row with a joint"),
     ('convention = "modified"\n[[row]]\njoint = "t"\nkind = "ball"\n', '"revolute" or "prismatic"'),
@@ -124,8 +127,7 @@ def test_shipped_arms_are_read(name: str) -> None:
 def test_bad_files_get_one_clear_line(text: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
         read_arm(text, "arm.toml")
-    assert message in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert message in str(caught.value) and "arm.toml" in str(caught.value) and "\n" not in str(caught.value)
 
 
 def test_an_unknown_arm_is_named() -> None:

@@ -22,14 +22,14 @@ from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.robot import Robot
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
+from tests.bezier.arm.arms import arm_text
 from tests.tables import each
 
 SIX, PLANAR = load_arm("six-joints"), load_arm("planar-3r")
 
 
 def arm_of(*rows: str) -> Arm:
-    body = "".join(f'[[row]]\njoint = "q{k}"\n{row}\n' for k, row in enumerate(rows, start=1))
-    return read_arm('convention = "standard"\n' + body.replace("; ", "\n"))
+    return read_arm(arm_text(*rows))
 
 
 SKEW = arm_of(
@@ -237,9 +237,7 @@ SKEW_FREE = arm_of('alpha = "pi/2"; d = 90', "a = 60", "a = 55", 'alpha = "pi/2"
 
 
 def test_limits_and_offsets() -> None:
-    text = 'convention = "standard"\n' + "".join(
-        f'[[row]]\njoint = "q{k}"\na = {a}\n' for k, a in enumerate((100, 80, 50))
-    )
+    text = arm_text("a = 100", "a = 80", "a = 50")
     arm = read_arm(text.replace("a = 80", 'a = 80\ntheta = "pi/2"\nlimits = [0, 1]'))
     found = solve_pose(arm, (120, 30, 0), rotation_of((1, 0, 0, 0)))
     assert sorted((s.allowed, 0 <= (s.angles[1] or 0) <= 1) for s in found.solutions) == [(False, False), (True, True)]

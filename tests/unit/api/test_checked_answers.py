@@ -137,12 +137,3 @@ def test_an_altered_guard_is_refused() -> None:
     other["digest"] = digest(other)
     verdict = verify_json(json.dumps(other))
     assert verdict.step == "payload.answer"
-
-
-@each(1, "yes", None)
-def test_check_is_a_truth_value(given: object) -> None:
-    for ask in (qe.region, qe.parametric_witnesses):
-        with pytest.raises(qe.InputError, match="check"):
-            ask("ex x. a*x = 1", check=given)  # type: ignore[arg-type]
-    with pytest.raises(qe.InputError, match="check"):
-        qe.minimize("x", "x > 0", check=given)  # type: ignore[call-overload]

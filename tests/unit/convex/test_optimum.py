@@ -92,6 +92,12 @@ INFEASIBLE, UNBOUNDED = {"status": OptimumStatus.INFEASIBLE, "value": None}, {"s
         "an equation against a strict bound": (X + Y, _all((X, EQ), (X, LT)), INFEASIBLE),
         "a strict bound that misses a single point": (X + Y, _all((X * X + Y * Y, LE), (X + Y, GT)), INFEASIBLE),
         "unbounded in a parabola": (X * X + Y, TRUE, UNBOUNDED),
+        "unbounded without constraints": (X, TRUE, UNBOUNDED),
+        "a ball of radius zero": (X + Y, _all((X * X + Y * Y, LE)), {"value": 0, "point": {"x": 0, "y": 0}}),
+        "a tangent": (X, _all((BALL, LE), (Y - 1, EQ)), {"value": 0, "point": {"x": 0, "y": 1}}),
+        "half-planes that meet in a line": (X, _all((Y, GE), (Y, LE), (X - 3, GE)), {"value": 3}),
+        "an open half-line": (X, _all((X - 2, GT)), {"attained": False, "value": 2}),
+        "bounds that exclude each other": (X, _all((X - 1, GT), (X - 1, LT)), INFEASIBLE),
         "objective and constraints of different rings": (
             X * X,
             conj((atom(OTHER.var("x") - OTHER.var("b"), GE), atom(OTHER.var("b") - 2, GE))),
