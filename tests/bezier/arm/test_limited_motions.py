@@ -52,9 +52,9 @@ TANGENT: Points = [(-100, 30, 100), (100, 30, 100)]
     ((-20, -10), 4),
 )
 def test_a_side_of_the_axis_is_allowed_or_forbidden(limits: Limits, kept: int) -> None:
-    found = joint_path(limited(load_arm(E), limits), curves_of(THROUGH))
+    plan = joint_plan(limited(load_arm(E), limits), curves_of(THROUGH), TimeLaw.of(Law.QUINTIC), F(10), 11)
+    found = plan.path
     assert found.count == 4 and found.allowed_count == kept and found.is_reachable is (kept > 0)
-    plan = joint_plan(found.arm, found.curves, TimeLaw.of(Law.QUINTIC), F(10), 11)
     assert plan.is_followed is (kept > 0)
     assert limits is not None
     if plan.sequence is not None:
@@ -237,10 +237,6 @@ def check_random(seed: int) -> int:
     return sum(verdict is not None for verdict in verdicts)
 
 
-def test_motions_within_random_limits_are_those_of_samples() -> None:
-    assert sum(check_random(seed) for seed in range(len(PATHS))) >= 25
-
-
-@pytest.mark.deep
-def test_motions_within_many_random_limits_are_those_of_samples() -> None:
-    assert sum(check_random(seed) for seed in range(100, 500)) >= 1000
+@each((range(len(PATHS)), 25), pytest.param(range(100, 500), 1000, marks=pytest.mark.deep))
+def test_motions_within_random_limits_are_those_of_samples(seeds: range, judged_at_least: int) -> None:
+    assert sum(check_random(seed) for seed in seeds) >= judged_at_least

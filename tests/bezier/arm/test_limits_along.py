@@ -63,9 +63,10 @@ def test_a_path_outside_all_limits_is_not_reachable() -> None:
 def test_what_happens_between_two_samples_counts(beyond: str, keeps: bool) -> None:
     """The lift is highest halfway, 250 mm and ``beyond``; samples were all that was looked at."""
     top = Fraction(600) + 2 * Fraction(beyond)
-    found = path(CYLINDER, (20, -300, 100), (20, -200, top), (20, -300, 100))
+    curve = {"curve": Bezier.of([(20, -300, 100), (20, -200, top), (20, -300, 100)])}
+    plan = joint_plan(CYLINDER, curve, TimeLaw.of(Law.QUINTIC), Fraction(50), 4)
+    found = plan.path
     assert found.is_reachable is keeps and len(found.whole_runs) == keeps and all_accepted(found)
-    plan = joint_plan(CYLINDER, found.curves, TimeLaw.of(Law.QUINTIC), Fraction(50), 4)
     assert plan.is_followed is keeps
     if not keeps:
         (gap,) = found.studies[0].gaps
@@ -213,17 +214,10 @@ def close_passes(rng: random.Random) -> int:
     return 2
 
 
-def test_closeness_to_a_limit_is_decided() -> None:
-    rng, tried = random.Random(4), 0
-    while tried < 4:
-        tried += close_passes(rng)
-
-
-@pytest.mark.deep
-@pytest.mark.parametrize("part", range(8))
-def test_closeness_to_a_limit_is_decided_on_many_paths(part: int) -> None:
-    rng, tried = random.Random(100 + part), 0
-    while tried < 50:
+@each((4, 4), *(pytest.param(100 + part, 50, marks=pytest.mark.deep) for part in range(8)))
+def test_closeness_to_a_limit_is_decided(seed: int, paths: int) -> None:
+    rng, tried = random.Random(seed), 0
+    while tried < paths:
         tried += close_passes(rng)
 
 

@@ -112,6 +112,8 @@ def test_shipped_arms_are_read(name: str) -> None:
         ":4: row[0].alpha: expected a multiple of pi/12",
     ),
     ('convention = "modified"\n[[row]]\njoint = "t"\nalpha = 1.5\n', "multiple of pi/12"),
+    ('convention = "modified"\n[[row]]\njoint = "t"\nalpha = 1\n', "multiple of pi/12"),
+    ('convention = "modified"\n[[row]]\njoint = "t"\nkind = "screw"\n', "revolute"),
     ('convention = "modified"\n[[row]]\njoint = "t"\n[[row]]\njoint = "t"\n', "different names"),
     ('convention = "modified"\n[[row]]\njoint = "t"\nlimits = [1, 1]\n', "below the greatest"),
     ('convention = "modified"\n[[row]]\njoint = "t"\nlimits = [2, 1]\n', "below the greatest"),
