@@ -23,6 +23,7 @@ from bezier.exports.plane import polyline
 from bezier.interface.work import Work
 from bezier.motion.motion import pieces, state
 from bezier.motion.track import Track
+from tests.tables import each
 
 BALL = {"kind": "ball", "name": "a <ball> & co", "centre": [0, 2, 1], "radius": 1.5}
 GIVEN = {"start": [-4, 2, 1], "via": [[-1.5, 2, 3], [1.5, 2, 3]], "goal": [4, 2, 1], "radius": 6, "method": "cubic"}
@@ -71,8 +72,8 @@ def test_positions_without_a_motion(plain: bezier.Planned) -> None:
     assert plain([[0, 1], [2, 3]]).shape == (2, 2, 3) and plain([]).shape == (0, 3)
 
 
-@pytest.mark.parametrize("t", [-1e-9, 3.1, math.nan, math.inf, "x", None, [0, 5], 1j])
-def test_times_outside_are_refused(plain: bezier.Planned, t: object) -> None:
+@each(-1e-9, 3.1, math.nan, math.inf, "x", None, [0, 5], 1j)
+def test_times_outside_are_refused(t: object, plain: bezier.Planned) -> None:
     with pytest.raises(qe.InputError, match=r"^t: "):
         plain(t)
 
@@ -151,8 +152,8 @@ def places(code: str) -> np.ndarray:
     return np.array([[float(word[1:]) for word in move if word[0] in "XY"] for move in moves])
 
 
-@pytest.mark.parametrize("tolerance", [0.5, 0.01])
-def test_gcode_stays_within_the_tolerance(plain: bezier.Planned, tolerance: float) -> None:
+@each(0.5, 0.01)
+def test_gcode_stays_within_the_tolerance(tolerance: float, plain: bezier.Planned) -> None:
     code = plain.to_gcode(plane="xz", tolerance=tolerance, feed=600)
     lines = code.splitlines()
     assert lines[1:3] == ["G21", "G90"] and lines[-1] == "M2" and lines[-2] == "G0 Z5" and "F600" in code
@@ -193,26 +194,23 @@ def test_curves_of_high_degree_are_drawn_by_chords() -> None:
     assert "C" not in plan.to_svg(plane="xz").split('fill="none"')[2] and " L" in plan.to_svg(plane="xz")
 
 
-@pytest.mark.parametrize(
-    ("ask", "told"),
-    [
-        (lambda p: p.to_svg(plane="zx"), "plane: one of xy, xz, yz expected"),
-        (lambda p: p.to_gcode(plane=3), "plane: one of"),
-        (lambda p: p.to_gcode(tolerance=0), "tolerance: a number above zero"),
-        (lambda p: p.to_gcode(tolerance="x"), "tolerance: a number above zero"),
-        (lambda p: p.to_gcode(tolerance=1e-30), "tolerance: one with at most 200000 lines"),
-        (lambda p: p.to_gcode(tolerance="1e-400"), "within the range of floating point"),
-        (lambda p: p.to_gcode(feed="1e400"), "within the range of floating point"),
-        (lambda p: p.to_gcode(feed=-1), "feed: a number above zero"),
-        (
-            lambda p: p.save("path.docx"),
-            "target: one of .csv, .json, .npz, .yaml, .gcode, .svg or the name of a folder",
-        ),
-        (lambda p: p.save(3), "target: the name of a file expected"),
-        (lambda p: p.save("/nowhere/at/all/path.csv"), "cannot be written"),
-    ],
+@each(
+    (lambda p: p.to_svg(plane="zx"), "plane: one of xy, xz, yz expected"),
+    (lambda p: p.to_gcode(plane=3), "plane: one of"),
+    (lambda p: p.to_gcode(tolerance=0), "tolerance: a number above zero"),
+    (lambda p: p.to_gcode(tolerance="x"), "tolerance: a number above zero"),
+    (lambda p: p.to_gcode(tolerance=1e-30), "tolerance: one with at most 200000 lines"),
+    (lambda p: p.to_gcode(tolerance="1e-400"), "within the range of floating point"),
+    (lambda p: p.to_gcode(feed="1e400"), "within the range of floating point"),
+    (lambda p: p.to_gcode(feed=-1), "feed: a number above zero"),
+    (
+        lambda p: p.save("path.docx"),
+        "target: one of .csv, .json, .npz, .yaml, .gcode, .svg or the name of a folder",
+    ),
+    (lambda p: p.save(3), "target: the name of a file expected"),
+    (lambda p: p.save("/nowhere/at/all/path.csv"), "cannot be written"),
 )
-def test_misuse(plain: bezier.Planned, ask, told: str) -> None:
+def test_misuse(ask, told: str, plain: bezier.Planned) -> None:
     with pytest.raises(qe.InputError) as caught:
         ask(plain)
     assert told in str(caught.value) and "\n" not in str(caught.value)

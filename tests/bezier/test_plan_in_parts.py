@@ -17,6 +17,7 @@ from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
 from qe.kernel.verdict import Verdict
 from qe.processes.worker import IDLE, end_idle
+from tests.tables import each
 from tests.workers import large, replace_in_worker, stuck
 
 CUBIC = {"start": [-4, 2, 1], "via": [["-3/2", 2, 3], ["3/2", 2, 3]], "goal": [4, 2, 1], "radius": 6, "method": "cubic"}
@@ -65,8 +66,8 @@ def test_what_is_asked_for_is_found_once_and_is_that_of_planning_at_once(finishe
     assert len(finished) == 1
 
 
-@pytest.mark.parametrize("method", ["cubic", "quadratic"])
-def test_certified_is_what_the_checker_says(monkeypatch, method):
+@each("cubic", "quadratic")
+def test_certified_is_what_the_checker_says(method, monkeypatch):
     plan = bezier.plan(**{**CUBIC, "method": method})
     monkeypatch.setattr(optimal_path.qe, "verify", lambda certificate: Verdict(False, "cells", "for this test"))
     assert not plan.certified and "not certified" in repr(plan)

@@ -11,6 +11,7 @@ from bezier.curves.workspace import WorkspaceKind
 from bezier.input.numbers import NotANumber, parse
 from bezier.problem import PlanMethod, load_problem, read_problem
 from qe.errors import InputError
+from tests.tables import each
 
 BASE = {
     "method": '"quadratic"',
@@ -35,8 +36,8 @@ def test_the_main_example(root):
     assert problem.notes == ()
 
 
-@pytest.mark.parametrize("name", ["three_balls", "hemisphere_gap", "no_control_point"])
-def test_examples_are_readable(root, name):
+@each("three_balls", "hemisphere_gap", "no_control_point")
+def test_examples_are_readable(name, root):
     assert load_problem(root / "examples" / f"{name}.toml").source.endswith(f"{name}.toml")
 
 
@@ -61,7 +62,7 @@ def test_notes():
     assert len(notes) == 2 and "differ in y" in notes[0] and "origin" in notes[1]
 
 
-@pytest.mark.parametrize("via", ["[[-1, 2, 3], [4, 1, 0]]", "[[4, 1, 0], [-1, 2, 3]]"])
+@each("[[-1, 2, 3], [4, 1, 0]]", "[[4, 1, 0], [-1, 2, 3]]")
 def test_the_strip_of_heights_lies_between_the_points_on_the_way(via):
     strip = read_problem(text(via=via)).strip
     assert (strip.low, strip.high, strip.heights) == (-1, 4, {"y": 1})
@@ -69,7 +70,7 @@ def test_the_strip_of_heights_lies_between_the_points_on_the_way(via):
 
 def test_via_points_that_nobody_gave_are_not_called_via_0():
     """ "radius: expected at least …, the norm of via[0]" was said where a wall leaves no way over it."""
-    wall = "[[obstacle]]\nkind = \"box\"\nlow = [-1, -9, -1]\nhigh = [1, 9, 9]"
+    wall = '[[obstacle]]\nkind = "box"\nlow = [-1, -9, -1]\nhigh = [1, 9, 9]'
     with pytest.raises(InputError, match="via: expected two points in the workspace, found none; one over the obst"):
         read_problem(f"start = [-4, 2, 1]\ngoal = [4, 2, 1]\nradius = 6\n{wall}")
 
@@ -122,13 +123,13 @@ def test_the_line_of_the_key_is_named():
         read_problem(text(goal='[1, "?", 1]'), "p.toml")
 
 
-@pytest.mark.parametrize("key", ["start", "via", "goal"])
+@each("start", "via", "goal")
 def test_missing_points(key):
     with pytest.raises(InputError, match=rf"^p\.toml: {key}: expected .* found no such key$"):
         read_problem(text(**{key: None}), "p.toml")
 
 
-@pytest.mark.parametrize("body", ["start = [1, 2", "= 3", "a = 1\na = 2", "[x", "x = '''", "\x00", "via = [[1,,2]]"])
+@each("start = [1, 2", "= 3", "a = 1\na = 2", "[x", "x = '''", "\x00", "via = [[1,,2]]")
 def test_broken_toml(body):
     with pytest.raises(InputError, match=r"^p\.toml:\d+.*expected a TOML file, found") as caught:
         read_problem(body, "p.toml")
@@ -178,7 +179,7 @@ def test_any_text_is_a_number_or_refused(raw):
         assert "\n" not in str(error)
 
 
-@pytest.mark.parametrize(("line", "key"), [("start = ['1e51', 1, 1]", "start"), ("radius = '1e400'", "radius")])
+@each(("start = ['1e51', 1, 1]", "start"), ("radius = '1e400'", "radius"))
 def test_numbers_beyond_floating_point_are_refused(line, key):
     text = "start = [0, 0, 1]\nvia = [[1, 1, 1], [2, 1, 1]]\ngoal = [3, 1, 1]\nradius = 9\n"
     kept = [old for old in text.splitlines() if not old.startswith(key)]

@@ -10,6 +10,7 @@ import tomllib
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -26,11 +27,11 @@ from bezier.interface.function import NAMES, problem_from
 from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
 from bezier.problem import _KEYS, load_problem
+from tests.tables import each
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 CURVES = ("obstacle_curves.toml", "arm_curve.toml")
 PROBLEMS = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name not in CURVES)
-QUICK = ("single.toml", "three_balls.toml", "obstacle_motion.toml")
 FOUR = {"start": [-4, 0, 3], "via": [[-2, 1, 3], [2, 1, 3]], "goal": [4, 0, 3], "radius": 6}
 CUBIC = {**FOUR, "method": "cubic"}
 
@@ -48,7 +49,7 @@ def test_the_problem_is_that_of_the_file(name: str) -> None:
     }
 
 
-@pytest.mark.parametrize("name", QUICK)
+@each("single.toml", "three_balls.toml", "obstacle_motion.toml")
 def test_the_plan_is_that_of_the_file(name: str) -> None:
     plan = bezier.plan(**{NAMES.get(key, key): value for key, value in values(name).items()})
     made = make_plan(load_problem(EXAMPLES / name))
@@ -92,63 +93,61 @@ def test_arrays_of_numpy() -> None:
         assert problem_from({"start": a[0], "via": a[1:3], "goal": a[3], "radius": 6}).via == ((-2, 1, 3), (2, 1, 3))
 
 
-MISUSE = {
-    "no start": ({"start": None}, "start: expected a point of 3 numbers, found no such"),
-    "flat": ({"start": [1, 2]}, "start: expected a point of 3 numbers, found an array of 2 values"),
-    "text": ({"start": "1, 2, 3"}, 'start: expected a point of 3 numbers, found "1, 2, 3"'),
-    "a number": ({"goal": 4}, "goal: expected a point of 3 numbers, found 4"),
-    "not a number": ({"goal": [4, 0, float("nan")]}, "goal[2]: expected an integer"),
-    "infinite": ({"goal": np.array([4, np.inf, 0])}, "goal[1]: expected an integer"),
-    "complex": ({"goal": np.array([4, 1j, 0])}, "goal[0]: expected an integer"),
-    "truth": ({"goal": np.array([True, True, False])}, "goal[0]: expected an integer"),
-    "dates": ({"goal": [np.datetime64("2020-01-01")] * 3}, "goal[0]: expected an integer"),
-    "a set": ({"goal": {4, 0, 3}}, "goal: expected a point of 3 numbers, found a set"),
-    "bytes": ({"goal": b"403"}, "goal: expected a point of 3 numbers, found a bytes"),
-    "one via": ({"via": [[-2, 1, 3]]}, "via: expected two points of 3 numbers"),
-    "no via": ({"via": None}, "via: expected two points of 3 numbers, found no such"),
-    "via of words": ({"via": ["a", "b"]}, "via: expected two points"),
-    "same point": ({"start": [-2, 1, 3]}, "via[0]: expected a point other than start"),
-    "radius": ({"radius": -1}, "radius: expected a positive number"),
-    "small radius": ({"radius": 1}, "radius: expected at least 5"),
-    "method": ({"method": "quartic"}, 'method: expected "quadratic" or "cubic" or "single", found "quartic"'),
-    "method 3": ({"method": 3}, "method: expected"),
-    "workspace": ({"workspace": "cube"}, 'workspace: expected "ball" or "hemisphere"'),
-    "ratio": ({"ratio": 2}, 'ratio: expected this key with method = "cubic" only'),
-    "limits": ({"limits": 5}, "limits: expected a mapping, found 5"),
-    "no limit": ({"limits": {}}, "limits.duration: expected a duration, max_speed or max_acceleration, found none"),
-    "speed": ({"limits": {"speed": 5}}, "limits.speed: expected one of the keys law, ramp, duration, max_speed"),
-    "max speed": ({"limits": {"maxspeed": 5}}, "max_speed is probably meant"),
-    "zero speed": ({"limits": {"max_speed": 0}}, "limits.max_speed: expected a number above zero, found 0"),
-    "obstacle": ({"obstacles": {"kind": "ball"}}, "obstacles: expected a list of mappings, found a table"),
-    "kind": ({"obstacles": [{"kind": "bal"}]}, 'obstacles[0].kind: expected "ball" or'),
-    "no kind": ({"obstacles": [{}]}, "obstacles[0].kind: expected"),
-    "radius of one": (
-        {"obstacles": [{"kind": "ball", "centre": [0, 0, 0], "radius": 0}]},
-        "obstacles[0].radius: expected a number above zero, found 0",
-    ),
-    "misspelt": (
-        {"obstacles": [{"kind": "ball", "centre": [0, 0, 0], "radus": 1}]},
-        "obstacles[0].radus: expected one of the keys kind, name, margin, above, centre, radius, found the unknown "
-        'key "radus"; radius is probably meant',
-    ),
-    "key": ({"obstacles": [{1: 2}]}, "obstacles[0]: expected a mapping from names, found a key that is a int"),
-    "half-space": ({"half_spaces": [{"normal": [0, 0, 0]}]}, "half_spaces[0].offset: expected"),
-    "single": ({"single": {"degree": 5}}, 'single: expected this table with method = "single" only'),
-    "many": ({"via": np.zeros((20_000, 3))}, "via: expected at most 10000 entries, found 20000"),
-    "large": ({"start": [10**60, 0, 0]}, "start[0]: expected a number of at most 10^50"),
-    "larger": ({"start": [Fraction(1, 10**9000), 0, 0]}, "start[0]: expected an integer"),
-    "obstacle?": ({"obstacle": []}, "obstacle: no argument of this name; obstacles is probably meant"),
-    "timing?": ({"timing": {}}, "timing: no argument of this name; limits is probably meant"),
-    "gaol": ({"gaol": 1}, "gaol: no argument of this name; goal is probably meant"),
-    "timeout": ({"timeout": -1}, "timeout: a positive number of seconds expected, -1 found"),
-    "memory": ({"memory": 0.5}, "memory: a positive whole number of MiB expected"),
-    "progress": ({"progress": 5}, "progress: a function of one event expected"),
-}
-
-
-@pytest.mark.parametrize("case", MISUSE)
-def test_misuse_is_said_in_one_line(case: str) -> None:
-    more, told = MISUSE[case]
+@each(
+    {
+        "no start": ({"start": None}, "start: expected a point of 3 numbers, found no such"),
+        "flat": ({"start": [1, 2]}, "start: expected a point of 3 numbers, found an array of 2 values"),
+        "text": ({"start": "1, 2, 3"}, 'start: expected a point of 3 numbers, found "1, 2, 3"'),
+        "a number": ({"goal": 4}, "goal: expected a point of 3 numbers, found 4"),
+        "not a number": ({"goal": [4, 0, float("nan")]}, "goal[2]: expected an integer"),
+        "infinite": ({"goal": np.array([4, np.inf, 0])}, "goal[1]: expected an integer"),
+        "complex": ({"goal": np.array([4, 1j, 0])}, "goal[0]: expected an integer"),
+        "truth": ({"goal": np.array([True, True, False])}, "goal[0]: expected an integer"),
+        "dates": ({"goal": [np.datetime64("2020-01-01")] * 3}, "goal[0]: expected an integer"),
+        "a set": ({"goal": {4, 0, 3}}, "goal: expected a point of 3 numbers, found a set"),
+        "bytes": ({"goal": b"403"}, "goal: expected a point of 3 numbers, found a bytes"),
+        "one via": ({"via": [[-2, 1, 3]]}, "via: expected two points of 3 numbers"),
+        "no via": ({"via": None}, "via: expected two points of 3 numbers, found no such"),
+        "via of words": ({"via": ["a", "b"]}, "via: expected two points"),
+        "same point": ({"start": [-2, 1, 3]}, "via[0]: expected a point other than start"),
+        "radius": ({"radius": -1}, "radius: expected a positive number"),
+        "small radius": ({"radius": 1}, "radius: expected at least 5"),
+        "method": ({"method": "quartic"}, 'method: expected "quadratic" or "cubic" or "single", found "quartic"'),
+        "method 3": ({"method": 3}, "method: expected"),
+        "workspace": ({"workspace": "cube"}, 'workspace: expected "ball" or "hemisphere"'),
+        "ratio": ({"ratio": 2}, 'ratio: expected this key with method = "cubic" only'),
+        "limits": ({"limits": 5}, "limits: expected a mapping, found 5"),
+        "no limit": ({"limits": {}}, "limits.duration: expected a duration, max_speed or max_acceleration, found none"),
+        "speed": ({"limits": {"speed": 5}}, "limits.speed: expected one of the keys law, ramp, duration, max_speed"),
+        "max speed": ({"limits": {"maxspeed": 5}}, "max_speed is probably meant"),
+        "zero speed": ({"limits": {"max_speed": 0}}, "limits.max_speed: expected a number above zero, found 0"),
+        "obstacle": ({"obstacles": {"kind": "ball"}}, "obstacles: expected a list of mappings, found a table"),
+        "kind": ({"obstacles": [{"kind": "bal"}]}, 'obstacles[0].kind: expected "ball" or'),
+        "no kind": ({"obstacles": [{}]}, "obstacles[0].kind: expected"),
+        "radius of one": (
+            {"obstacles": [{"kind": "ball", "centre": [0, 0, 0], "radius": 0}]},
+            "obstacles[0].radius: expected a number above zero, found 0",
+        ),
+        "misspelt": (
+            {"obstacles": [{"kind": "ball", "centre": [0, 0, 0], "radus": 1}]},
+            "obstacles[0].radus: expected one of the keys kind, name, margin, above, centre, radius, found the unknown "
+            'key "radus"; radius is probably meant',
+        ),
+        "key": ({"obstacles": [{1: 2}]}, "obstacles[0]: expected a mapping from names, found a key that is a int"),
+        "half-space": ({"half_spaces": [{"normal": [0, 0, 0]}]}, "half_spaces[0].offset: expected"),
+        "single": ({"single": {"degree": 5}}, 'single: expected this table with method = "single" only'),
+        "many": ({"via": np.zeros((20_000, 3))}, "via: expected at most 10000 entries, found 20000"),
+        "large": ({"start": [10**60, 0, 0]}, "start[0]: expected a number of at most 10^50"),
+        "larger": ({"start": [Fraction(1, 10**9000), 0, 0]}, "start[0]: expected an integer"),
+        "obstacle?": ({"obstacle": []}, "obstacle: no argument of this name; obstacles is probably meant"),
+        "timing?": ({"timing": {}}, "timing: no argument of this name; limits is probably meant"),
+        "gaol": ({"gaol": 1}, "gaol: no argument of this name; goal is probably meant"),
+        "timeout": ({"timeout": -1}, "timeout: a positive number of seconds expected, -1 found"),
+        "memory": ({"memory": 0.5}, "memory: a positive whole number of MiB expected"),
+        "progress": ({"progress": 5}, "progress: a function of one event expected"),
+    }
+)
+def test_misuse_is_said_in_one_line(more: Any, told: str) -> None:
     with pytest.raises(qe.InputError) as caught:
         bezier.plan(**{**FOUR, **more})
     message = str(caught.value)

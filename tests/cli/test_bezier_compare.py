@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli import command
+from tests.tables import each
 
 PROBLEM = """\
 method = "cubic"
@@ -89,14 +90,11 @@ def test_a_comparison_has_nothing_to_check(compared: tuple[str, Path]) -> None:
     assert process.returncode == 2 and "found a comparison (qe check" in process.stderr
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        (PROBLEM.replace('"sqrt(89/4)"', '"3"'), ("radius", "expected")),
-        (PROBLEM.replace("via", "vias"), ("vias",)),
-    ],
+@each(
+    (PROBLEM.replace('"sqrt(89/4)"', '"3"'), ("radius", "expected")),
+    (PROBLEM.replace("via", "vias"), ("vias",)),
 )
-def test_bad_input_writes_nothing(tmp_path: Path, text: str, words: tuple[str, ...]) -> None:
+def test_bad_input_writes_nothing(text: str, words: tuple[str, ...], tmp_path: Path) -> None:
     (tmp_path / "problem.toml").write_text(text)
     process = run("compare", tmp_path / "problem.toml", "--out", tmp_path / "out")
     assert process.returncode == 2 and process.stdout == "" and len(process.stderr.splitlines()) == 1

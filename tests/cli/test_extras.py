@@ -12,6 +12,7 @@ import pytest
 
 from qe.errors import Unable
 from qe.extras import _EXTRAS, lacking
+from tests.tables import each
 
 ROOT = Path(__file__).resolve().parents[2]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
@@ -52,7 +53,7 @@ def test_the_core_works(tmp_path: Path) -> None:
     assert run(code, tmp_path).stdout.strip() == "b >= 0 sqrt(2)"
 
 
-@pytest.mark.parametrize("process", ["on", "off"])
+@each("on", "off")
 def test_a_picture_without_its_library(process: str, tmp_path: Path) -> None:
     code = f"import os; os.environ['QE_PROCESS'] = {process!r}\nimport qe\nqe.region('x^2 <= 2').plot('a.png')"
     last = run(code, tmp_path).stderr.splitlines()[-1]

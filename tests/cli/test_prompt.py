@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from qe.cli.prompt import Session, is_open, run
+from tests.tables import each
 from tests.waiting import ending
 
 QE = Path(sys.executable).parent / "qe"
@@ -21,57 +22,51 @@ def told(*lines: str) -> str:
     return [session.reply(line) for line in lines][-1]
 
 
-@pytest.mark.parametrize(
-    ("lines", "answer"),
-    [
-        (["ex x. x^2 + b*x + c = 0"], "b^2 - 4*c >= 0"),
-        (["ex x. x^2 + b*x + c = 0", "% and b = 0"], "b = 0 and c <= 0"),
-        (["x > 1", "`%` > 0"], "`%` > 0"),
-        (["ex x. x^2 = 2"], "true\nwitness: x = sqrt(2)"),
-        (["all x. x > 0"], "false\ncounterexample: x = 0"),
-        ([":solve x: a*x = 1"], "a < 0 and x = 1/a or\n0 < a and x = 1/a"),
-        ([":solve x^2 = 2"], "x = -sqrt(2) or\nx = sqrt(2)"),
-        ([":solve ex y: y^2 = x"], "0 <= x"),
-        ([":instance x^3 = 8"], "x = 2"),
-        ([":instance x < x"], "there is none"),
-        ([":decide all x. x^2 >= 0"], "true"),
-        ([":min x^2 - x"], "-1/4  (x = 1/2)"),
-        ([":max x : x < 3"], "3  (not attained)"),
-        ([":max x"], "unbounded"),
-        ([":min (x - 2)^2", "x < %"], "x < 0"),
-        ([":region x^2 < 2"], "dimension 1 in x\nx: (-sqrt(2), sqrt(2))\ncell: -sqrt(2) < x < sqrt(2)"),
-        ([":region x < x"], "false"),
-        ([":timeout 5"], "set: timeout 5"),
-        ([":timeout off"], "set: nothing"),
-        ([":method cad", ":root-atoms on"], "set: method cad, root_atoms True, timeout 60"),
-        ([":order c,b", ":race vs,cad"], "set: order c,b, race cad,vs, timeout 60"),
-        ([":method vs", ":decide ex x. x^2 = 2"], "true"),
-        ([":order y,x", ":region x = 1 and y = 2"], "dimension 0 in y, x\ny: [2, 2]\nx: [1, 1]\ncell: y = 2 and x = 1"),
-        ([":workers 2", ":workers off"], "set: timeout 60"),
-        (["# nothing"], ""),
-    ],
+@each(
+    (["ex x. x^2 + b*x + c = 0"], "b^2 - 4*c >= 0"),
+    (["ex x. x^2 + b*x + c = 0", "% and b = 0"], "b = 0 and c <= 0"),
+    (["x > 1", "`%` > 0"], "`%` > 0"),
+    (["ex x. x^2 = 2"], "true\nwitness: x = sqrt(2)"),
+    (["all x. x > 0"], "false\ncounterexample: x = 0"),
+    ([":solve x: a*x = 1"], "a < 0 and x = 1/a or\n0 < a and x = 1/a"),
+    ([":solve x^2 = 2"], "x = -sqrt(2) or\nx = sqrt(2)"),
+    ([":solve ex y: y^2 = x"], "0 <= x"),
+    ([":instance x^3 = 8"], "x = 2"),
+    ([":instance x < x"], "there is none"),
+    ([":decide all x. x^2 >= 0"], "true"),
+    ([":min x^2 - x"], "-1/4  (x = 1/2)"),
+    ([":max x : x < 3"], "3  (not attained)"),
+    ([":max x"], "unbounded"),
+    ([":min (x - 2)^2", "x < %"], "x < 0"),
+    ([":region x^2 < 2"], "dimension 1 in x\nx: (-sqrt(2), sqrt(2))\ncell: -sqrt(2) < x < sqrt(2)"),
+    ([":region x < x"], "false"),
+    ([":timeout 5"], "set: timeout 5"),
+    ([":timeout off"], "set: nothing"),
+    ([":method cad", ":root-atoms on"], "set: method cad, root_atoms True, timeout 60"),
+    ([":order c,b", ":race vs,cad"], "set: order c,b, race cad,vs, timeout 60"),
+    ([":method vs", ":decide ex x. x^2 = 2"], "true"),
+    ([":order y,x", ":region x = 1 and y = 2"], "dimension 0 in y, x\ny: [2, 2]\nx: [1, 1]\ncell: y = 2 and x = 1"),
+    ([":workers 2", ":workers off"], "set: timeout 60"),
+    (["# nothing"], ""),
 )
 def test_questions(lines: list[str], answer: str) -> None:
     assert told(*lines) == answer
 
 
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("x <", "expected a number"),
-        ("%", "none yet"),
-        (":regio x > 0", "did you mean :region"),
-        (":xyz", ":help"),
-        (":timeout soon", "soon"),
-        (":race fastest", ":race: one of"),
-        (":workers -1", ":workers: a natural"),
-        (":metod cad", "did you mean :method"),
-        (":timeout -1", "positive"),
-        (":plot", "no answer to draw"),
-        (":why", "no elimination"),
-        (":decide x > 0", "free: x"),
-        ("sin(x) > 0", "not algebraic"),
-    ],
+@each(
+    ("x <", "expected a number"),
+    ("%", "none yet"),
+    (":regio x > 0", "did you mean :region"),
+    (":xyz", ":help"),
+    (":timeout soon", "soon"),
+    (":race fastest", ":race: one of"),
+    (":workers -1", ":workers: a natural"),
+    (":metod cad", "did you mean :method"),
+    (":timeout -1", "positive"),
+    (":plot", "no answer to draw"),
+    (":why", "no elimination"),
+    (":decide x > 0", "free: x"),
+    ("sin(x) > 0", "not algebraic"),
 )
 def test_slips_get_one_line(line: str, words: str) -> None:
     answer = told(line)
@@ -91,12 +86,12 @@ def test_files_and_reasons(tmp_path) -> None:
     assert "ending in" in session.reply(f":plot {tmp_path / 'a.xyz'}") and ":solve" in session.reply(":help")
 
 
-@pytest.mark.parametrize("text", ["x >", "(x > 0", "x > 0 and", "ex x.", "ex x, y", "x +", "x \\", ":solve (x", "f ->"])
+@each("x >", "(x > 0", "x > 0 and", "ex x.", "ex x, y", "x +", "x \\", ":solve (x", "f ->")
 def test_what_goes_on(text: str) -> None:
     assert is_open(text) is (text != "ex x, y")
 
 
-@pytest.mark.parametrize("text", ["", "x > 0", "(x > 0)", ":help", "`(` > 0", "x > 0 # and (", ":solve x:"])
+@each("", "x > 0", "(x > 0)", ":help", "`(` > 0", "x > 0 # and (", ":solve x:")
 def test_what_is_whole(text: str) -> None:
     assert not is_open(text)
 

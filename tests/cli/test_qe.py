@@ -9,9 +9,8 @@ import sys
 import time
 from pathlib import Path
 
-import pytest
-
 from tests.cli import command
+from tests.tables import each
 from tests.waiting import ending
 
 QE = str(Path(sys.executable).parent / "qe")
@@ -66,8 +65,8 @@ def test_smtlib_output_is_a_whole_script() -> None:
     assert back.stdout == "b^2 - 4*c >= 0\n"
 
 
-@pytest.mark.parametrize(("script", "answer"), [("(< (* x x) 0.0)", "unsat"), ("(= (* x x) 2.0)", "sat")])
-def test_decide_smtlib(tmp_path: Path, script: str, answer: str) -> None:
+@each(("(< (* x x) 0.0)", "unsat"), ("(= (* x x) 2.0)", "sat"))
+def test_decide_smtlib(script: str, answer: str, tmp_path: Path) -> None:
     path = tmp_path / "problem.smt2"
     path.write_text(f"(set-logic QF_NRA)\n(declare-const x Real)\n(assert {script})\n(check-sat)\n")
     process = run("decide", str(path))
@@ -93,7 +92,7 @@ def test_explain_goes_to_stderr() -> None:
     assert len(process.stderr.splitlines()) >= 2
 
 
-@pytest.mark.parametrize("output", ["text", "smtlib", "qepcad", "redlog", "latex", "json"])
+@each("text", "smtlib", "qepcad", "redlog", "latex", "json")
 def test_convert(output: str) -> None:
     process = run("convert", "ex y. x^2 + y^2 < 3/2", "--output", output)
     assert process.returncode == 0, process.stderr
@@ -135,16 +134,13 @@ def test_minimize() -> None:
     assert "4" in run("minimize", "(x - 3)^2 + y^2", "x^2 + y^2 <= 1").stdout
 
 
-@pytest.mark.parametrize(
-    ("words", "status", "said"),
-    [
-        (["x", "x^2 <= 1 and x >= 2"], "infeasible", "no point meets the constraints"),
-        (["x^3", "x^3 > 1 and x < 0"], "infeasible", "no point meets the constraints"),
-        (["a*x", "x > 1 and x^2 < 1", "--parameters", "a"], "infeasible", "no point meets the constraints"),
-        (["x"], "unbounded", "there is no least value\nwithout an end from x = 0 along x = -1"),
-        (["-x^2"], "unbounded", "there is no least value"),
-        (["x", "x > 0", "--maximize"], "unbounded", "there is no greatest value"),
-    ],
+@each(
+    (["x", "x^2 <= 1 and x >= 2"], "infeasible", "no point meets the constraints"),
+    (["x^3", "x^3 > 1 and x < 0"], "infeasible", "no point meets the constraints"),
+    (["a*x", "x > 1 and x^2 < 1", "--parameters", "a"], "infeasible", "no point meets the constraints"),
+    (["x"], "unbounded", "there is no least value\nwithout an end from x = 0 along x = -1"),
+    (["-x^2"], "unbounded", "there is no least value"),
+    (["x", "x > 0", "--maximize"], "unbounded", "there is no greatest value"),
 )
 def test_that_there_is_no_optimum_is_an_answer(words: list[str], status: str, said: str) -> None:
     """``qe minimize x`` ended with "unable: unbounded", as if nothing had been proved."""
@@ -160,7 +156,7 @@ def test_what_is_proved_about_an_optimum_that_is_none_has_a_certificate(tmp_path
         assert run("check", "c.json", cwd=tmp_path).stdout.startswith("accepted")
 
 
-BAD_FORMULAS = [
+@each(
     "ex x. x^2 +",
     "x ** ** 2 = 0",
     "x^2 < ",
@@ -178,10 +174,7 @@ BAD_FORMULAS = [
     "x^y = 1",
     "x > 1/(2-2)",
     "x\x01 > 0",
-]
-
-
-@pytest.mark.parametrize("text", BAD_FORMULAS)
+)
 def test_bad_formulas(text: str) -> None:
     refused(run("eliminate", text), 2, "qe: ")
 
@@ -207,21 +200,18 @@ def test_unreadable_files(tmp_path: Path) -> None:
     assert run("check", "list.json", cwd=tmp_path).returncode in (2, 4)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "word"),
-    [
-        (["eliminate", "x > 0", "--timeout", "-1"], "--timeout"),
-        (["eliminate", "x > 0", "--timeout", "nan"], "--timeout"),
-        (["eliminate", "x > 0", "--timeout", "soon"], "--timeout"),
-        (["eliminate", "x > 0", "--memory", "0"], "--memory"),
-        (["eliminate", "x > 0", "--output", "word"], "--output"),
-        (["eliminate", "x > 0", "--method", "magic"], "--method"),
-        (["eliminate", "x > 0", "--order", "x,x"], "--order"),
-        (["eliminate", "x > 0", "--certificate", "no/such/folder/c.json"], "folder"),
-        (["eliminate", "--colour=red"], "--colour"),
-        (["eliminate"], "FORMULA"),
-        (["elliminate", "x > 0"], "elliminate"),
-    ],
+@each(
+    (["eliminate", "x > 0", "--timeout", "-1"], "--timeout"),
+    (["eliminate", "x > 0", "--timeout", "nan"], "--timeout"),
+    (["eliminate", "x > 0", "--timeout", "soon"], "--timeout"),
+    (["eliminate", "x > 0", "--memory", "0"], "--memory"),
+    (["eliminate", "x > 0", "--output", "word"], "--output"),
+    (["eliminate", "x > 0", "--method", "magic"], "--method"),
+    (["eliminate", "x > 0", "--order", "x,x"], "--order"),
+    (["eliminate", "x > 0", "--certificate", "no/such/folder/c.json"], "folder"),
+    (["eliminate", "--colour=red"], "--colour"),
+    (["eliminate"], "FORMULA"),
+    (["elliminate", "x > 0"], "elliminate"),
 )
 def test_bad_options(arguments: list[str], word: str) -> None:
     refused(run(*arguments), 2, word)

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli import command
+from tests.tables import each
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text()
@@ -49,7 +50,7 @@ def test_the_command_lines(folder: Path) -> None:
             assert process.stdout.strip() == promised.strip()
 
 
-@pytest.mark.parametrize("name", ["first_steps.py", "ellipse_in_disc.py", "plan_in_python.py"])
+@each("first_steps.py", "ellipse_in_disc.py", "plan_in_python.py")
 def test_examples(name: str) -> None:
     process = subprocess.run([sys.executable, ROOT / "examples" / name], capture_output=True, text=True, timeout=120)
     assert process.returncode == 0, process.stderr

@@ -17,6 +17,7 @@ from qe.cli.smt import Solver
 from qe.io.smtlib_parser import Listing, parse
 from qe.io.smtlib_script import Script
 from qe.io.text_errors import Failing
+from tests.tables import each
 
 QE = Path(sys.executable).with_name("qe")
 XY = "(declare-fun x () Real)(declare-const y Real)(declare-const p Bool)"
@@ -28,95 +29,89 @@ def answers(script: str, *, timeout: float | None = None) -> list[str]:
     return lines
 
 
-@pytest.mark.parametrize(
-    ("script", "expected"),
-    [
-        ("(assert (> x 0))(check-sat)(assert (< x 0))(check-sat)", ["sat", "unsat"]),
-        ("(push)(assert (= (* x x) (- 1)))(check-sat)(pop)(check-sat)", ["unsat", "sat"]),
-        ("(push 2)(assert false)(pop)(check-sat)(pop)(check-sat)", ["sat", "sat"]),
-        ("(assert (= x 1))(check-sat-assuming ((= x 2)))(check-sat)", ["unsat", "sat"]),
-        ("(assert (> x 0))(reset-assertions)(declare-const x Real)(assert (< x 0))(check-sat)", ["sat"]),
-        ("(assert false)(reset)(check-sat)", ["sat"]),
-        (
-            "(assert (= (* 2 x) 1))(check-sat)(get-value (x (+ x y) p (> x 0)))",
-            ["sat", "((x (/ 1.0 2.0)) ((+ x y) (/ 1.0 2.0)) (p false) ((> x 0) true))"],
-        ),
-        (
-            "(assert p)(assert (= x (- 3)))(check-sat)(get-model)",
-            [
-                "sat",
-                "(\n  (define-fun x () Real (- 3.0))\n  (define-fun y () Real 0.0)\n  (define-fun p () Bool true)\n)",
-            ],
-        ),
-        (
-            "(assert (and (= (* x x) 2) (< x 0)))(check-sat)(get-value (x (* x x)))",
-            ["sat", "((x (root-obj (+ (^ x 2) (- 2)) 1)) ((* x x) 2.0))"],
-        ),
-        (
-            "(assert (= x (root-obj (+ (^ x 2) (- 2)) 1)))(assert (= (* x x) y))(check-sat)(get-value (y))",
-            ["sat", "((y 2.0))"],
-        ),
-        (
-            "(assert (! (> x 0) :named a))(assert (! (> y 0) :named b))(assert (! (< x 0) :named |c d|))(check-sat)(get-unsat-core)",
-            ["unsat", "(a |c d|)"],
-        ),
-        ("(check-sat-assuming (p (> x 0) (not p)))(get-unsat-assumptions)", ["unsat", "(p (not p))"]),
-        ("(get-qe (exists ((z Real)) (= (* z z) x)))", ["(>= x 0)"]),
-        ("(assert (> x 0))(get-assertions)", ["((> x 0))"]),
-        (
-            '(echo "a b")(get-info :name)(get-info :assertion-stack-levels)',
-            ['"a b"', '(:name "bezier-qe")', "(:assertion-stack-levels 0)"],
-        ),
-        ("(set-option :print-success true)(set-logic QF_NRA)(push)", ["success", "success", "success"]),
-        ("(check-sat-using qfnra)", ["check-sat-using: tactics are not used, the answer is that of check-sat", "sat"]),
-        ("(declare-const || Real)(assert (= || 1))(check-sat)(get-value (||))", ["sat", "((|| 1.0))"]),
-        ("(declare-const d.g Real)(declare-const x!0 Real)(assert (< d.g x!0))(check-sat)", ["sat"]),
-        ("(exit)(check-sat)", []),
-        ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(assert (= x y))(check-sat)", ["unsat"]),
-        ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(check-sat)", ["sat"]),
-        (
-            "(assert (= (/ 1 y) 3))(assert (= y 0))(check-sat)(get-value ((/ 1 y) (/ 1 0)))",
-            ["sat", "(((/ 1 y) 3.0) ((/ 1 0) 3.0))"],
-        ),
-        ("(assert (>= (/ y 0) 1))(check-sat)(get-value ((/ y 0) y))", ["sat", "(((/ y 0) 1.0) (y 0.0))"]),
-        (
-            "(assert (= (/ (ite (distinct y 3) 3 y) 0) 5))(assert (= y 3))(check-sat)(get-value ((/ (ite (distinct y 3) 3 y) 0)))",
-            ["sat", "(((/ (ite (distinct y 3) 3 y) 0) 5.0))"],
-        ),
-        ("(assert (distinct (/ 1 (- x x)) (/ 1 0)))(check-sat)", ["unsat"]),
-        ("(assert (forall ((z Real)) (= z (/ 0 0))))(check-sat)", ["unsat"]),
-        ("(assert (forall ((z Real)) (= z (/ z 0))))(check-sat)", ["sat"]),
-        ("(assert (exists ((z Real)) (distinct (/ z 0) (/ z 0))))(check-sat)", ["unsat"]),
-        ("(assert (forall ((z Real)) (> (/ z z) 0)))(check-sat)", ["sat"]),
-        ("(assert (forall ((z Real)) (= (/ z 0) (* z z))))(check-sat)", ["unknown"]),
-        ("(assert (forall ((z Real)) (= (/ z 0) y)))(check-sat)(get-value ((/ 1 0)))", ["sat", "(((/ 1 0) 0.0))"]),
-        (
-            "(assert (= (sqrt x) 2))(assert (> x 0))(check-sat)(get-value (x (sqrt x)))",
-            ["sat", "((x 4.0) ((sqrt x) 2.0))"],
-        ),
-    ],
+@each(
+    ("(assert (> x 0))(check-sat)(assert (< x 0))(check-sat)", ["sat", "unsat"]),
+    ("(push)(assert (= (* x x) (- 1)))(check-sat)(pop)(check-sat)", ["unsat", "sat"]),
+    ("(push 2)(assert false)(pop)(check-sat)(pop)(check-sat)", ["sat", "sat"]),
+    ("(assert (= x 1))(check-sat-assuming ((= x 2)))(check-sat)", ["unsat", "sat"]),
+    ("(assert (> x 0))(reset-assertions)(declare-const x Real)(assert (< x 0))(check-sat)", ["sat"]),
+    ("(assert false)(reset)(check-sat)", ["sat"]),
+    (
+        "(assert (= (* 2 x) 1))(check-sat)(get-value (x (+ x y) p (> x 0)))",
+        ["sat", "((x (/ 1.0 2.0)) ((+ x y) (/ 1.0 2.0)) (p false) ((> x 0) true))"],
+    ),
+    (
+        "(assert p)(assert (= x (- 3)))(check-sat)(get-model)",
+        [
+            "sat",
+            "(\n  (define-fun x () Real (- 3.0))\n  (define-fun y () Real 0.0)\n  (define-fun p () Bool true)\n)",
+        ],
+    ),
+    (
+        "(assert (and (= (* x x) 2) (< x 0)))(check-sat)(get-value (x (* x x)))",
+        ["sat", "((x (root-obj (+ (^ x 2) (- 2)) 1)) ((* x x) 2.0))"],
+    ),
+    (
+        "(assert (= x (root-obj (+ (^ x 2) (- 2)) 1)))(assert (= (* x x) y))(check-sat)(get-value (y))",
+        ["sat", "((y 2.0))"],
+    ),
+    (
+        "(assert (! (> x 0) :named a))(assert (! (> y 0) :named b))(assert (! (< x 0) :named |c d|))(check-sat)(get-unsat-core)",
+        ["unsat", "(a |c d|)"],
+    ),
+    ("(check-sat-assuming (p (> x 0) (not p)))(get-unsat-assumptions)", ["unsat", "(p (not p))"]),
+    ("(get-qe (exists ((z Real)) (= (* z z) x)))", ["(>= x 0)"]),
+    ("(assert (> x 0))(get-assertions)", ["((> x 0))"]),
+    (
+        '(echo "a b")(get-info :name)(get-info :assertion-stack-levels)',
+        ['"a b"', '(:name "bezier-qe")', "(:assertion-stack-levels 0)"],
+    ),
+    ("(set-option :print-success true)(set-logic QF_NRA)(push)", ["success", "success", "success"]),
+    ("(check-sat-using qfnra)", ["check-sat-using: tactics are not used, the answer is that of check-sat", "sat"]),
+    ("(declare-const || Real)(assert (= || 1))(check-sat)(get-value (||))", ["sat", "((|| 1.0))"]),
+    ("(declare-const d.g Real)(declare-const x!0 Real)(assert (< d.g x!0))(check-sat)", ["sat"]),
+    ("(exit)(check-sat)", []),
+    ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(assert (= x y))(check-sat)", ["unsat"]),
+    ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(check-sat)", ["sat"]),
+    (
+        "(assert (= (/ 1 y) 3))(assert (= y 0))(check-sat)(get-value ((/ 1 y) (/ 1 0)))",
+        ["sat", "(((/ 1 y) 3.0) ((/ 1 0) 3.0))"],
+    ),
+    ("(assert (>= (/ y 0) 1))(check-sat)(get-value ((/ y 0) y))", ["sat", "(((/ y 0) 1.0) (y 0.0))"]),
+    (
+        "(assert (= (/ (ite (distinct y 3) 3 y) 0) 5))(assert (= y 3))(check-sat)(get-value ((/ (ite (distinct y 3) 3 y) 0)))",
+        ["sat", "(((/ (ite (distinct y 3) 3 y) 0) 5.0))"],
+    ),
+    ("(assert (distinct (/ 1 (- x x)) (/ 1 0)))(check-sat)", ["unsat"]),
+    ("(assert (forall ((z Real)) (= z (/ 0 0))))(check-sat)", ["unsat"]),
+    ("(assert (forall ((z Real)) (= z (/ z 0))))(check-sat)", ["sat"]),
+    ("(assert (exists ((z Real)) (distinct (/ z 0) (/ z 0))))(check-sat)", ["unsat"]),
+    ("(assert (forall ((z Real)) (> (/ z z) 0)))(check-sat)", ["sat"]),
+    ("(assert (forall ((z Real)) (= (/ z 0) (* z z))))(check-sat)", ["unknown"]),
+    ("(assert (forall ((z Real)) (= (/ z 0) y)))(check-sat)(get-value ((/ 1 0)))", ["sat", "(((/ 1 0) 0.0))"]),
+    (
+        "(assert (= (sqrt x) 2))(assert (> x 0))(check-sat)(get-value (x (sqrt x)))",
+        ["sat", "((x 4.0) ((sqrt x) 2.0))"],
+    ),
 )
 def test_answers(script: str, expected: list[str]) -> None:
     assert answers(XY + script) == expected
 
 
-@pytest.mark.parametrize(
-    ("script", "part"),
-    [
-        ("(declare-const n Int)", "Real or Bool expected, Int found; all numbers are real here"),
-        ("(declare-fun f (Real) Real)", "only functions without arguments"),
-        ("(assert (> (tanh 1) 0))", "not algebraic"),
-        ("(assert (> x (mod 5 2)))", "needs integers"),
-        ("(get-model)", "no model"),
-        ("(get-unsat-core)", "no refutation"),
-        ("(pop)", "only 0 levels"),
-        ("(push x)", "a number of levels"),
-        ("(frobnicate)", "is not supported"),
-        ("(define-fun-rec f () Real 1)", "recursive"),
-        ("(assert (> x", "never closed"),
-        ("(assert (> x 0)))", "no partner"),
-        ("(assert (> x #b1))", "unexpected"),
-    ],
+@each(
+    ("(declare-const n Int)", "Real or Bool expected, Int found; all numbers are real here"),
+    ("(declare-fun f (Real) Real)", "only functions without arguments"),
+    ("(assert (> (tanh 1) 0))", "not algebraic"),
+    ("(assert (> x (mod 5 2)))", "needs integers"),
+    ("(get-model)", "no model"),
+    ("(get-unsat-core)", "no refutation"),
+    ("(pop)", "only 0 levels"),
+    ("(push x)", "a number of levels"),
+    ("(frobnicate)", "is not supported"),
+    ("(define-fun-rec f () Real 1)", "recursive"),
+    ("(assert (> x", "never closed"),
+    ("(assert (> x 0)))", "no partner"),
+    ("(assert (> x #b1))", "unexpected"),
 )
 def test_what_is_refused(script: str, part: str) -> None:
     (line,) = answers(XY + script)
@@ -129,43 +124,37 @@ def test_after_an_assertion_that_was_not_understood_the_answer_is_never_sat() ->
     assert answers(script.format("(assert (< x x))"))[1:] == ["unsat", "sat"]
 
 
-@pytest.mark.parametrize(
-    ("script", "expected"),
-    [
-        ("(declare-const n Int)(assert (> n 0))(check-sat)(assert (< n 0))(check-sat)", ["unknown", "unsat"]),
-        ("(declare-const n Int)(assert (or (> n 0) (> x 1)))(assert (< x 5))(check-sat)", ["sat"]),
-        ("(declare-fun f (Real Int) Bool)(assert (or (f x 1) (> x 1)))(check-sat)", ["sat"]),
-        ("(declare-fun f (Real) Real)(assert (> (f 1) 0))(assert (< (f 1) 0))(check-sat)", ["unsat"]),
-        ("(assert (xor p (< (tanh 1) x)))(check-sat)", ["sat"]),
-        ("(assert (= x (tanh 1)))(check-sat)", ["sat"]),  # whatever tanh(1) is
-        ("(assert (= x (tanh x)))(check-sat)", ["unknown"]),
-        ("(assert (= x (tanh y)))(check-sat)", ["unknown"]),  # x is chosen before the value is known
-        ("(define-fun t () Real (tanh 1))(assert (and (> x t) (< x (+ t 1))))(check-sat)", ["sat"]),
-        ("(assert (forall ((z Real)) (or p (> (tanh z) 2))))(check-sat)", ["unknown"]),
-        ("(push)(assert (> x (tanh 1)))(pop)(declare-const unread Real)(assert (< unread 0))(check-sat)", ["sat"]),
-        ("(push)(declare-const n Int)(pop)(declare-const n Real)(assert (< n 0))(check-sat)", ["sat"]),
-        ("(assert (> x (to_int y)))(push)(assert (< x (to_int y)))(check-sat)(pop)(check-sat)", ["unsat", "unknown"]),
-    ],
+@each(
+    ("(declare-const n Int)(assert (> n 0))(check-sat)(assert (< n 0))(check-sat)", ["unknown", "unsat"]),
+    ("(declare-const n Int)(assert (or (> n 0) (> x 1)))(assert (< x 5))(check-sat)", ["sat"]),
+    ("(declare-fun f (Real Int) Bool)(assert (or (f x 1) (> x 1)))(check-sat)", ["sat"]),
+    ("(declare-fun f (Real) Real)(assert (> (f 1) 0))(assert (< (f 1) 0))(check-sat)", ["unsat"]),
+    ("(assert (xor p (< (tanh 1) x)))(check-sat)", ["sat"]),
+    ("(assert (= x (tanh 1)))(check-sat)", ["sat"]),  # whatever tanh(1) is
+    ("(assert (= x (tanh x)))(check-sat)", ["unknown"]),
+    ("(assert (= x (tanh y)))(check-sat)", ["unknown"]),  # x is chosen before the value is known
+    ("(define-fun t () Real (tanh 1))(assert (and (> x t) (< x (+ t 1))))(check-sat)", ["sat"]),
+    ("(assert (forall ((z Real)) (or p (> (tanh z) 2))))(check-sat)", ["unknown"]),
+    ("(push)(assert (> x (tanh 1)))(pop)(declare-const unread Real)(assert (< unread 0))(check-sat)", ["sat"]),
+    ("(push)(declare-const n Int)(pop)(declare-const n Real)(assert (< n 0))(check-sat)", ["sat"]),
+    ("(assert (> x (to_int y)))(push)(assert (< x (to_int y)))(check-sat)(pop)(check-sat)", ["unsat", "unknown"]),
 )
 def test_values_that_are_not_read_may_be_any(script: str, expected: list[str]) -> None:
     assert [line for line in answers(XY + script) if not line.startswith("(error")] == expected
 
 
-@pytest.mark.parametrize(
-    ("lines", "expected"),
-    [
-        (["(declare-const x Real)(assert (< 1. x (/ 3. 2.)))(check-sat)"], ["sat"]),
-        (["(declare-const x Real)(assert (= x 1.x))(check-sat)"], ["column 36: malformed", "unknown"]),
-        (["(assert (> 1/2 0))\n", "(check-sat)\n", "(exit)\n"], ["column 12: malformed", "unknown"]),
-        (["(push)\n (check-sat) # (echo a)(check-sat)"], ["sat", "line 2 column 14: unknown character", "a", "sat"]),
-        (["(check-sat))\n", "(echo b)\n"], ["sat", "column 12: unbalanced", "b"]),
-        (["\ufeff(check-sat)\n", "(foo)"], ["sat", "line 2 column 1"]),
-        (["(echo |a\n", "b|)(check-sat)\n"], ["|a b|", "sat"]),
-        (["(assert (< -x 0))(assert (x > 1))"], ["the symbol -x is not declared", "is not supported"]),
-        (["(maximize (* x x))"], ["qe minimize --maximize does this"]),
-        (["(declare-const x Real)(assert (x > 1))"], ["stands first: (> x …)"]),
-        (["(declare-const x (_ BitVec 8))"], ["(_ BitVec 8) found"]),
-    ],
+@each(
+    (["(declare-const x Real)(assert (< 1. x (/ 3. 2.)))(check-sat)"], ["sat"]),
+    (["(declare-const x Real)(assert (= x 1.x))(check-sat)"], ["column 36: malformed", "unknown"]),
+    (["(assert (> 1/2 0))\n", "(check-sat)\n", "(exit)\n"], ["column 12: malformed", "unknown"]),
+    (["(push)\n (check-sat) # (echo a)(check-sat)"], ["sat", "line 2 column 14: unknown character", "a", "sat"]),
+    (["(check-sat))\n", "(echo b)\n"], ["sat", "column 12: unbalanced", "b"]),
+    (["\ufeff(check-sat)\n", "(foo)"], ["sat", "line 2 column 1"]),
+    (["(echo |a\n", "b|)(check-sat)\n"], ["|a b|", "sat"]),
+    (["(assert (< -x 0))(assert (x > 1))"], ["the symbol -x is not declared", "is not supported"]),
+    (["(maximize (* x x))"], ["qe minimize --maximize does this"]),
+    (["(declare-const x Real)(assert (x > 1))"], ["stands first: (> x …)"]),
+    (["(declare-const x (_ BitVec 8))"], ["(_ BitVec 8) found"]),
 )
 def test_after_text_that_cannot_be_read_the_next_command_is_answered(lines: list[str], expected: list[str]) -> None:
     found: list[str] = []
@@ -272,7 +261,7 @@ def test_the_core_of_a_check_with_assumptions_named_what_could_be_left_out() -> 
     assert answers(f"{script}(check-sat-assuming ((< x 0)))(get-unsat-core)") == ["unsat", "(a)"]
 
 
-@pytest.mark.parametrize("first, rest", [("(", "("), ("(", "(\n"), ('("', "a\n"), ("(|", "a\n"), ("(", " ")])
+@each(("(", "("), ("(", "(\n"), ('("', "a\n"), ("(|", "a\n"), ("(", " "))
 def test_a_command_without_an_end_is_not_read_for_ever(first: str, rest: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each line was looked through with all lines before it, and no limit held for what never ends."""
     monkeypatch.setattr("qe.cli.smt.MOST_BYTES", 5_000)

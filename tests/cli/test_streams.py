@@ -17,6 +17,7 @@ from qe.cli.app import main as qe_main
 from qe.cli.shell import check_writable, write_file
 from qe.cli.source import read_text
 from qe.errors import InputError
+from tests.tables import each
 from tests.waiting import ending
 
 FOLDER = Path(sys.executable).parent
@@ -46,14 +47,11 @@ def test_a_full_disc(command: str) -> None:
     assert message.count("\n") == 1 and "No space left" in message and "report" not in message
 
 
-@pytest.mark.parametrize(
-    ("line", "status", "words"),
-    [
-        (f"{ELIMINATE} >&-", 3, "cannot be written"),
-        (f"{ELIMINATE} >&- 2>&-", 3, ""),
-        (f"{FOLDER / 'qe'} eliminate - <&-", 2, "empty"),
-        (f"{FOLDER / 'qe'} eliminate 'x <' >&- 2>&- <&-", 2, ""),
-    ],
+@each(
+    (f"{ELIMINATE} >&-", 3, "cannot be written"),
+    (f"{ELIMINATE} >&- 2>&-", 3, ""),
+    (f"{FOLDER / 'qe'} eliminate - <&-", 2, "empty"),
+    (f"{FOLDER / 'qe'} eliminate 'x <' >&- 2>&- <&-", 2, ""),
 )
 def test_closed_streams(line: str, status: int, words: str) -> None:
     found, message = shell(line)
@@ -113,14 +111,11 @@ def on_a_terminal(command: list[str], **environment: str) -> bytes:
 NO_COLOR, DUMB = {"NO_COLOR": "1"}, {"TERM": "dumb"}
 
 
-@pytest.mark.parametrize(
-    ("command", "environment"),
-    [
-        ([sys.executable, "-c", DRAWING], NO_COLOR),
-        ([sys.executable, "-c", DRAWING], DUMB),
-        ([str(FOLDER / "qe"), "--help"], NO_COLOR),
-        ([str(FOLDER / "bezier"), "plan", "missing.toml"], NO_COLOR),
-    ],
+@each(
+    ([sys.executable, "-c", DRAWING], NO_COLOR),
+    ([sys.executable, "-c", DRAWING], DUMB),
+    ([str(FOLDER / "qe"), "--help"], NO_COLOR),
+    ([str(FOLDER / "bezier"), "plan", "missing.toml"], NO_COLOR),
 )
 def test_plain_text_where_no_codes_are_wanted(command: list[str], environment: dict[str, str]) -> None:
     """NO_COLOR left dim figures, a spinner and codes that moved the cursor."""
@@ -150,7 +145,7 @@ def test_a_file_without_an_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> No
             read(Path("/dev/zero"))
 
 
-@pytest.mark.parametrize("name", ["", "x" * 300, "a\0b"])
+@each("", "x" * 300, "a\0b")
 def test_the_name_of_a_file_that_cannot_be(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     """A long name ended in a traceback, and no name at all wrote a plan into the folder one stood in."""
     for words in (["plan", "p.toml", "--out", name], ["check", name], ["clearance", name], ["joints", "a", name]):
@@ -177,7 +172,7 @@ def test_what_is_no_plain_file_is_written_to_and_never_replaced(tmp_path: Path) 
     assert Path(os.devnull).is_char_device() and sorted(tmp_path.iterdir()) == [link, pipe, real]
 
 
-@pytest.mark.parametrize("more", [[], ["--json"]])
+@each([], ["--json"])
 def test_an_interrupt_is_told(
     more: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

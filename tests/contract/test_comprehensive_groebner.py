@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import qe
 from qe.engine.strategy import Attempt
 from qe.formula.evaluate import holds_at
+from tests.tables import each
 
 PROBLEMS = {
     "quadratic": "ex x. a*x^2 + b*x + c = 0",
@@ -63,22 +64,19 @@ def test_what_no_equation_binds_has_points_between_zeros(text: str, monkeypatch:
     assert qe.equivalent(found, text, timeout=60)
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        (FREE[0], "a^2 <= 2 or a < 0"),
-        ("ex x. x^2 + x + 1 <= 0", "false"),
-        ("all x. x^4 - x + 1 > 0", "true"),
-        ("ex x, y. x^2 + y^2 = 1 and x + y > 2", "false"),
-        ("ex x, y. x^2 = 2 and y > x", "true"),
-    ],
+@each(
+    (FREE[0], "a^2 <= 2 or a < 0"),
+    ("ex x. x^2 + x + 1 <= 0", "false"),
+    ("all x. x^4 - x + 1 > 0", "true"),
+    ("ex x, y. x^2 + y^2 = 1 and x + y > 2", "false"),
+    ("ex x, y. x^2 = 2 and y > x", "true"),
 )
 def test_answers_without_equations_are_checked(text: str, expected: str) -> None:
     found = qe.eliminate(text, method="cgs", check=True, process=False)
     assert found.guarantee is qe.Guarantee.CHECKED and qe.equivalent(found.formula, expected)
 
 
-@pytest.mark.parametrize("text", ["ex x, y. x^2 + y^2 < a and x*y > b", "ex x. x^3 + a*x > b and x < a and x > c"])
+@each("ex x, y. x^2 + y^2 < a and x*y > b", "ex x. x^3 + a*x > b and x < a and x > c")
 def test_what_is_beyond_the_method_is_told_in_a_line(text: str) -> None:
     found = qe.eliminate(text, method="cgs", timeout=60)
     assert found.formula is None and "\n" not in found.reason
@@ -97,7 +95,7 @@ def test_a_witness_is_exact_and_checked() -> None:
     assert found.witness is not None and found.witness["y"] ** 6 == 2
 
 
-@pytest.mark.parametrize("text", ["ex x, y. y^2 = 4 and y > 0 or x > y and x < y", "ex x, y. x^2 + 1 = 0 or y^3 = 2"])
+@each("ex x, y. y^2 = 4 and y > 0 or x > y and x < y", "ex x, y. x^2 + 1 = 0 or y^3 = 2")
 def test_a_witness_has_all_variables_of_the_block(text: str) -> None:
     """Those that do not occur in the conjunction that holds were missing: an internal error."""
     found = qe.eliminate(text, method="cgs", check=True, process=False)

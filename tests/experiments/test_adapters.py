@@ -14,6 +14,7 @@ from experiments.compare import Verdict, compare
 from experiments.solvers import ENGINES, NAMES, OURS
 from qe.errors import Unable
 from qe.io.text import read
+from tests.tables import each
 
 LIMITS = Limits(20.0, 1500)
 QEPCAD = pytest.param("qepcad", marks=pytest.mark.skipif(not shutil.which("qepcad"), reason="qepcad is not installed"))
@@ -55,7 +56,7 @@ def test_semialg():
     assert compare(solve("semialg", "ex x. x > 0 and x < b_1").text, "b_1 > 0") is Verdict.EQUIVALENT
 
 
-@pytest.mark.parametrize("name", ["z3", "cvc5", "yices"])
+@each("z3", "cvc5", "yices")
 def test_smt_solvers_take_sentences_only(name):
     with pytest.raises(NotSupported):
         solve(name, "ex x. x^2 = a")

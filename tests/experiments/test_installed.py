@@ -15,6 +15,7 @@ import pytest
 
 import experiments
 from experiments import cli
+from tests.tables import each
 
 PROJECT = Path(__file__).resolve().parents[2]
 
@@ -85,9 +86,9 @@ def test_the_command_of_the_repository_works_in_any_folder(tmp_path: Path) -> No
     assert (elsewhere / "out" / "corpus.jsonl").exists()
 
 
-@pytest.mark.parametrize("command", ["report", "table", "figures", "html"])
-@pytest.mark.parametrize("content", [None, "", '{"kind": "environment", "name": "e"}\n', "spoilt\n"])
-def test_a_report_without_results_overwrites_nothing(command, content, tmp_path, monkeypatch, capsys):
+@each("report", "table", "figures", "html")
+@each(None, "", '{"kind": "environment", "name": "e"}\n', "spoilt\n")
+def test_a_report_without_results_overwrites_nothing(content, command, tmp_path, monkeypatch, capsys):
     """In a fresh clone the tracked page was replaced by an empty table."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "docs").mkdir()

@@ -18,6 +18,7 @@ from experiments.runner import Job, compared, is_done, plan, run_one
 from experiments.session import Session
 from tests.experiments import fakes
 from tests.experiments.test_results import result
+from tests.tables import each
 
 LIMITS = Limits(5.0, 400)
 TRUE = Problem("set", "true", "ex x. x = 1", "true")
@@ -79,17 +80,14 @@ def test_the_order_is_random_and_repeatable():
     assert [j.problem.id for j in jobs] != sorted(j.problem.id for j in jobs)
 
 
-@pytest.mark.parametrize(
-    ("known", "done"),
-    [
-        ({"status": "solved", "limit": 1.0}, True),
-        ({"status": "WRONG", "limit": 1.0}, True),
-        ({"status": "timeout", "limit": 1.0}, False),
-        ({"status": "timeout", "limit": 5.0}, True),
-        ({"repeat": 1}, False),
-    ],
+@each(
+    ({"status": "solved", "limit": 1.0}, True),
+    ({"status": "WRONG", "limit": 1.0}, True),
+    ({"status": "timeout", "limit": 1.0}, False),
+    ({"status": "timeout", "limit": 5.0}, True),
+    ({"repeat": 1}, False),
 )
-def test_what_is_run_again(tmp_path, known, done):
+def test_what_is_run_again(known, done, tmp_path):
     log = read_log([])
     row = result(set="set", solver="right", id="true", **known)
     log.results[row.key] = row

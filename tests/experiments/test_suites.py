@@ -11,9 +11,10 @@ from experiments.suites import SUITES, corpus, paper, scaling, suite
 from qe.errors import InputError
 from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read, write
+from tests.tables import each
 
 
-@pytest.mark.parametrize("name", ["paper", "classics", "scaling", "ablation"])
+@each("paper", "classics", "scaling", "ablation")
 def test_every_problem_reads(name):
     found = SUITES[name].problems()
     assert len({(p.set, p.id) for p in found}) == len(found) >= 30
@@ -51,9 +52,7 @@ def test_the_family_is_the_same_on_every_machine():
 PAPER = {p.id: p for p in paper.problems()}
 
 
-@pytest.mark.parametrize(
-    "id", ["formula-8-symbolic", "formula-8-above-1", "formula-8-feasible-2", "formula-4-height-1"]
-)
+@each("formula-8-symbolic", "formula-8-above-1", "formula-8-feasible-2", "formula-4-height-1")
 def test_known_answers_of_the_paper_suite(id):
     problem = PAPER[id]
     answer = qe.eliminate(problem.formula, timeout=120)
@@ -88,7 +87,7 @@ def test_the_ball_families_have_the_origin_in_common():
             assert holds_at(read(body), origin)
 
 
-@pytest.mark.parametrize("option", ["--suite", "--solver"])
+@each("--suite", "--solver")
 def test_unknown_names_give_one_line(option, capsys, tmp_path):
     known = [] if option == "--suite" else ["--suite", "paper"]
     assert cli.main(["run", *known, option, "nonesuch", "--results", str(tmp_path / "r")]) == 2
@@ -101,7 +100,7 @@ def test_the_ablation_runs_every_stage():
     assert set(suite("ablation").solvers) == {"ours", *(f"ours-without-{stage.value}" for stage in qe.Stage)}
 
 
-@pytest.mark.parametrize("option", ["--limit", "--memory"])
+@each("--limit", "--memory")
 def test_limits_are_positive(option, capsys, tmp_path):
     arguments = ["run", "--suite", "paper", option, "-1", "--results", str(tmp_path / "r.jsonl")]
     assert cli.main(arguments) == 2

@@ -15,6 +15,7 @@ from experiments.sweep.grid import Method, Task, grid, values
 from experiments.sweep.solve import _problem, outcome, solve
 from experiments.sweep.store import Store
 from qe.errors import InputError
+from tests.tables import each
 
 
 def task(d, k, r, method):
@@ -35,7 +36,7 @@ def test_the_grid_keeps_to_the_ball():
     assert all(t.half_width**2 + t.height**2 <= t.radius**2 for t in found)
 
 
-@pytest.mark.parametrize(("radius", "value"), [("2", 1.40211), ("8/5", 1.82407), ("5/2", 1.33369)])
+@each(("2", 1.40211), ("8/5", 1.82407), ("5/2", 1.33369))
 def test_objective_of_formula_7(radius, value):
     found = solve(task(1, 1, radius, Method.CUBIC))
     assert found["solved"] and found["objective"] == pytest.approx(value, abs=1e-5) and found["objective_exact"]

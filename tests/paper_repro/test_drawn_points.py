@@ -11,6 +11,7 @@ import pytest
 from bezier.arm.inverse import solve
 from bezier.arm.reader import load_arm
 from paper_repro import drawn_points, published
+from tests.tables import each
 
 
 def test_the_reach_is_that_of_the_arm() -> None:
@@ -39,7 +40,7 @@ def test_absent_data_are_no_data(tmp_path: Path) -> None:
     assert published.rows("some", tmp_path) == [{"x": "1/2"}]
 
 
-@pytest.mark.parametrize("key", ["arm-no-point-without", "arm-mean-errors", "arm-51-points"])
+@each("arm-no-point-without", "arm-mean-errors", "arm-51-points")
 def test_the_checks_do_without_the_data(key: str, monkeypatch: pytest.MonkeyPatch) -> None:
     from paper_repro.claim import examine
     from paper_repro.claims import CLAIMS

@@ -16,6 +16,7 @@ from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
 from paper_repro import ask, tex
 from paper_repro.written import EIGHT, SEVEN, Points, Printed, curve
+from tests.tables import each
 
 NUMBERS = st.fractions(min_value=-5, max_value=5, max_denominator=12)
 HERE: Points = {"q0": (0, Fraction(1, 10)), "r0": (Fraction(1, 10), Fraction(1, 10))}
@@ -28,8 +29,8 @@ def test_a_curve_as_text_is_definition_1(points: list[Fraction], t: Fraction) ->
 
 
 @pytest.mark.parametrize("printed", [SEVEN, EIGHT], ids=["seven", "eight"])
-@pytest.mark.parametrize("above", [False, True])
-def test_substitution_is_what_elimination_gives(printed: Printed, above: bool) -> None:
+@each(False, True)
+def test_substitution_is_what_elimination_gives(above: bool, printed: Printed) -> None:
     answer = qe.eliminate(printed.text("xy", HERE, 4, above=above))
     assert qe.equivalent(answer.formula, printed.substituted("xy", HERE, 4, above=above), timeout=120)
     without = printed.substituted("xy", HERE, 4, above=not above)
@@ -68,17 +69,14 @@ def test_objective_of_the_paper() -> None:
     assert SEVEN.objective("x", {}) == "(q1x - q0x)^2 + (q2x - q1x)^2 + (r0x - q2x)^2"
 
 
-@pytest.mark.parametrize(
-    ("source", "text"),
-    [
-        (r"P_1 = 2Q_0 - Q_1", "P1=2Q0−Q1"),
-        (r"\hat Q_1 \in [0, 1]", "Q^1∈[0,1]"),
-        (r"\frac{-1}{2} \le \sqrt{2}", "−12≤2"),
-        (r"\text{true: x = 1/2}", "true: x = 1/2"),
-        (r"\max\{\|P_0\|, \|R_2\|\}", "max{‖P0‖,‖R2‖}"),
-        (r"P''(1) = Q''(0)", "P′′(1)=Q′′(0)"),
-        (r"\begin{array}{rl} & x \leq 0 \\ \land\; & y > 0 \end{array}", "x≤0∧y>0"),
-    ],
+@each(
+    (r"P_1 = 2Q_0 - Q_1", "P1=2Q0−Q1"),
+    (r"\hat Q_1 \in [0, 1]", "Q^1∈[0,1]"),
+    (r"\frac{-1}{2} \le \sqrt{2}", "−12≤2"),
+    (r"\text{true: x = 1/2}", "true: x = 1/2"),
+    (r"\max\{\|P_0\|, \|R_2\|\}", "max{‖P0‖,‖R2‖}"),
+    (r"P''(1) = Q''(0)", "P′′(1)=Q′′(0)"),
+    (r"\begin{array}{rl} & x \leq 0 \\ \land\; & y > 0 \end{array}", "x≤0∧y>0"),
 )
 def test_tex(source: str, text: str) -> None:
     root = ElementTree.fromstring(tex.math(source))
@@ -93,7 +91,7 @@ def test_structure_of_tex() -> None:
     assert 'form="prefix">−' not in tex.math("1 - 2")
 
 
-@pytest.mark.parametrize("source", [r"\unknown", "{x", r"\frac{1}", r"\begin{array}{rl} x"])
+@each(r"\unknown", "{x", r"\frac{1}", r"\begin{array}{rl} x")
 def test_tex_outside_the_subset_is_refused(source: str) -> None:
     with pytest.raises(ValueError, match=r"."):
         tex.math(source)
@@ -103,10 +101,7 @@ def test_running_text_is_escaped() -> None:
     assert tex.inline("a < b & `x<y` $x$").startswith("a &lt; b &amp; <code>x&lt;y</code> <math")
 
 
-@pytest.mark.parametrize(
-    ("value", "shown"),
-    [(Fraction(-3, 4), r"-\frac{3}{4}"), ("(4 - 3*sqrt(2))/4", r"\frac{4 - 3\,\sqrt{2}}{4}"), (2, "2")],
-)
+@each((Fraction(-3, 4), r"-\frac{3}{4}"), ("(4 - 3*sqrt(2))/4", r"\frac{4 - 3\,\sqrt{2}}{4}"), (2, "2"))
 def test_numbers(value: object, shown: str) -> None:
     assert ask.number(value) == shown
 

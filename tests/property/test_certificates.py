@@ -34,6 +34,7 @@ from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from tests.enough import enough
 from tests.strategies import atoms, integers, rationals
+from tests.tables import each
 
 INTEGERS = st.lists(integers(6, rarity=24), min_size=1, max_size=7)
 NAMES = ("x", "y", "z")
@@ -77,7 +78,7 @@ def _narrower(cell: Cell, *, merge: bool) -> Iterator[Cell]:
             yield replace(cell, stack=replace(stack, cells=cells))
 
 
-def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float = 1.0) -> bool:
+def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float) -> bool:
     table = _table(matrix, quantifiers, projection, seconds)
     if table is None:
         return False
@@ -102,20 +103,17 @@ def _matrices(names: tuple[str, ...], degree: int, width: int) -> st.SearchStrat
 PLANE, SPACE = _matrices(NAMES[:2], 3, 3), _matrices(NAMES, 2, 2)
 
 
-@enough(13, 50, PLANE, st.sampled_from([("", ""), ("", "E"), ("E", "A"), ("A", "E")]), st.sampled_from(Projection))
-def test_random_tables_in_the_plane(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> bool:
-    return _check(matrix, quantifiers, projection)
+IN_SPACE = [("", "", ""), ("", "E", "A"), ("E", "E", "E")]
 
 
-@enough(8, 34, SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(Projection))
-def test_random_tables_in_space(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> bool:
-    return _check(matrix, quantifiers, projection)
-
-
-@pytest.mark.deep
-@enough(400, 1500, SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(Projection))
-def test_many_random_tables(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> bool:
-    return _check(matrix, quantifiers, projection, 5.0)
+@each(
+    (13, 50, PLANE, [("", ""), ("", "E"), ("E", "A"), ("A", "E")], 1.0),
+    (8, 34, SPACE, IN_SPACE, 1.0),
+    pytest.param(400, 1500, SPACE, IN_SPACE, 5.0, marks=pytest.mark.deep),
+)
+def test_random_tables(at_least: int, of: int, matrices, prefixes: list[tuple[str, ...]], seconds: float) -> None:  # type: ignore[no-untyped-def]
+    drawn = (matrices, st.sampled_from(prefixes), st.sampled_from(Projection))
+    enough(at_least, of, *drawn)(lambda *values: _check(*values, seconds))()
 
 
 @given(INTEGERS, INTEGERS, rationals(4, 5), rationals(4, 5))

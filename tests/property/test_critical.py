@@ -19,6 +19,7 @@ from qe.formula.syntax import Formula, Relation
 from qe.options import Budget, Method, Options
 from qe.proof.run_log import RunLog
 from tests.enough import enough
+from tests.tables import each
 
 RELATIONS = (Relation.LE, Relation.LT, Relation.EQ, Relation.GE, Relation.GT, Relation.NE)
 
@@ -69,24 +70,9 @@ def agrees(variables: tuple[str, ...], body: Formula) -> bool:
     return True
 
 
-@enough(2, 12, blocks(1, 1))
-def test_one_parameter(block: tuple[tuple[str, ...], Formula]) -> bool:
-    return agrees(*block)
-
-
-@enough(3, 15, blocks(2, 1))
-def test_two_parameters(block: tuple[tuple[str, ...], Formula]) -> bool:
-    return agrees(*block)
-
-
-@enough(2, 12, blocks(1, 2, extra=1))
-def test_two_quantified_variables(block: tuple[tuple[str, ...], Formula]) -> bool:
-    return agrees(*block)
-
-
-@enough(2, 8, blocks(3, 1, extra=1))
-def test_three_parameters(block: tuple[tuple[str, ...], Formula]) -> bool:
-    return agrees(*block)
+@each((2, 12, blocks(1, 1)), (3, 15, blocks(2, 1)), (2, 12, blocks(1, 2, extra=1)), (2, 8, blocks(3, 1, extra=1)))
+def test_blocks(at_least: int, of: int, drawn: st.SearchStrategy[tuple[tuple[str, ...], Formula]]) -> None:
+    enough(at_least, of, drawn)(lambda block: agrees(*block))()
 
 
 def test_unbounded_convex_set_in_three_parameters() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise
 
-import pytest
 from flint import fmpq, fmpz_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -18,6 +17,7 @@ from qe.exact.sample import Point
 from qe.kernel.arithmetic.sturm import count_real_roots
 from tests.strategies import integers
 from tests.strategies import rationals as any_rationals
+from tests.tables import each
 
 coefficients = st.lists(integers(9), min_size=2, max_size=5)
 rationals = any_rationals(6, 7)
@@ -54,7 +54,7 @@ def test_order(a: RealAlgebraic, b: RealAlgebraic, q: Fraction) -> None:
         assert hash(a) == hash(b)
 
 
-@pytest.mark.parametrize("side", [-1, 1])
+@each(-1, 1)
 def test_order_beside_rational_numbers_closer_than_any_ball(side: int) -> None:
     """Convergents p/q of the square root of 2, p^2 - 2 q^2 = -side, within 2^-3000 of it."""
     root, p, q = max(real_roots(fmpz_poly([-2, 0, 1]))), 1, 1

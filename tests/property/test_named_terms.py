@@ -17,12 +17,11 @@ from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import atoms, is_quantifier_free, ring_of
 from qe.io.text import read
 from tests.corpus.catalogue import problems
+from tests.tables import each
 
 PROBLEMS = {p.id: p.formula for p in problems() if "slow" not in p.tags}
 SLACK = 0.3
 """Seconds of processor time that say nothing."""
-
-METHODS = ("vs", "cad", "critical", "convex", "witness", "cgs", "coverings", "roots")
 
 
 def part(poly: Poly, rng: random.Random) -> Poly:
@@ -121,7 +120,7 @@ def test_all_named_terms(name: str) -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("method", METHODS)
+@each("vs", "cad", "critical", "convex", "witness", "cgs", "coverings", "roots")
 def test_named_terms_by_one_method(method: str) -> None:
     assert sum(compared(text, seed, method, 10) for seed, text in enumerate(PROBLEMS.values())) > 5
 

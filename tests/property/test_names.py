@@ -22,6 +22,7 @@ from qe.io.sympy import from_sympy, to_sympy
 from qe.proof.entry import Entry, parse_poly, poly_to_text
 from qe.spelling import CONSTANTS, KEYWORDS, quoted, unquoted
 from tests.strategies import RELATIONS, formulas, points, polynomials
+from tests.tables import each
 from tests.universe import same
 
 SYMBOL = string.ascii_letters + string.digits + "~!@$%^&*_-+=<>.?/"
@@ -144,7 +145,7 @@ def test_quoted_symbols_of_smtlib_are_the_names(chosen: list[str]) -> None:
     assert set(smtlib.read("\n".join(lines)).free) == set(chosen)
 
 
-@pytest.mark.parametrize("format_name", ["redlog", "qepcad"])
+@each("redlog", "qepcad")
 @given(formula=named_formulas())
 def test_renaming_formats_keep_variables_apart(format_name: str, formula: Formula) -> None:
     again = formats.read(formats.write(formula, format_name), format_name)

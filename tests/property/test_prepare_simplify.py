@@ -19,6 +19,8 @@ from qe.simplify.simplify import simplify
 
 from .prepare_support import RING, formulas, holds, literals, named, points, rationals, weight
 
+Point = dict[str, Fraction]
+places = points.map(lambda values: named(RING, values))
 ranges = st.lists(st.builds(compare, st.sampled_from(Relation), rationals), max_size=3)
 
 
@@ -27,48 +29,40 @@ def has_negation(formula: Formula) -> bool:
 
 
 @settings(max_examples=120, deadline=None)
-@given(formulas(), st.lists(points, min_size=1, max_size=12))
-def test_equivalent_smaller_and_idempotent(formula: Formula, where: list[tuple[Fraction, ...]]) -> None:
+@given(formulas(), st.lists(places, min_size=1, max_size=12))
+def test_equivalent_smaller_and_idempotent(formula: Formula, where: list[Point]) -> None:
     result = simplify(formula)
-    for values in where:
-        point = named(RING, values)
-        assert holds(formula, point) == holds(result, point)
+    assert all(holds(formula, point) == holds(result, point) for point in where)
     assert weight(result) <= weight(formula)
     assert not has_negation(result)
     assert simplify(result) == result
 
 
 @settings(max_examples=60, deadline=None)
-@given(formulas(), st.lists(literals(), min_size=1, max_size=3), st.lists(points, min_size=1, max_size=20))
+@given(formulas(), st.lists(literals(), min_size=1, max_size=3), st.lists(places, min_size=1, max_size=20))
 def test_assumptions_may_be_used_but_only_where_they_hold(
-    formula: Formula, assumed: list[Formula], where: list[tuple[Fraction, ...]]
+    formula: Formula, assumed: list[Formula], where: list[Point]
 ) -> None:
     assumptions = conj(assumed)
     result = simplify(formula, assumptions)
-    for values in where:
-        point = named(RING, values)
-        if holds(assumptions, point):
-            assert holds(formula, point) == holds(result, point)
+    assert all(holds(formula, point) == holds(result, point) for point in where if holds(assumptions, point))
 
 
 @settings(max_examples=50, deadline=None)
-@given(formulas(), points)
-def test_negation_commutes(formula: Formula, values: tuple[Fraction, ...]) -> None:
-    point = named(RING, values)
+@given(formulas(), places)
+def test_negation_commutes(formula: Formula, point: Point) -> None:
     assert holds(simplify(neg(formula)), point) != holds(simplify(formula), point)
 
 
 @settings(max_examples=40, deadline=None)
-@given(formulas(), st.lists(points, min_size=1, max_size=8))
-def test_bound_variables_are_not_confused_with_free_ones(formula: Formula, where: list[tuple[Fraction, ...]]) -> None:
+@given(formulas(), st.lists(places, min_size=1, max_size=8))
+def test_bound_variables_are_not_confused_with_free_ones(formula: Formula, where: list[Point]) -> None:
     """``f and ex x. f`` is f: what f says about the free x must not leak into the quantifier, nor back."""
     result = simplify(conj((formula, exists(("x",), formula))))
     parts = result.args if isinstance(result, And) else (result,)
-    for values in where:
-        point = named(RING, values)
+    for point in where:
         if holds(formula, point):
-            for part in parts:
-                assert holds(part.body, point | {"x": values[2]}) if isinstance(part, Exists) else holds(part, point)
+            assert all(holds(part.body if isinstance(part, Exists) else part, point) for part in parts)
 
 
 @settings(max_examples=200, deadline=None)

@@ -23,7 +23,9 @@ from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import map_atoms
 from qe.options import Budget
 from tests.certificates.mutation import replaced
+from tests.enough import enough
 from tests.strict_problems import conditions, objectives
+from tests.tables import each
 
 THREE = Ring.of(("x", "y", "z", "v"))
 TWO = Ring.of(("x", "y", "v"))
@@ -96,22 +98,9 @@ def tried(problem: tuple[Poly, Formula], method: str) -> bool:
     return True
 
 
-def test_attainment_agrees_with_decomposition() -> None:
-    decided: list[bool] = []
-
-    @settings(max_examples=30)
-    @given(problems())
-    def law(problem: tuple[Poly, Formula]) -> None:
-        decided.append(tried(problem, "cad"))
-
-    law()
-    assert sum(decided) >= 26
-
-
-@pytest.mark.deep
-@given(problems())
-def test_attainment_agrees_with_decomposition_deep(problem: tuple[Poly, Formula]) -> None:
-    tried(problem, "cad")
+@each((26, 30), pytest.param(200, 400, marks=pytest.mark.deep))
+def test_attainment_agrees_with_decomposition(at_least: int, of: int) -> None:
+    enough(at_least, of, problems())(lambda problem: tried(problem, "cad"))()
 
 
 @settings(max_examples=40)
@@ -122,15 +111,7 @@ def test_linear_problems_with_huge_numbers_are_all_decided(problem: tuple[Poly, 
 
 def moved(poly: Poly, factors: list[int], offsets: list[int]) -> Poly:
     """poly at the points factor_i * x_i - offset_i."""
-    ring = poly.ring
-    total = ring.constant(0)
-    for exponents, coefficient in poly.terms():
-        term = ring.constant(coefficient)
-        for i, e in enumerate(exponents):
-            for _ in range(e):
-                term = term * (factors[i] * ring.gen(i) - offsets[i])
-        total = total + term
-    return total
+    return poly.compose({i: factors[i] * poly.ring.gen(i) - offsets[i] for i in range(poly.ring.size)})
 
 
 FAR = st.lists(st.sampled_from((0, 1, 10**6, 10**20)), min_size=4, max_size=4)
@@ -138,26 +119,20 @@ FINE = st.lists(st.sampled_from((1, 1, 10**10, 10**25)), min_size=4, max_size=4)
 
 
 @pytest.mark.deep
-def test_a_copy_far_off_or_finer_has_the_same_optimum() -> None:
-    decided: list[bool] = []
-
-    @settings(max_examples=80)
-    @given(problems(), FINE, FAR)
-    def law(problem: tuple[Poly, Formula], factors: list[int], offsets: list[int]) -> None:
-        objective, body = problem
-        copy = map_atoms(body, lambda a: atom(moved(a.poly, factors, offsets), a.relation))
-        try:
-            first = minimize(objective, body, budget=Budget(5))
-            second = minimize(moved(objective, factors, offsets), copy, budget=Budget(5))
-        except Unable:
-            decided.append(False)
-            return
-        decided.append(True)
-        assert (second.status, second.attained) == (first.status, first.attained)
-        assert second.value == first.value and qe.verify(second.certificate).accepted
-
-    law()
-    assert sum(decided) >= 0.8 * len(decided) > 60
+@enough(64, 80, problems(), FINE, FAR)
+def test_a_copy_far_off_or_finer_has_the_same_optimum(
+    problem: tuple[Poly, Formula], factors: list[int], offsets: list[int]
+) -> bool:
+    objective, body = problem
+    copy = map_atoms(body, lambda a: atom(moved(a.poly, factors, offsets), a.relation))
+    try:
+        first = minimize(objective, body, budget=Budget(5))
+        second = minimize(moved(objective, factors, offsets), copy, budget=Budget(5))
+    except Unable:
+        return False
+    assert (second.status, second.attained) == (first.status, first.attained)
+    assert second.value == first.value and qe.verify(second.certificate).accepted
+    return True
 
 
 @settings(max_examples=30)

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-import pytest
 import sympy
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -19,6 +18,7 @@ from qe.formula.syntax import Formula
 from qe.io import formats
 from qe.io.sympy import from_sympy
 from qe.io.text import read
+from tests.tables import each
 
 NUMBERS = (
     Fraction(-2),
@@ -156,33 +156,30 @@ def test_a_quantifier_never_contradicts_a_point(
     assert not holds or quantifier == "ex" or all(truths)
 
 
-@pytest.mark.parametrize(
-    ("text", "meant"),
-    [
-        ("cbrt(x) < y", "x < y^3"),
-        ("x^(1/3) < y", "x >= 0 and x < y^3 and y > 0"),
-        ("x^(-2/3) < 1", "x > 1"),
-        ("sqrt(x) + sqrt(y) + sqrt(x + y) > 0", "x >= 0 and y >= 0 and (x > 0 or y > 0)"),
-        ("y = root(2, x^3 - 3*x + 1)", "ex s. s^3 - 3*s + 1 = 0 and 0 < s < 1 and y = s"),
-        ("root(1, t^3 - 2)^3 = 2 and root(1, x^3 - 2) > root(1, x^2 - x)", "true"),
-        ("root(1, t^3 - 2) <= x + 1 < 2", "x < 1 and (x + 1)^3 >= 2"),
-        ("y < root(1, x^2 - y, x) + 1", "ex s. s = root(1, s^2 - y) and y < s + 1"),
-        ("all x. sqrt(x^2 + 1) > x", "true"),
-        ("all x. x^(1/3) >= 0", "false"),
-        ("all x. x >= 0 -> x^(1/3) >= 0", "true"),
-        ("not (1/x > 0)", "x <= 0"),
-        ("1/x /= 1", "x /= 0 and x /= 1"),
-        ("not 1/x = 1", "x /= 1"),
-        ("all x. 1/x > 0 -> x > 0", "true"),
-        ("ex x. x/x /= 1", "false"),
-        ("sqrt(x) - sqrt(x) = 0", "x >= 0"),
-        ("sqrt(x^2*y^2) = -x*y", "x*y <= 0"),
-        ("sqrt(1/x) > y", "x > 0 and (y < 0 or x*y^2 < 1)"),
-        ("x < oo and y > -oo", "true"),
-        ("1/x < oo", "x /= 0"),
-        ("(if x > 0 then 1/x else sqrt(-x)) > 1", "0 < x < 1 or x < -1"),
-        ("|a| + |b| + |c| + |d| + |f| <= 0", "a=0 and b=0 and c=0 and d=0 and f=0"),
-    ],
+@each(
+    ("cbrt(x) < y", "x < y^3"),
+    ("x^(1/3) < y", "x >= 0 and x < y^3 and y > 0"),
+    ("x^(-2/3) < 1", "x > 1"),
+    ("sqrt(x) + sqrt(y) + sqrt(x + y) > 0", "x >= 0 and y >= 0 and (x > 0 or y > 0)"),
+    ("y = root(2, x^3 - 3*x + 1)", "ex s. s^3 - 3*s + 1 = 0 and 0 < s < 1 and y = s"),
+    ("root(1, t^3 - 2)^3 = 2 and root(1, x^3 - 2) > root(1, x^2 - x)", "true"),
+    ("root(1, t^3 - 2) <= x + 1 < 2", "x < 1 and (x + 1)^3 >= 2"),
+    ("y < root(1, x^2 - y, x) + 1", "ex s. s = root(1, s^2 - y) and y < s + 1"),
+    ("all x. sqrt(x^2 + 1) > x", "true"),
+    ("all x. x^(1/3) >= 0", "false"),
+    ("all x. x >= 0 -> x^(1/3) >= 0", "true"),
+    ("not (1/x > 0)", "x <= 0"),
+    ("1/x /= 1", "x /= 0 and x /= 1"),
+    ("not 1/x = 1", "x /= 1"),
+    ("all x. 1/x > 0 -> x > 0", "true"),
+    ("ex x. x/x /= 1", "false"),
+    ("sqrt(x) - sqrt(x) = 0", "x >= 0"),
+    ("sqrt(x^2*y^2) = -x*y", "x*y <= 0"),
+    ("sqrt(1/x) > y", "x > 0 and (y < 0 or x*y^2 < 1)"),
+    ("x < oo and y > -oo", "true"),
+    ("1/x < oo", "x /= 0"),
+    ("(if x > 0 then 1/x else sqrt(-x)) > 1", "0 < x < 1 or x < -1"),
+    ("|a| + |b| + |c| + |d| + |f| <= 0", "a=0 and b=0 and c=0 and d=0 and f=0"),
 )
 def test_meaning(text: str, meant: str) -> None:
     assert qe.equivalent(text, meant)

@@ -23,6 +23,7 @@ from qe.simplify.simplify import simplify
 from tests.enough import enough
 from tests.strategies import RELATIONS, atoms, rationals
 from tests.strategies import polynomials as polynomials_of
+from tests.tables import each
 from tests.unit.elimination.vs.line import satisfiable, specialise
 
 RING = Ring.of(("a", "b", "x"))
@@ -95,15 +96,6 @@ def convex_families(draw: st.DrawFn) -> Formula:
     return conj((*parts, disj(loose) if loose else conj(())))
 
 
-@given(convex_families(), st.lists(PARAMETERS, min_size=4, max_size=4))
-@settings(max_examples=28)
-def test_convex_family(matrix: Formula, points: list[dict[str, Fraction]]) -> None:
-    """The elimination set of vertices and crossings, without square roots."""
-    result = eliminate_block(("x",), matrix, budget=budget(), simplify=identity)
-    for values in points:
-        assert holds_at(result.formula, values) == satisfiable(specialise(matrix, values), 2)
-
-
 @st.composite
 def open_matrices(draw: st.DrawFn) -> Formula:
     """Conjunctions of strict atoms of degree 2 in x and y."""
@@ -131,10 +123,14 @@ def lone_quadratics(draw: st.DrawFn) -> Formula:
     return conj((*parts[:cut], disj(parts[cut:]) if cut < len(parts) else conj(())))
 
 
-@given(lone_quadratics(), st.lists(PARAMETERS, min_size=4, max_size=4))
+@each(convex_families(), lone_quadratics())
+@given(drawn=st.data(), points=st.lists(PARAMETERS, min_size=4, max_size=4))
 @settings(max_examples=28)
-def test_lone_quadratic(matrix: Formula, points: list[dict[str, Fraction]]) -> None:
-    """The elimination set without square roots: both infinities, the linear roots, the vertex."""
+def test_sets_without_square_roots(
+    family: st.SearchStrategy[Formula], drawn: st.DataObject, points: list[dict[str, Fraction]]
+) -> None:
+    """Of vertices and crossings; of both infinities, the linear roots, the vertex."""
+    matrix = drawn.draw(family)
     result = eliminate_block(("x",), matrix, budget=budget(), simplify=identity)
     for values in points:
         assert holds_at(result.formula, values) == satisfiable(specialise(matrix, values), 2)

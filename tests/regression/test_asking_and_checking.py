@@ -11,14 +11,12 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, TRUE, Constant
 from tests.differential.generate import Shape, random_formula
+from tests.tables import each
 
 CUBIC = "ex x. x^3 + a*x + b = 0 and x > 0"
 
 
-@pytest.mark.parametrize(
-    "text",
-    ["ex x. x^5 + a*x + b = 0 and x > 0", "ex x, y. x^4 + y^5 + x*y = 1 and x*y^3 + x > 2", "all x. x^4 + p*x + q > 0"],
-)
+@each("ex x. x^5 + a*x + b = 0 and x > 0", "ex x, y. x^4 + y^5 + x*y = 1 and x*y^3 + x > 2", "all x. x^4 + p*x + q > 0")
 def test_substitution_asked_for_alone_was_finished_by_decomposition(text: str) -> None:
     answer = eliminate(text, method="vs")
     assert answer.status is Status.UNABLE and "substitution alone" in answer.reason
@@ -61,14 +59,11 @@ def test_a_check_changes_no_answer(seed: int) -> None:
         assert claim == convert(plain.formula, ring)
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("x + y = 0 and x - y = 0 and x > 0", FALSE),
-        ("x > 0 and y > x and z > y and z < 0", FALSE),
-        ("a*b = 0 and c*d = 1 and a - b = 3 and c = d + 1 and d > 4", FALSE),
-        ("x <= 0 or y <= x or z <= y or z >= 0", TRUE),
-    ],
+@each(
+    ("x + y = 0 and x - y = 0 and x > 0", FALSE),
+    ("x > 0 and y > x and z > y and z < 0", FALSE),
+    ("a*b = 0 and c*d = 1 and a - b = 3 and c = d + 1 and d > 4", FALSE),
+    ("x <= 0 or y <= x or z <= y or z >= 0", TRUE),
 )
 def test_formulas_without_solution_were_returned_as_they_stood(text: str, expected: Constant) -> None:
     assert eliminate(text).formula == expected

@@ -19,26 +19,24 @@ from qe.exact.ring import Ring
 from qe.io import formats, text
 from qe.proof.certificate import Kind
 from qe.proof.entry import parse_poly, poly_to_text
+from tests.tables import each
 
 root2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
 # --- text ---------------------------------------------------------------------------------------------------
-@pytest.mark.parametrize(
-    ("given", "meant"),
-    [
-        ("all x. |x| >= 0", "true"),
-        ("ex x. |x| < 0", "false"),
-        ("|x - 1| < 2", "-1 < x < 3"),
-        ("x > 0 | y > 0", "x > 0 or y > 0"),
-        ("||x| - 1| > 0", "x /= 1 and x /= -1"),
-    ],
+@each(
+    ("all x. |x| >= 0", "true"),
+    ("ex x. |x| < 0", "false"),
+    ("|x - 1| < 2", "-1 < x < 3"),
+    ("x > 0 | y > 0", "x > 0 or y > 0"),
+    ("||x| - 1| > 0", "x /= 1 and x /= -1"),
 )
 def test_bars_are_not_read_as_a_name(given: str, meant: str) -> None:
     assert qe.equivalent(given, meant)
 
 
-@pytest.mark.parametrize("given", ["x > pi", "ex x. x^2 = Pi", "x < 2*π", "(all π. π > 0) or π = 1", r"x \leq e"])
+@each("x > pi", "ex x. x^2 = Pi", "x < 2*π", "(all π. π > 0) or π = 1", r"x \leq e")
 def test_constants_of_mathematics_are_not_taken_for_variables(given: str) -> None:
     with pytest.raises(qe.ParseError, match="no number here"):
         qe.eliminate(given)
@@ -54,10 +52,7 @@ def test_constants_may_be_names_where_that_is_meant() -> None:
     assert text.read("x > pi", known=("pi",)).free == ("x", "pi")
 
 
-LETTERS = ("e", "i", "E", "I")
-
-
-@pytest.mark.parametrize("name", LETTERS)
+@each("e", "i", "E", "I")
 def test_letters_are_variables_and_noted_where_their_neighbours_are_none(name: str) -> None:
     """``a*x^4 + b*x^3 + c*x^2 + d*x + e = 0`` was refused: "e is no number here"."""
     neighbours = chr(ord(name) - 1), chr(ord(name) + 1)
@@ -78,39 +73,33 @@ def noted_in(given: object, format: str = "text") -> list[str]:
     return [str(one.message) for one in noted if one.category is qe.DoubtfulInput]
 
 
-@pytest.mark.parametrize(
-    ("given", "format", "note"),
-    [
-        ("ex x. ax^2 + bx + c = 0", "text", "x does not occur; did you mean a*x^2?"),
-        ("all x. 2*ax² > b", "text", "x does not occur; did you mean a*x²?"),
-        ("ex x. x > 0 and ax = 1", "text", "ax is one name; a product is written a*x"),
-        ("ex x, y. a*x = 1", "text", "y does not occur"),
-        ("all a. (ex x. a > 0)", "text", "x does not occur"),
-        (["a > 0", "ex x. ax < 1"], "text", "x does not occur; did you mean a*x?"),
-        (r"\exists x\colon a > 0", "latex", "x does not occur"),
-        ("(E x)[a > 0]", "qepcad", "x does not occur"),
-        ("ex({x}, a > 0)", "redlog", "x does not occur"),
-        ("(declare-const a Real)(assert (exists ((x Real)) (> a 0)))", "smtlib", "x does not occur"),
-        (qe.Exists(x, sp.Gt(b, 0)), "text", "x does not occur"),
-        (qe.exists("x", qe.variables("b") > 0), "text", "x does not occur"),
-    ],
+@each(
+    ("ex x. ax^2 + bx + c = 0", "text", "x does not occur; did you mean a*x^2?"),
+    ("all x. 2*ax² > b", "text", "x does not occur; did you mean a*x²?"),
+    ("ex x. x > 0 and ax = 1", "text", "ax is one name; a product is written a*x"),
+    ("ex x, y. a*x = 1", "text", "y does not occur"),
+    ("all a. (ex x. a > 0)", "text", "x does not occur"),
+    (["a > 0", "ex x. ax < 1"], "text", "x does not occur; did you mean a*x?"),
+    (r"\exists x\colon a > 0", "latex", "x does not occur"),
+    ("(E x)[a > 0]", "qepcad", "x does not occur"),
+    ("ex({x}, a > 0)", "redlog", "x does not occur"),
+    ("(declare-const a Real)(assert (exists ((x Real)) (> a 0)))", "smtlib", "x does not occur"),
+    (qe.Exists(x, sp.Gt(b, 0)), "text", "x does not occur"),
+    (qe.exists("x", qe.variables("b") > 0), "text", "x does not occur"),
 )
 def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, format: str, note: str) -> None:
     """``ex x. ax^2 + bx + c = 0`` was answered by itself, without a word."""
     assert noted_in(given, format) == [note]
 
 
-@pytest.mark.parametrize(
-    "given",
-    [
-        "ex x. a*x^2 + b*x + c = 0",
-        "ex x. x - x + a = 0",
-        "ex x in Reals. a*x > 0 and amax > 1",
-        "ex x. x^2 = x1 and xmax > tax",
-        "ex x, ax. x^2 = ax",
-        r"\exists x\colon ax^2 + bx + c = 0",
-        "all x. (ex x. x > a) -> x < b",
-    ],
+@each(
+    "ex x. a*x^2 + b*x + c = 0",
+    "ex x. x - x + a = 0",
+    "ex x in Reals. a*x > 0 and amax > 1",
+    "ex x. x^2 = x1 and xmax > tax",
+    "ex x, ax. x^2 = ax",
+    r"\exists x\colon ax^2 + bx + c = 0",
+    "all x. (ex x. x > a) -> x < b",
 )
 def test_nothing_is_noted_where_all_occur(given: str) -> None:
     assert noted_in(given) == []
@@ -143,16 +132,14 @@ def test_an_answer_has_no_truth_value() -> None:
     assert issubclass(qe.NoTruthValue, qe.InputError)
 
 
-@pytest.mark.parametrize(
-    "make", [lambda: qe.Exists(x, x**2 == b), lambda: qe.ForAll(x, x != x), lambda: qe.decide(True)]
-)
+@each(lambda: qe.Exists(x, x**2 == b), lambda: qe.ForAll(x, x != x), lambda: qe.decide(True))
 def test_the_comparison_of_expressions_is_no_formula(make) -> None:
     with pytest.raises(qe.InputError, match="Eq"):
         make()
 
 
 # --- names --------------------------------------------------------------------------------------------------
-@pytest.mark.parametrize("name", ["x!0", "d.g", "$in", "a b", "x^*", "a + b", "1", "`", "ä\u0301", "a\nb"])
+@each("x!0", "d.g", "$in", "a b", "x^*", "a + b", "1", "`", "ä\u0301", "a\nb")
 def test_a_witness_for_a_variable_with_an_odd_name(name: str) -> None:
     script = f"(declare-const |{name}| Real)(assert (= (* |{name}| |{name}|) 2))(assert (> |{name}| 0))"
     found = qe.find_instance(script, format="smtlib")
@@ -218,22 +205,19 @@ def test_a_float_of_sympy_is_the_decimal_that_it_prints() -> None:
 
 
 # --- wrong values -------------------------------------------------------------------------------------------
-@pytest.mark.parametrize(
-    "call",
-    [
-        lambda: qe.verify("abc"),
-        lambda: qe.eliminate("x > 0", timeout="10"),
-        lambda: qe.eliminate("x > 0", timeout=math.nan),
-        lambda: qe.decide("true", timeout=-1),
-        lambda: qe.decide("true", memory=math.inf),
-        lambda: qe.region("x > 0", timeout=math.inf),
-        lambda: qe.region("x > 0").contains({"x": math.inf}),
-        lambda: qe.region("x > 0").contains(5),
-        lambda: qe.eliminate("x^2 + y^2 < 1", order=(x, 5)),
-        lambda: qe.Certificate.from_json(5),
-        lambda: qe.parametric_witnesses("true"),
-        lambda: qe.RealAlgebraic.from_root([-2.5, 1], 0, 5),
-    ],
+@each(
+    lambda: qe.verify("abc"),
+    lambda: qe.eliminate("x > 0", timeout="10"),
+    lambda: qe.eliminate("x > 0", timeout=math.nan),
+    lambda: qe.decide("true", timeout=-1),
+    lambda: qe.decide("true", memory=math.inf),
+    lambda: qe.region("x > 0", timeout=math.inf),
+    lambda: qe.region("x > 0").contains({"x": math.inf}),
+    lambda: qe.region("x > 0").contains(5),
+    lambda: qe.eliminate("x^2 + y^2 < 1", order=(x, 5)),
+    lambda: qe.Certificate.from_json(5),
+    lambda: qe.parametric_witnesses("true"),
+    lambda: qe.RealAlgebraic.from_root([-2.5, 1], 0, 5),
 )
 def test_wrong_values_get_a_line_and_no_raw_error(call) -> None:
     with pytest.raises(qe.InputError) as caught:
@@ -241,15 +225,12 @@ def test_wrong_values_get_a_line_and_no_raw_error(call) -> None:
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "value"),
-    [
-        ("10^400*x", "x >= 1", 10**400),
-        ("x", "10^400*x >= 1", Fraction(1, 10**400)),
-        ("x", "x >= 10^400", 10**400),
-        ("x^2/10^400", "x >= 1", Fraction(1, 10**400)),
-        ("x^2", "10^400*x^2 <= 1 and x >= -1", 0),
-    ],
+@each(
+    ("10^400*x", "x >= 1", 10**400),
+    ("x", "10^400*x >= 1", Fraction(1, 10**400)),
+    ("x", "x >= 10^400", 10**400),
+    ("x^2/10^400", "x >= 1", Fraction(1, 10**400)),
+    ("x^2", "10^400*x^2 <= 1 and x >= -1", 0),
 )
 def test_coefficients_that_no_float_holds(objective: str, constraints: str, value: Fraction) -> None:
     """They ended in an OverflowError; what no proof is found for is said to be so."""
@@ -268,17 +249,14 @@ def test_parametric_witnesses_of_a_body_that_is_a_constant() -> None:
     assert str(refuting.guard) == "true"
 
 
-@pytest.mark.parametrize(
-    ("block", "found"),
-    [
-        ("ex x. x = x", [{"x": 0}]),
-        ("ex x, y. x^2 >= x^2 - 1", [{"x": 0, "y": 0}]),
-        ("ex x. x < x", []),
-        ("all x. x = x", []),
-        ("all x. x < x", [{"x": 0}]),
-        (qe.Exists(x, sp.Eq(x, x)), [{"x": 0}]),
-        (qe.ForAll([x, y], sp.false), [{"x": 0, "y": 0}]),
-    ],
+@each(
+    ("ex x. x = x", [{"x": 0}]),
+    ("ex x, y. x^2 >= x^2 - 1", [{"x": 0, "y": 0}]),
+    ("ex x. x < x", []),
+    ("all x. x = x", []),
+    ("all x. x < x", [{"x": 0}]),
+    (qe.Exists(x, sp.Eq(x, x)), [{"x": 0}]),
+    (qe.ForAll([x, y], sp.false), [{"x": 0, "y": 0}]),
 )
 def test_parametric_witnesses_of_a_block_that_reading_folds(block: object, found: list[dict[str, int]]) -> None:
     assert [w.at({}) for w in qe.parametric_witnesses(block)] == found
@@ -301,20 +279,17 @@ def test_a_certificate_made_by_hand_is_rejected_not_a_crash() -> None:
         qe.Certificate.from_json(json.dumps({"format": "bezier-qe certificate", "version": 1}))
 
 
-@pytest.mark.parametrize(
-    ("given", "meant"),
-    [
-        ("Element[a | b, Reals] && a > 0", "a > 0"),
-        ("Element[{x, y}, {1, 2}]", "(x = 1 or x = 2) and (y = 1 or y = 2)"),
-        ("Element[|x| | y, [0, 1]]", "|x| <= 1 and 0 <= y <= 1"),
-        ("Element[x, Reals] | y > 0 && x/x = 1", "true"),
-    ],
+@each(
+    ("Element[a | b, Reals] && a > 0", "a > 0"),
+    ("Element[{x, y}, {1, 2}]", "(x = 1 or x = 2) and (y = 1 or y = 2)"),
+    ("Element[|x| | y, [0, 1]]", "|x| <= 1 and 0 <= y <= 1"),
+    ("Element[x, Reals] | y > 0 && x/x = 1", "true"),
 )
 def test_several_may_be_in_one_set(given: str, meant: str) -> None:
     assert qe.equivalent(given, meant)
 
 
-@pytest.mark.parametrize("given", ["root(3, x) > 2", "Root[2, x] < y", "root(x, 3) > 2", "root(x - 1, 3) > 2"])
+@each("root(3, x) > 2", "Root[2, x] < y", "root(x, 3) > 2", "root(x - 1, 3) > 2")
 def test_a_root_of_a_polynomial_is_not_taken_for_a_radical(given: str) -> None:
     """``root(3, x) > 2`` was false: the polynomial x has no third root."""
     with pytest.raises(qe.ParseError, match=r"a radical is \S+\^\(1/[23]\)"):
@@ -338,7 +313,7 @@ def test_a_point_with_an_unknown_name_is_refused() -> None:
         ask({"x": 1, "y": 0})
 
 
-@pytest.mark.parametrize("given", ["z > 1 and x = 2 and y < x", "x in [a, b] and b > a", "1/z > y and sqrt(x) < y"])
+@each("z > 1 and x = 2 and y < x", "x in [a, b] and b > a", "1/z > y and sqrt(x) < y")
 def test_an_instance_has_the_names_in_the_order_of_the_question(given: str) -> None:
     """The ends of an interval came before the variable that lies in it."""
     found = qe.find_instance(given)
@@ -346,7 +321,7 @@ def test_an_instance_has_the_names_in_the_order_of_the_question(given: str) -> N
     assert all([*point] == [*found] for point in qe.find_instances(given, 2))
 
 
-@pytest.mark.parametrize("given", ["∀t>0 a*t^2 > -1", "∀t>0a*t^2 > -1", "exists t >= 1/2 2*t = a", "all t>0 not a>t"])
+@each("∀t>0 a*t^2 > -1", "∀t>0a*t^2 > -1", "exists t >= 1/2 2*t = a", "all t>0 not a>t")
 def test_a_missing_dot_is_named(given: str) -> None:
     """ "An operator is missing; a product is written 0*a" was the hint."""
     with pytest.raises(qe.ParseError, match="the condition of a quantifier ends with a dot"):

@@ -15,6 +15,7 @@ from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.options import Budget, Projection
 from tests.differential.methods import by_cad
+from tests.tables import each
 
 
 @pytest.mark.parametrize("projection", list(Projection), ids=lambda p: p.value)
@@ -45,14 +46,11 @@ def test_a_simplified_answer_is_never_certified_with_polynomials_that_the_table_
     assert equivalent(answer.formula, "a /= 0 or b = 0")
 
 
-@pytest.mark.parametrize("method", ["auto", "cad"])
-@pytest.mark.parametrize(
-    "text",
-    [
-        "all x. not (3*a*b - x^2 - 1 > 0 or a^2 + x > 0 and a*b + 3*a - 3 /= 0)",
-        "all x. x^3 + a^2 /= 0 or 2*a*b*x + a*x^2 - a^2 - a*b - b*x <= 0",
-        "ex x. (all y. y^4 + x*y + a >= 0) and x > 1",
-    ],
+@each("auto", "cad")
+@each(
+    "all x. not (3*a*b - x^2 - 1 > 0 or a^2 + x > 0 and a*b + 3*a - 3 /= 0)",
+    "all x. x^3 + a^2 /= 0 or 2*a*b*x + a*x^2 - a^2 - a*b - b*x <= 0",
+    "ex x. (all y. y^4 + x*y + a >= 0) and x > 1",
 )
 def test_long_answers_with_root_atoms_were_decomposed_once_more_to_shorten_them(text: str, method: str) -> None:
     """That asked a decomposition for root atoms, which it does not read: the caller got an InternalError."""
@@ -71,7 +69,7 @@ def test_open_sets_that_barely_exist_have_a_witness() -> None:
     assert answer.witness is not None and answer.guarantee is Guarantee.CHECKED
 
 
-@pytest.mark.parametrize(("first", "expected"), [("+ 1", False), ("- 9", True)])
+@each(("+ 1", False), ("- 9", True))
 def test_a_negated_disjunction_of_inequations_was_true_whatever_they_say(first: str, expected: bool) -> None:
     """Gröbner systems passed over what was no atom: "not (p /= 0 or q /= 0)" lost its equations, all of them."""
     system = f"x^2 + y^2 + z^2 + w^2 {first} /= 0 or x*y - z /= 0 or x^2*w - 1 /= 0 or y*z*w /= 1"

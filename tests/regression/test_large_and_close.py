@@ -27,6 +27,7 @@ from qe.formula.syntax import Relation
 from qe.kernel.arithmetic.sturm import count_roots_between
 from tests.differential.generate import at_point
 from tests.strategies import HUGE, close_roots
+from tests.tables import each
 
 LINE, PLANE = Ring.of(("x",)), Ring.of(("x", "y"))
 REGIONS = {
@@ -68,14 +69,11 @@ def test_bounds_and_membership_tell_neighbours_apart() -> None:
     assert high - low == 2 * RealAlgebraic.from_root((-2, 0, 1), 1, 2)
 
 
-@pytest.mark.parametrize(
-    ("text", "measure", "error"),
-    [
-        ("(x-1)*(x-1-1/10^30) <= 0", Fraction(1, 10**30), Fraction(1, 10**6)),
-        ("x >= 10^25 and x <= 10^25 + 1", Fraction(1), Fraction(1, 10**6)),
-        ("(x-10^20)^2 + (y-10^20)^2 <= 1", Fraction(314159265, 10**8), Fraction(1, 50)),
-        ("(x-1)^2 + (y-1)^2 <= 1/10^60", Fraction(314159265, 10**68), Fraction(1, 50)),
-    ],
+@each(
+    ("(x-1)*(x-1-1/10^30) <= 0", Fraction(1, 10**30), Fraction(1, 10**6)),
+    ("x >= 10^25 and x <= 10^25 + 1", Fraction(1), Fraction(1, 10**6)),
+    ("(x-10^20)^2 + (y-10^20)^2 <= 1", Fraction(314159265, 10**8), Fraction(1, 50)),
+    ("(x-1)^2 + (y-1)^2 <= 1/10^60", Fraction(314159265, 10**68), Fraction(1, 50)),
 )
 def test_volumes_far_from_the_origin_were_lost_in_rounding(text: str, measure: Fraction, error: Fraction) -> None:
     low, high = qe.region(text).volume(float(error))
@@ -193,7 +191,7 @@ def test_numbers_are_compared_with_rationals_exactly_at_every_working_precision(
     assert order == (1 if offset < 0 else (square > offset**2) - (square < offset**2))
 
 
-@pytest.mark.parametrize("size", ["1e400", "9" * 5000, "1e-400"])
+@each("1e400", "9" * 5000, "1e-400")
 def test_numbers_that_no_float_holds_are_printed(size: str, capsys: pytest.CaptureFixture[str]) -> None:
     """Decimals for people overflowed, and Python writes no integer of more than 4300 digits unless it is asked to."""
     for command in (["minimize", "x", f"x >= {size}"], ["region", f"x = {size}"], ["solve", f"x > {size}"]):

@@ -7,6 +7,7 @@ import sympy
 
 import qe
 from tests.cli.command import run
+from tests.tables import each
 
 GONE = (
     "0 < 0 and (ex x. x > a)",
@@ -43,10 +44,7 @@ def test_names_of_other_formats_and_on_the_command_line():
     assert refused.returncode == 2 and "x, b found" in refused.stderr
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints"),
-    [("x^2 + 0*a", "x > 1"), ("x^2", "0*a = 0"), ("x", "a < a and x > 0"), ("x*0 + x", "a = a")],
-)
+@each(("x^2 + 0*a", "x > 1"), ("x^2", "0*a = 0"), ("x", "a < a and x > 0"), ("x*0 + x", "a = a"))
 def test_parameters_may_be_what_reading_simplified_away(objective, constraints):
     assert str(qe.minimize(objective, constraints, parameters="a"))
     with pytest.raises(qe.InputError, match="parameters"):

@@ -11,6 +11,7 @@ from qe.formula.weight import written_out
 from qe.io import surface as s
 from qe.io.sharing import named, refuse_long
 from qe.io.text import read
+from tests.tables import each
 
 ATOMS = [f"(> x {k})" for k in range(40)]
 X = "(declare-const x Real)(declare-const y Real)"
@@ -28,18 +29,15 @@ def answers(script: str, timeout: float | None = None) -> list[str]:
     return lines
 
 
-@pytest.mark.parametrize(
-    ("script", "expected"),
-    [
-        (f"{X}(assert (xor {' '.join(ATOMS)}))", "sat"),
-        (f"{X}(assert (xor {' '.join(ATOMS)}))(assert (xor true {' '.join(reversed(ATOMS))}))", "unsat"),
-        (f"{X}(assert (= (> x 50) (xor {' '.join(ATOMS)})))(assert (> x 60))", "unsat"),
-        (chain("(and @ (or @ (> y 1)))", "(> x 0)", 60, "@") + "(assert (< x 0))", "unsat"),
-        (chain("(= @ (not (= @ (> y x))))", "(> x 0)", 60, "@"), "sat"),
-        (chain("(+ @ @)", "x", 60, "(= @ 1)"), "sat"),
-        (chain("(ite (> @ y) (- @ 1) (+ @ @))", "x", 30, "(> @ y)"), "sat"),
-        (chain("(ite (> @ y) (- y @) (- @ y))", "x", 30, "(> @ 0)"), "unsat"),
-    ],
+@each(
+    (f"{X}(assert (xor {' '.join(ATOMS)}))", "sat"),
+    (f"{X}(assert (xor {' '.join(ATOMS)}))(assert (xor true {' '.join(reversed(ATOMS))}))", "unsat"),
+    (f"{X}(assert (= (> x 50) (xor {' '.join(ATOMS)})))(assert (> x 60))", "unsat"),
+    (chain("(and @ (or @ (> y 1)))", "(> x 0)", 60, "@") + "(assert (< x 0))", "unsat"),
+    (chain("(= @ (not (= @ (> y x))))", "(> x 0)", 60, "@"), "sat"),
+    (chain("(+ @ @)", "x", 60, "(= @ 1)"), "sat"),
+    (chain("(ite (> @ y) (- @ 1) (+ @ @))", "x", 30, "(> @ y)"), "sat"),
+    (chain("(ite (> @ y) (- y @) (- @ y))", "x", 30, "(> @ 0)"), "unsat"),
 )
 def test_what_is_shared_is_not_written_out(script: str, expected: str) -> None:
     assert answers(script + "(check-sat)") == [expected]
@@ -70,7 +68,7 @@ def test_a_limit_holds_below_quantifiers_too() -> None:
     assert answers(script, timeout=5) == ["unknown"]
 
 
-@pytest.mark.parametrize("status", ["sat", "unsat", "unknown"])
+@each("sat", "unsat", "unknown")
 def test_a_status_that_is_contradicted_is_said(status: str) -> None:
     found = answers(f"(set-info :status {status}){X}(assert (< (* x x) 0))(check-sat)(check-sat)")
     note = ["the script says :status sat, but the answer is unsat"] if status == "sat" else []

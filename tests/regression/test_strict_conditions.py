@@ -15,19 +15,17 @@ from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import NumberField
 from tests.certificates.mutation import replaced
+from tests.tables import each
 
 SQRT3 = RealAlgebraic.from_root((-3, 0, 1), 1, 2)
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "value"),
-    [
-        ("x", "x >= 0 and y > 0 and y < 1/4", 0),
-        ("0*x", "x > 0 and x < 1/4", 0),
-        ("x", "x >= 0 and y > 0 and y < 1/10^40", 0),
-        ("x + y", "x + y >= 1 and x > 0 and y > 0", 1),
-        ("x^2", "y > x and y < x + 1/1000 and z^2 <= y", 0),
-    ],
+@each(
+    ("x", "x >= 0 and y > 0 and y < 1/4", 0),
+    ("0*x", "x > 0 and x < 1/4", 0),
+    ("x", "x >= 0 and y > 0 and y < 1/10^40", 0),
+    ("x + y", "x + y >= 1 and x > 0 and y > 0", 1),
+    ("x^2", "y > x and y < x + 1/1000 and z^2 <= y", 0),
 )
 def test_a_minimum_in_variables_that_the_strict_conditions_leave_free_is_attained(
     objective: str, constraints: str, value: int
@@ -39,15 +37,12 @@ def test_a_minimum_in_variables_that_the_strict_conditions_leave_free_is_attaine
     assert qe.decide(f"ex {names}. {at} and {constraints}")
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "value"),
-    [
-        ("x", "x > 0 and y > 0 and y < 1/4", 0),
-        ("x", "x >= 0 and x >= y^2 and y > 0", 0),
-        ("x + y", "x >= 0 and y >= 0 and x + y > 0", 0),
-        ("x", "x >= y^2 and x >= z^2 and y > z", 0),
-        ("y", "x^2 + y^2 <= 1 and (x - 1)^2 + y^2 <= 2 and x > 10^20*y + 10^20", -1),
-    ],
+@each(
+    ("x", "x > 0 and y > 0 and y < 1/4", 0),
+    ("x", "x >= 0 and x >= y^2 and y > 0", 0),
+    ("x + y", "x >= 0 and y >= 0 and x + y > 0", 0),
+    ("x", "x >= y^2 and x >= z^2 and y > z", 0),
+    ("y", "x^2 + y^2 <= 1 and (x - 1)^2 + y^2 <= 2 and x > 10^20*y + 10^20", -1),
 )
 def test_an_infimum_on_the_rim_of_a_strict_condition_is_not_attained(
     objective: str, constraints: str, value: int
@@ -56,16 +51,13 @@ def test_an_infimum_on_the_rim_of_a_strict_condition_is_not_attained(
     assert found.value == value and found.attained is False and qe.verify(found.certificate).accepted
 
 
-@pytest.mark.parametrize(
-    "constraints",
-    [
-        "x >= 0 and x <= 0 and y > 0 and y < 0",
-        "x < 0 and x >= 0",
-        "x > 0 and x <= 0 and y^2 <= 2",
-        "y >= x^2 and y <= 0 and x > 0",
-        "x^2 + y^2 <= 3 and x + y <= z and z^2 <= w and w <= 0 and z > u and u > z",
-        "x > 10^40 and x < 10^40",
-    ],
+@each(
+    "x >= 0 and x <= 0 and y > 0 and y < 0",
+    "x < 0 and x >= 0",
+    "x > 0 and x <= 0 and y^2 <= 2",
+    "y >= x^2 and y <= 0 and x > 0",
+    "x^2 + y^2 <= 3 and x + y <= z and z^2 <= w and w <= 0 and z > u and u > z",
+    "x > 10^40 and x < 10^40",
 )
 def test_strict_conditions_that_leave_nothing_are_infeasible(constraints: str) -> None:
     found = qe.minimize("x", constraints)
@@ -79,14 +71,11 @@ def test_linear_problems_with_huge_numbers_do_not_end_in_unable() -> None:
         qe.minimize("x", f"10^400*x^2 + {10**399}*x*y + 10^400*y^2 <= 3 and 10^500*x >= y")
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "value", "attained"),
-    [
-        ("10^20*x", "(10^20*x - 1)^2 + y^2 <= 2 and y > x", "1 - sqrt(2)", True),
-        ("x - 10^20", "(x - 10^20)^2 <= 2 and y > x", "-sqrt(2)", True),
-        ("10^20*(x - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", True),
-        ("10^20*(y - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", False),
-    ],
+@each(
+    ("10^20*x", "(10^20*x - 1)^2 + y^2 <= 2 and y > x", "1 - sqrt(2)", True),
+    ("x - 10^20", "(x - 10^20)^2 <= 2 and y > x", "-sqrt(2)", True),
+    ("10^20*(x - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", True),
+    ("10^20*(y - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", False),
 )
 def test_sets_that_are_small_or_far_from_the_origin_do_not_end_in_unable(
     objective: str, constraints: str, value: str, attained: bool
@@ -136,10 +125,7 @@ def test_several_irrational_coordinates_are_refused_before_and_after_reading_the
         region.contains(point)
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints"),
-    [("x + y", "x^2 + y^2 <= 3 and z > x"), ("x + y", "x^2 + y^2 < 3"), ("x", "x >= 1 and x <= 0"), ("x", "y > x")],
-)
+@each(("x + y", "x^2 + y^2 <= 3 and z > x"), ("x + y", "x^2 + y^2 < 3"), ("x", "x >= 1 and x <= 0"), ("x", "y > x"))
 def test_an_optimum_is_the_same_after_pickling(objective: str, constraints: str) -> None:
     found = qe.minimize(objective, constraints)
     copy = pickle.loads(pickle.dumps(found))

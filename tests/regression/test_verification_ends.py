@@ -19,6 +19,7 @@ from qe.kernel.verdict import Verdict
 from qe.options import Budget
 from qe.proof.certificate import Certificate, digest
 from tests.certificates.producing import cell_table
+from tests.tables import each
 
 ROOT = {"polynomial": "x^10000 - 2", "interval": ["1", "2"]}
 LONG = "7" * 4000
@@ -140,7 +141,7 @@ def test_whatever_the_limit_a_right_certificate_is_accepted_or_not_decided(after
     assert verdict.accepted if verdict.decided else left[0] < 0
 
 
-@pytest.mark.parametrize("limit", ["10", 0, -1, float("nan"), float("inf")])
+@each("10", 0, -1, float("nan"), float("inf"))
 def test_limits_of_a_verification_are_checked(limit: Any) -> None:
     with pytest.raises(qe.InputError, match="timeout"):
         qe.verify(cell_table("x^2 <= 2", "x"), timeout=limit)
@@ -171,17 +172,14 @@ def test_the_command_tells_rejected_and_undecided_apart(tmp_path: Any, capsys: A
         assert said in out.out + out.err
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex z. (y*z + x /= 0 or x + y /= 0)",
-        "all z. (y*z + x = 0 and x + y = 0)",
-        "ex z. (x*z + y /= 0 or x - y /= 0 or x*y > 0)",
-        "all z. (x^2 - y = 0 and z*y = x)",
-    ],
+@each(
+    "ex z. (y*z + x /= 0 or x + y /= 0)",
+    "all z. (y*z + x = 0 and x + y = 0)",
+    "ex z. (x*z + y /= 0 or x - y /= 0 or x*y > 0)",
+    "all z. (x^2 - y = 0 and z*y = x)",
 )
-@pytest.mark.parametrize("method", ["auto", "cad"])
-def test_simplified_answers_needed_signs_that_the_table_does_not_know(text: str, method: str) -> None:
+@each("auto", "cad")
+def test_simplified_answers_needed_signs_that_the_table_does_not_know(method: str, text: str) -> None:
     """The certificate was rejected at payload.answer: the simplified answer had a factor beside a constraint."""
     answer = qe.eliminate(text, check=True, method=method)
     assert answer.guarantee is qe.Guarantee.CHECKED

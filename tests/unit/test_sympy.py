@@ -10,35 +10,33 @@ import sympy as sp
 import qe
 from qe import sympy as exact
 from qe.io.sympy import from_sympy
+from tests.tables import each
 
 x, y, a = sp.symbols("x y a")
 p = sp.Symbol("p", positive=True)
 n = sp.Symbol("n", nonzero=True, real=True)
 
 
-@pytest.mark.parametrize(
-    ("condition", "expected"),
-    [
-        (x**3 - 2 * x > 0, sp.Union(sp.Interval.open(-sp.sqrt(2), 0), sp.Interval.open(sp.sqrt(2), sp.oo))),
-        ([x**2 <= 2, sp.Ne(x, 0)], sp.Interval(-sp.sqrt(2), sp.sqrt(2)) - sp.FiniteSet(0)),
-        (sp.sqrt(x) < 2, sp.Interval.Ropen(0, 4)),
-        (x**2 < -1, sp.S.EmptySet),
-        (sp.Eq(x**2, 2), sp.FiniteSet(-sp.sqrt(2), sp.sqrt(2))),
-        (1 / sp.Abs(x) <= 1, sp.Union(sp.Interval(-sp.oo, -1), sp.Interval(1, sp.oo))),
-        (p**2 > 4, sp.Interval.open(2, sp.oo)),
-        (n**2 < 4, sp.Interval.open(-2, 2) - sp.FiniteSet(0)),
-        (
-            sp.Contains(x, sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3))),
-            sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3)),
-        ),
-        (
-            sp.Piecewise((x, x > 0), (x**2, x < -1)) > 2,
-            sp.Union(sp.Interval.open(-sp.oo, -sp.sqrt(2)), sp.Interval.open(2, sp.oo)),
-        ),
-        (sp.And(x < sp.oo, x >= 0), sp.Interval(0, sp.oo)),
-        (x**2 < sp.sqrt(2), sp.Interval.open(-sp.root(2, 4), sp.root(2, 4))),
-        (sp.sign(x) * sp.Max(x, 1) >= 1, sp.Interval.open(0, sp.oo)),
-    ],
+@each(
+    (x**3 - 2 * x > 0, sp.Union(sp.Interval.open(-sp.sqrt(2), 0), sp.Interval.open(sp.sqrt(2), sp.oo))),
+    ([x**2 <= 2, sp.Ne(x, 0)], sp.Interval(-sp.sqrt(2), sp.sqrt(2)) - sp.FiniteSet(0)),
+    (sp.sqrt(x) < 2, sp.Interval.Ropen(0, 4)),
+    (x**2 < -1, sp.S.EmptySet),
+    (sp.Eq(x**2, 2), sp.FiniteSet(-sp.sqrt(2), sp.sqrt(2))),
+    (1 / sp.Abs(x) <= 1, sp.Union(sp.Interval(-sp.oo, -1), sp.Interval(1, sp.oo))),
+    (p**2 > 4, sp.Interval.open(2, sp.oo)),
+    (n**2 < 4, sp.Interval.open(-2, 2) - sp.FiniteSet(0)),
+    (
+        sp.Contains(x, sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3))),
+        sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3)),
+    ),
+    (
+        sp.Piecewise((x, x > 0), (x**2, x < -1)) > 2,
+        sp.Union(sp.Interval.open(-sp.oo, -sp.sqrt(2)), sp.Interval.open(2, sp.oo)),
+    ),
+    (sp.And(x < sp.oo, x >= 0), sp.Interval(0, sp.oo)),
+    (x**2 < sp.sqrt(2), sp.Interval.open(-sp.root(2, 4), sp.root(2, 4))),
+    (sp.sign(x) * sp.Max(x, 1) >= 1, sp.Interval.open(0, sp.oo)),
 )
 def test_regions(condition: object, expected: sp.Set) -> None:
     found = exact.solve_region(condition)
@@ -48,56 +46,50 @@ def test_regions(condition: object, expected: sp.Set) -> None:
         assert bool(found.contains(point)) is bool(expected.contains(point)), point
 
 
-@pytest.mark.parametrize(
-    ("found", "expected"),
-    [
-        (lambda: exact.function_range(x + 1 / (x**2 + 1)), sp.S.Reals),
-        (lambda: exact.function_range(x**2 - 2 * x, x, x >= 0), sp.Interval(-1, sp.oo)),
-        (lambda: exact.function_range(sp.Integer(3)), sp.FiniteSet(3)),
-        (lambda: exact.function_range(1 / x, x, sp.Interval.Lopen(0, 2)), sp.Interval(sp.Rational(1, 2), sp.oo)),
-        (lambda: exact.minimum(x**2 - 2 * x, x, sp.S.Reals), -1),
-        (lambda: exact.is_true_for_all(sp.Symbol("m", negative=True) < 1), True),
-        (lambda: exact.solve_region(sp.Symbol("m", negative=True) ** 2 > 4), sp.Interval.open(-sp.oo, -2)),
-        (lambda: exact.solve_region(sp.Symbol("m", nonpositive=True) ** 2 < 4), sp.Interval.Lopen(-2, 0)),
-        (lambda: exact.minimum(p + 1 / p), 2),
-        (lambda: exact.maximum(x * y, (x, y), x**2 + y**2 <= 1), sp.Rational(1, 2)),
-        (lambda: exact.minimum(x, x, x > x), sp.oo),
-        (lambda: exact.is_true_for_all(x**2 >= 0), True),
-        (lambda: exact.is_true_for_all(p > 0), True),
-        (lambda: exact.is_true_for_all([]), True),
-        (lambda: exact.is_true_for_all(p > 1), False),
-        (lambda: exact.is_true_for_all([p > 0, x**2 + 1 > p - p**2]), True),
-        (lambda: exact.reduce_inequalities([x**2 < 4, x > 0], x), sp.And(x > 0, x < 2)),
-        (lambda: exact.reduce_inequalities([x + 3 >= 0], []), x >= -3),
-        (lambda: exact.reduce_inequalities(x + y * 2 - 1 >= 0, [x]), x >= 1 - 2 * y),
-        (lambda: exact.reduce_inequalities(sp.Eq(x**2, 4), x), sp.Or(sp.Eq(x, -2), sp.Eq(x, 2))),
-        (lambda: exact.reduce_inequalities(p**2 - 3 * p < 0, p), p < 3),
-        (lambda: exact.reduce_inequalities(sp.pi < sp.Abs(a), a), sp.Or(a < -sp.pi, a > sp.pi)),
-        (lambda: exact.reduce_inequalities(sp.pi / sp.Abs(x) <= 1, x), sp.Or(x >= sp.pi, x <= -sp.pi)),
-        (lambda: exact.reduce_inequalities([]), sp.true),
-        (lambda: exact.reduce_inequalities(x**3 + a > 0, x), x**3 + a > 0),
-        (lambda: exact.solve_region(x**2 < sp.pi), sp.Interval.open(-sp.sqrt(sp.pi), sp.sqrt(sp.pi))),
-        (lambda: exact.solve_region(2 * x < sp.E), sp.Interval.open(-sp.oo, sp.E / 2)),
-        (lambda: exact.minimum(x**2 + sp.pi), sp.pi),
-        (lambda: [exact.is_true_for_all(x**2 + sp.pi > k) for k in (3, 4)], [True, False]),
-        (lambda: exact.reduce_inequalities(x > 0).free_symbols, {x}),
-    ],
+@each(
+    (lambda: exact.function_range(x + 1 / (x**2 + 1)), sp.S.Reals),
+    (lambda: exact.function_range(x**2 - 2 * x, x, x >= 0), sp.Interval(-1, sp.oo)),
+    (lambda: exact.function_range(sp.Integer(3)), sp.FiniteSet(3)),
+    (lambda: exact.function_range(1 / x, x, sp.Interval.Lopen(0, 2)), sp.Interval(sp.Rational(1, 2), sp.oo)),
+    (lambda: exact.minimum(x**2 - 2 * x, x, sp.S.Reals), -1),
+    (lambda: exact.is_true_for_all(sp.Symbol("m", negative=True) < 1), True),
+    (lambda: exact.solve_region(sp.Symbol("m", negative=True) ** 2 > 4), sp.Interval.open(-sp.oo, -2)),
+    (lambda: exact.solve_region(sp.Symbol("m", nonpositive=True) ** 2 < 4), sp.Interval.Lopen(-2, 0)),
+    (lambda: exact.minimum(p + 1 / p), 2),
+    (lambda: exact.maximum(x * y, (x, y), x**2 + y**2 <= 1), sp.Rational(1, 2)),
+    (lambda: exact.minimum(x, x, x > x), sp.oo),
+    (lambda: exact.is_true_for_all(x**2 >= 0), True),
+    (lambda: exact.is_true_for_all(p > 0), True),
+    (lambda: exact.is_true_for_all([]), True),
+    (lambda: exact.is_true_for_all(p > 1), False),
+    (lambda: exact.is_true_for_all([p > 0, x**2 + 1 > p - p**2]), True),
+    (lambda: exact.reduce_inequalities([x**2 < 4, x > 0], x), sp.And(x > 0, x < 2)),
+    (lambda: exact.reduce_inequalities([x + 3 >= 0], []), x >= -3),
+    (lambda: exact.reduce_inequalities(x + y * 2 - 1 >= 0, [x]), x >= 1 - 2 * y),
+    (lambda: exact.reduce_inequalities(sp.Eq(x**2, 4), x), sp.Or(sp.Eq(x, -2), sp.Eq(x, 2))),
+    (lambda: exact.reduce_inequalities(p**2 - 3 * p < 0, p), p < 3),
+    (lambda: exact.reduce_inequalities(sp.pi < sp.Abs(a), a), sp.Or(a < -sp.pi, a > sp.pi)),
+    (lambda: exact.reduce_inequalities(sp.pi / sp.Abs(x) <= 1, x), sp.Or(x >= sp.pi, x <= -sp.pi)),
+    (lambda: exact.reduce_inequalities([]), sp.true),
+    (lambda: exact.reduce_inequalities(x**3 + a > 0, x), x**3 + a > 0),
+    (lambda: exact.solve_region(x**2 < sp.pi), sp.Interval.open(-sp.sqrt(sp.pi), sp.sqrt(sp.pi))),
+    (lambda: exact.solve_region(2 * x < sp.E), sp.Interval.open(-sp.oo, sp.E / 2)),
+    (lambda: exact.minimum(x**2 + sp.pi), sp.pi),
+    (lambda: [exact.is_true_for_all(x**2 + sp.pi > k) for k in (3, 4)], [True, False]),
+    (lambda: exact.reduce_inequalities(x > 0).free_symbols, {x}),
 )
 def test_answers(found: Callable[[], object], expected: object) -> None:
     assert found() == expected
 
 
-@pytest.mark.parametrize(
-    ("given", "symbols"),
-    [
-        (x**2 > a, [x]),
-        ([a * x**2 + y * x + 1 < 0], [x]),
-        ([x**2 + y**2 < a, x > y], [x, y]),
-        ([x**2 + y**2 < a, x > y], [y]),
-        (sp.Or(sp.Abs(x * y) < 1, sp.Ne(x, 2)), [y]),
-        (x**3 - a * x > 1, [x]),
-        ([x > 1, qe.Exists(y, y**2 < a - x)], x),
-    ],
+@each(
+    (x**2 > a, [x]),
+    ([a * x**2 + y * x + 1 < 0], [x]),
+    ([x**2 + y**2 < a, x > y], [x, y]),
+    ([x**2 + y**2 < a, x > y], [y]),
+    (sp.Or(sp.Abs(x * y) < 1, sp.Ne(x, 2)), [y]),
+    (x**3 - a * x > 1, [x]),
+    ([x > 1, qe.Exists(y, y**2 < a - x)], x),
 )
 def test_reduced_inequalities_are_the_same_condition(given: object, symbols: object) -> None:
     assert qe.equivalent(given, exact.reduce_inequalities(given, symbols))
@@ -113,25 +105,22 @@ def test_assumptions_are_conditions_in_their_place() -> None:
     assert qe.equivalent(from_sympy(sp.Symbol("z", zero=True) >= x), "z = 0 and z >= x")
 
 
-@pytest.mark.parametrize(
-    ("wrong", "part"),
-    [
-        (lambda: exact.solve_region(x < y), "one free symbol"),
-        (lambda: exact.solve_region(x < y, x), "one free symbol"),
-        (lambda: exact.solve_region(sp.log(x) < 1), "not algebraic"),
-        (lambda: exact.solve_region(sp.Contains(x, sp.S.Integers)), "intervals and points"),
-        (lambda: exact.solve_region(sp.Symbol("k", integer=True) < 1), "integer"),
-        (lambda: exact.solve_region("x < 1"), "text found"),
-        (lambda: exact.function_range(sp.sin(x)), "not algebraic"),
-        (lambda: exact.solve_region(sp.sin(x) < sp.pi), "sin is not algebraic"),
-        (lambda: exact.reduce_inequalities(x**sp.pi < 1), r"not algebraic: x\*\*pi"),
-        (lambda: exact.reduce_inequalities(x < 1, 5), "symbols: the name of a variable"),
-        (lambda: exact.is_true_for_all(x), "Boolean combination"),
-        (lambda: exact.function_range("x**2"), "a SymPy expression expected, str found"),
-        (lambda: exact.minimum(None), "a SymPy expression expected, NoneType found"),
-        (lambda: exact.maximum(x > 0), "a SymPy expression expected, x > 0 found"),
-        (lambda: qe.from_z3(3), "z3"),
-    ],
+@each(
+    (lambda: exact.solve_region(x < y), "one free symbol"),
+    (lambda: exact.solve_region(x < y, x), "one free symbol"),
+    (lambda: exact.solve_region(sp.log(x) < 1), "not algebraic"),
+    (lambda: exact.solve_region(sp.Contains(x, sp.S.Integers)), "intervals and points"),
+    (lambda: exact.solve_region(sp.Symbol("k", integer=True) < 1), "integer"),
+    (lambda: exact.solve_region("x < 1"), "text found"),
+    (lambda: exact.function_range(sp.sin(x)), "not algebraic"),
+    (lambda: exact.solve_region(sp.sin(x) < sp.pi), "sin is not algebraic"),
+    (lambda: exact.reduce_inequalities(x**sp.pi < 1), r"not algebraic: x\*\*pi"),
+    (lambda: exact.reduce_inequalities(x < 1, 5), "symbols: the name of a variable"),
+    (lambda: exact.is_true_for_all(x), "Boolean combination"),
+    (lambda: exact.function_range("x**2"), "a SymPy expression expected, str found"),
+    (lambda: exact.minimum(None), "a SymPy expression expected, NoneType found"),
+    (lambda: exact.maximum(x > 0), "a SymPy expression expected, x > 0 found"),
+    (lambda: qe.from_z3(3), "z3"),
 )
 def test_mistakes_are_told_in_one_line(wrong: Callable[[], object], part: str) -> None:
     with pytest.raises(qe.InputError, match=part) as caught:

@@ -16,6 +16,7 @@ import qe
 from qe.api.input import read_formula
 from qe.formula.operators import LONGEST
 from tests.strategies import formulas
+from tests.tables import each
 
 x, y = qe.variables("x y")
 DISC = qe.region("x^2 + y^2 <= 1")
@@ -111,7 +112,7 @@ def test_points_that_are_none(point: object) -> None:
         DISC.contains(point)
 
 
-@pytest.mark.parametrize("limit", [np.timedelta64(5, "s"), True, "5"])
+@each(np.timedelta64(5, "s"), True, "5")
 def test_limits_are_numbers_of_seconds(limit: object) -> None:
     with pytest.raises(qe.InputError, match="positive number of seconds"):
         qe.eliminate("x > 0", timeout=limit)

@@ -19,6 +19,8 @@ from bezier.motion.timelaw import Law, TimeLaw
 from bezier.report.joints import page
 from qe.certify.verify import verify_json
 from qe.errors import InputError
+from tests.bezier.arm.arms import arm_text
+from tests.tables import each
 
 EV3, SIX = Robot.load("ev3-120"), Robot.load("six-joints")
 LINE = {"line": Bezier.of([(10, 40, 80), (40, 100, 20)])}
@@ -79,17 +81,14 @@ a = 90
 """
 
 
-@pytest.mark.parametrize(
-    ("limits", "kept"),
-    [
-        ("-1, 1", True),
-        ("6, 7", True),
-        ("12, 13", True),
-        ("-13, -12", True),
-        ("10, 12", False),
-        ("1, 2", False),
-        ("-4, 4", True),
-    ],
+@each(
+    ("-1, 1", True),
+    ("6, 7", True),
+    ("12, 13", True),
+    ("-13, -12", True),
+    ("10, 12", False),
+    ("1, 2", False),
+    ("-4, 4", True),
 )
 def test_limits_hold_for_an_angle_and_all_full_turns_of_it(limits: str, kept: bool) -> None:
     """Joint 1 is at 0: at 2 pi and 4 pi as well."""
@@ -99,10 +98,8 @@ def test_limits_hold_for_an_angle_and_all_full_turns_of_it(limits: str, kept: bo
 
 def test_an_arm_without_any_length_stands_in_one_point() -> None:
     """It ended in an internal error there: every angle is a solution."""
-    point = read_arm(
-        'convention = "modified"\n' + "".join(f'[[row]]\njoint = "q{k}"\nalpha = "pi/2"\n' for k in range(3))
-    )
-    assert solve(point, (0, 0, 0)).free == ("q0", "q1", "q2")
+    point = read_arm(arm_text(*['alpha = "pi/2"'] * 3, convention="modified"))
+    assert solve(point, (0, 0, 0)).free == ("q1", "q2", "q3")
     assert solve(point, (0, 0, 1)).count == 0
 
 

@@ -14,9 +14,10 @@ from bezier.arm import command
 from bezier.arm.choices import Choice, spans
 from bezier.arm.inverse import Inverse, Solution, solve
 from bezier.arm.kinematics import pose
-from bezier.arm.model import Arm, Joint, JointKind
+from bezier.arm.model import Joint, JointKind
 from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
+from tests.bezier.arm.arms import arm_text
 from tests.bezier.arm.test_pose import SIX, SKEW_FREE, arm_of
 
 PLANAR = load_arm("planar-3r")
@@ -180,17 +181,14 @@ def test_an_arc_through_half_a_turn() -> None:
 
 def test_an_end_that_is_the_limit_zero() -> None:
     """The arm can only be stretched: its last joint is exactly at 0, where its limits end."""
-    text = 'convention = "standard"\n' + "".join(f'[[row]]\njoint = "q{k}"\na = 10\n' for k in range(3))
+    text = arm_text("a = 10", "a = 10", "a = 10")
     for limits, kept in (("[0, 1]", True), ("[-1, 0]", True), ('["1/1000000000000", 1]', False)):
         found = solve(read_arm(f"{text}limits = {limits}\n"), (30, 0, 0))
         assert [s.allowed for s in found.solutions] == [kept]
 
 
 def test_a_family_outside_the_limits() -> None:
-    text = 'convention = "standard"\n' + "".join(
-        f'[[row]]\njoint = "q{k}"\na = {a}\n' for k, a in enumerate((100, 80, 50))
-    )
-    arm: Arm = read_arm(text + "limits = [2, 4]\n")
+    arm = read_arm(arm_text("a = 100", "a = 80", "a = 50; limits = [2, 4]"))
     found = solve(arm, (10, 20, 0))
     assert not family(found).allowed
     assert "not between its limits" in "\n".join(command.in_words(found))

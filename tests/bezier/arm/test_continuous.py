@@ -26,11 +26,12 @@ from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.study import study
 from bezier.arm.vertical import vertical_arm
 from bezier.certify.square_roots import Polynomial, Surd, constant_sign
-from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.errors import Unable
 from qe.processes.channel import Channel
 from qe.proof.certificate import Kind
+from tests.bezier.arm.arms import Points, curves_of
+from tests.tables import each
 
 F = Fraction
 TURN = '[[row]]\njoint = "theta1"\nd = 100\n'
@@ -51,13 +52,6 @@ TEXTS = {
 @cache
 def arm_of(name: str) -> Arm:
     return read_arm(f'name = "{name}"\nconvention = "standard"\n{TEXTS[name]}') if name in TEXTS else load_arm(name)
-
-
-Points = list[tuple[Any, ...]]
-
-
-def curves_of(*curves: Points) -> dict[str, Bezier]:
-    return {f"curve {k}": Bezier.of([tuple(F(c) for c in p) for p in points]) for k, points in enumerate(curves)}
 
 
 def motions_of(name: str, *curves: Points) -> ContinuousMotions:
@@ -136,9 +130,19 @@ BY_HAND: list[tuple[str, str, list[Points], int]] = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "curves", "expected"), [row[1:] for row in BY_HAND], ids=[row[0] for row in BY_HAND])
-def test_motions_by_hand(name: str, curves: list[Points], expected: int) -> None:
-    found = motions_of(name, *curves)
+CASES = {case: row for case, *row in BY_HAND}
+
+
+@cache
+def motions_by_hand(case: str) -> ContinuousMotions:
+    name, curves, _ = CASES[case]
+    return motions_of(name, *curves)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_motions_by_hand(case: str) -> None:
+    name, curves, expected = CASES[case]
+    found = motions_by_hand(case)
     assert found.count == expected
     assert len(found.motions) == expected
     evidence = motions_certificate(found)
@@ -156,10 +160,11 @@ def distance(one: tuple[float, ...], other: tuple[float, ...], turns: list[bool]
     return max(abs(remainder(a - b, 2 * pi)) if t else abs(a - b) / 100 for a, b, t in steps)
 
 
-@pytest.mark.parametrize(("name", "curves"), [row[1:3] for row in BY_HAND], ids=[row[0] for row in BY_HAND])
-def test_what_goes_on_is_near(name: str, curves: list[Points]) -> None:
+@pytest.mark.parametrize("case", CASES)
+def test_what_goes_on_is_near(case: str) -> None:
     """Just before and just after a junction solutions lie close together iff they are said to have the same limit."""
-    found, listed, near = motions_of(name, *curves), list(curves_of(*curves).values()), F(1, 10**10)
+    name, curves, _ = CASES[case]
+    found, listed, near = motions_by_hand(case), list(curves_of(*curves).values()), F(1, 10**10)
     plane = vertical_arm(arm_of(name))
     assert plane is not None
     turns = [plane.geometry.turns[0], *plane.turns]
@@ -220,13 +225,9 @@ def check_random(seed: int) -> bool:
     return True
 
 
-def test_random_paths_near_the_axis_and_near_borders() -> None:
-    assert sum(check_random(seed) for seed in range(40)) >= 20
-
-
-@pytest.mark.deep
-def test_500_random_paths_near_the_axis_and_near_borders() -> None:
-    assert sum(check_random(seed) for seed in range(1000, 1500)) >= 250
+@each((range(40), 20), pytest.param(range(1000, 1500), 250, marks=pytest.mark.deep))
+def test_random_paths_near_the_axis_and_near_borders(seeds: range, simple: int) -> None:
+    assert sum(check_random(seed) for seed in seeds) >= simple
 
 
 NEAR_THE_AXIS = curves_of([(-100, "1/10", 100), (100, "1/10", 100)])
@@ -325,21 +326,25 @@ def forged(payload: dict[str, Any], **changes: Any) -> bool:
     return qe.verify(qe.Certificate(Kind("motions"), {**payload, **changes})).accepted
 
 
-CASES: dict[str, tuple[str, list[Points]]] = {name: (arm, curves) for name, arm, curves, _ in BY_HAND}
+def false(number: int, among: set[int], *, every: bool) -> list[int]:
+    """Other numbers: all of these, or the nearest one."""
+    others = sorted(among - {number}, key=lambda other: abs(other - number))
+    return others if every else others[:1]
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_false_numbers_are_rejected(case: str) -> None:
-    payload = motions_certificate(motions_of(CASES[case][0], *CASES[case][1])).payload
+@each(False, pytest.param(True, marks=pytest.mark.deep))
+def test_false_numbers_are_rejected(every: bool, case: str) -> None:
+    payload = motions_certificate(motions_by_hand(case)).payload
     assert forged(payload)
     for key in ("solutions", "through"):
         listed = payload[key]
         assert isinstance(listed, list)
         for k, value in enumerate(listed):
-            for other in {0, 2, 4, 8} - {value}:
+            for other in false(value, {0, 2, 4, 8}, every=every):
                 assert not forged(payload, **{key: [*listed[:k], other, *listed[k + 1 :]]})
         assert not forged(payload, **{key: [*listed, 4]}) and not forged(payload, **{key: None})
-    for other in {0, 1, 2, 4, 8, 16} - {payload["motions"]}:
+    for other in false(payload["motions"], {0, 1, 2, 4, 8, 16}, every=every):
         assert not forged(payload, motions=other)
     places: Any = payload["places"]
     for i, curve in enumerate(places):

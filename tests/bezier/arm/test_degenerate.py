@@ -12,11 +12,12 @@ import pytest
 import qe
 from bezier.arm.critical import Reason
 from bezier.arm.inverse import solve
-from bezier.arm.reader import load_arm, read_arm, read_exact
+from bezier.arm.reader import load_arm, read_exact
 from bezier.arm.study import study
 from bezier.cli import main
 from bezier.curves.curve import Bezier
-from qe.errors import InputError, Unable
+from qe.errors import Unable
+from tests.tables import each
 
 ARM = load_arm("ev3-120")
 
@@ -48,7 +49,7 @@ CURVES = {
 }
 
 
-@pytest.mark.parametrize("name", ["conic", pytest.param("out and in again", marks=pytest.mark.deep)])
+@each("conic", pytest.param("out and in again", marks=pytest.mark.deep))
 def test_curves_of_any_degree(name: str) -> None:
     """The square root of x² + y² is no polynomial along these; the counts are those of single points."""
     curve = Bezier.of(CURVES[name])
@@ -79,35 +80,12 @@ def test_a_path_along_the_border_is_named() -> None:
         study(ARM, Bezier.of([(0, 0, 100), (0, 0, 150)]))
 
 
-BAD_ARMS = {
-    "no rows": ('convention = "modified"\n', "1 to 24 tables [[row]]"),
-    "no joint": ('convention = "modified"\n[[row]]\na = 3\n', "a row with a joint"),
-    "not polynomial": ('convention = "modified"\n[[row]]\njoint = "a"\nalpha = 1\n', "a multiple of pi/12"),
-    "a screw": ('convention = "modified"\n[[row]]\njoint = "a"\nkind = "screw"\n', "revolute"),
-    "no convention": ('[[row]]\njoint = "a"\n', "convention"),
-    "one name twice": ('convention = "modified"\n[[row]]\njoint = "a"\n[[row]]\njoint = "a"\n', "different names"),
-    "limits the wrong way": ('convention = "modified"\n[[row]]\njoint = "a"\nlimits = [2, 1]\n', "below the greatest"),
-    "a float": ('convention = "modified"\n[[row]]\njoint = "a"\nd = nan\n', "d"),
-}
-
-
-@pytest.mark.parametrize("name", BAD_ARMS)
-def test_bad_arms_get_one_line(name: str) -> None:
-    text, message = BAD_ARMS[name]
-    with pytest.raises(InputError) as caught:
-        read_arm(text, "arm.toml")
-    assert message in str(caught.value) and "arm.toml" in str(caught.value) and "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["ik", "nobody", "1", "2", "3"], "expected a file .toml or .urdf"),
-        (["ik", "six-joints", "1", "2", "3"], "--quaternion W X Y Z"),
-        (["ik", "six-joints", "1", "2", "3", "--quaternion", "0", "0", "0", "0"], "not all 0"),
-        (["ik", "ev3-120", "1", "2", "x"], "expected an exact number"),
-        (["ik", "ev3-120", "1", "2", "3", "--quaternion", "1", "0", "0", "0"], "three parallel axes"),
-    ],
+@each(
+    (["ik", "nobody", "1", "2", "3"], "expected a file .toml or .urdf"),
+    (["ik", "six-joints", "1", "2", "3"], "--quaternion W X Y Z"),
+    (["ik", "six-joints", "1", "2", "3", "--quaternion", "0", "0", "0", "0"], "not all 0"),
+    (["ik", "ev3-120", "1", "2", "x"], "expected an exact number"),
+    (["ik", "ev3-120", "1", "2", "3", "--quaternion", "1", "0", "0", "0"], "three parallel axes"),
 )
 def test_the_command_says_it_in_one_line(
     arguments: list[str],

@@ -23,26 +23,21 @@ from bezier.arm.ratio import variable
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from qe.errors import InputError, InternalError, Unable
 from qe.exact.ring import Ring
+from tests.bezier.arm.arms import arm_text
+from tests.tables import each
 
 POINT = (Fraction(599, 66), Fraction(824, 33), Fraction(323, 10))
 
 
-def rows(convention: str, *entries: str) -> str:
-    """The text of an arm; entries separate keys by semicolons."""
-    body = "".join("[[row]]\n" + entry.replace("; ", "\n") + "\n" for entry in entries)
-    return f'convention = "{convention}"\n{body}'
-
-
-SHOULDER = rows("standard", 'joint = "t1"; d = 100; alpha = "pi/2"', 'joint = "t2"; a = 80', 'joint = "t3"; a = 60')
-SCARA = rows("standard", 'joint = "t1"; a = 50', 'joint = "t2"; a = 40; alpha = "pi/2"', 'joint = "t3"; a = 30')
-SKEW = rows(
-    "modified",
-    'joint = "t1"; alpha = "pi/6"; a = 5; d = 3',
-    'joint = "t2"; a = 20; alpha = "pi/3"; d = 7; theta = "pi/4"',
-    'joint = "t3"; a = 30; alpha = {cos = "3/5", sin = "4/5"}; d = 4',
-    "a = 25",
+SHOULDER = arm_text('d = 100; alpha = "pi/2"', "a = 80", "a = 60")
+SCARA = arm_text("a = 50", 'a = 40; alpha = "pi/2"', "a = 30")
+SKEW = arm_text(
+    'alpha = "pi/6"; a = 5; d = 3',
+    'a = 20; alpha = "pi/3"; d = 7; theta = "pi/4"',
+    'a = 30; alpha = {cos = "3/5", sin = "4/5"}; d = 4',
+    convention="modified",
 )
-ARMS = [load_arm("ev3-120"), read_arm(SHOULDER), read_arm(SCARA), read_arm(SKEW)]
+ARMS = [load_arm("ev3-120"), read_arm(SHOULDER), read_arm(SCARA), read_arm(SKEW + "[[row]]\na = 25\n")]
 
 
 def closed_form(x: float, y: float, z: float, length: float) -> int:
@@ -112,17 +107,14 @@ def test_no_solution_is_missed_by_newton(start: list[float], which: int) -> None
         assert gaps.min() < 1e-4
 
 
-SPECIAL = [
+@each(
     (("44*sqrt(2) + 8*sqrt(293) + 120", "0", "104 + 44*sqrt(2)"), 1, [True]),
     (("44*sqrt(2) + 8*sqrt(293) - 120", "0", "104 + 44*sqrt(2)"), 3, [True, False, False]),
     (("0", "44*sqrt(2)", "104 + 44*sqrt(2) + 8*sqrt(293) + 120"), 1, [True]),
     (("44*sqrt(2)", "0", "104 + 44*sqrt(2)"), 2, [False, False]),
     (("100", "50", "104 + 44*sqrt(2)"), 4, [False] * 4),
     (("0", "0", "500"), 0, []),
-]
-
-
-@pytest.mark.parametrize(("texts", "count", "multiple"), SPECIAL)
+)
 def test_borders_and_circle(texts: tuple[str, ...], count: int, multiple: list[bool]) -> None:
     found = solve(load_arm("ev3-120"), [read_exact(t) for t in texts])
     assert found.count == count
@@ -159,7 +151,7 @@ def test_the_angle_that_the_tangent_misses() -> None:
 
 
 def test_limits_of_joints() -> None:
-    text = SHOULDER.replace('joint = "t2"', 'joint = "t2"\nlimits = [0, 1.5]')
+    text = SHOULDER.replace('joint = "q2"', 'joint = "q2"\nlimits = [0, 1.5]')
     arm = read_arm(text)
     found = solve(arm, (80, 60, 120))
     kept = [s.angles[1] for s in found.solutions if s.allowed]
@@ -169,7 +161,7 @@ def test_limits_of_joints() -> None:
 
 
 def test_an_angle_on_the_limit_zero_and_one_beyond_half_a_turn() -> None:
-    arm = read_arm(SHOULDER.replace('joint = "t1"', 'joint = "t1"\nlimits = [0, 3.5]'))
+    arm = read_arm(SHOULDER.replace('joint = "q1"', 'joint = "q1"\nlimits = [0, 3.5]'))
     by_angle = {round(s.angles[0] or 0, 3): s.allowed for s in solve(arm, (90, 0, 120)).solutions}
     assert by_angle == {0.0: True, 3.142: True}
     beyond = {round(s.angles[0] or 0, 3): s.allowed for s in solve(arm, (-90, -10, 120)).solutions}
@@ -177,7 +169,7 @@ def test_an_angle_on_the_limit_zero_and_one_beyond_half_a_turn() -> None:
 
 
 def test_a_planar_arm_has_a_family() -> None:
-    flat = 'convention = "standard"\n' + "".join(f'[[row]]\njoint = "t{k}"\na = {a}\n' for k, a in enumerate((5, 4, 3)))
+    flat = arm_text("a = 5", "a = 4", "a = 3")
     found = solve(read_arm(flat), (6, 2, 0))
     assert found.count is None and found.is_reachable
     assert solve(read_arm(flat), (6, 2, 1)).count == 0
@@ -186,9 +178,7 @@ def test_a_planar_arm_has_a_family() -> None:
 
 def test_a_planar_arm_at_the_border_of_its_family() -> None:
     """One solution only, at the angle that t misses first: stretched, or folded back."""
-    flat = 'convention = "standard"\n' + "".join(
-        f'[[row]]\njoint = "t{k}"\na = {a}\n' for k, a in enumerate((1, 1, 10))
-    )
+    flat = arm_text("a = 1", "a = 1", "a = 10")
     for distance, last in ((12, 0.0), (8, pi)):
         (found,) = solve(read_arm(flat), (distance, 0, 0)).solutions
         assert found.multiple and abs(abs(found.angles[2] or 0) - last) < 1e-15
@@ -198,7 +188,7 @@ def test_a_planar_arm_at_the_border_of_its_family() -> None:
 def test_arms_that_do_not_fit() -> None:
     with pytest.raises(Unable, match="three joints"):
         solve(read_arm(SHOULDER + '[[row]]\njoint = "t4"\na = 3\n'), POINT)
-    same = 'convention = "standard"\n' + "".join(f'[[row]]\njoint = "t{k}"\n' for k in range(3))
+    same = arm_text("", "", "")
     with pytest.raises(Unable, match="one axis"):
         solve(read_arm(same), POINT)
 
@@ -222,8 +212,8 @@ def test_a_wrong_reduction_does_not_pass() -> None:
             confirm(arm, wrong, point)
 
 
-@pytest.mark.parametrize("length", [112, 120])
-def test_logged_queries(shared: Path, length: int) -> None:
+@each(112, 120)
+def test_logged_queries(length: int, shared: Path) -> None:
     logged = [
         json.loads(line) for line in (shared / "corpora/ev3" / f"queries_L{length}.jsonl").read_text().splitlines()
     ]
@@ -236,18 +226,15 @@ def test_logged_queries(shared: Path, length: int) -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("name", ["queries_L112", "queries_L120", "points_L120_without_log"])
-def test_every_logged_query(shared: Path, name: str) -> None:
+@each("queries_L112", "queries_L120", "points_L120_without_log")
+def test_every_logged_query(name: str, shared: Path) -> None:
     arm = load_arm("ev3-112" if "112" in name else "ev3-120")
     for line in (shared / "corpora" / "ev3" / f"{name}.jsonl").read_text().splitlines():
         row = json.loads(line)
         assert solve(arm, [Fraction(row[c]) for c in "xyz"]).count == row["real_solutions"], row["id"]
 
 
-@pytest.mark.parametrize(
-    "text",
-    ["sqrt(-1)", "sqrt(2", "x", "sqrt(sqrt(2))", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9],
-)
+@each("sqrt(-1)", "sqrt(2", "x", "sqrt(sqrt(2))", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9)
 def test_no_exact_number(text: str) -> None:
     with pytest.raises(InputError):
         read_exact(text)
@@ -259,7 +246,7 @@ def test_exact_numbers() -> None:
     assert float(read_exact("44*sqrt(2) - 8*sqrt(293)/2")) == pytest.approx(44 * sqrt(2) - 4 * sqrt(293))
 
 
-@pytest.mark.parametrize("places", [6, 20, 40, 200])
+@each(6, 20, 40, 200)
 def test_two_solutions_never_print_alike(places: int) -> None:
     """At 1e-36 mm from the border both lines were the same, and so were both boxes."""
     border = read_exact("44*sqrt(2) + 120 + 8*sqrt(293)") - Fraction(1, 10**places)

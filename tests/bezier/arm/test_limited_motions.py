@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import tau
@@ -23,59 +22,39 @@ from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, JointKind
 from bezier.arm.reader import load_arm
 from bezier.arm.vertical import Label, vertical_arm
-from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.processes.channel import Channel
+from tests.bezier.arm.arms import Limits, Points, curves_of, limited
+from tests.tables import each
 
 F = Fraction
 E, S, C = "ev3-120", "shoulder-3r", "cylindrical"
-Limits = tuple[object, object] | None
-Points = list[tuple[object, ...]]
 THROUGH: Points = [(-100, 0, 100), (100, 0, 100)]
 TANGENT: Points = [(-100, 30, 100), (100, 30, 100)]
 
 
-def limited(name: str, *limits: Limits) -> Arm:
-    arm, listed = load_arm(name), iter([*limits, *[None] * (3 - len(limits))])
-    rows = []
-    for row in arm.rows:
-        if row.joint is not None:
-            ends = next(listed)
-            joint = replace(row.joint, limits=None if ends is None else (F(str(ends[0])), F(str(ends[1]))))
-            row = replace(row, joint=joint)
-        rows.append(row)
-    return replace(arm, rows=tuple(rows))
-
-
-def curves_of(*curves: Points) -> dict[str, Bezier]:
-    return {f"curve {k}": Bezier.of([tuple(F(str(c)) for c in p) for p in points]) for k, points in enumerate(curves)}
-
-
 # θ1 is 0 or π along the line through the axis, for two elbows each
-@pytest.mark.parametrize(
-    ("limits", "kept"),
-    [
-        ((-1, 1), 2),
-        ((0, 1), 2),
-        ((-1, 0), 2),
-        (("1/1000000000", 1), 0),
-        ((-1, "-1/1000000000"), 0),
-        (("3.141592653", "3.141592654"), 2),
-        (("3.141592654", "3.141592655"), 0),
-        ((3, 6), 2),
-        ((3, "6.2831"), 2),
-        ((3, "6.2832"), 4),
-        ((-3, 3), 2),
-        ((-4, 3), 4),
-        ((1, 2), 0),
-        ((0, 7), 4),
-        ((-20, -10), 4),
-    ],
+@each(
+    ((-1, 1), 2),
+    ((0, 1), 2),
+    ((-1, 0), 2),
+    (("1/1000000000", 1), 0),
+    ((-1, "-1/1000000000"), 0),
+    (("3.141592653", "3.141592654"), 2),
+    (("3.141592654", "3.141592655"), 0),
+    ((3, 6), 2),
+    ((3, "6.2831"), 2),
+    ((3, "6.2832"), 4),
+    ((-3, 3), 2),
+    ((-4, 3), 4),
+    ((1, 2), 0),
+    ((0, 7), 4),
+    ((-20, -10), 4),
 )
 def test_a_side_of_the_axis_is_allowed_or_forbidden(limits: Limits, kept: int) -> None:
-    found = joint_path(limited(E, limits), curves_of(THROUGH))
+    plan = joint_plan(limited(load_arm(E), limits), curves_of(THROUGH), TimeLaw.of(Law.QUINTIC), F(10), 11)
+    found = plan.path
     assert found.count == 4 and found.allowed_count == kept and found.is_reachable is (kept > 0)
-    plan = joint_plan(found.arm, found.curves, TimeLaw.of(Law.QUINTIC), F(10), 11)
     assert plan.is_followed is (kept > 0)
     assert limits is not None
     if plan.sequence is not None:
@@ -86,7 +65,7 @@ def test_a_side_of_the_axis_is_allowed_or_forbidden(limits: Limits, kept: int) -
 
 def test_limits_were_left_aside_through_the_axis() -> None:
     """All 4 motions were counted, and no word said of those that θ1 forbids."""
-    arm, curves = limited(E, (-1, 1)), curves_of(THROUGH)
+    arm, curves = limited(load_arm(E), (-1, 1)), curves_of(THROUGH)
     text, _ = certify(Channel(print), arm, curves, json=False)
     assert "4 continuous joint motions from start to goal (proved" in text
     assert "2 of them within the limits of the joints for all s (decided exactly)" in text
@@ -98,7 +77,7 @@ def test_limits_were_left_aside_through_the_axis() -> None:
     assert len(beyond) == 2 and {*data["without_certificate"]} == {"1", "2", "3", "4"} - beyond
 
 
-ONCE_ROUND = [
+@each(
     (0, 7, 2),
     (0, "6.2831", 0),
     (0, "6.2832", 2),
@@ -107,25 +86,22 @@ ONCE_ROUND = [
     ("-3.1415", "3.1415", 0),
     ("-3.1416", "3.1416", 2),
     (-7, 7, 4),
-]
-
-
-@pytest.mark.parametrize(("low", "high", "kept"), ONCE_ROUND)
+)
 def test_a_turn_round_the_axis_and_into_it(low: str, high: str, kept: int) -> None:
     """θ1 turns from 0 to 2π for one sign of the distance, from -π to π for the other one: every angle may be allowed
     without a motion."""
     ring = [(100, 0), (0, 100), (-100, 0), (0, -100), (100, 0), (0, 0)]
     curves = curves_of(*([(*a, 100), (*b, 100)] for a, b in pairwise(ring)))
-    found = joint_path(limited(E, (low, high)), curves)
+    found = joint_path(limited(load_arm(E), (low, high)), curves)
     assert found.is_reachable and found.count == 4 and found.allowed_count == kept
     assert found.is_stopped is (kept == 0)
 
 
 def test_an_elbow_is_forbidden_on_one_side_of_a_tangent() -> None:
     """8 motions mix two elbows at the inner border; each elbow has one sign of θ3."""
-    free = joint_path(limited(S), curves_of(TANGENT))
+    free = joint_path(limited(load_arm(S)), curves_of(TANGENT))
     assert free.count == free.allowed_count == 8
-    bent = joint_path(limited(S, None, None, (0, 4)), curves_of(TANGENT))
+    bent = joint_path(limited(load_arm(S), None, None, (0, 4)), curves_of(TANGENT))
     assert bent.count == 8 and bent.allowed_count == judged(bent).count(True) == 2
     assert len(bent.limited.listed) == 8 if bent.limited is not None else False
 
@@ -135,7 +111,7 @@ def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path
     from bezier.planner.arm import joints
 
     curves = curves_of([(150, 20, 120), (170, 60, 150), (150, 90, 120)])
-    free = joint_path(limited(E), curves)
+    free = joint_path(limited(load_arm(E)), curves)
     run = free.whole_runs[0]
     start = next(
         x for x in solve(free.arm, curves["curve 0"].point(F(0))).solutions if run.parts[0][1].contains(F(0), x)
@@ -143,7 +119,7 @@ def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path
     value = start.refined(0, 200)
     assert value is not None
     close = F(value.ends[0]) - F(1, 10**25)
-    arm = limited(E, (close, close + 3))
+    arm = limited(load_arm(E), (close, close + 3))
     found = joint_path(arm, curves)
     missing = without_certificate(found, certificates(found))
     assert (
@@ -248,7 +224,7 @@ def check_random(seed: int) -> int:
         )
         listed = (round(F(ends[0]), 3), round(F(ends[1]), 3))
         limits.append(listed if random.random() < 0.6 else None)
-    found = joint_path(limited(name, *limits), curves_of(*curves))
+    found = joint_path(limited(load_arm(name), *limits), curves_of(*curves))
     assert found.motions is not None and found.limited is not None and found.count == found.motions.count
     verdicts = judged(found)
     for verdict, motion in zip(verdicts, found.motions.motions, strict=True):
@@ -261,10 +237,6 @@ def check_random(seed: int) -> int:
     return sum(verdict is not None for verdict in verdicts)
 
 
-def test_motions_within_random_limits_are_those_of_samples() -> None:
-    assert sum(check_random(seed) for seed in range(len(PATHS))) >= 25
-
-
-@pytest.mark.deep
-def test_motions_within_many_random_limits_are_those_of_samples() -> None:
-    assert sum(check_random(seed) for seed in range(100, 500)) >= 1000
+@each((range(len(PATHS)), 25), pytest.param(range(100, 500), 1000, marks=pytest.mark.deep))
+def test_motions_within_random_limits_are_those_of_samples(seeds: range, judged_at_least: int) -> None:
+    assert sum(check_random(seed) for seed in seeds) >= judged_at_least

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import tau
@@ -29,17 +28,11 @@ from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify
 from qe.errors import Unable
 from qe.proof.certificate import Certificate
+from tests.bezier.arm.arms import Limits, limited
+from tests.tables import each
 
 CYLINDER = load_arm("cylindrical")
 NAMES = ("cylindrical", "shoulder-3r", "ev3-120")
-Limits = tuple[Fraction, Fraction] | None
-
-
-def limited(arm: Arm, limits: Sequence[Limits]) -> Arm:
-    """The arm with these limits of its joints."""
-    left = iter(limits)
-    rows = (row if row.joint is None else replace(row, joint=replace(row.joint, limits=next(left))) for row in arm.rows)
-    return replace(arm, rows=tuple(rows))
 
 
 def path(arm: Arm, *points: Sequence[object]) -> JointPath:
@@ -66,13 +59,14 @@ def test_a_path_outside_all_limits_is_not_reachable() -> None:
     assert in_words(solve(CYLINDER, (900, 0, 100)))[-1] == "no joint position is within the limits of the joints"
 
 
-@pytest.mark.parametrize(("beyond", "keeps"), [("1e-9", False), ("-1e-9", True), ("0", True), ("14", False)])
+@each(("1e-9", False), ("-1e-9", True), ("0", True), ("14", False))
 def test_what_happens_between_two_samples_counts(beyond: str, keeps: bool) -> None:
     """The lift is highest halfway, 250 mm and ``beyond``; samples were all that was looked at."""
     top = Fraction(600) + 2 * Fraction(beyond)
-    found = path(CYLINDER, (20, -300, 100), (20, -200, top), (20, -300, 100))
+    curve = {"curve": Bezier.of([(20, -300, 100), (20, -200, top), (20, -300, 100)])}
+    plan = joint_plan(CYLINDER, curve, TimeLaw.of(Law.QUINTIC), Fraction(50), 4)
+    found = plan.path
     assert found.is_reachable is keeps and len(found.whole_runs) == keeps and all_accepted(found)
-    plan = joint_plan(CYLINDER, found.curves, TimeLaw.of(Law.QUINTIC), Fraction(50), 4)
     assert plan.is_followed is keeps
     if not keeps:
         (gap,) = found.studies[0].gaps
@@ -91,7 +85,7 @@ def test_a_path_along_a_limit_keeps_it(end: tuple[int, int, int]) -> None:
 
 def test_an_angle_stays_at_its_limit_0() -> None:
     """θ1 = 0 on the whole line: sine and cosine are rational at this limit alone."""
-    arm = limited(load_arm("ev3-120"), [(Fraction(0), Fraction(3)), None, None])
+    arm = limited(load_arm("ev3-120"), (Fraction(0), Fraction(3)), None, None)
     found = path(arm, (160, 0, 150), (180, 0, 170))
     assert found.is_reachable and all_accepted(found) and len(found.whole_runs) == 2
     assert not path(arm, (160, "-1e-9", 150), (180, 0, 170)).whole_runs
@@ -110,7 +104,7 @@ def test_full_turns_bring_an_angle_between_its_limits() -> None:
 
 def test_a_motion_of_more_than_a_turn_is_beyond_its_limits() -> None:
     """Every single angle is allowed where the limits are more than a turn apart; a motion is not."""
-    arm = limited(CYLINDER, [(Fraction(-33, 10), Fraction(33, 10)), None, None])
+    arm = limited(CYLINDER, (Fraction(-33, 10), Fraction(33, 10)), None, None)
     turn = [(0, -200), (200, -200), (200, 0), (200, 200), (0, 200), (-200, 200), (-200, 0), (-200, -200), (0, -200)]
     curves = {f"c{k}": Bezier.of([(*a, 100), (*b, 100)]) for k, (a, b) in enumerate(pairwise(turn))}
     again = joint_path(arm, {**curves, "more": Bezier.of([(0, -200, 100), (200, -200, 100)])})
@@ -121,14 +115,14 @@ def test_a_motion_of_more_than_a_turn_is_beyond_its_limits() -> None:
 
 def test_a_sequence_prefers_a_motion_within_the_limits() -> None:
     """The other motion changes the joints less, but passes a limit between two samples."""
-    arm = limited(load_arm("ev3-120"), [None, None, None])
+    arm = limited(load_arm("ev3-120"), None, None, None)
     free = path(arm, (10, 40, 80), (40, 100, 20))
     plan = joint_plan(arm, free.curves, TimeLaw.of(Law.QUINTIC), Fraction(50), 6)
     assert plan.sequence is not None and plan.sequence.run is not None
     best = next(r for r in free.runs if r.number == plan.sequence.run)
     middle = Fraction(best.branch(0).at(Fraction(1, 2))[1])  # type: ignore[union-attr]
     for limits in ((middle, Fraction(20)), (Fraction(-20), middle)):
-        bound = limited(arm, [None, limits, None])
+        bound = limited(arm, None, limits, None)
         found = joint_plan(bound, free.curves, TimeLaw.of(Law.QUINTIC), Fraction(50), 6)
         if found.path.whole_runs:
             assert found.sequence is not None
@@ -147,7 +141,7 @@ def test_solutions_within_the_limits_are_counted_for_every_s(rng: random.Random)
         scale = 1 if joint.motion is JointKind.REVOLUTE else 60
         limits.append(rng.choice((None, (scale * ends[0], scale * ends[1]))))
     try:
-        found = study(limited(arm, limits), curve_near(arm, rng))
+        found = study(limited(arm, *limits), curve_near(arm, rng))
     except Unable:
         return
     for _ in range(6):
@@ -193,7 +187,7 @@ def greatest(arm: Arm, curve: Bezier, branch: Branch, joint: int) -> Fraction | 
 
 def close_passes(rng: random.Random) -> int:
     """A path whose joint stays below a limit by 1e-1 to 1e-9 and passes another one by as much; how many were tried."""
-    arm = limited(load_arm(rng.choice(NAMES)), [None] * 3)
+    arm = limited(load_arm(rng.choice(NAMES)))
     joint, curve = rng.randrange(3), curve_near(arm, rng)
     try:
         free = joint_path(arm, {"curve": curve})
@@ -210,7 +204,7 @@ def close_passes(rng: random.Random) -> int:
         limit = Fraction(round((top + side * Fraction(1, 10 ** rng.randint(1, 9))) * 10**13), 10**13)
         limits: list[Limits] = [None] * 3
         limits[joint] = (limit - (6 if turns else 2000), limit)
-        found = joint_path(limited(arm, limits), {"curve": curve})
+        found = joint_path(limited(arm, *limits), {"curve": curve})
         mine = next(r for r in found.runs if r.parts[0][1] == run.parts[0][1])
         passed = [e for e in mine.excesses if e.limit == limit]
         assert bool(passed) == (side < 0), (curve, limits)
@@ -220,17 +214,10 @@ def close_passes(rng: random.Random) -> int:
     return 2
 
 
-def test_closeness_to_a_limit_is_decided() -> None:
-    rng, tried = random.Random(4), 0
-    while tried < 4:
-        tried += close_passes(rng)
-
-
-@pytest.mark.deep
-@pytest.mark.parametrize("part", range(8))
-def test_closeness_to_a_limit_is_decided_on_many_paths(part: int) -> None:
-    rng, tried = random.Random(100 + part), 0
-    while tried < 50:
+@each((4, 4), *(pytest.param(100 + part, 50, marks=pytest.mark.deep) for part in range(8)))
+def test_closeness_to_a_limit_is_decided(seed: int, paths: int) -> None:
+    rng, tried = random.Random(seed), 0
+    while tried < paths:
         tried += close_passes(rng)
 
 

@@ -8,6 +8,7 @@ from math import cos, pi, sin
 import pytest
 
 from bezier.arm.motion_chain import MotionChain
+from tests.tables import each
 
 F = Fraction
 STILL = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))
@@ -40,7 +41,7 @@ def test_a_solution_is_one() -> None:
     assert SCARA.solve(LINE, F(0), (0.0, 0.0, 0.0)) is None  # stretched out: singular
 
 
-@pytest.mark.parametrize(("low", "high"), [(F(-1, 20), F(1, 20)), (F(1), F(21, 20))])
+@each((F(-1, 20), F(1, 20)), (F(1), F(21, 20)))
 def test_a_piece_encloses_the_solutions_and_their_derivatives(low: Fraction, high: Fraction) -> None:
     piece = SCARA.piece(LINE, low, high, (-0.5, 1.2, 1.0))
     assert piece is not None and (piece.low, piece.high) == (low, high)

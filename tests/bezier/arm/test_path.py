@@ -24,6 +24,7 @@ from bezier.curves.curve import Bezier
 from qe.certify.verify import verify, verify_json
 from qe.errors import InputError, Unable
 from qe.proof.certificate import Certificate, Kind
+from tests.tables import each
 
 ARM = load_arm("ev3-120")
 STRAIGHT = Bezier.of([(10, 40, 80), (40, 100, 20)])
@@ -50,8 +51,8 @@ def test_the_other_published_line() -> None:
     assert [round(float(s), 12) for s in found.shared] == [0.792322431164, 0.994716564351]
 
 
-@pytest.mark.parametrize("name", ["D1_leaves_outside", "D2_through_hole", "D3_high"])
-def test_lines_over_the_border(shared: Path, name: str) -> None:
+@each("D1_leaves_outside", "D2_through_hole", "D3_high")
+def test_lines_over_the_border(name: str, shared: Path) -> None:
     case = json.loads((shared / "corpora" / "ev3" / "paths_L120.json").read_text())[name]
     found = study(ARM, Bezier.of([case["start"], case["goal"]]))
     assert [p.count for p in found.stretches] == case["solutions_between"]
@@ -96,12 +97,9 @@ def test_the_number_of_solutions_between_the_places(points: list[tuple[int, ...]
         assert all(p.count == count for p in inside)
 
 
-@pytest.mark.parametrize(
-    "curve",
-    [
-        Bezier.of([(-1, 5, 357), (11, -63, 420), (-5, -60, 411)]),
-        Bezier.of([(-100, Fraction(1, 10), 100), (100, Fraction(1, 10), 100)]),
-    ],
+@each(
+    Bezier.of([(-1, 5, 357), (11, -63, 420), (-5, -60, 411)]),
+    Bezier.of([(-100, Fraction(1, 10), 100), (100, Fraction(1, 10), 100)]),
 )
 def test_a_curve_close_to_the_axis_takes_few_boxes(curve: Bezier) -> None:
     """At 0.14 mm from the axis the boxes of four motions were 32 562 and took 23 s; at 0.1 mm there were none."""
@@ -124,7 +122,7 @@ def test_boxes_grow_with_the_logarithm_of_the_distance_to_the_axis(y: int, power
         assert sum(len(branch.pieces) for _, branch in run.parts) < 250 + 150 * power
 
 
-@pytest.mark.parametrize("curve", [STRAIGHT, CUBIC])
+@each(STRAIGHT, CUBIC)
 def test_branches_are_solutions(curve: Bezier) -> None:
     for solution in solve(ARM, curve.point(ZERO)).solutions:
         branch = whole(ARM, curve, solution, ZERO, (ZERO, ONE))
@@ -183,16 +181,13 @@ def test_a_spline_goes_through_its_points() -> None:
     assert first.derivative(2, ZERO) == second.derivative(2, ONE) == (0, 0, 0)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("", "[[curve]]"),
-        ("[[curve]]\npoints = [[1, 2, 3]]\n", "2 to 40 points"),
-        ("[[curve]]\npoints = [[1, 2, 3], [1, 2]]\n", "points[1]"),
-        ("[[curve]]\npoints = [[1, 2, 3], [1, 2, 4]]\nspline = 1\n", "true or false"),
-        ('[[curve]]\npoints = [[1, 2, 3], [1, 2, 4]]\nname = ""\n', "a name of its own"),
-        ("[[curve]]\nfoo = 1\npoints = [[1, 2, 3], [1, 2, 4]]\n", "unknown key"),
-    ],
+@each(
+    ("", "[[curve]]"),
+    ("[[curve]]\npoints = [[1, 2, 3]]\n", "2 to 40 points"),
+    ("[[curve]]\npoints = [[1, 2, 3], [1, 2]]\n", "points[1]"),
+    ("[[curve]]\npoints = [[1, 2, 3], [1, 2, 4]]\nspline = 1\n", "true or false"),
+    ('[[curve]]\npoints = [[1, 2, 3], [1, 2, 4]]\nname = ""\n', "a name of its own"),
+    ("[[curve]]\nfoo = 1\npoints = [[1, 2, 3], [1, 2, 4]]\n", "unknown key"),
 )
 def test_bad_paths(text: str, message: str) -> None:
     with pytest.raises(InputError) as caught:

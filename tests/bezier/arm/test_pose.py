@@ -22,13 +22,14 @@ from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.robot import Robot
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
+from tests.bezier.arm.arms import arm_text
+from tests.tables import each
 
 SIX, PLANAR = load_arm("six-joints"), load_arm("planar-3r")
 
 
 def arm_of(*rows: str) -> Arm:
-    body = "".join(f'[[row]]\njoint = "q{k}"\n{row}\n' for k, row in enumerate(rows, start=1))
-    return read_arm('convention = "standard"\n' + body.replace("; ", "\n"))
+    return read_arm(arm_text(*rows))
 
 
 SKEW = arm_of(
@@ -163,7 +164,7 @@ def test_a_free_pair_of_joints() -> None:
     assert abs(abs(found.solutions[0].angles[1] or 0) - pi) < 1e-12
 
 
-@pytest.mark.parametrize(("height", "follows"), [(120, True), (150, True), (250, False), (400, False)])
+@each((120, True), (150, True), (250, False), (400, False))
 def test_a_first_joint_that_can_be_chosen(height: int, follows: bool) -> None:
     """Axes 5 and 6 meet on axis 1: the others follow for some angle of joint 1, or for none."""
     found = solve_pose(SKEW_FREE, (0, 0, height), rotation_of((1, 0, 0, 0)))
@@ -208,7 +209,7 @@ def test_irrational_coordinates_share_their_square_roots() -> None:
     assert all(np.allclose(f[:, 3], [float(c) for c in found.point]) for f in frames(BACKWARDS, found))
 
 
-@pytest.mark.parametrize("side", [-1, 1])
+@each(-1, 1)
 @settings(max_examples=4)
 @given(st.lists(st.fractions(-4, 4, max_denominator=4), min_size=6, max_size=6))
 def test_a_last_axis_parallel_to_the_three(side: int, tangents: list[Fraction]) -> None:
@@ -223,7 +224,7 @@ def test_a_last_axis_parallel_to_the_three(side: int, tangents: list[Fraction]) 
     assert fifth.sine[0] <= side <= fifth.sine[1] and family.angles[1:4] == (None, None, None)
 
 
-@pytest.mark.parametrize(("along", "closes"), [("281.45", True), ("281.46", False), ("0.01", True)])
+@each(("281.45", True), ("281.46", False), ("0.01", True))
 def test_four_links_that_close_or_not(along: str, closes: bool) -> None:
     """Axis 6 is parallel to axis 2 at this distance; the links are 110.4, 96 and 75.05 long."""
     m = pose(SIX, {f"theta{k}": (0, -1) if k == 5 else (1, 0) for k in range(1, 7)})
@@ -236,16 +237,14 @@ SKEW_FREE = arm_of('alpha = "pi/2"; d = 90', "a = 60", "a = 55", 'alpha = "pi/2"
 
 
 def test_limits_and_offsets() -> None:
-    text = 'convention = "standard"\n' + "".join(
-        f'[[row]]\njoint = "q{k}"\na = {a}\n' for k, a in enumerate((100, 80, 50))
-    )
+    text = arm_text("a = 100", "a = 80", "a = 50")
     arm = read_arm(text.replace("a = 80", 'a = 80\ntheta = "pi/2"\nlimits = [0, 1]'))
     found = solve_pose(arm, (120, 30, 0), rotation_of((1, 0, 0, 0)))
     assert sorted((s.allowed, 0 <= (s.angles[1] or 0) <= 1) for s in found.solutions) == [(False, False), (True, True)]
     assert all(np.allclose(f[:, 3], (120, 30, 0)) for f in frames(arm, found))
 
 
-@pytest.mark.parametrize("name", ["ev3-120", "shoulder-3r", "cylindrical"])
+@each("ev3-120", "shoulder-3r", "cylindrical")
 def test_arms_of_another_shape(name: str) -> None:
     with pytest.raises(Unable, match="three parallel axes"):
         solve_pose(load_arm(name), (1, 2, 3), rotation_of((1, 0, 0, 0)))
@@ -257,15 +256,12 @@ def test_six_joints_without_a_meeting_point() -> None:
         solve_pose(arm_of(*rows), (1, 2, 3), rotation_of((1, 0, 0, 0)))
 
 
-@pytest.mark.parametrize(
-    ("point", "rotation"),
-    [
-        ((1, 2), ((1, 0, 0), (0, 1, 0), (0, 0, 1))),
-        ((1, 2, 3), ((1, 0), (0, 1), (0, 0))),
-        ((1, 2, 3), ((1, 0, 0), (0, 1, 0), (0, 0, -1))),
-        ((1, 2, 3), ((1, 1, 0), (0, 1, 0), (0, 0, 1))),
-        ((1, 2, 3), ((1.0, 0, 0), (0, 1, 0), (0, 0, 1))),
-    ],
+@each(
+    ((1, 2), ((1, 0, 0), (0, 1, 0), (0, 0, 1))),
+    ((1, 2, 3), ((1, 0), (0, 1), (0, 0))),
+    ((1, 2, 3), ((1, 0, 0), (0, 1, 0), (0, 0, -1))),
+    ((1, 2, 3), ((1, 1, 0), (0, 1, 0), (0, 0, 1))),
+    ((1, 2, 3), ((1.0, 0, 0), (0, 1, 0), (0, 0, 1))),
 )
 def test_no_pose(point: tuple, rotation: tuple) -> None:
     with pytest.raises(InputError):

@@ -28,6 +28,7 @@ from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify
 from qe.errors import Unable
 from qe.exact.ring import Ring
+from tests.tables import each
 
 CONSTANTS = (
     'alpha = "pi/6"\na = 5\nd = 3',
@@ -148,7 +149,7 @@ def test_two_slides_along_one_direction() -> None:
         solve(arm_of("PPR", ("", "", ""), "a = 3"), (1, 2, 3))
 
 
-@pytest.mark.parametrize("kinds", ["RRP", "PPR"])
+@each("RRP", "PPR")
 def test_paths(kinds: str) -> None:
     """The number of solutions along a line, its branches, and their certificates."""
     arm = arm_of(kinds)

@@ -19,6 +19,7 @@ from qe.errors import Unable
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
 from tests.bezier.arm.test_pose import arm_of, pairs_of
+from tests.tables import each
 
 TWO = arm_of("a = 100", "a = 80")
 SCARA = read_arm(
@@ -58,7 +59,7 @@ def joints_of(arm: Arm, random: Random) -> dict[str, object]:
     return found
 
 
-@pytest.mark.parametrize("name", ["two", pytest.param("three", marks=pytest.mark.deep), "cylindrical", "scara"])
+@each("two", pytest.param("three", marks=pytest.mark.deep), "cylindrical", "scara")
 def test_what_is_reached_satisfies_the_formula(name: str) -> None:
     random, formula = Random(7), formula_of(name)
     for _ in range(150):
@@ -66,7 +67,7 @@ def test_what_is_reached_satisfies_the_formula(name: str) -> None:
         assert holds_at(formula, dict(zip("xyz", point, strict=True)))
 
 
-@pytest.mark.parametrize("name", ["cylindrical", "scara"])
+@each("cylindrical", "scara")
 def test_what_satisfies_the_formula_is_reached(name: str) -> None:
     """Limits of joints that turn are left aside; those of joints that slide are kept."""
     random, formula, arm = Random(8), formula_of(name), ARMS[name]

@@ -24,16 +24,17 @@ from bezier.problem import from_json, read_problem, to_json
 from bezier.report.page import render
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.exact.field import NumberField
+from tests.tables import each
 
 EV3 = {length: Robot.load(f"ev3-{length}") for length in (112, 120)}
 
 
-@pytest.mark.parametrize(("length", "radius"), [(120, 258.149), (112, 247.534)])
+@each((120, 258.149), (112, 247.534))
 def test_the_half_ball_that_can_be_reached(length: int, radius: float) -> None:
     assert EV3[length].reachable().half_ball == pytest.approx(radius, abs=5e-4)
 
 
-@pytest.mark.parametrize("length", [112, 120])
+@each(112, 120)
 @given(point=st.tuples(*[st.integers(-330, 330)] * 2, st.integers(-120, 450)))
 def test_the_closed_form_agrees_with_the_solutions(length: int, point: tuple[int, int, int]) -> None:
     robot = EV3[length]
@@ -103,7 +104,7 @@ def test_a_path_beyond_the_arm() -> None:
     assert "the arm cannot follow the path" in page and "The joints of EV3" in page
 
 
-@pytest.mark.parametrize("name", ["ev4", "../ev3.toml", ""])
+@each("ev4", "../ev3.toml", "")
 def test_unknown_arms_are_refused_before_planning(name: str) -> None:
     with pytest.raises(InputError, match="arm"):
         make_plan(read_problem(PROBLEM.format(name, 250)))

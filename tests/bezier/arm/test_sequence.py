@@ -21,6 +21,7 @@ from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from bezier.planner.arm import render
 from qe.errors import InputError, Unable
+from tests.tables import each
 
 ARM = load_arm("ev3-120")
 QUINTIC = TimeLaw.of(Law.QUINTIC)
@@ -144,7 +145,7 @@ def test_no_samples_are_refused_on_a_path_that_leaves_too() -> None:
             joint_plan(ARM, {"out": out}, QUINTIC, Fraction(50), count)
 
 
-@pytest.mark.parametrize("count", [1, 0, 10**6])
+@each(1, 0, 10**6)
 def test_numbers_of_samples(count: int) -> None:
     with pytest.raises(InputError, match="samples"):
         samples_of(WHOLE, QUINTIC, count)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import Any
 
-import pytest
-
 from bezier.certify.branch import check_branch
 from qe.errors import CertificateRejected
+from tests.tables import each
 
 
 def row(theta: Any, alpha: Any, joint: str | None = "prismatic") -> dict[str, Any]:
@@ -45,16 +44,13 @@ def objection(given: Any) -> str:
     return ""
 
 
-@pytest.mark.parametrize(
-    "given",
-    [
-        payload(WHOLE),
-        payload(FIRST, SECOND),
-        payload(FIRST, SECOND, THIRD),
-        payload(SECOND, THIRD),
-        payload(WHOLE, rows=[row(["1", "0"], ["0", "1"]), row(["0", "1"], 6), row(0, 0)]),  # the same angles as numbers
-        payload(WHOLE, rows=[*ROWS[:2], row(12, 0, None), row(12, 0, None), row(0, 0)]),  # half a turn, and back
-    ],
+@each(
+    payload(WHOLE),
+    payload(FIRST, SECOND),
+    payload(FIRST, SECOND, THIRD),
+    payload(SECOND, THIRD),
+    payload(WHOLE, rows=[row(["1", "0"], ["0", "1"]), row(["0", "1"], 6), row(0, 0)]),  # the same angles as numbers
+    payload(WHOLE, rows=[*ROWS[:2], row(12, 0, None), row(12, 0, None), row(0, 0)]),  # half a turn, and back
 )
 def test_a_slide_follows_lines(given: Any) -> None:
     assert objection(given) == ""
@@ -68,31 +64,28 @@ def test_the_modified_convention_turns_before_it_slides() -> None:
     assert objection(payload(WHOLE, convention="modified")) != ""
 
 
-@pytest.mark.parametrize(
-    ("given", "reason"),
-    [
-        (payload(piece(0, "0", "1", "8/5 -1 1/2", "3 -2 1")), "exactly one solution"),  # on the rim of the box
-        (payload(piece(0, "0", "1", "2 -1 1/2", "3 -2 1")), "exactly one solution"),
-        (payload(piece(0, "0", "1", "3/2 -1 1/2", "3 -2 2")), "exactly one solution"),
-        (payload(piece(0, "0", "1", "3/2 -1 1/2", "3 -2 1", "1/10 0 1/10")), "radii above 0"),
-        (payload(piece(0, "0", "1", "3/2 -1 1/2", "3 -2 1", "1/10 1/10")), "each of three joints"),
-        (payload(piece(2, "0", "1", "3/2 -1 1/2", "3 -2 1")), "one of 2 curves"),
-        (payload(piece(0, "1", "0", "3/2 -1 1/2", "3 -2 1")), "0 <= low < high <= 1"),
-        (payload(piece(0, "0", "2", "3 -2 1", "3 -2 1")), "0 <= low < high <= 1"),
-        (payload(FIRST, piece(0, "3/4", "1", "21/8 -7/4 7/8", "3 -2 1")), "where the one before ends"),
-        (payload(SECOND, FIRST), "where the one before ends"),
-        (payload(FIRST, THIRD), "where the one before ends"),
-        (payload(THIRD, WHOLE), "where the one before ends"),
-        (payload(), "at least one piece"),
-        (payload(WHOLE, rows=ROWS[:2]), "three of them with a joint"),
-        (payload(WHOLE, rows=[*ROWS, row(0, 0)]), "three of them with a joint"),
-        (payload(WHOLE, rows=[*ROWS, *[row(0, 0, None)] * 40]), "at most 40 rows"),
-        (payload(WHOLE, rows=[row(0, 6, "spherical"), *ROWS[1:]]), "null, revolute or prismatic"),
-        (payload(WHOLE, convention="classic"), "modified or standard"),
-        (payload(WHOLE, rows=[row(["1", "1"], 6), *ROWS[1:]]), "cosine and sine"),
-        (payload(WHOLE, rows=[row(25, 6), *ROWS[1:]]), "twelfths of pi"),
-        (payload(WHOLE, rows=[row(0, 0), row(0, 0), row(0, 0)]), "exactly one solution"),  # all slides along z
-    ],
+@each(
+    (payload(piece(0, "0", "1", "8/5 -1 1/2", "3 -2 1")), "exactly one solution"),  # on the rim of the box
+    (payload(piece(0, "0", "1", "2 -1 1/2", "3 -2 1")), "exactly one solution"),
+    (payload(piece(0, "0", "1", "3/2 -1 1/2", "3 -2 2")), "exactly one solution"),
+    (payload(piece(0, "0", "1", "3/2 -1 1/2", "3 -2 1", "1/10 0 1/10")), "radii above 0"),
+    (payload(piece(0, "0", "1", "3/2 -1 1/2", "3 -2 1", "1/10 1/10")), "each of three joints"),
+    (payload(piece(2, "0", "1", "3/2 -1 1/2", "3 -2 1")), "one of 2 curves"),
+    (payload(piece(0, "1", "0", "3/2 -1 1/2", "3 -2 1")), "0 <= low < high <= 1"),
+    (payload(piece(0, "0", "2", "3 -2 1", "3 -2 1")), "0 <= low < high <= 1"),
+    (payload(FIRST, piece(0, "3/4", "1", "21/8 -7/4 7/8", "3 -2 1")), "where the one before ends"),
+    (payload(SECOND, FIRST), "where the one before ends"),
+    (payload(FIRST, THIRD), "where the one before ends"),
+    (payload(THIRD, WHOLE), "where the one before ends"),
+    (payload(), "at least one piece"),
+    (payload(WHOLE, rows=ROWS[:2]), "three of them with a joint"),
+    (payload(WHOLE, rows=[*ROWS, row(0, 0)]), "three of them with a joint"),
+    (payload(WHOLE, rows=[*ROWS, *[row(0, 0, None)] * 40]), "at most 40 rows"),
+    (payload(WHOLE, rows=[row(0, 6, "spherical"), *ROWS[1:]]), "null, revolute or prismatic"),
+    (payload(WHOLE, convention="classic"), "modified or standard"),
+    (payload(WHOLE, rows=[row(["1", "1"], 6), *ROWS[1:]]), "cosine and sine"),
+    (payload(WHOLE, rows=[row(25, 6), *ROWS[1:]]), "twelfths of pi"),
+    (payload(WHOLE, rows=[row(0, 0), row(0, 0), row(0, 0)]), "exactly one solution"),  # all slides along z
 )
 def test_what_is_no_branch(given: Any, reason: str) -> None:
     assert reason in objection(given)

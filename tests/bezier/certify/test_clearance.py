@@ -8,6 +8,7 @@ import pytest
 
 from bezier.certify.clearance import check_clearance
 from qe.errors import CertificateRejected
+from tests.tables import each
 
 RATIONAL = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
 ARCH = [["-1", "0"], ["0", "2"], ["1", "0"]]  # (2t - 1, 4t(1 - t)), at most 1 high
@@ -35,42 +36,36 @@ LEFT = {"terms": [[[1, 0], "-1"]], "strict": False}  # x <= 0
 RIGHT = {"terms": [[[1, 0], "1"], [[0, 0], "-1/2"]], "strict": False}  # x >= 1/2
 
 
-@pytest.mark.parametrize(
-    ("constraints", "spans"),
-    [
-        ([half_plane("3")], [["0", "1", 0]]),
-        ([half_plane("2", strict=True)], [["0", "1", 0]]),  # a control point touches; the half-plane is open
-        ([half_plane("3/2")], HALVES),
-        ([DISC], [["0", "1", 0]]),
-        ([LEFT, RIGHT], [["0", "5/8", 1], ["5/8", "1", 0]]),
-        ([half_plane("1", strict=True)], HALVES),
-    ],
+@each(
+    ([half_plane("3")], [["0", "1", 0]]),
+    ([half_plane("2", strict=True)], [["0", "1", 0]]),  # a control point touches; the half-plane is open
+    ([half_plane("3/2")], HALVES),
+    ([DISC], [["0", "1", 0]]),
+    ([LEFT, RIGHT], [["0", "5/8", 1], ["5/8", "1", 0]]),
+    ([half_plane("1", strict=True)], HALVES),
 )
 def test_the_curve_misses(constraints: list[Any], spans: list[Any]) -> None:
     check_clearance(payload(constraints, spans))
 
 
-@pytest.mark.parametrize(
-    ("constraints", "spans", "reason"),
-    [
-        ([half_plane("3/2")], [["0", "1", 0]], "does not fail"),
-        ([half_plane("1")], HALVES, "does not fail"),  # it touches at 1/2
-        ([half_plane("0")], HALVES, "does not fail"),
-        ([half_plane("3")], [["0", "1/2", 0]], "do not reach 1"),
-        ([half_plane("3")], [], "do not reach 1"),
-        ([half_plane("3")], [["0", "1/2", 0], ["3/4", "1", 0]], "an interval from 1/2"),
-        ([half_plane("3")], [["1/4", "1", 0]], "an interval from 0"),
-        ([half_plane("3")], [["0", "2", 0]], "an interval from 0"),
-        ([half_plane("3")], [["0", "0", 0], ["0", "1", 0]], "an interval from 0"),
-        ([half_plane("3")], [["0", "1", 1]], "one of 1 constraints"),
-        ([half_plane("3")], [["0", "1"]], "low, high, index"),
-        ([half_plane("3")], [["0", "1", 0, 0]], "low, high, index"),
-        ([{"terms": [[[0, 1], "1"]], "strict": None}], [["0", "1", 0]], "true or false"),
-        ([{"terms": [[[1], "1"]], "strict": False}], [["0", "1", 0]], "expected 2 exponents"),
-        ([{"terms": [[[0, 1], "1"], [[0, 1], "1"]], "strict": False}], [["0", "1", 0]], "each combination once"),
-        ([{"terms": [[[0, 1]]], "strict": False}], [["0", "1", 0]], "exponents, coefficient"),
-        ([{"terms": [[[0, 10**4], "1"]], "strict": False}], [["0", "1", 0]], "a degree of at most"),
-    ],
+@each(
+    ([half_plane("3/2")], [["0", "1", 0]], "does not fail"),
+    ([half_plane("1")], HALVES, "does not fail"),  # it touches at 1/2
+    ([half_plane("0")], HALVES, "does not fail"),
+    ([half_plane("3")], [["0", "1/2", 0]], "do not reach 1"),
+    ([half_plane("3")], [], "do not reach 1"),
+    ([half_plane("3")], [["0", "1/2", 0], ["3/4", "1", 0]], "an interval from 1/2"),
+    ([half_plane("3")], [["1/4", "1", 0]], "an interval from 0"),
+    ([half_plane("3")], [["0", "2", 0]], "an interval from 0"),
+    ([half_plane("3")], [["0", "0", 0], ["0", "1", 0]], "an interval from 0"),
+    ([half_plane("3")], [["0", "1", 1]], "one of 1 constraints"),
+    ([half_plane("3")], [["0", "1"]], "low, high, index"),
+    ([half_plane("3")], [["0", "1", 0, 0]], "low, high, index"),
+    ([{"terms": [[[0, 1], "1"]], "strict": None}], [["0", "1", 0]], "true or false"),
+    ([{"terms": [[[1], "1"]], "strict": False}], [["0", "1", 0]], "expected 2 exponents"),
+    ([{"terms": [[[0, 1], "1"], [[0, 1], "1"]], "strict": False}], [["0", "1", 0]], "each combination once"),
+    ([{"terms": [[[0, 1]]], "strict": False}], [["0", "1", 0]], "exponents, coefficient"),
+    ([{"terms": [[[0, 10**4], "1"]], "strict": False}], [["0", "1", 0]], "a degree of at most"),
 )
 def test_what_is_refused(constraints: list[Any], spans: list[Any], reason: str) -> None:
     with pytest.raises(CertificateRejected, match=reason):

@@ -6,8 +6,6 @@ import json
 from fractions import Fraction
 from typing import Any
 
-import pytest
-
 from bezier.arm.evidence import certificates
 from bezier.arm.joint_path import joint_path
 from bezier.arm.reader import load_arm
@@ -15,6 +13,7 @@ from bezier.curves.curve import Bezier
 from qe.certify.verify import verify
 from qe.proof.certificate import Certificate, Kind
 from tests.bezier.certify.test_branch import LINE, ROWS, objection, piece
+from tests.tables import each
 
 TINY = Fraction(1, 10**12)
 
@@ -59,18 +58,15 @@ def test_a_joint_that_stands_at_its_limit_keeps_it() -> None:
     assert "joint 2" in slides([None, ["-2", str(-1 - TINY)], None], level, whole)
 
 
-@pytest.mark.parametrize(
-    ("limits", "reason"),
-    [
-        ([None, None], "limits of 3 joints"),
-        ([None] * 4, "limits of 3 joints"),
-        ([None, None, ["1", "0"]], "a least value below"),
-        ([None, None, ["0"]], "a least value below"),
-        ([None, None, ["0", 1.5]], "limits[2][1]"),
-        ([None, None, "01"], "expected a list"),
-        ({}, "expected a list"),
-        (None, "expected a list"),
-    ],
+@each(
+    ([None, None], "limits of 3 joints"),
+    ([None] * 4, "limits of 3 joints"),
+    ([None, None, ["1", "0"]], "a least value below"),
+    ([None, None, ["0"]], "a least value below"),
+    ([None, None, ["0", 1.5]], "limits[2][1]"),
+    ([None, None, "01"], "expected a list"),
+    ({}, "expected a list"),
+    (None, "expected a list"),
 )
 def test_what_are_no_limits(limits: Any, reason: str) -> None:
     assert reason in slides(limits, LINE, piece(0, "0", "1", "3/2 -1 1/2", "3 -2 1"))

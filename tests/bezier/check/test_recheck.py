@@ -17,6 +17,7 @@ from bezier.methods.single import closed, program, simplex
 from qe.errors import InputError, Unable
 from qe.proof.certificate import digest
 from tests.bezier.folder_mutation import EXAMPLES, Memory, alterations, not_certified, planned, refused, rejection
+from tests.tables import each
 
 QUICK = ("tight_radius", "single_leaves", "no_control_point", "obstacle_motion")
 SAMPLE = 5
@@ -125,8 +126,8 @@ def changed_bundles(folder: Path, step: int) -> list[str]:
     return accepted
 
 
-@pytest.mark.parametrize("name", ["tight_radius", "single_leaves", "no_control_point"])
-def test_members_dropped_relabelled_doubled_or_swapped_are_refused(copied, name):
+@each("tight_radius", "single_leaves", "no_control_point")
+def test_members_dropped_relabelled_doubled_or_swapped_are_refused(name, copied):
     assert not changed_bundles(copied(name), 7)
 
 
@@ -136,8 +137,8 @@ def test_all_changes_of_a_bundle_are_refused(root, tmp_path, name):
     assert not changed_bundles(planned(root / "examples" / f"{name}.toml", tmp_path / name), 1)
 
 
-@pytest.mark.parametrize("name", ["single_leaves", "no_control_point"])
-def test_certificates_without_content_are_refused(copied, name):
+@each("single_leaves", "no_control_point")
+def test_certificates_without_content_are_refused(name, copied):
     folder = copied(name)
     for kind, payload in (("bundle", "certificates"), ("containment", "payload"), ("optimum", "payload")):
         empty: Any = [] if payload == "certificates" else {}
@@ -147,10 +148,8 @@ def test_certificates_without_content_are_refused(copied, name):
         assert "certificate.json" in (rejection(folder) or "")
 
 
-@pytest.mark.parametrize(
-    ("ours", "theirs"), [("tight_radius", "no_control_point"), ("no_control_point", "tight_radius")]
-)
-def test_certificates_of_another_problem_are_refused(folders, copied, ours, theirs):
+@each(("tight_radius", "no_control_point"), ("no_control_point", "tight_radius"))
+def test_certificates_of_another_problem_are_refused(ours, theirs, folders, copied):
     folder = copied(ours)
     others = {m["label"]: m for m in json.loads((folders[theirs] / "certificate.json").read_text())["certificates"]}
     original = (folder / "certificate.json").read_bytes()
@@ -168,21 +167,18 @@ def test_certificates_of_another_problem_are_refused(folders, copied, ours, thei
 # --- files of other plans, and files that are none -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("ours", "theirs", "file"),
-    [
-        ("no_control_point", "tight_radius", "path.json"),
-        ("no_control_point", "tight_radius", "path.csv"),
-        ("single_leaves", "tight_radius", "region.json"),
-        ("tight_radius", "obstacle_motion", "motion.json"),
-        ("tight_radius", "obstacle_motion", "motion.csv"),
-        ("tight_radius", "no_control_point", "region.json"),
-        ("tight_radius", "obstacle_motion", "path.json"),
-        ("tight_radius", "obstacle_motion", "problem.json"),
-        ("tight_radius", "obstacle_motion", "summary.json"),
-    ],
+@each(
+    ("no_control_point", "tight_radius", "path.json"),
+    ("no_control_point", "tight_radius", "path.csv"),
+    ("single_leaves", "tight_radius", "region.json"),
+    ("tight_radius", "obstacle_motion", "motion.json"),
+    ("tight_radius", "obstacle_motion", "motion.csv"),
+    ("tight_radius", "no_control_point", "region.json"),
+    ("tight_radius", "obstacle_motion", "path.json"),
+    ("tight_radius", "obstacle_motion", "problem.json"),
+    ("tight_radius", "obstacle_motion", "summary.json"),
 )
-def test_a_file_of_another_plan_is_refused(folders, copied, ours, theirs, file):
+def test_a_file_of_another_plan_is_refused(ours, theirs, file, folders, copied):
     folder = copied(ours)
     shutil.copy(folders[theirs] / file, folder / file)
     assert file in (rejection(folder) or "")
@@ -238,8 +234,8 @@ def test_malformed_files_get_one_line(copied, monkeypatch, what):
     assert "summary.json: expected UTF-8" in (rejection(folder) or "")
 
 
-@pytest.mark.parametrize("name", ["single_leaves", "tight_radius"])
-def test_wrong_types_get_one_line(copied, monkeypatch, name):
+@each("single_leaves", "tight_radius")
+def test_wrong_types_get_one_line(name, copied, monkeypatch):
     """Every entry replaced by values of other types, some for each, in every file that states something."""
     kinds: tuple[Any, ...] = (None, True, -1, 10**400, "x", "1/0", [], {}, [[]], {"a": []}, [None])
     folder = copied(name)
@@ -255,9 +251,9 @@ def test_wrong_types_get_one_line(copied, monkeypatch, name):
         (folder / file).write_text(json.dumps(whole))
 
 
-@pytest.mark.parametrize("count", [0, 2, 4])
-@pytest.mark.parametrize("name", ["single_leaves", "tight_radius"])
-def test_a_point_with_another_number_of_coordinates_is_refused(copied, name, count):
+@each(0, 2, 4)
+@each("single_leaves", "tight_radius")
+def test_a_point_with_another_number_of_coordinates_is_refused(name, count, copied):
     folder = copied(name)
     found = json.loads((folder / "path.json").read_text())
     found["points"]["P1"] = (found["points"]["P1"] * 2)[:count]

@@ -1,20 +1,28 @@
-"""Comparing methods: the problems that each method gets, and the text of rows."""
+"""Comparisons of both methods: their data, pictures and limits."""
 
 from __future__ import annotations
 
 import doctest
+import json
+import time
 from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import qe
-from bezier.compare.comparison import METHODS, Side, for_method
-from bezier.compare.output import bracket, duration
+from bezier.compare import comparison
+from bezier.compare.command import render
+from bezier.compare.comparison import METHODS, Comparison, Side, _Parts, compare, for_method
+from bezier.compare.output import NOT_REACHED, bracket, duration, notes, rows, table, to_json
+from bezier.compare.pictures import outline
 from bezier.curves.enclosure import Enclosure
 from bezier.methods.cubic.existence import existence, sentence, trivial_witness
+from bezier.plans import Clock
 from bezier.problem import PlanMethod, Problem, read_problem
-from qe.errors import InputError
+from qe.errors import BudgetExceeded, InputError, Unable
+from tests.tables import each
 
 CUBIC = """\
 method = "cubic"
@@ -79,3 +87,115 @@ def test_existence_theorem_of_the_comparison() -> None:
 def test_the_documentation_is_true(root: Path) -> None:
     outcome = doctest.testfile(str(root / "docs" / "compare.md"), module_relative=False)
     assert outcome.attempted > 12 and outcome.failed == 0
+
+
+PROBLEM = """\
+method = "cubic"
+workspace = "ball"
+start = [-4, 1, 1]
+via = [["-7/4", 2, "5/2"], ["3/2", 2, "5/2"]]
+goal = [4, 1, 1]
+radius = "17/4"
+"""
+"""Regions (8*) and (7) of this problem take long; its plans do not."""
+
+
+@pytest.fixture(scope="module")
+def found() -> Comparison:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(comparison, "COMPARE_SECONDS", 0.2)
+        return compare(read_problem(PROBLEM), proofs=True)
+
+
+def test_parts_that_finish_are_there(found):
+    assert all(side.plan.path is not None for side in found.sides.values())
+    assert found.planar.whole.region is None and found.planar.cubic.region is None
+    assert found.planar.named["(8*)"].reason and "limit" in found.unfinished["planar region of (7)"]
+
+
+def test_derivations_are_in_the_certificate_and_linked(found):
+    assert {"formula (8)", "formula (7)", "the question of the table"} <= set(found.derivations)
+    labels = [member.label for member in found.certificate.payload]
+    assert {"(8): optimum", "(7): optimum", "derivation of formula (7)"} <= set(labels)
+    for name, page in found.derivation_pages.items():
+        assert f'href="{page}"' in render(found, {}) and qe.verify(found.derivations[name].certificate).accepted
+
+
+def test_every_form_shows_them_and_says_why_the_rest_is_missing(found):
+    text = table(found)
+    assert "path found" in text and "planar region of (7): not finished, time limit" in text
+    data = json.loads(json.dumps(to_json(found, [])))
+    assert data["planar"]["regions"]["(7)"]["cells"] is None and "limit" in data["planar"]["regions"]["(7)"]["reason"]
+    assert data["unfinished"].keys() == found.unfinished.keys() >= {"planar region of (7)", "planar region of (8*)"}
+    page = render(found, {})
+    assert "path found" in page and "not finished" in page
+    cells = {label: cells for label, *cells in rows(found)}
+    assert cells["area of Q1 in the plane, mm²"][1] == NOT_REACHED
+    assert any(line.startswith("planar region of (8*): not finished") for line in notes(found))
+
+
+def test_a_part_gets_its_share_and_leaves_the_others_theirs():
+    seen: list[float] = []
+
+    def work(seconds: float) -> str:
+        seen.append(seconds)
+        raise BudgetExceeded("time limit reached")
+
+    parts = _Parts(Clock(limit=10.0))
+    assert parts.take("first", 2, work) is None and parts.take("second", 1, work) is None
+    assert 4 < seen[0] < 4.3 and 8 < seen[1] < 8.6
+    assert parts.unfinished == {"first": "time limit reached", "second": "time limit reached"}
+    assert parts.take("third", 1, lambda seconds: "done") == "done" and "third" in parts.clock.seconds
+
+
+def test_after_the_limit_parts_are_left_out_at_once():
+    parts = _Parts(Clock(limit=0.01))
+    time.sleep(0.02)
+    assert parts.take("late", 1, lambda seconds: pytest.fail("it was begun")) is None
+    assert "limit" in parts.unfinished["late"]
+
+
+def test_a_region_is_shown_without_its_area(monkeypatch):
+    def no_area(*arguments: object, **keywords: object) -> None:
+        raise Unable("too curved")
+
+    monkeypatch.setattr(comparison, "convex_area", no_area)
+    problem = read_problem(PROBLEM)
+    plane = comparison.Plane.through(problem)
+    formula = comparison.planar_statements(problem, plane)["(8)"]
+    part = comparison._region(formula, plane, Clock(), 20.0)
+    assert part.region is not None and part.region._pieces and part.area is None
+    assert part.reason == "area not found: too curved"
+
+
+def test_a_region_is_limited_by_processor_time_not_by_the_clock():
+    """On a busy machine (8*) was not reached: 30 s by the clock were 10 s of work."""
+    problem = read_problem(PROBLEM)
+    plane = comparison.Plane.through(problem)
+    formula, begin = comparison.planar_statements(problem, plane)["(8*)"], comparison.processor_time()
+    with pytest.raises(Unable, match="limit of 2 s of processor time"):
+        comparison._region(formula, plane, Clock(), 2.0)
+    assert 1.5 < comparison.processor_time() - begin < 5
+
+
+@each(
+    ("x^2 + y^2 <= 1", "x, y", np.pi),
+    ("x^2 + y^2 < 1 and y <= x", "y, x", np.pi / 2),
+    ("x >= 0 and y >= 0 and x + 2*y <= 2", "x, y", 1.0),
+    ("0 <= x and x <= 1 and 0 <= y and y <= 3", "y, x", 3.0),
+    ("x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4 and y <= 1", "y, x", None),
+)
+def test_it_is_closed_and_has_no_gap(text, order, area):
+    points = outline(qe.region(text, order=order))
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    x, y = points.T
+    assert (points[0] == points[-1]).all() and np.isfinite(points).all()
+    # a wall across the first variable is one step; elsewhere the line goes in small ones
+    walls = np.abs(np.diff(x)) < 1e-6
+    assert steps[~walls].max() < 0.05
+    if area is not None:
+        assert abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) / 2 == pytest.approx(area, rel=1e-4)
+
+
+def test_a_region_without_interior_has_none():
+    assert outline(qe.region("x^2 + y^2 <= 0", order="x, y")).shape == (0, 2)

@@ -18,6 +18,7 @@ from bezier.curves.workspace import Ball, HalfSpace
 from bezier.methods.quadratic import formula as quadratic
 from bezier.problem import Problem, read_problem
 from qe.errors import InputError
+from tests.tables import each
 
 PROBLEM = """\
 workspace = "{kind}"
@@ -96,7 +97,7 @@ def test_a_curve_may_leave_although_another_condition_holds() -> None:
     assert qe.decide(text + str(family.inside([narrow])).split("-> ", 1)[1], order=("t", "q1u", "q1v")) is False
 
 
-@pytest.mark.parametrize("kind", ["ball", "hemisphere"])
+@each("ball", "hemisphere")
 def test_formula_at_a_point_is_the_statement_about_its_curves(kind: str) -> None:
     given = problem("6", kind)
     plane = Plane.through(given)
@@ -131,14 +132,11 @@ def test_irrational_control_points_are_refused() -> None:
         whole_curve.curve_inside(curve, [])
 
 
-@pytest.mark.parametrize(
-    ("via", "first", "second"),
-    [
-        ("[[-1, 3, 3], [1, 3, 3]]", (1, 0, 0), (0, 1, 1)),
-        ("[[-3, '6/5', '8/5'], [2, '6/5', '8/5']]", (1, 0, 0), (0, "3/5", "4/5")),
-        ("[[0, 0, 2], [0, 0, 1]]", (0, 0, -1), None),
-        ("[[0, 0, 0], [1, 1, 2]]", (1, 1, 2), None),
-    ],
+@each(
+    ("[[-1, 3, 3], [1, 3, 3]]", (1, 0, 0), (0, 1, 1)),
+    ("[[-3, '6/5', '8/5'], [2, '6/5', '8/5']]", (1, 0, 0), (0, "3/5", "4/5")),
+    ("[[0, 0, 2], [0, 0, 1]]", (0, 0, -1), None),
+    ("[[0, 0, 0], [1, 1, 2]]", (1, 1, 2), None),
 )
 def test_plane_through_the_via_points(via: str, first: tuple[object, ...], second: tuple[object, ...] | None) -> None:
     text = f'start = [-4, 1, 1]\nvia = {via}\ngoal = ["9/2", 1, 1]\n'

@@ -20,6 +20,7 @@ from bezier.planner.planning import make_plan
 from bezier.problem import read_problem
 from qe.errors import InputError
 from tests.bezier.numbers import control_points
+from tests.tables import each
 
 HALF, QUARTER = Fraction(1, 2), Fraction(1, 4)
 BALL = Workspace(WorkspaceKind.BALL, Fraction(10**6))
@@ -51,10 +52,7 @@ def _derivative(polynomial, order, t):
     return sum(c * t**k for k, c in enumerate(polynomial))
 
 
-@pytest.mark.parametrize(
-    ("law", "speed", "acceleration"),
-    [(Law.CUBIC, 1.5, 6.0), (Law.QUINTIC, 1.875, 10 / 3**0.5), (Law.TRAPEZOID, 4 / 3, 16 / 3)],
-)
+@each((Law.CUBIC, 1.5, 6.0), (Law.QUINTIC, 1.875, 10 / 3**0.5), (Law.TRAPEZOID, 4 / 3, 16 / 3))
 def test_extremes_on_a_straight_path_are_those_of_the_law(law, speed, acceleration):
     found = extremes(LINE, TimeLaw.of(law))
     for enclosure, value in ((found.speed, 4 * speed), (found.acceleration, 4 * acceleration)):
@@ -146,18 +144,15 @@ def test_quality_of_a_path():
     assert quality_of(still, None).curvatures == {"P": None}
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("timing = 3", "timing: expected a table [timing], found 3"),
-        ('[timing]\nlaw = "jerky"\nduration = 1', 'timing.law: expected "cubic" or "quintic" or "trapezoid"'),
-        ("[timing]\nduration = 0", "timing.duration: expected a number above zero, found 0"),
-        ("[timing]\nmax_speed = -1", "timing.max_speed: expected a number above zero, found -1"),
-        ('[timing]\nlaw = "cubic"', "timing.duration: expected a duration, max_speed or max_acceleration"),
-        ('[timing]\nramp = "1/4"\nduration = 1', 'timing.ramp: expected this key with law = "trapezoid" only'),
-        ('[timing]\nlaw = "trapezoid"\nramp = 0.6\nduration = 1', "timing.ramp: expected at most 1/2, found 3/5"),
-        ("[timing]\nspeed = 1", "timing.speed: expected one of the keys law, ramp, duration"),
-    ],
+@each(
+    ("timing = 3", "timing: expected a table [timing], found 3"),
+    ('[timing]\nlaw = "jerky"\nduration = 1', 'timing.law: expected "cubic" or "quintic" or "trapezoid"'),
+    ("[timing]\nduration = 0", "timing.duration: expected a number above zero, found 0"),
+    ("[timing]\nmax_speed = -1", "timing.max_speed: expected a number above zero, found -1"),
+    ('[timing]\nlaw = "cubic"', "timing.duration: expected a duration, max_speed or max_acceleration"),
+    ('[timing]\nramp = "1/4"\nduration = 1', 'timing.ramp: expected this key with law = "trapezoid" only'),
+    ('[timing]\nlaw = "trapezoid"\nramp = 0.6\nduration = 1', "timing.ramp: expected at most 1/2, found 3/5"),
+    ("[timing]\nspeed = 1", "timing.speed: expected one of the keys law, ramp, duration"),
 )
 def test_bad_tables_get_one_clear_line(text, said):
     with pytest.raises(InputError) as error:

@@ -17,6 +17,7 @@ from qe.errors import InputError
 from qe.exact.field import NumberField
 from tests.bezier.bodies import CUBE, at, ball, bodies, obstacle
 from tests.bezier.numbers import control_points
+from tests.tables import each
 
 GRID = [Fraction(k, 20) for k in range(21)]
 HALF = Fraction(1, 2)
@@ -45,7 +46,7 @@ def test_an_irrational_first_contact_is_isolated():
     assert abs(x * x - (2 + 61**0.5 / 5)) < 1e-12 and x < 0
 
 
-@pytest.mark.parametrize("side", [0, 3])
+@each(0, 3)
 def test_tangency_is_contact_without_entering(side):
     contact = met(ARCH, ball((0, 0, side), Fraction(1)) if side else ball((0, 0, 1), 1))
     assert contact.t == (HALF, HALF) and contact.exact_place == (0, 0, 2)

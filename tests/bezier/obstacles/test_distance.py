@@ -2,7 +2,6 @@
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 
 from bezier.curves.curve import Bezier
@@ -14,6 +13,7 @@ from bezier.obstacles.polyhedron import point
 from qe.exact.field import NumberField
 from tests.bezier.bodies import CUBE, at, bodies, obstacle
 from tests.bezier.numbers import control_points
+from tests.tables import each
 
 ARCH = Bezier.of([(-2, 0, 0), (0, 0, 4), (2, 0, 0)])
 LINE = Bezier.of([(-3, 0, 0), (3, 0, 0)])
@@ -25,17 +25,14 @@ def encloses(enclosure, value: float) -> bool:
     return float(enclosure.low) <= value * (1 + 1e-12) and value * (1 - 1e-12) <= float(enclosure.high)
 
 
-@pytest.mark.parametrize(
-    ("curve", "body", "value"),
-    [
-        (ARCH, Rounded(point(at(0, 0, 4)), Fraction(1, 2)), 1.5),
-        (ARCH, Rounded(point(at(0, 0, 0)), Fraction(1)), 3**0.5 - 1),
-        (LINE, Rounded(CUBE, Fraction(0)), None),
-        (Bezier.of([(-3, 3, 3), (3, 3, 3)]), Rounded(CUBE, Fraction(1, 2)), 8**0.5 - 0.5),
-        (ARCH, HalfSpaceBody(at(0, 0, 1), Fraction(-1), Fraction(1, 4)), 0.75),
-        (LINE, Cylinder((Fraction(0), Fraction(5)), Fraction(1), None, None), 4.0),
-        (LINE, Cylinder((Fraction(0), Fraction(5)), Fraction(1), Fraction(3), None), 5.0),
-    ],
+@each(
+    (ARCH, Rounded(point(at(0, 0, 4)), Fraction(1, 2)), 1.5),
+    (ARCH, Rounded(point(at(0, 0, 0)), Fraction(1)), 3**0.5 - 1),
+    (LINE, Rounded(CUBE, Fraction(0)), None),
+    (Bezier.of([(-3, 3, 3), (3, 3, 3)]), Rounded(CUBE, Fraction(1, 2)), 8**0.5 - 0.5),
+    (ARCH, HalfSpaceBody(at(0, 0, 1), Fraction(-1), Fraction(1, 4)), 0.75),
+    (LINE, Cylinder((Fraction(0), Fraction(5)), Fraction(1), None, None), 4.0),
+    (LINE, Cylinder((Fraction(0), Fraction(5)), Fraction(1), Fraction(3), None), 5.0),
 )
 def test_known_distances(curve, body, value):
     if value is None:

@@ -14,6 +14,7 @@ from bezier.obstacles.polyhedron import from_corners, from_half_spaces
 from qe.errors import InputError
 from tests.bezier.bodies import CUBE, OCTAHEDRON, TURNED, WEDGE, at, cylinders, half_spaces, obstacle, rounded
 from tests.bezier.numbers import points
+from tests.tables import each
 
 anywhere = points(3, st.fractions(-5, 5, max_denominator=4))
 
@@ -67,12 +68,12 @@ def test_the_nearest_point_has_a_supporting_plane(body, p):
     assert dot(subtract(p, q), q) == body.support(subtract(p, q))
 
 
-@pytest.mark.parametrize(("body", "counts"), [(CUBE, (8, 12, 6)), (TURNED, (8, 12, 6)), (OCTAHEDRON, (6, 12, 8))])
+@each((CUBE, (8, 12, 6)), (TURNED, (8, 12, 6)), (OCTAHEDRON, (6, 12, 8)))
 def test_corners_edges_and_facets(body, counts):
     assert (len(body.corners), len(body.edges), len(body.facets)) == counts
 
 
-@pytest.mark.parametrize("body", [CUBE, TURNED, OCTAHEDRON, WEDGE])
+@each(CUBE, TURNED, OCTAHEDRON, WEDGE)
 def test_half_spaces_and_corners_describe_the_same_body(body):
     assert from_half_spaces([(f.normal, f.offset) for f in body.facets]) == body
     redundant = [(f.normal, f.offset) for f in body.facets] + [(at(1, 1, 1), Fraction(100))]
@@ -85,15 +86,12 @@ UP, DOWN = (at(0, 0, 1), Fraction(1)), (at(0, 0, -1), Fraction(0))
 WALLS = [(at(*n), Fraction(1)) for n in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
 
 
-@pytest.mark.parametrize(
-    ("half_spaces", "said"),
-    [
-        ([*WALLS, UP], "unbounded"),
-        ([UP, DOWN], "unbounded"),
-        ([*WALLS[:2], UP, DOWN], "unbounded"),
-        ([*WALLS, UP, (at(0, 0, -1), Fraction(-2))], "empty"),
-        ([*WALLS, UP, (at(0, 0, -1), Fraction(-1))], "in one plane"),
-    ],
+@each(
+    ([*WALLS, UP], "unbounded"),
+    ([UP, DOWN], "unbounded"),
+    ([*WALLS[:2], UP, DOWN], "unbounded"),
+    ([*WALLS, UP, (at(0, 0, -1), Fraction(-2))], "empty"),
+    ([*WALLS, UP, (at(0, 0, -1), Fraction(-1))], "in one plane"),
 )
 def test_bad_half_spaces(half_spaces, said):
     with pytest.raises(InputError, match=said):

@@ -12,6 +12,7 @@ from bezier.obstacles.reader import read_obstacles, via_over
 from bezier.problem import from_json, read_problem, to_json
 from qe.errors import InputError
 from tests.bezier.bodies import at, ball
+from tests.tables import each
 
 
 def read(text: str):
@@ -22,24 +23,21 @@ def one(body: str):
     return read(f"[[obstacle]]\n{body}")[0]
 
 
-@pytest.mark.parametrize(
-    ("body", "inside", "outside"),
-    [
-        ('kind="ball"\ncentre=[1,0,0]\nradius="1/2"', (1.5, 0, 0), (1.6, 0, 0)),
-        ('kind="ball"\ncentre=[1,0,0]\nradius="1/2"\nmargin=0.1', (1.6, 0, 0), (1.61, 0, 0)),
-        ('kind="box"\nlow=[0,0,0]\nhigh=[1,2,3]', (1, 2, 3), (1, 2, 3.01)),
-        ('kind="box"\nlow=[0,0,0]\nhigh=[1,2,3]\nmargin=0.5', (1.3, 2.4, 3), (1.3, 2.41, 3)),
-        ('kind="box"\ncorner=[0,0,0]\nedges=[[3,4,0],[-4,3,0],[0,0,1]]', (-1, 7, 1), (-1.01, 7, 1)),
-        ('kind="half_space"\nnormal=[0,0,2]\noffset=3', (9, 9, 1.5), (0, 0, 1.51)),
-        ('kind="half_space"\nnormal=[0,3,4]\noffset=0\nmargin=1', (5, 0.6, 0.8), (5, 0.61, 0.8)),
-        ('kind="cylinder"\ncentre=[1,1]\nradius=1\nbottom=0', (2, 1, 99), (2, 1, -0.01)),
-        ('kind="capsule"\nstart=[0,0,0]\nend=[0,0,2]\nradius=1', (0, 0, 3), (1, 0, 3)),
-        ('kind="polyhedron"\nvertices=[[0,0,0],[2,0,0],[0,2,0],[0,0,2]]', (0, 1, 1), (1, 1, 1)),
-        ('kind="polyhedron"\nhalf_spaces=[[-1,0,0,0],[0,-1,0,0],[0,0,-1,0],[1,1,1,2]]', (0, 1, 1), (1, 1, 1)),
-        ('kind="formula"\nformula="x*y >= 1 or z = 5"', (1, 1, 0), (1, 0, 0)),
-        ('kind="formula"\nformula="not (x /= 0) and 2*y < z"', (0, 1, 3), (0, 1, 2)),
-        ('kind="formula"\nformula="ex u. x = u^2 and y = u and z > 0"', (4, -2, 1), (4, -1, 1)),
-    ],
+@each(
+    ('kind="ball"\ncentre=[1,0,0]\nradius="1/2"', (1.5, 0, 0), (1.6, 0, 0)),
+    ('kind="ball"\ncentre=[1,0,0]\nradius="1/2"\nmargin=0.1', (1.6, 0, 0), (1.61, 0, 0)),
+    ('kind="box"\nlow=[0,0,0]\nhigh=[1,2,3]', (1, 2, 3), (1, 2, 3.01)),
+    ('kind="box"\nlow=[0,0,0]\nhigh=[1,2,3]\nmargin=0.5', (1.3, 2.4, 3), (1.3, 2.41, 3)),
+    ('kind="box"\ncorner=[0,0,0]\nedges=[[3,4,0],[-4,3,0],[0,0,1]]', (-1, 7, 1), (-1.01, 7, 1)),
+    ('kind="half_space"\nnormal=[0,0,2]\noffset=3', (9, 9, 1.5), (0, 0, 1.51)),
+    ('kind="half_space"\nnormal=[0,3,4]\noffset=0\nmargin=1', (5, 0.6, 0.8), (5, 0.61, 0.8)),
+    ('kind="cylinder"\ncentre=[1,1]\nradius=1\nbottom=0', (2, 1, 99), (2, 1, -0.01)),
+    ('kind="capsule"\nstart=[0,0,0]\nend=[0,0,2]\nradius=1', (0, 0, 3), (1, 0, 3)),
+    ('kind="polyhedron"\nvertices=[[0,0,0],[2,0,0],[0,2,0],[0,0,2]]', (0, 1, 1), (1, 1, 1)),
+    ('kind="polyhedron"\nhalf_spaces=[[-1,0,0,0],[0,-1,0,0],[0,0,-1,0],[1,1,1,2]]', (0, 1, 1), (1, 1, 1)),
+    ('kind="formula"\nformula="x*y >= 1 or z = 5"', (1, 1, 0), (1, 0, 0)),
+    ('kind="formula"\nformula="not (x /= 0) and 2*y < z"', (0, 1, 3), (0, 1, 2)),
+    ('kind="formula"\nformula="ex u. x = u^2 and y = u and z > 0"', (4, -2, 1), (4, -1, 1)),
 )
 def test_every_kind(body, inside, outside):
     found = one(body)
@@ -59,40 +57,37 @@ def test_names_and_tops():
 BALL = 'kind="ball"\ncentre=[0,0,0]\n'
 
 
-@pytest.mark.parametrize(
-    ("body", "said"),
-    [
-        ('kind="cone"', 'f.toml:2: obstacle[0].kind: expected "ball" or'),
-        ("radius=1", "obstacle[0].kind: expected"),
-        (BALL + "radius=-1", "f.toml:4: obstacle[0].radius: expected a number above zero, found -1"),
-        (BALL + "radius=0", "expected a number above zero, found 0"),
-        (BALL + 'radius="big"', "obstacle[0].radius: expected an integer, a decimal or a fraction"),
-        (BALL + "radius=1\nmargin=-0.5", "margin: expected a number that is not negative, found -1/2"),
-        (BALL + "radius=1\nheight=2", "expected one of the keys kind, name, margin, above, centre, radius"),
-        (BALL + "radius=nan", 'radius: expected an integer, a decimal or a fraction such as "3/4", found nan'),
-        (BALL + 'radius=1\nname=""', 'name: expected a name on one line, of at most 100 characters, found ""'),
-        ('kind="ball"\ncentre=[0,0]\nradius=1', "centre: expected a point of 3 numbers, found an array of 2 values"),
-        ('kind="box"\nlow=[0,0,0]\nhigh=[1,0,1]', "high: expected every coordinate above that of low, found (1, 0, 1)"),
-        ('kind="box"\ncorner=[0,0,0]\nedges=[[1,0,0],[1,1,0],[0,0,1]]', "edges: expected three orthogonal vectors"),
-        ('kind="box"\ncorner=[0,0,0]\nedges=[[1,0,0],[0,1,0]]', "edges: expected three vectors"),
-        ('kind="box"\nlow=[0,0,0]\ncorner=[0,0,0]', "low: expected either low and high, or corner and edges"),
-        ('kind="half_space"\nnormal=[0,0,0]\noffset=1', "normal: expected a point of 3 numbers, not all zero"),
-        (
-            'kind="cylinder"\ncentre=[0,0]\nradius=1\nbottom=2\ntop=1',
-            "top: expected a number above bottom = 2, found 1",
-        ),
-        ('kind="cylinder"\ncentre=[0,0,0]\nradius=1', "centre: expected the x and y of the axis"),
-        ('kind="capsule"\nstart=[0,0,0]\nend=[0,0,0]\nradius=1', "end: expected a point other than start"),
-        ('kind="polyhedron"\nhalf_spaces=[[0,0,1,1],[0,0,-1,1]]', "expected a bounded polyhedron with interior"),
-        ('kind="polyhedron"\nvertices=[[0,0,0],[1,0,0],[0,1,0]]', "found a set of corners in one plane"),
-        ('kind="polyhedron"', "expected either half_spaces or vertices"),
-        ('kind="polyhedron"\nhalf_spaces=[[0,0,0,1]]', "a half-space with normal zero"),
-        ('kind="formula"\nformula="x >"', "formula: expected a formula in x, y, z, found formula:1:4"),
-        ('kind="formula"\nformula="x + w > 0"', "expected no free variables but x, y, z, found w"),
-        ('kind="formula"\nformula="1 > 2"', "expected a set that is not empty"),
-        ('kind="formula"\nformula="x > 0"\nmargin=1', "expected no margin for a formula"),
-        ('kind="formula"\nformula=3', "formula: expected a formula in x, y, z, found 3"),
-    ],
+@each(
+    ('kind="cone"', 'f.toml:2: obstacle[0].kind: expected "ball" or'),
+    ("radius=1", "obstacle[0].kind: expected"),
+    (BALL + "radius=-1", "f.toml:4: obstacle[0].radius: expected a number above zero, found -1"),
+    (BALL + "radius=0", "expected a number above zero, found 0"),
+    (BALL + 'radius="big"', "obstacle[0].radius: expected an integer, a decimal or a fraction"),
+    (BALL + "radius=1\nmargin=-0.5", "margin: expected a number that is not negative, found -1/2"),
+    (BALL + "radius=1\nheight=2", "expected one of the keys kind, name, margin, above, centre, radius"),
+    (BALL + "radius=nan", 'radius: expected an integer, a decimal or a fraction such as "3/4", found nan'),
+    (BALL + 'radius=1\nname=""', 'name: expected a name on one line, of at most 100 characters, found ""'),
+    ('kind="ball"\ncentre=[0,0]\nradius=1', "centre: expected a point of 3 numbers, found an array of 2 values"),
+    ('kind="box"\nlow=[0,0,0]\nhigh=[1,0,1]', "high: expected every coordinate above that of low, found (1, 0, 1)"),
+    ('kind="box"\ncorner=[0,0,0]\nedges=[[1,0,0],[1,1,0],[0,0,1]]', "edges: expected three orthogonal vectors"),
+    ('kind="box"\ncorner=[0,0,0]\nedges=[[1,0,0],[0,1,0]]', "edges: expected three vectors"),
+    ('kind="box"\nlow=[0,0,0]\ncorner=[0,0,0]', "low: expected either low and high, or corner and edges"),
+    ('kind="half_space"\nnormal=[0,0,0]\noffset=1', "normal: expected a point of 3 numbers, not all zero"),
+    (
+        'kind="cylinder"\ncentre=[0,0]\nradius=1\nbottom=2\ntop=1',
+        "top: expected a number above bottom = 2, found 1",
+    ),
+    ('kind="cylinder"\ncentre=[0,0,0]\nradius=1', "centre: expected the x and y of the axis"),
+    ('kind="capsule"\nstart=[0,0,0]\nend=[0,0,0]\nradius=1', "end: expected a point other than start"),
+    ('kind="polyhedron"\nhalf_spaces=[[0,0,1,1],[0,0,-1,1]]', "expected a bounded polyhedron with interior"),
+    ('kind="polyhedron"\nvertices=[[0,0,0],[1,0,0],[0,1,0]]', "found a set of corners in one plane"),
+    ('kind="polyhedron"', "expected either half_spaces or vertices"),
+    ('kind="polyhedron"\nhalf_spaces=[[0,0,0,1]]', "a half-space with normal zero"),
+    ('kind="formula"\nformula="x >"', "formula: expected a formula in x, y, z, found formula:1:4"),
+    ('kind="formula"\nformula="x + w > 0"', "expected no free variables but x, y, z, found w"),
+    ('kind="formula"\nformula="1 > 2"', "expected a set that is not empty"),
+    ('kind="formula"\nformula="x > 0"\nmargin=1', "expected no margin for a formula"),
+    ('kind="formula"\nformula=3', "formula: expected a formula in x, y, z, found 3"),
 )
 def test_bad_obstacles_get_one_clear_line(body, said):
     with pytest.raises(InputError) as error:

@@ -16,6 +16,7 @@ from bezier.planner.planning import make_plan
 from bezier.problem import PlanMethod, Problem, read_problem
 from qe.exact.field import NumberField
 from tests.bezier.numbers import control_points, points
+from tests.tables import each
 
 DIPPING = """
 method = "cubic"
@@ -106,9 +107,9 @@ def test_touching_the_strip_at_one_irrational_parameter():
     assert "at t = about 0.35355" in heights.in_words(item)
 
 
-@pytest.mark.parametrize("other", [Fraction(1, 3), Fraction(2, 7), Fraction(1, 1000), Fraction(999, 1000)])
-@pytest.mark.parametrize("field", [False, True])
-def test_roots_at_the_ends_of_a_curve_were_isolated_for_ever(other, field):
+@each(Fraction(1, 3), Fraction(2, 7), Fraction(1, 1000), Fraction(999, 1000))
+@each(False, True)
+def test_roots_at_the_ends_of_a_curve_were_isolated_for_ever(field, other):
     """A root at t = 0 or 1 beside an inner one: the interval next to the end never left it."""
     one = NumberField.from_root([-2, 0, 1], 1, 2).rational(1) if field else Fraction(1)
     product = bs.power_multiply((Fraction(0), one), (-one, one))

@@ -18,6 +18,7 @@ from bezier.problem import load_problem
 from bezier.report import mathml
 from bezier.report.parts import GIVEN
 from qe.io import text
+from tests.tables import each
 
 ORIGIN = (Fraction(0),) * 3
 HALF_SPACES = [HalfSpace((Fraction(0), Fraction(0), Fraction(k)), Fraction(1)) for k in range(1, 6)]
@@ -113,7 +114,7 @@ def test_scenes_hold_the_numbers_that_are_drawn(picture):
     assert max(region["f"]) < len(region["v"]) // 3 and set(region["c"]) == set(range(len(region["colours"])))
 
 
-@pytest.mark.parametrize("size", [1e-7, 1.0, 3e8])
+@each(1e-7, 1.0, 3e8)
 def test_scenes_of_any_size_keep_their_shape(size):
     marks = {"P0": np.array([0.3, -0.2, 0.1]) * size}
     shown = scene.path_scene(PathPicture(size, True, (), marks), None, timed=False, given={"start": marks["P0"]})
@@ -144,10 +145,7 @@ def test_drawings_take_the_colours_of_the_page(picture):
         assert "var(--ink)" in svg and "var(--p)" in svg and INK not in svg
 
 
-@pytest.mark.parametrize(
-    ("source", "fragment"),
-    [("3/4", "mfrac"), ("-2", "mo"), ("(3 - sqrt(5))/2", "msqrt"), ("2*sqrt(3)", "msqrt"), ("??", "mtext")],
-)
+@each(("3/4", "mfrac"), ("-2", "mo"), ("(3 - sqrt(5))/2", "msqrt"), ("2*sqrt(3)", "msqrt"), ("??", "mtext"))
 def test_numbers_as_mathml(source, fragment):
     body = mathml.number_text(source)
     ElementTree.fromstring(f"<math>{body}</math>")

@@ -19,6 +19,7 @@ from bezier.plans import Clock, Outcome
 from bezier.problem import PlanMethod, read_problem
 from bezier.report.page import render
 from qe.errors import BudgetExceeded, CertificateRejected
+from tests.tables import each
 
 START = """
 method = "quadratic"
@@ -79,7 +80,7 @@ def test_what_is_said_about_it(over_the_crate, tmp_path):
     assert "<h2>Obstacles</h2>" in page and "clear for all t" in page and "Length, curvature and motion" in page
 
 
-@pytest.mark.parametrize("method", ["cubic", "single"])
+@each("cubic", "single")
 def test_the_other_methods_get_over_it_too(method):
     plan = planned(START.replace("quadratic", method), CRATE)
     assert plan.outcome is Outcome.SOLVED and plan.certified and plan.problem.method.value == method

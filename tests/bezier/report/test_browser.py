@@ -14,6 +14,7 @@ from bezier.planner.command import write_folder
 from bezier.planner.planning import make_plan
 from bezier.plans import Clock
 from bezier.problem import load_problem
+from tests.tables import each
 
 BROWSER = next(
     (path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None
@@ -80,8 +81,8 @@ def opened(page: Path, folder: Path, width: int, dark: bool) -> dict[str, object
     return found
 
 
-@pytest.mark.parametrize(("width", "dark"), [(1400, False), (420, True)])
-def test_the_page_in_a_browser(page: Path, tmp_path: Path, width: int, dark: bool) -> None:
+@each((1400, False), (420, True))
+def test_the_page_in_a_browser(width: int, dark: bool, page: Path, tmp_path: Path) -> None:
     found = opened(page, tmp_path, width, dark)
     assert found["inside"], "nothing is wider than the screen"
     assert found["canvases"] and found["nameless"] == 0

@@ -21,6 +21,7 @@ from bezier.plans import Clock, Plan
 from bezier.problem import load_problem, read_problem
 from bezier.report import first, mathml
 from bezier.report.page import page_of, render
+from tests.tables import each
 
 START = 'start = [-4, 2, 1]\nvia = [[-1, 2, "5/2"], [1, 2, "5/2"]]\ngoal = [4, 2, 1]\nradius = 6\n'
 LIMITS = "[timing]\nmax_speed = 2\n"
@@ -92,10 +93,7 @@ def test_the_scene_moves_with_the_motion(tmp_path: FilePath) -> None:
     assert page.count("<svg") == page.count('<svg role="img" aria-label="') and len(page) < 1_500_000
 
 
-@pytest.mark.parametrize(
-    ("poly", "shape"),
-    [("x^2 - 2*a", "<mo>−</mo>"), ("2*x^2 - a", "<mfrac>"), ("x^2 - a*x + 1", "<mfrac>")],
-)
+@each(("x^2 - 2*a", "<mo>−</mo>"), ("2*x^2 - a", "<mfrac>"), ("x^2 - a*x + 1", "<mfrac>"))
 def test_a_bound_of_degree_two_is_a_radical_over_a_number_above_one(poly: str, shape: str) -> None:
     (cell,) = qe.region(f"{poly} < 0 and a > 0 and a < 10", order=("a", "x")).cells[-1:]
     written = mathml.cell(cell)[-1]

@@ -1,13 +1,18 @@
-"""The public functions: limits, guarantees, shapes of input."""
+"""Answers and their measures, witnesses in parameters."""
 
 from __future__ import annotations
 
 import time
+from fractions import Fraction
+from itertools import product
 
 import pytest
+import sympy as sp
 
 import qe
+from qe.api.input import read_formula
 from qe.io import formats
+from tests.tables import each
 
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 
@@ -33,14 +38,11 @@ def test_a_checked_answer_with_free_variables() -> None:
     assert qe.equivalent(answer.formula, "a = 0 and b > 0")
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: qe.eliminate("x > 0", method="magic"), "method"),
-        (lambda: qe.decide("x > 0"), "free: x"),
-        (lambda: qe.region("x^2 + y^2 < 1", order=("x",)), "order"),
-        (lambda: qe.minimize("1/0", "x > 0"), "divi"),
-    ],
+@each(
+    (lambda: qe.eliminate("x > 0", method="magic"), "method"),
+    (lambda: qe.decide("x > 0"), "free: x"),
+    (lambda: qe.region("x^2 + y^2 < 1", order=("x",)), "order"),
+    (lambda: qe.minimize("1/0", "x > 0"), "divi"),
 )
 def test_bad_calls_get_one_line(call, message: str) -> None:
     with pytest.raises(qe.InputError, match=message) as caught:
@@ -57,9 +59,7 @@ def test_equivalence_and_instances() -> None:
 
 
 @pytest.mark.parametrize("stage", [stage.value for stage in qe.Stage])
-@pytest.mark.parametrize(
-    "text", ["ex x. x^2 + b*x + c < 0 and x > 0", "ex x, y. x^2 + y^2 = 1 and y = a*x + b", "all x. x^4 + p*x + q > 0"]
-)
+@each("ex x. x^2 + b*x + c < 0 and x > 0", "ex x, y. x^2 + y^2 = 1 and y = a*x + b", "all x. x^4 + p*x + q > 0")
 def test_leaving_a_stage_out_changes_no_answer(text: str, stage: str) -> None:
     assert qe.equivalent(qe.eliminate(text, without=(stage,)).formula, qe.eliminate(text).formula)
 
@@ -73,16 +73,13 @@ def test_the_explanation_names_what_was_done(capsys: pytest.CaptureFixture[str])
     assert "substitution" not in slow.explanation.split("planned")[1] and "decomposition order" in slow.explanation
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x. a*x + b > 0 and x < c",
-        "ex x, y. x*y = a and x + y = b",
-        "ex x. all y. y^2 + x > b and x < 3",
-        "all x. x > 0 -> x^2 + a*x + 1 > 0",
-        "all x. ex y. y^3 + x*y = 1",
-        "a > 0 and (ex x. x^2 = a) or b = 3",
-    ],
+@each(
+    "ex x. a*x + b > 0 and x < c",
+    "ex x, y. x*y = a and x + y = b",
+    "ex x. all y. y^2 + x > b and x < 3",
+    "all x. x > 0 -> x^2 + a*x + 1 > 0",
+    "all x. ex y. y^3 + x*y = 1",
+    "a > 0 and (ex x. x^2 = a) or b = 3",
 )
 def test_check_gets_a_certificate_whatever_the_method(text: str) -> None:
     answer = qe.eliminate(text, check=True)
@@ -92,13 +89,10 @@ def test_check_gets_a_certificate_whatever_the_method(text: str) -> None:
     assert answer.truth is plain.truth and (answer.truth is not None or qe.equivalent(answer.formula, plain.formula))
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        ("ex x, y, z. x^2 + y^2 + z^2 < 1 and a*x + b*y + c*z > 1", "a^2 + b^2 + c^2 - 1 > 0"),
-        ("ex u, v. x = u*v and y = v and z = u^2", "y^2*z - x^2 = 0 and z >= 0"),
-        ("all x, y. a*x^2 + 2*b*x*y + c*y^2 + d > 0", "a*c - b^2 >= 0 and d > 0 and c >= 0 and a >= 0"),
-    ],
+@each(
+    ("ex x, y, z. x^2 + y^2 + z^2 < 1 and a*x + b*y + c*z > 1", "a^2 + b^2 + c^2 - 1 > 0"),
+    ("ex u, v. x = u*v and y = v and z = u^2", "y^2*z - x^2 = 0 and z >= 0"),
+    ("all x, y. a*x^2 + 2*b*x*y + c*y^2 + d > 0", "a*c - b^2 >= 0 and d > 0 and c >= 0 and a >= 0"),
 )
 def test_answers_are_as_short_as_a_textbook_has_them(text: str, answer: str) -> None:
     found = qe.eliminate(text)
@@ -135,3 +129,97 @@ def test_an_order_is_followed_or_refused() -> None:
     for strange in (("z", "w"), ("z", "z")):
         with pytest.raises(qe.InputError, match="order"):
             qe.eliminate(text, order=strange)
+
+
+@each(
+    ("x^2 < 2 and x > -1", sp.sqrt(2) + 1),
+    ("x^5 - 4*x < 1 and x > 0", None),
+    ("x^2 < 0", 0),
+    ("x^2 + y^2 <= 1", sp.pi),
+    ("x^2 + y^2/4 <= 1 and y > 0", sp.pi),
+    ("1 <= x^2 + y^2 and x^2 + y^2 <= 4", 3 * sp.pi),
+    ("x > 0 and y > 0 and x + y < 1", sp.Rational(1, 2)),
+    ("y > x^2 and y < 1", sp.Rational(4, 3)),
+    ("y^2 < x and x < 2", 8 * sp.sqrt(2) / 3),
+    ("x*y < 1 and 2*x > 1 and x < 3 and y > 0", sp.log(6)),
+    ("y^2 - x^2 < 1 and x^2 < 1", 2 * sp.sqrt(2) + 2 * sp.asinh(1)),
+    ("(x - 1)^2 + y^2 <= 1 and x^2 + y^2 <= 1", 2 * sp.pi / 3 - sp.sqrt(3) / 2),
+    ("x^2 + y^2 + z^2 <= 4 and x >= 1", 5 * sp.pi / 3),
+)
+def test_known_measures(text: str, value: object) -> None:
+    region = qe.region(text, order=[v for v in "xyz" if v in text])
+    found = region.exact_volume()
+    low, high = region.volume()
+    assert low <= float(found) * (1 + 1e-12) and float(found) * (1 - 1e-12) <= high
+    assert value is None or sp.simplify(found - value).equals(0)
+
+
+@each("x > 0", "x^4 + y^4 < 1", "y^2 < x^3 - x + 2 and x < 1", "y^2 < x^3 and x < 1")
+def test_no_closed_form(text: str) -> None:
+    with pytest.raises(qe.Unable):
+        qe.region(text).exact_volume()
+
+
+BLOCKS = [
+    "ex x. a*x^2 + b*x + c = 0",
+    "ex x. a*x + b > 0 and x < c",
+    "ex x, y. x + y = a and x*y > b",
+    "ex x. (x^2 = a or x^2 = b) and x > c",
+    "ex x. a*x^2 + b*x + c < 0 and x > 1",
+]
+
+
+@pytest.mark.parametrize("text", BLOCKS)
+def test_the_guards_together_are_the_block(text: str) -> None:
+    found = qe.parametric_witnesses(text)
+    assert found
+    guards = " or ".join(f"({w.guard})" for w in found)
+    assert qe.equivalent(qe.eliminate(text).formula, guards)
+
+
+@pytest.mark.parametrize("text", BLOCKS)
+def test_values_solve_the_body_where_the_guard_holds(text: str) -> None:
+    from qe.exact.ring import Ring
+    from qe.exact.sample import Point
+    from qe.formula.build import convert
+    from qe.formula.evaluate import truth_under
+
+    block = read_formula(text)
+    found = qe.parametric_witnesses(block)
+    tried = 0
+    for numbers in product((-2, 0, 1, Fraction(3, 2)), repeat=3):
+        parameters = dict(zip("abc", numbers))
+        for witness in found:
+            try:
+                values = witness.at(parameters)
+            except qe.InputError:
+                continue
+            tried += 1
+            everything = parameters | values
+            ring = Ring.of(tuple(everything))
+            place = Point.of(ring, [v if isinstance(v, qe.RealAlgebraic) else Fraction(v) for v in everything.values()])
+            assert truth_under(convert(block.body, ring), place.sign) is True, (parameters, str(witness))
+    assert tried > 10
+
+
+def test_a_universal_block_gets_counterexamples() -> None:
+    (found,) = qe.parametric_witnesses("all x. x^2 + b*x + c > 0")
+    assert str(found.guard) == "b^2 - 4*c >= 0"
+    assert found.at({"b": 0, "c": -1}).keys() == {"x"}
+
+
+def test_inner_quantifiers_are_eliminated_first() -> None:
+    (found,) = qe.parametric_witnesses("ex x. all y. y^2 + a > x and x > b")
+    assert qe.equivalent(found.guard, "a > b")
+
+
+@each(("x > 0", qe.InputError), ("ex x. x^5 + a*x + b = 0 and x > a", qe.DegreeTooHigh))
+def test_what_has_none_says_so(text: str, error: type[qe.QEError]) -> None:
+    with pytest.raises(error):
+        qe.parametric_witnesses(text)
+
+
+def test_a_missing_parameter_is_named() -> None:
+    witness = qe.parametric_witnesses("ex x. x^2 = a")[0]
+    with pytest.raises(qe.InputError, match="a value for a expected"):
+        witness.at({})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import math
 import os
 import tempfile
 from collections.abc import Callable, Mapping
@@ -15,32 +14,8 @@ import pytest
 
 import qe
 from qe.io import formats
+from tests.wrong_values import WRONG
 
-WRONG: dict[str, object] = {
-    "int": 5,
-    "huge": 10**5000,
-    "negative": -1,
-    "zero": 0,
-    "float": 0.5,
-    "nan": math.nan,
-    "inf": math.inf,
-    "bool": True,
-    "none": None,
-    "complex": 1j,
-    "text": "no such thing",
-    "digits": "10",
-    "empty": "",
-    "bytes": b"x > 0",
-    "list": [],
-    "dict": {},
-    "set": {1},
-    "nested": [[1]],
-    "object": object(),
-    "function": len,
-    "class": int,
-    "error": ValueError("x"),
-    "module": math,
-}
 NUMBERS = {"int", "huge", "negative", "zero"}
 REGION = qe.region("x^2 + y^2 <= 1")
 CONVEX = qe.region("ex w. x^2 + y^2 + z^2 + u^2 + w^2 <= 1")

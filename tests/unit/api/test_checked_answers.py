@@ -18,22 +18,9 @@ from qe.optimization.global_optimum import GlobalOptimum
 from qe.optimization.parametric_optimum import ParametricOptimum
 from qe.proof.answer import Guarantee
 from qe.proof.certificate import digest
+from tests.tables import each
 
 REGIONS = ("ex y. x^2 + y^2 < a", "x^2 + y^2 < 1 and x > y", "ex z. x*z = y and z > 1 and z < 2")
-OPTIMA = (
-    ("x^4 + y^4 - x*y", "true"),
-    ("x*y", "x^2 + y^2 = 1"),
-    ("x", "x*y = 1 and x > 0"),
-    ("x", "x^3 > 1"),
-    ("x", "x^4 < -1 and x^3 > 2"),
-    ("x", "ex t. t^2 = x and t^3 > 1"),
-)
-BLOCKS = (
-    "ex x. a*x^2 + b*x + c = 0",
-    "all x. x > a or x < b",
-    "ex x. x > a and (ex y. y^2 = x and y > b)",
-    "ex x. x^2 < 0",
-)
 
 
 @pytest.mark.parametrize("text", REGIONS)
@@ -74,7 +61,14 @@ def test_a_region_whose_elimination_is_not_proved(monkeypatch: pytest.MonkeyPatc
     assert _in_words(found, 0.0)[-1] == f"not proved: {found.reason}"
 
 
-@pytest.mark.parametrize(("objective", "constraints"), OPTIMA)
+@each(
+    ("x^4 + y^4 - x*y", "true"),
+    ("x*y", "x^2 + y^2 = 1"),
+    ("x", "x*y = 1 and x > 0"),
+    ("x", "x^3 > 1"),
+    ("x", "x^4 < -1 and x^3 > 2"),
+    ("x", "ex t. t^2 = x and t^3 > 1"),
+)
 def test_global_optima(objective: str, constraints: str) -> None:
     for find in (qe.minimize, qe.maximize):
         found, plain = find(objective, constraints, check=True), find(objective, constraints)
@@ -117,7 +111,12 @@ def test_a_convex_optimum() -> None:
     assert qe.minimize("x^2 + y^2", "x + y >= 1").guarantee is Guarantee.DERIVED
 
 
-@pytest.mark.parametrize("text", BLOCKS)
+@each(
+    "ex x. a*x^2 + b*x + c = 0",
+    "all x. x > a or x < b",
+    "ex x. x > a and (ex y. y^2 = x and y > b)",
+    "ex x. x^2 < 0",
+)
 def test_witnesses_in_parameters(text: str) -> None:
     found, plain = qe.parametric_witnesses(text, check=True), qe.parametric_witnesses(text)
     assert [str(w) for w in found] == [str(w) for w in plain]
@@ -138,12 +137,3 @@ def test_an_altered_guard_is_refused() -> None:
     other["digest"] = digest(other)
     verdict = verify_json(json.dumps(other))
     assert verdict.step == "payload.answer"
-
-
-@pytest.mark.parametrize("given", [1, "yes", None])
-def test_check_is_a_truth_value(given: object) -> None:
-    for ask in (qe.region, qe.parametric_witnesses):
-        with pytest.raises(qe.InputError, match="check"):
-            ask("ex x. a*x = 1", check=given)  # type: ignore[arg-type]
-    with pytest.raises(qe.InputError, match="check"):
-        qe.minimize("x", "x > 0", check=given)  # type: ignore[call-overload]

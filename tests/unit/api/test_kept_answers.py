@@ -16,6 +16,7 @@ from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.processes.worker import end_idle
 from qe.proof.answer import UNPROVED
+from tests.tables import each
 from tests.workers import killed, replace_in_worker, stuck
 
 pytestmark = pytest.mark.processes
@@ -89,15 +90,12 @@ def wrong() -> None:
     raise InternalError("wrong")
 
 
-WAYS = [
+@each(
     (Limits(process=False), False, 0.0),  # in this process
     (Limits(), False, 0.0),  # in this process, from which it might move
     (Limits(), False, 0.5),  # moved
     (Limits(timeout=LONG), True, 0.0),  # in another one from the start
-]
-
-
-@pytest.mark.parametrize(("limits", "at_once", "seconds"), WAYS)
+)
 def test_work_that_is_unable_to_go_on_gives_what_it_kept_last(limits, at_once, seconds):
     assert perform(partial(keeps, unable, seconds), limits, at_once=at_once) == "last"
     assert perform(partial(keeps, done, seconds), limits, at_once=at_once) == "done"

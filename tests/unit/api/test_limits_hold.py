@@ -6,7 +6,9 @@ import pickle
 import time
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 import sympy
@@ -18,6 +20,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.options import Budget
 from qe.processes.worker import end_idle
 from qe.progress import Event
+from tests.tables import each
 from tests.workers import large, replace_in_worker, stuck
 
 pytestmark = pytest.mark.processes
@@ -32,10 +35,6 @@ ASKED_BEFORE = 0.5
 """The limit of a region that is made within it, before it is asked for more."""
 
 
-def witness() -> qe.ParametricWitness:
-    return qe.parametric_witnesses("ex x. a*x^2 + b*x + 1 = 0")[0]
-
-
 @pytest.fixture(autouse=True)
 def afresh() -> Iterator[None]:
     """What was replaced in a worker ends with it."""
@@ -43,131 +42,107 @@ def afresh() -> Iterator[None]:
     end_idle()
 
 
-Call = Callable[[], object]
-CASES: dict[str, tuple[str, Callable[[], Call]]] = {
-    "eliminate": ("qe.engine.run.answered", lambda: lambda: qe.decide("ex x. x > 2", timeout=LIMIT)),
-    "find_instance": ("qe.engine.run.answered", lambda: lambda: qe.find_instance("x > 2", timeout=LIMIT)),
-    "equivalent": ("qe.engine.run.answered", lambda: lambda: qe.equivalent("x > 2", "x > 3", timeout=LIMIT)),
-    "check_witness": (
-        "qe.engine.run.answered",
-        lambda: lambda: qe.check_witness("all a. ex x. x > a", {"x": "a + 1"}, timeout=LIMIT),
-    ),
-    "comprehensive_groebner": (
-        "qe.groebner.question.segments",
-        lambda: lambda: qe.comprehensive_groebner(["a*x - 1"], "x", timeout=LIMIT),
-    ),
-    "ComprehensiveGroebnerSystem.solutions_at": (
-        "qe.groebner.system.solve_system",
-        lambda: lambda found=qe.comprehensive_groebner(["x^2 - a"], "x"): found.solutions_at([2], timeout=LIMIT),
-    ),
-    "ComprehensiveGroebnerSystem.basis_at": (
-        "qe.groebner.system.parametric_basis",
-        lambda: lambda found=qe.comprehensive_groebner(["x^2 - a"], "x"): found.basis_at([2], timeout=LIMIT),
-    ),
-    "real_root_classification": (
-        "qe.groebner.question.segments",
-        lambda: lambda: qe.real_root_classification(["a*x - 1"], "x", timeout=LIMIT),
-    ),
-    "minimize": ("qe.convex.feasible.solve", lambda: lambda: qe.minimize("x", "x >= 1", timeout=LIMIT)),
-    "maximize": ("qe.convex.feasible.solve", lambda: lambda: qe.maximize("x", "x <= 1", timeout=LIMIT)),
-    "parametric_witnesses": (
-        "qe.elimination.vs.parametric.eliminate_block",
-        lambda: lambda: qe.parametric_witnesses("ex x. x > a", timeout=LIMIT),
-    ),
-    "ParametricWitness.at": (
-        "qe.elimination.vs.parametric.witness",
-        lambda: lambda found=witness(): found.at({"a": 1, "b": 9}, timeout=LIMIT),
-    ),
-    "region": ("qe.regions.region.decompose", lambda: lambda: qe.region(DISC, timeout=LIMIT)),
-    "region of a quantified formula": (
-        "qe.regions.build.answered",
-        lambda: lambda: qe.region("ex z. z^3 = x*y and z > 0", timeout=LIMIT),
-    ),
-    "Region.contains": (
-        "qe.regions.region.truth_under",
-        lambda: lambda found=qe.region(DISC): found.contains({"x": SQRT2, "y": 0}, timeout=LIMIT),
-    ),
-    "Region.fibre": (
-        "qe.regions.region.fibre_of",
-        lambda: lambda found=qe.region(DISC): found.fibre([SQRT2], timeout=LIMIT),
-    ),
-    "Region.bounds": (
-        "qe.regions.region.decompose",
-        lambda: lambda found=qe.region(DISC): found.bounds("y", timeout=LIMIT),
-    ),
-    "Region.sample_points": (
-        "qe.regions.region.coordinates",
-        lambda: lambda found=qe.region(DISC): found.sample_points(timeout=LIMIT),
-    ),
-    "Region.closure": (
-        "qe.regions.planar.decompose",
-        lambda: lambda found=qe.region(DISC): found.closure(timeout=LIMIT),
-    ),
-    "Region.components": (
-        "qe.regions.planar.decompose",
-        lambda: lambda found=qe.region(DISC): found.components(timeout=LIMIT),
-    ),
-    "Region.complement": (
-        "qe.regions.region.decompose",
-        lambda: lambda found=qe.region(DISC): found.complement(timeout=LIMIT),
-    ),
-    "Region.is_subset": (
-        "qe.api.region_operators.eliminated",
-        lambda: lambda found=qe.region(DISC): found.is_subset("x < 2", timeout=LIMIT),
-    ),
-    "Region.project": (
-        "qe.regions.region.decompose",
-        lambda: lambda found=qe.region(DISC): found.section({"x": 0}, timeout=LIMIT),
-    ),
-    "Region.bounding_box": (
-        "qe.regions.region.decompose",
-        lambda: lambda found=qe.region(DISC): found.bounding_box(timeout=LIMIT),
-    ),
-    "Region.distance": (
-        "qe.convex.feasible.solve",
-        lambda: lambda found=qe.region(DISC): found.distance([2, 2], timeout=LIMIT),
-    ),
-    "Region.exact_volume": (
-        "qe.api.measure._measured",
-        lambda: lambda found=qe.region(DISC): found.exact_volume(timeout=LIMIT),
-    ),
-    "Region.find_instances": (
-        "qe.regions.region.fibre_of",
-        lambda: lambda found=qe.region(DISC): found.find_instances(2, timeout=LIMIT),
-    ),
-    "solve": ("qe.regions.region.decompose", lambda: lambda: qe.solve(DISC, timeout=LIMIT)),
-    "find_instances": ("qe.regions.region.decompose", lambda: lambda: qe.find_instances(DISC, 2, timeout=LIMIT)),
-    "Region.volume": (
-        "qe.regions.volume.ends",
-        lambda: lambda found=qe.region(DISC): found.volume(timeout=LIMIT),
-    ),
-    "Region.plot": (
-        "qe.regions.sketch.sketch",
-        lambda: lambda found=qe.region(DISC): found.plot("nowhere.png", timeout=LIMIT),
-    ),
-    "Region.formula": (
-        "qe.regions.build.solve",
-        lambda: lambda found=qe.region(SHADOW, timeout=ASKED_BEFORE): found.formula,
-    ),
-    "Region.cells": (
-        "qe.regions.convex_region.decompose",
-        lambda: lambda found=qe.region(SHADOW, timeout=ASKED_BEFORE): found.cells,
-    ),
-    "bounds of a convex region": (
-        "qe.regions.convex_region.minimize",
-        lambda: lambda found=qe.region(SHADOW): found.bounds("x", timeout=LIMIT),
-    ),
-}
+NOTHING, OF_DISC, OF_SHADOW = dict, partial(qe.region, DISC), partial(qe.region, SHADOW)
+SOON = partial(qe.region, SHADOW, timeout=ASKED_BEFORE)
+SYSTEM = partial(qe.comprehensive_groebner, ["x^2 - a"], "x")
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_the_limit_holds(name):
-    place, prepared = CASES[name]
-    call = prepared()
+@each(
+    {
+        "eliminate": ("qe.engine.run.answered", NOTHING, lambda of: qe.decide("ex x. x > 2", timeout=LIMIT)),
+        "find_instance": ("qe.engine.run.answered", NOTHING, lambda of: qe.find_instance("x > 2", timeout=LIMIT)),
+        "equivalent": ("qe.engine.run.answered", NOTHING, lambda of: qe.equivalent("x > 2", "x > 3", timeout=LIMIT)),
+        "check_witness": (
+            "qe.engine.run.answered",
+            NOTHING,
+            lambda of: qe.check_witness("all a. ex x. x > a", {"x": "a + 1"}, timeout=LIMIT),
+        ),
+        "comprehensive_groebner": (
+            "qe.groebner.question.segments",
+            NOTHING,
+            lambda of: qe.comprehensive_groebner(["a*x - 1"], "x", timeout=LIMIT),
+        ),
+        "ComprehensiveGroebnerSystem.solutions_at": (
+            "qe.groebner.system.solve_system",
+            SYSTEM,
+            lambda of: of.solutions_at([2], timeout=LIMIT),
+        ),
+        "ComprehensiveGroebnerSystem.basis_at": (
+            "qe.groebner.system.parametric_basis",
+            SYSTEM,
+            lambda of: of.basis_at([2], timeout=LIMIT),
+        ),
+        "real_root_classification": (
+            "qe.groebner.question.segments",
+            NOTHING,
+            lambda of: qe.real_root_classification(["a*x - 1"], "x", timeout=LIMIT),
+        ),
+        "minimize": ("qe.convex.feasible.solve", NOTHING, lambda of: qe.minimize("x", "x >= 1", timeout=LIMIT)),
+        "maximize": ("qe.convex.feasible.solve", NOTHING, lambda of: qe.maximize("x", "x <= 1", timeout=LIMIT)),
+        "parametric_witnesses": (
+            "qe.elimination.vs.parametric.eliminate_block",
+            NOTHING,
+            lambda of: qe.parametric_witnesses("ex x. x > a", timeout=LIMIT),
+        ),
+        "ParametricWitness.at": (
+            "qe.elimination.vs.parametric.witness",
+            lambda: qe.parametric_witnesses("ex x. a*x^2 + b*x + 1 = 0")[0],
+            lambda of: of.at({"a": 1, "b": 9}, timeout=LIMIT),
+        ),
+        "region": ("qe.regions.region.decompose", NOTHING, lambda of: qe.region(DISC, timeout=LIMIT)),
+        "region of a quantified formula": (
+            "qe.regions.build.answered",
+            NOTHING,
+            lambda of: qe.region("ex z. z^3 = x*y and z > 0", timeout=LIMIT),
+        ),
+        "Region.contains": (
+            "qe.regions.region.truth_under",
+            OF_DISC,
+            lambda of: of.contains({"x": SQRT2, "y": 0}, timeout=LIMIT),
+        ),
+        "Region.fibre": ("qe.regions.region.fibre_of", OF_DISC, lambda of: of.fibre([SQRT2], timeout=LIMIT)),
+        "Region.bounds": ("qe.regions.region.decompose", OF_DISC, lambda of: of.bounds("y", timeout=LIMIT)),
+        "Region.sample_points": ("qe.regions.region.coordinates", OF_DISC, lambda of: of.sample_points(timeout=LIMIT)),
+        "Region.closure": ("qe.regions.planar.decompose", OF_DISC, lambda of: of.closure(timeout=LIMIT)),
+        "Region.components": ("qe.regions.planar.decompose", OF_DISC, lambda of: of.components(timeout=LIMIT)),
+        "Region.complement": ("qe.regions.region.decompose", OF_DISC, lambda of: of.complement(timeout=LIMIT)),
+        "Region.is_subset": (
+            "qe.api.region_operators.eliminated",
+            OF_DISC,
+            lambda of: of.is_subset("x < 2", timeout=LIMIT),
+        ),
+        "Region.project": ("qe.regions.region.decompose", OF_DISC, lambda of: of.section({"x": 0}, timeout=LIMIT)),
+        "Region.bounding_box": ("qe.regions.region.decompose", OF_DISC, lambda of: of.bounding_box(timeout=LIMIT)),
+        "Region.distance": ("qe.convex.feasible.solve", OF_DISC, lambda of: of.distance([2, 2], timeout=LIMIT)),
+        "Region.exact_volume": ("qe.api.measure._measured", OF_DISC, lambda of: of.exact_volume(timeout=LIMIT)),
+        "Region.find_instances": (
+            "qe.regions.region.fibre_of",
+            OF_DISC,
+            lambda of: of.find_instances(2, timeout=LIMIT),
+        ),
+        "solve": ("qe.regions.region.decompose", NOTHING, lambda of: qe.solve(DISC, timeout=LIMIT)),
+        "find_instances": (
+            "qe.regions.region.decompose",
+            NOTHING,
+            lambda of: qe.find_instances(DISC, 2, timeout=LIMIT),
+        ),
+        "Region.volume": ("qe.regions.volume.ends", OF_DISC, lambda of: of.volume(timeout=LIMIT)),
+        "Region.plot": ("qe.regions.sketch.sketch", OF_DISC, lambda of: of.plot("nowhere.png", timeout=LIMIT)),
+        "Region.formula": ("qe.regions.build.solve", SOON, lambda of: of.formula),
+        "Region.cells": ("qe.regions.convex_region.decompose", SOON, lambda of: of.cells),
+        "bounds of a convex region": (
+            "qe.regions.convex_region.minimize",
+            OF_SHADOW,
+            lambda of: of.bounds("x", timeout=LIMIT),
+        ),
+    }
+)
+def test_the_limit_holds(place: str, made: Callable[[], Any], call: Callable[[Any], object]):
+    given = made()
     replace_in_worker(place, stuck)
     start = time.monotonic()
     with pytest.raises(Unable, match="limit"):
-        call()
+        call(given)
     assert LIMIT <= time.monotonic() - start < BOUND
 
 
@@ -246,16 +221,13 @@ def test_reading_holds_the_limit(monkeypatch):
 LONG = "(x + y + z + 1)^70"
 
 
-@pytest.mark.parametrize(
-    ("place", "call"),
-    [
-        ("qe.api.optimum.read_objective", lambda: qe.minimize(LONG, timeout=LIMIT)),
-        ("qe.api.optimum.read_constraints", lambda: qe.minimize("x", f"{LONG} > 0", timeout=LIMIT)),
-        ("qe.api.decide.read_polynomial", lambda: qe.check_witness("ex x. x > y", {"x": LONG}, timeout=LIMIT)),
-        ("qe.api.groebner.read_polynomial", lambda: qe.comprehensive_groebner([LONG], "x", timeout=LIMIT)),
-        ("qe.sympy.from_sympy", lambda: qe.sympy.minimum(sum(sympy.symbols("x y z")) ** 70, timeout=LIMIT)),
-        ("qe.api.input.read_polynomial", lambda: qe.maximize(sympy.Symbol("x") ** 70, timeout=LIMIT)),
-    ],
+@each(
+    ("qe.api.optimum.read_objective", lambda: qe.minimize(LONG, timeout=LIMIT)),
+    ("qe.api.optimum.read_constraints", lambda: qe.minimize("x", f"{LONG} > 0", timeout=LIMIT)),
+    ("qe.api.decide.read_polynomial", lambda: qe.check_witness("ex x. x > y", {"x": LONG}, timeout=LIMIT)),
+    ("qe.api.groebner.read_polynomial", lambda: qe.comprehensive_groebner([LONG], "x", timeout=LIMIT)),
+    ("qe.sympy.from_sympy", lambda: qe.sympy.minimum(sum(sympy.symbols("x y z")) ** 70, timeout=LIMIT)),
+    ("qe.api.input.read_polynomial", lambda: qe.maximize(sympy.Symbol("x") ** 70, timeout=LIMIT)),
 )
 def test_reading_holds_the_limit_in_every_function(place, call, monkeypatch):
     """Texts and SymPy objects that have to be multiplied out were read without the limit, for seconds."""

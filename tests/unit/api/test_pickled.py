@@ -10,6 +10,7 @@ import pytest
 import bezier
 import qe
 from qe.processes.channel import Known, WorkerStopped
+from tests.tables import each
 
 X, Y = qe.variables("x y")
 GIVEN: dict[str, Callable[[], object]] = {
@@ -46,17 +47,14 @@ def test_plans() -> None:
         assert repr(pickle.loads(pickle.dumps(part))) == repr(part) and len(repr(part)) < 300
 
 
-@pytest.mark.parametrize(
-    "error",
-    [
-        qe.InputError("x"),
-        qe.ParseError("x", source="s", line=3, column=4, expected="y"),
-        qe.NoTruthValue("x"),
-        qe.Unable("x"),
-        qe.BudgetExceeded("x", limit="memory"),
-        qe.CertificateRejected("step", "reason"),
-        WorkerStopped("x", limit="time", known=Known()),
-    ],
+@each(
+    qe.InputError("x"),
+    qe.ParseError("x", source="s", line=3, column=4, expected="y"),
+    qe.NoTruthValue("x"),
+    qe.Unable("x"),
+    qe.BudgetExceeded("x", limit="memory"),
+    qe.CertificateRejected("step", "reason"),
+    WorkerStopped("x", limit="time", known=Known()),
 )
 def test_errors(error: qe.QEError) -> None:
     """The message of a parse error had its place twice, and the error of a limit could not be loaded."""

@@ -18,6 +18,7 @@ from qe.api import settings
 from qe.api.settings import MOST_WORKERS, Elimination, settings_in, table_of_settings
 from qe.cli.app import app
 from qe.cli.options import ELSEWHERE, checked
+from tests.tables import each
 
 ROOT = Path(__file__).resolve().parents[3]
 TABLE = settings_in(Elimination)
@@ -66,15 +67,12 @@ def test_other_keywords_are_refused(function: Callable[..., Any]) -> None:
         function("x > 0", zzz=3)
 
 
-@pytest.mark.parametrize(
-    ("name", "values", "wrong"),
-    [
-        ("workers", (0, 3, MOST_WORKERS), (-1, MOST_WORKERS + 1, True, "2", 1.5)),
-        ("cluster", (None, "host:1", "tcp://host:8786"), ("host", "host:", 3, "a b:1")),
-        ("race", ((), "vs", ["vs", qe.Method.CAD]), ("fastest", 3, ["vs", 3])),
-        ("timeout", (None, 2, 0.5), (-1, 0, "1", True)),
-        ("process", (True, False), (0, "yes", None)),
-    ],
+@each(
+    ("workers", (0, 3, MOST_WORKERS), (-1, MOST_WORKERS + 1, True, "2", 1.5)),
+    ("cluster", (None, "host:1", "tcp://host:8786"), ("host", "host:", 3, "a b:1")),
+    ("race", ((), "vs", ["vs", qe.Method.CAD]), ("fastest", 3, ["vs", 3])),
+    ("timeout", (None, 2, 0.5), (-1, 0, "1", True)),
+    ("process", (True, False), (0, "yes", None)),
 )
 def test_values_are_checked(name: str, values: tuple[object, ...], wrong: tuple[object, ...]) -> None:
     check = TABLE[name][1].check

@@ -12,23 +12,21 @@ import typer
 from qe.cli import shell
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
 from qe.processes.channel import WorkerStopped
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("error", "status", "code", "line"),
-    [
-        (InputError("a number\n expected"), "input_error", 2, "a number expected"),
-        (Unable("too hard"), "unable", 3, "unable: too hard"),
-        (
-            WorkerStopped("time limit", limit="time", known={"cells": 7}),
-            "unable",
-            3,
-            "unable: time limit; known {'cells': 7}",
-        ),
-        (CertificateRejected("payload", "wrong"), "rejected", 4, "certificate rejected: payload: wrong"),
-        (InternalError("odd"), "internal_error", 1, "internal error, please report: odd"),
-        (ImportError("no", name="matplotlib"), "unable", 3, "unable: matplotlib is not installed"),
-    ],
+@each(
+    (InputError("a number\n expected"), "input_error", 2, "a number expected"),
+    (Unable("too hard"), "unable", 3, "unable: too hard"),
+    (
+        WorkerStopped("time limit", limit="time", known={"cells": 7}),
+        "unable",
+        3,
+        "unable: time limit; known {'cells': 7}",
+    ),
+    (CertificateRejected("payload", "wrong"), "rejected", 4, "certificate rejected: payload: wrong"),
+    (InternalError("odd"), "internal_error", 1, "internal error, please report: odd"),
+    (ImportError("no", name="matplotlib"), "unable", 3, "unable: matplotlib is not installed"),
 )
 def test_errors(
     error: Exception,
@@ -53,7 +51,7 @@ def test_errors(
     assert (data["status"], data["exit"]) == (status, code) and "\n" not in data["message"]
 
 
-@pytest.mark.parametrize(("kind", "line"), [(KeyboardInterrupt, "prog: interrupted\n"), (ValueError, "prog: internal")])
+@each((KeyboardInterrupt, "prog: interrupted\n"), (ValueError, "prog: internal"))
 def test_what_nobody_expected_is_one_line(
     kind: type[BaseException], line: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -1,30 +1,37 @@
-"""Numerical proposals: near the known optima, and honest about how near."""
+"""In floats: linear algebra, interior points; faces."""
 
 from __future__ import annotations
 
 import math
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from qe.convex.facial_reduction import implied_equations, on_flat
+from qe.convex.float_linear_algebra import caratheodory, free_columns
 from qe.convex.interior_point import OutOfFloats, interior_point, natural_scale, solve_floats, to_float
 from qe.exact.quadratic_form import Quadratic
+from qe.exact.ring import format_poly
+from qe.formula.build import conj
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import FALSE
+from qe.io.text import read
+from qe.options import Budget
+from tests.tables import each
 from tests.unit.convex.quadratics import ball, diagonal, line
 
 
-@pytest.mark.parametrize(
-    ("objective", "forms", "point", "multipliers"),
-    [
-        (ball((3, -1), 0), [], (3, -1), ()),
-        (ball((3, 0), 0), [ball((0, 0), 1)], (1, 0), (2,)),
-        (line(1, 1), [line(-1, 0, constant=2), line(0, -1, constant=3)], (2, 3), (1, 1)),
-        (line(1, 0), [ball((0, 0), 4)], (-2, 0), (0.25,)),
-        (line(1, 0), [ball((0, 0), 4), line(1, 0, constant=-9)], (-2, 0), (0.25, 0)),
-        (diagonal(1, 100, slope=(-2, -200)), [line(1, 1, constant=-1)], (0.0099, 0.9901), (1.9802,)),
-        (line(1000, 0), [line(-2000, 0, constant=4000), diagonal(0, 1)], (2, 0), (0.5, None)),
-    ],
+@each(
+    (ball((3, -1), 0), [], (3, -1), ()),
+    (ball((3, 0), 0), [ball((0, 0), 1)], (1, 0), (2,)),
+    (line(1, 1), [line(-1, 0, constant=2), line(0, -1, constant=3)], (2, 3), (1, 1)),
+    (line(1, 0), [ball((0, 0), 4)], (-2, 0), (0.25,)),
+    (line(1, 0), [ball((0, 0), 4), line(1, 0, constant=-9)], (-2, 0), (0.25, 0)),
+    (diagonal(1, 100, slope=(-2, -200)), [line(1, 1, constant=-1)], (0.0099, 0.9901), (1.9802,)),
+    (line(1000, 0), [line(-2000, 0, constant=4000), diagonal(0, 1)], (2, 0), (0.5, None)),
 )
 def test_known_optima(objective: Quadratic, forms: list[Quadratic], point: tuple, multipliers: tuple) -> None:  # type: ignore[type-arg]
     found = interior_point(objective, forms, [0.0, 0.0])
@@ -36,12 +43,9 @@ def test_known_optima(objective: Quadratic, forms: list[Quadratic], point: tuple
             assert slack == pytest.approx(-float(form.value([Fraction(c) for c in found.point])), abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("objective", "forms"),
-    [
-        (line(1, 0), [ball((0, 0), 1), ball((5, 0), 1)]),  # infeasible
-        (line(1, 0), [line(0, 1)]),  # unbounded
-    ],
+@each(
+    (line(1, 0), [ball((0, 0), 1), ball((5, 0), 1)]),  # infeasible
+    (line(1, 0), [line(0, 1)]),  # unbounded
 )
 def test_nothing_good_is_said_of_problems_without_optimum(objective: Quadratic, forms: list[Quadratic]) -> None:
     assert not interior_point(objective, forms, [0.0, 0.0]).residual < 1e-5
@@ -91,3 +95,97 @@ def test_a_singular_system_has_no_solution() -> None:
     assert solve_floats([[0.0, 0.0], [0.0, 1.0]], [1.0, 1.0]) is None
     assert solve_floats([[0.0, 1.0], [2.0, 0.0]], [3.0, 4.0]) == [2.0, 3.0]  # rows are exchanged
     assert solve_floats([], []) == []
+
+
+ROWS = st.integers(1, 4).flatmap(
+    lambda n: st.lists(st.lists(st.integers(-3, 3), min_size=n, max_size=n), min_size=1, max_size=4)
+)
+
+
+@given(ROWS)
+def test_the_free_columns_are_as_many_as_the_kernel_has_dimensions(rows: list[list[int]]) -> None:
+    width = len(rows[0])
+    free = free_columns(rows, width)
+    matrix = np.array(rows, dtype=float)
+    assert len(free) == width - np.linalg.matrix_rank(matrix)
+    bound = [c for c in range(width) if c not in free]
+    assert np.linalg.matrix_rank(matrix[:, bound]) == len(bound)  # the others are determined by them
+
+
+def test_what_is_nearly_dependent_counts_as_dependent() -> None:
+    assert free_columns([[1, 1], [1, 1 + 1e-9]], 2) != []
+    assert free_columns([[1, 1], [1, 1 + 1e-3]], 2) == []
+    assert free_columns([], 2) == [0, 1]
+
+
+@given(st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=5), st.data())
+def test_the_sum_stays_in_the_cone_of_independent_slopes(slopes: list[tuple[int, int]], data: st.DataObject) -> None:
+    weights = data.draw(st.lists(st.integers(1, 5), min_size=len(slopes), max_size=len(slopes)))
+    kept = caratheodory(range(len(slopes)), weights, slopes)
+    matrix = np.array([slopes[i] for i in kept], dtype=float).reshape(len(kept), 2)
+    assert np.linalg.matrix_rank(matrix) == len(kept)
+    total = np.array(weights, dtype=float) @ np.array(slopes, dtype=float)
+    if not kept:
+        assert total == pytest.approx([0, 0])
+        return
+    found, *_ = np.linalg.lstsq(matrix.T, total, rcond=None)
+    assert matrix.T @ found == pytest.approx(total, abs=1e-6)
+    assert min(found) > -1e-6
+
+
+TOUCH = "x^2 + y^2 <= 1 and (x - 2)^2 + y^2 <= 1"  # at (1, 0)
+
+
+def equations(text: str) -> list[str] | None:
+    found = implied_equations(read(text), budget=Budget(60))
+    return None if found is None else sorted(format_poly(p.normal()[1]) for p in found)
+
+
+def holding(text: str, at: dict[str, int]) -> bool:
+    return all(
+        p.evaluate([at[n] for n in p.ring.names]) == 0 for p in implied_equations(read(text), budget=Budget(60)) or ()
+    )
+
+
+def test_discs_that_touch() -> None:
+    found = equations(TOUCH)
+    assert found and holding(TOUCH, {"x": 1, "y": 0})
+    assert not holding(TOUCH, {"x": 1, "y": 1}) and not holding(TOUCH, {"x": 0, "y": 0})
+
+
+def test_a_slab_of_no_width() -> None:
+    text = "x + y <= 1 and x + y >= 1 and x^2 <= 4"
+    assert holding(text, {"x": 2, "y": -1}) and holding(text, {"x": 0, "y": 1})
+    assert not holding(text, {"x": 0, "y": 0}) and equations(text)
+
+
+@each("x^2 + y^2 <= 1", "x^2 + y^2 <= 1 and x >= 0", "x^2 < 1", "x = 1", "true")
+def test_no_equations_of_what_has_interior_points_or_is_not_weak(text: str) -> None:
+    assert equations(text) == []
+
+
+def test_a_contradiction() -> None:
+    assert equations("x^2 + y^2 <= 1 and (x - 3)^2 + y^2 <= 1") is None
+
+
+def test_a_line_that_touches() -> None:
+    assert equations("x^2 + y^2 <= 2 and x + y >= 2") and equations("x^2 + y^2 <= 1 and (x - y)^2 <= 1") == []
+    assert equations("x^2 + y^2 <= 1 and x^2 - 3*x + y^2 - 3*y + 4 <= 0") is None
+
+
+def test_the_block_without_the_variables_that_the_equations_give() -> None:
+    """Over (1, 0) the discs say nothing more; with a beside x the parameter is bound."""
+    found = on_flat(("x", "y"), read(TOUCH), budget=Budget(60))
+    assert found is not None and found[0] == [] and holds_at(found[1], {})
+    outside, rest = on_flat(("x",), read(TOUCH.replace("y", "a")), budget=Budget(60)) or ([], FALSE)
+    whole = conj((*outside, rest))
+    assert set(whole.free) <= {"a"}
+    for a in (Fraction(-1), Fraction(0), Fraction(1, 3)):
+        assert holds_at(whole, {"a": a, "x": 0}) == (a == 0)
+
+
+def test_blocks_that_are_not_reduced() -> None:
+    budget = Budget(60)
+    assert on_flat(("x",), read("x^2 + a^2 <= 1"), budget=budget) is None
+    assert on_flat(("x",), read("x^2 - a^2 <= 1"), budget=budget) is None
+    assert on_flat(("x",), read("x^2 + a^2 <= 1 and (x - 3)^2 + a^2 <= 1"), budget=budget) == ([], FALSE)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
-
 from qe.convex.kkt import sign
 from qe.convex.minimise import evidence_about, rational_numbers, solve
 from qe.convex.system import ConvexSystem
@@ -13,6 +11,7 @@ from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Quadratic
 from qe.options import Budget
 from qe.proof.multipliers import FormRelation, OptimumEvidence, OptimumStatus
+from tests.tables import each
 from tests.unit.convex.quadratics import ball, diagonal, line
 
 LE, EQ = FormRelation.LE, FormRelation.EQ
@@ -35,16 +34,13 @@ def gradient(found: OptimumEvidence, *, with_objective: bool) -> list[object]:
     return total
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "value"),
-    [
-        (line(1, 0), [(ball((0, 0), 4), LE)], -2),
-        (ball((5, 0), 0), [(line(1, 1, constant=-1), EQ)], 8),
-        (ball((5, 0), 0), [(line(1, 1, constant=-1), EQ), (line(1, 0, constant=-1), LE)], 16),
-        (line(1, 1), [(line(-1, 0), LE), (line(0, -1), LE)], 0),
-        (line(0, 0, constant=7), [(ball((0, 0), 1), LE)], 7),
-        (diagonal(1, 1), [(line(1, 0, constant=-3), EQ), (line(0, 1, constant=4), EQ)], 25),
-    ],
+@each(
+    (line(1, 0), [(ball((0, 0), 4), LE)], -2),
+    (ball((5, 0), 0), [(line(1, 1, constant=-1), EQ)], 8),
+    (ball((5, 0), 0), [(line(1, 1, constant=-1), EQ), (line(1, 0, constant=-1), LE)], 16),
+    (line(1, 1), [(line(-1, 0), LE), (line(0, -1), LE)], 0),
+    (line(0, 0, constant=7), [(ball((0, 0), 1), LE)], 7),
+    (diagonal(1, 1), [(line(1, 0, constant=-3), EQ), (line(0, 1, constant=4), EQ)], 25),
 )
 def test_optimal(objective: Quadratic, constraints: list[tuple[Quadratic, FormRelation]], value: int) -> None:
     found = solved(objective, *constraints)
@@ -55,16 +51,13 @@ def test_optimal(objective: Quadratic, constraints: list[tuple[Quadratic, FormRe
     assert not any(gradient(found, with_objective=True))
 
 
-@pytest.mark.parametrize(
-    "constraints",
-    [
-        [(ball((0, 0), 1), LE), (ball((3, 0), 1), LE)],
-        [(line(1, 0), LE), (line(-1, 0, constant=1), LE)],
-        [(line(1, 1, constant=-1), EQ), (line(2, 2, constant=-3), EQ)],
-        [(line(1, 0, constant=-5), EQ), (ball((0, 0), 24), LE)],
-        [(line(0, 0, constant=1), LE)],
-        [(ball((0, 0), -1), LE)],
-    ],
+@each(
+    [(ball((0, 0), 1), LE), (ball((3, 0), 1), LE)],
+    [(line(1, 0), LE), (line(-1, 0, constant=1), LE)],
+    [(line(1, 1, constant=-1), EQ), (line(2, 2, constant=-3), EQ)],
+    [(line(1, 0, constant=-5), EQ), (ball((0, 0), 24), LE)],
+    [(line(0, 0, constant=1), LE)],
+    [(ball((0, 0), -1), LE)],
 )
 def test_infeasible(constraints: list[tuple[Quadratic, FormRelation]]) -> None:
     """The weighted sum is stationary at the point, and positive there: so it is positive everywhere."""
@@ -76,14 +69,11 @@ def test_infeasible(constraints: list[tuple[Quadratic, FormRelation]]) -> None:
     assert all(sign(m) >= 0 for m, (_, r) in zip(found.multipliers, constraints) if r is LE)
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints"),
-    [
-        (line(1, 0), []),
-        (line(1, 0), [(line(0, 1), EQ)]),
-        (line(1, 1), [(diagonal(1, 0, slope=(0, 1)), LE)]),  # y <= -x^2
-        (diagonal(1, 0, slope=(0, 1)), [(line(1, 0), LE)]),
-    ],
+@each(
+    (line(1, 0), []),
+    (line(1, 0), [(line(0, 1), EQ)]),
+    (line(1, 1), [(diagonal(1, 0, slope=(0, 1)), LE)]),  # y <= -x^2
+    (diagonal(1, 0, slope=(0, 1)), [(line(1, 0), LE)]),
 )
 def test_unbounded(objective: Quadratic, constraints: list[tuple[Quadratic, FormRelation]]) -> None:
     """From the point, which is feasible, all of the ray is, and the objective falls along it."""

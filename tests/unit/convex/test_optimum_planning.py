@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction as F
 
-import pytest
-
 from qe.convex.optimum import OptimumStatus, maximize, minimize
 from qe.exact.field import FieldElement
 from qe.expert.optimum import check_optimum
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Relation
 from tests.optimum_problems import CUBIC_LABELS, at_most_zero, cubic, quadratic
+from tests.tables import each
 
 
 def _decimals(value: object, digits: str) -> bool:
@@ -20,7 +19,7 @@ def _decimals(value: object, digits: str) -> bool:
     return F(digits) - unit <= value <= F(digits) + unit  # type: ignore[operator]
 
 
-PLANE = [
+@each(
     # Q0, R0, r^2, objective, Q1 and Q2, active
     ((-3, 2), (3, 2), 27, "13.036164", ("-1.3991", "2.2007", "1.3991", "2.2007"), "P1 R2"),
     ((-3, 2), (2, 2), 27, "8.608561", ("-1.6696", "2.1323", "0.3635", "2.0843"), "P1 R2"),
@@ -37,10 +36,7 @@ PLANE = [
         ("-2.405", "1.3556", "2.7112", "0.4517", "1.3058", "2.6116"),
         "P2 R1",
     ),
-]
-
-
-@pytest.mark.parametrize(("q0", "r0", "r2", "value", "point", "active"), PLANE)
+)
 def test_cubic_optima(q0, r0, r2, value, point, active) -> None:
     objective, forms, _ = cubic(q0, r0, r2)
     found = minimize(objective, at_most_zero(forms))
@@ -52,7 +48,7 @@ def test_cubic_optima(q0, r0, r2, value, point, active) -> None:
     check_optimum(found.certificate.payload)
 
 
-FAMILY = [
+@each(
     ("2.6", "-.33333", "1.00000", "1.33333"),
     ("2.5", "-.34034", "1.00541", "1.33369"),
     ("2.3", "-.37671", "1.03322", "1.34683"),
@@ -62,10 +58,7 @@ FAMILY = [
     ("1.7", "-.48433", "1.23010", "1.57603"),
     ("1.6", "-.55432", "1.31442", "1.82407"),
     ("1.5", "-.64645", "1.35355", "2.17157"),
-]
-
-
-@pytest.mark.parametrize(("radius", "x", "y", "value"), FAMILY)
+)
 def test_symmetric_family(radius: str, x: str, y: str, value: str) -> None:
     objective, forms, _ = cubic((-1, 1), (1, 1), F(radius) ** 2)
     found = minimize(objective, at_most_zero(forms))

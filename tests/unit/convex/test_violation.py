@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.convex.violation import height, proposed, violation_form, violation_forms
 from qe.exact.quadratic_form import Quadratic, combine, solve_linear
+from tests.tables import each
 
 ZERO = Fraction(0)
 
@@ -27,7 +27,7 @@ def line(a: int, b: int, c: int) -> Quadratic:
 POINTS = [(Fraction(x), Fraction(y)) for x in (-1, 0, 3) for y in (-2, 0, 1)]
 
 
-@pytest.mark.parametrize("form", [ball(Fraction(1), Fraction(2), Fraction(5)), line(3, -6, 4), line(0, 0, 5)])
+@each(ball(Fraction(1), Fraction(2), Fraction(5)), line(3, -6, 4), line(0, 0, 5))
 def test_the_violation_is_the_scaled_form_less_the_height(form: Quadratic) -> None:
     found, scale = violation_form(form)
     assert scale > 0

@@ -19,6 +19,7 @@ from qe.kernel.terms import terms_goals
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Entry, formula_to_json
 from qe.proving.lemmas import refuting
+from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS, RING, formula, limits
 from tests.unit.coq.test_export import accepted_by_coq
 
@@ -138,10 +139,7 @@ def test_coq_accepts_ten(tmp_path: Path) -> None:
 
 @pytest.mark.deep
 @needs_coq
-@pytest.mark.parametrize(
-    ("right", "wrong"),
-    [(r"(Theorem main : .*) <(?= 0\)\.)", r"\1 <="), (r"tm \(2\)", "tm (3)"), (r"\(Sp (\d+) 1 ", r"(Sp \1 4 ")],
-)
+@each((r"(Theorem main : .*) <(?= 0\)\.)", r"\1 <="), (r"tm \(2\)", "tm (3)"), (r"\(Sp (\d+) 1 ", r"(Sp \1 4 "))
 def test_coq_refuses_what_is_altered(right: str, wrong: str, tmp_path: Path) -> None:
     written = to_coq(certificate(PROVED[0]))
     altered = re.sub(right, wrong, written, count=1)

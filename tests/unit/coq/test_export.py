@@ -17,6 +17,7 @@ from qe.coq.squares import read_form, squares
 from qe.errors import Unable
 from qe.io.text import read
 from qe.proof.certificate import Certificate, Kind
+from tests.tables import each
 
 FORMULAS = [
     "ex x, y. 2*x + 3*y = a and x - y = 1 and x*y > 2",
@@ -76,9 +77,7 @@ def test_squares_make_up_the_quadratic_part() -> None:
     assert total == [[6, -3], [-3, 9]]
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints"), [("x", "x <= 1"), ("x + y", "x^2 + y^2 <= 3"), ("x", "x > 1 and x^2 + y^2 <= 4")]
-)
+@each(("x", "x <= 1"), ("x + y", "x^2 + y^2 <= 3"), ("x", "x > 1 and x^2 + y^2 <= 4"))
 def test_what_cannot_be_written_is_refused(objective: str, constraints: str) -> None:
     certificate = qe.minimize(objective, constraints, process=False).certificate
     assert certificate is not None

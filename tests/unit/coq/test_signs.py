@@ -9,6 +9,7 @@ from qe.errors import Unable
 from qe.formula.build import exists
 from qe.formula.syntax import And, Atom, Formula
 from qe.io.text import read
+from tests.tables import each
 
 
 def parts(text: str) -> tuple[Formula, ...]:
@@ -40,7 +41,7 @@ def test_a_quantified_part_holds_or_does_not() -> None:
     assert list(tree.quantified.values()) == [some]
 
 
-@pytest.mark.parametrize("text", ["x > 0 or y > 0", "x /= 0 and (y = 0 or z < 0)", "x >= 0 and x <= 0"])
+@each("x > 0 or y > 0", "x /= 0 and (y = 0 or z < 0)", "x >= 0 and x <= 0")
 def test_what_can_be_true_has_no_tree(text: str) -> None:
     with pytest.raises(Unable, match="do not exclude"):
         Tree(parts(text), [], []).text()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 from math import asin, sqrt
 
-import pytest
 from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
@@ -23,6 +22,7 @@ from qe.exact.enclosure import (
 )
 from qe.exact.ring import Poly, Ring
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.var("x"), RING.var("y")
@@ -69,18 +69,15 @@ def test_the_mean_over_a_small_box_is_second_order() -> None:
     assert contains((x * x).mean(), 1 / 3)
 
 
-@pytest.mark.parametrize(
-    ("function", "exact"),
-    [
-        (lambda x: x + x, lambda v: 2 * v),
-        (lambda x: x * x - x, lambda v: v * v - v),
-        (lambda x: -x, lambda v: -v),
-        (lambda x: x.inverse(), lambda v: 1 / v),
-        (lambda x: x.root(), sqrt),
-        (lambda x: x.over(3), lambda v: v / 3),
-        (lambda x: x.scaled_by(-5), lambda v: -5 * v),
-        (lambda x: x.over(4).arcsine(), lambda v: asin(v / 4)),
-    ],
+@each(
+    (lambda x: x + x, lambda v: 2 * v),
+    (lambda x: x * x - x, lambda v: v * v - v),
+    (lambda x: -x, lambda v: -v),
+    (lambda x: x.inverse(), lambda v: 1 / v),
+    (lambda x: x.root(), sqrt),
+    (lambda x: x.over(3), lambda v: v / 3),
+    (lambda x: x.scaled_by(-5), lambda v: -5 * v),
+    (lambda x: x.over(4).arcsine(), lambda v: asin(v / 4)),
 )
 def test_functions_and_their_slopes(function, exact) -> None:  # type: ignore[no-untyped-def]
     low, high = Fraction(1), Fraction(5, 4)
@@ -104,19 +101,16 @@ def test_where_a_derivative_is_unbounded_it_is_not_said() -> None:
     assert (zero.root() + zero).slope is None and (zero.root() * zero).slope is None
 
 
-@pytest.mark.parametrize(
-    ("poly", "k", "exact"),
-    [
-        (Y - 3 * X, 1, lambda x: 3 * x),
-        (2 * Y + X**2, 1, lambda x: -x * x / 2),
-        (Y**2 - X, 1, lambda x: -sqrt(x)),
-        (Y**2 - X, 2, sqrt),
-        (X - Y**2, 1, lambda x: -sqrt(x)),
-        (X - Y**2, 2, sqrt),
-        (Y**3 - X, 1, lambda x: x ** (1 / 3)),
-        ((Y - X) * (Y + X) * (Y - 5), 3, lambda x: 5.0),
-        ((Y - X) * (Y + X) * (Y - 5), 2, lambda x: x),
-    ],
+@each(
+    (Y - 3 * X, 1, lambda x: 3 * x),
+    (2 * Y + X**2, 1, lambda x: -x * x / 2),
+    (Y**2 - X, 1, lambda x: -sqrt(x)),
+    (Y**2 - X, 2, sqrt),
+    (X - Y**2, 1, lambda x: -sqrt(x)),
+    (X - Y**2, 2, sqrt),
+    (Y**3 - X, 1, lambda x: x ** (1 / 3)),
+    ((Y - X) * (Y + X) * (Y - 5), 3, lambda x: 5.0),
+    ((Y - X) * (Y + X) * (Y - 5), 2, lambda x: x),
 )
 def test_roots(poly: Poly, k: int, exact) -> None:  # type: ignore[no-untyped-def]
     with precision(120):

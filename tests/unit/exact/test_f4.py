@@ -10,6 +10,7 @@ from flint import nmod_mpoly_ctx
 from qe.errors import Unable
 from qe.exact.f4 import Trace, Unlucky, learned
 from qe.exact.packed import PackedMonomials
+from tests.tables import each
 from tests.unit.exact.famous_systems import Terms, cyclic, katsura
 
 PRIMES = (67108859, 67108837, 67108819)
@@ -23,7 +24,7 @@ def homogeneous(polys: list[Terms], monomials: PackedMonomials) -> list[dict[int
     return found
 
 
-@pytest.mark.parametrize("polys", [katsura(3), cyclic(4)])
+@each(katsura(3), cyclic(4))
 def test_every_prime_has_a_groebner_basis_of_the_ideal(polys: list[Terms]) -> None:
     monomials = PackedMonomials(len(next(iter(polys[0]))) + 1, 16)
     given = homogeneous(polys, monomials)

@@ -17,6 +17,7 @@ from qe.exact.modular_groebner import FIRST_PRIME, Work, _fraction, _is_basis, m
 from qe.exact.packed import PackedMonomials
 from qe.exact.quotient import Quotient
 from qe.exact.ring import Poly, Ring
+from tests.tables import each
 from tests.unit.exact.famous_systems import Terms, cyclic, katsura
 
 LONG = Limits(elements=600, terms=4000, bits=40_000, modular=True)
@@ -42,7 +43,7 @@ def plain_reduced(polys: list[Terms], size: int) -> set[str]:
     return {str(g) for g in found.autoreduction(groebner=True)}
 
 
-@pytest.mark.parametrize("polys", [katsura(3), katsura(4), cyclic(4), cyclic(5)])
+@each(katsura(3), katsura(4), cyclic(4), cyclic(5))
 def test_known_systems(polys: list[Terms]) -> None:
     size = len(next(iter(polys[0])))
     assert reduced(modular_basis(polys, size), size) == plain_reduced(polys, size)

@@ -16,6 +16,7 @@ from qe.exact.point_values import angle as angle_of
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("a", "x"))
 A, X = RING.gen(0), RING.gen(1)
@@ -35,16 +36,13 @@ def test_roots_above_a_point() -> None:
     assert above(ROOT2, (A**2 - 2) * X**2 + X - A) == pytest.approx([math.sqrt(2)])  # the degree drops
 
 
-@pytest.mark.parametrize(
-    ("f", "multiple"),
-    [
-        ((X - A) ** 2 * (X - 1), [False, True]),
-        ((X - A) * (X - 1), [False, False]),
-        ((X - A) ** 3 * (X - 1) ** 2, [True, True]),
-        ((X**2 - 2) * (X - A), [False, True]),  # sqrt 2 is a root of both factors
-        ((X**2 + 1) ** 2 * (X - A), [False]),
-        (X**2 + 1, []),
-    ],
+@each(
+    ((X - A) ** 2 * (X - 1), [False, True]),
+    ((X - A) * (X - 1), [False, False]),
+    ((X - A) ** 3 * (X - 1) ** 2, [True, True]),
+    ((X**2 - 2) * (X - A), [False, True]),  # sqrt 2 is a root of both factors
+    ((X**2 + 1) ** 2 * (X - A), [False]),
+    (X**2 + 1, []),
 )
 def test_which_roots_are_multiple(f: object, multiple: list[bool]) -> None:
     roots = roots_above(Point.of(RING, [ROOT2]), 1, f)  # type: ignore[arg-type]
@@ -77,7 +75,7 @@ def test_coordinates_of_several_levels() -> None:
     assert float(low) == pytest.approx(expected) and float(high) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize("angle", [0, 0.3, math.pi / 2, 2, 3.1, -0.2, -1.6, -3.1])
+@each(0, 0.3, math.pi / 2, 2, 3.1, -0.2, -1.6, -3.1)
 def test_angles_in_all_quadrants(angle: float) -> None:
     found = angle_of(Ball(arb(math.cos(angle), 1e-12)), Ball(arb(math.sin(angle), 1e-12)), 60)
     low, high = found.ends

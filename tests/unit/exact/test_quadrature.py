@@ -10,6 +10,7 @@ import pytest
 from qe.errors import Unable
 from qe.exact import quadrature
 from qe.exact.quadrature import root_integral
+from tests.tables import each
 
 ZERO, ONE = Fraction(0), Fraction(1)
 
@@ -18,16 +19,13 @@ def exactly(*coefficients: int) -> list[tuple[Fraction, Fraction]]:
     return [(Fraction(c), Fraction(c)) for c in coefficients]
 
 
-@pytest.mark.parametrize("digits", [3, 9, 20])
-@pytest.mark.parametrize(
-    ("factor", "radicand", "low", "high", "value"),
-    [
-        ((1,), (4,), ZERO, ONE, 2.0),
-        ((0, 1), (1,), ZERO, ONE, 0.5),
-        ((1, -2), (9,), Fraction(1, 2), ONE, 0.75),  # the factor is negative: its size counts
-        ((1,), (1, 0, 4), ZERO, ONE, (2 * sqrt(5) + asinh(2)) / 4),
-        ((2,), (1, 0, -1), ZERO, Fraction(1, 2), pi / 6 + sqrt(3) / 4),
-    ],
+@each(3, 9, 20)
+@each(
+    ((1,), (4,), ZERO, ONE, 2.0),
+    ((0, 1), (1,), ZERO, ONE, 0.5),
+    ((1, -2), (9,), Fraction(1, 2), ONE, 0.75),  # the factor is negative: its size counts
+    ((1,), (1, 0, 4), ZERO, ONE, (2 * sqrt(5) + asinh(2)) / 4),
+    ((2,), (1, 0, -1), ZERO, Fraction(1, 2), pi / 6 + sqrt(3) / 4),
 )
 def test_closed_forms(
     factor: tuple[int, ...], radicand: tuple[int, ...], low: Fraction, high: Fraction, value: float, digits: int

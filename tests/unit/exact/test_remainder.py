@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -14,6 +13,7 @@ from qe.exact.remainder import common_coefficients, squarefree_coefficients
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import FibreRoot, Point
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
 X, Y, Z = (RING.gen(i) for i in range(3))
@@ -60,16 +60,13 @@ def test_squarefree_parts_have_the_same_roots(point: Point, poly: Poly, power: i
     assert len(again) == len(coefficients)
 
 
-@pytest.mark.parametrize(
-    ("f", "g", "degree"),
-    [
-        (Z**2 - X, Z**2 - X, 2),
-        ((Z - X) * (Z - 1), (Z + X) * (Z - 1), 1),
-        (Z**2 - 2, Z - X, 1),  # only because x^2 = 2
-        (Z**3 - 2, Z - X, 0),
-        ((X**2 - 2) * Z**3 + Z - X, Z - X, 1),  # the leading coefficient vanishes
-        (Z - X, (X**2 - 2) * Z, 1),  # the other one is zero
-    ],
+@each(
+    (Z**2 - X, Z**2 - X, 2),
+    ((Z - X) * (Z - 1), (Z + X) * (Z - 1), 1),
+    (Z**2 - 2, Z - X, 1),  # only because x^2 = 2
+    (Z**3 - 2, Z - X, 0),
+    ((X**2 - 2) * Z**3 + Z - X, Z - X, 1),  # the leading coefficient vanishes
+    (Z - X, (X**2 - 2) * Z, 1),  # the other one is zero
 )
 def test_common_divisors_over_the_square_root_of_two(f: Poly, g: Poly, degree: int) -> None:
     (_, root) = real_roots((X**2 - 2).to_univariate(0))

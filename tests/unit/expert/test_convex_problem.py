@@ -13,6 +13,7 @@ from qe.expert.arithmetic.numbers import read_field
 from qe.expert.arithmetic.residue import Residue, of_rationals
 from qe.expert.convex_problem import Equation, Weighting, read_problem
 from qe.proof.entry import Entry
+from tests.tables import each
 
 SQRT2 = read_field(Entry({"minimal_polynomial": ["-2", "0", "1"], "interval": ["1", "2"]}, "field"), None)
 ROOT = of_rationals([Fraction(0), Fraction(1)])
@@ -110,16 +111,13 @@ def test_signs_of_weights() -> None:
         assert error.value.step == f"weights[{2 * place}]"
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "names", "reason"),
-    [
-        (SADDLE, [], ["x", "y"], "the objective is not convex"),
-        (LINE, [(SADDLE, "<=")], ["x", "y"], "a constraint that is not convex"),
-        (LINE, [(DISC, "=")], ["x", "y"], "a nonlinear equation"),
-        (LINE, [(DISC, ">=")], ["x", "y"], "expected <=, < or ="),
-        (LINE, [], ["x", "x"], "distinct names"),
-        (LINE, [], ["x", ""], "distinct names"),
-    ],
+@each(
+    (SADDLE, [], ["x", "y"], "the objective is not convex"),
+    (LINE, [(SADDLE, "<=")], ["x", "y"], "a constraint that is not convex"),
+    (LINE, [(DISC, "=")], ["x", "y"], "a nonlinear equation"),
+    (LINE, [(DISC, ">=")], ["x", "y"], "expected <=, < or ="),
+    (LINE, [], ["x", "x"], "distinct names"),
+    (LINE, [], ["x", ""], "distinct names"),
 )
 def test_problems_that_are_not_convex(objective: Any, constraints: Any, names: list[str], reason: str) -> None:
     with pytest.raises(CertificateRejected, match=reason):

@@ -10,6 +10,7 @@ from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
 from qe.expert.critical_points import MOST_SETS, MOST_VARIABLES, active_sets, vanishing
 from qe.proof.entry import Entry, poly_to_text
+from tests.tables import each
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.var(name) for name in RING.names)
@@ -92,18 +93,15 @@ def test_a_chain_leads_to_the_parameters() -> None:
     assert vanishing([A - 1, X], Entry([], "chain"), FREE, RING) == [A - 1]
 
 
-@pytest.mark.parametrize(
-    ("given", "reason"),
-    [
-        (chain(), "no polynomial in the parameters"),
-        (chain([(0, 1)]), "no polynomial in the parameters"),
-        (chain([(0, 1), (0, -1)]), "the combination is 0"),
-        (chain([]), "the combination is 0"),
-        (chain([(2, 1)]), "number of a polynomial before it"),
-        (chain([(0, X), (1, 1)], [(3, 1)]), "number of a polynomial before it"),
-        (Entry([[[0]]], "chain"), "number of a polynomial"),
-        (Entry([[[0, "x", "1"]]], "chain"), "number of a polynomial"),
-    ],
+@each(
+    (chain(), "no polynomial in the parameters"),
+    (chain([(0, 1)]), "no polynomial in the parameters"),
+    (chain([(0, 1), (0, -1)]), "the combination is 0"),
+    (chain([]), "the combination is 0"),
+    (chain([(2, 1)]), "number of a polynomial before it"),
+    (chain([(0, X), (1, 1)], [(3, 1)]), "number of a polynomial before it"),
+    (Entry([[[0]]], "chain"), "number of a polynomial"),
+    (Entry([[[0, "x", "1"]]], "chain"), "number of a polynomial"),
 )
 def test_chains_that_prove_nothing(given: Any, reason: str) -> None:
     with pytest.raises(CertificateRejected, match=reason):

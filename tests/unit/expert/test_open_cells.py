@@ -12,6 +12,7 @@ from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.expert.open_cells import open_cells
 from qe.proof.entry import Entry
+from tests.tables import each
 from tests.unit.certify.claims import limits
 
 RING = Ring.of(("x", "y"))
@@ -39,20 +40,17 @@ def test_one_level_and_no_factors() -> None:
     assert cells([[X**2 + 1]], [["0", "all"]]) == [((0,), "all")]
 
 
-@pytest.mark.parametrize(
-    ("levels", "samples", "reason"),
-    [
-        ([[X]], ["1"], "one by one"),
-        ([[X]], ["-1", "1", "2"], "one by one"),
-        ([[X]], ["1", "-1"], "ascend"),
-        ([[X]], ["-1", "-1", "1"], "ascend"),
-        ([[X]], ["0", "1"], "a sample is a root"),
-        ([[X, X - 1]], ["-1", "2"], "one by one"),
-        ([[X, X - 1]], ["-1", "2", "3"], "one by one"),
-        ([[X**2 - 2]], ["-2", "2"], "one by one"),
-        ([[(X - 1) * (X - 2) * (X - 3)]], ["0", "4"], "one by one"),  # three roots in one gap
-        ([[]], [], "for each sector"),
-    ],
+@each(
+    ([[X]], ["1"], "one by one"),
+    ([[X]], ["-1", "1", "2"], "one by one"),
+    ([[X]], ["1", "-1"], "ascend"),
+    ([[X]], ["-1", "-1", "1"], "ascend"),
+    ([[X]], ["0", "1"], "a sample is a root"),
+    ([[X, X - 1]], ["-1", "2"], "one by one"),
+    ([[X, X - 1]], ["-1", "2", "3"], "one by one"),
+    ([[X**2 - 2]], ["-2", "2"], "one by one"),
+    ([[(X - 1) * (X - 2) * (X - 3)]], ["0", "4"], "one by one"),  # three roots in one gap
+    ([[]], [], "for each sector"),
 )
 def test_samples_that_do_not_separate_the_roots(levels: Any, samples: list[str], reason: str) -> None:
     with pytest.raises(CertificateRejected, match=reason):
@@ -65,20 +63,17 @@ def changed(change: Any) -> Any:
     return stack
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        lambda s: s.pop(),
-        lambda s: s.pop(0),
-        lambda s: s[1][1].pop(),
-        lambda s: s[1][1].pop(1),
-        lambda s: s[0].__setitem__(0, "1"),
-        lambda s: s[1].__setitem__(0, "0"),
-        lambda s: s[1][1][1].__setitem__(0, "2"),
-        lambda s: s[1][1].append(["4", "further"]),
-        lambda s: s[1].append("more"),
-        lambda s: s[0].__setitem__(1, []),
-    ],
+@each(
+    lambda s: s.pop(),
+    lambda s: s.pop(0),
+    lambda s: s[1][1].pop(),
+    lambda s: s[1][1].pop(1),
+    lambda s: s[0].__setitem__(0, "1"),
+    lambda s: s[1].__setitem__(0, "0"),
+    lambda s: s[1][1][1].__setitem__(0, "2"),
+    lambda s: s[1][1].append(["4", "further"]),
+    lambda s: s[1].append("more"),
+    lambda s: s[0].__setitem__(1, []),
 )
 def test_any_change_of_a_stack_is_refused(change: Any) -> None:
     with pytest.raises(CertificateRejected):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
-
 from qe.expert.roots_counted import MOST_ROOTS, check_roots_counted
+from tests.tables import each
 from tests.unit.certify.claims import objection
 
 ENOUGH = "(ex y, z. y^2 = a and z^2 = a and y < z)"
@@ -31,12 +30,9 @@ FROM_BELOW = {"far": ">", "far=": ">=", "near": "<", "near=": "<="}
 FROM_ABOVE = {"far": "<", "far=": "<=", "near": ">", "near=": ">="}
 
 
-@pytest.mark.parametrize(
-    ("k", "names", "said"),
-    [
-        (2, FROM_BELOW, meanings(before("<", "<"), before("<=", "<="))),
-        (-2, FROM_ABOVE, meanings(before(">", ">"), before(">=", ">="))),
-    ],
+@each(
+    (2, FROM_BELOW, meanings(before("<", "<"), before("<=", "<="))),
+    (-2, FROM_ABOVE, meanings(before(">", ">"), before(">=", ">="))),
 )
 def test_each_relation_has_its_own_formula(k: int, names: dict[str, str], said: dict[str, str]) -> None:
     for place in said:

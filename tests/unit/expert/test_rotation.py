@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
-
 from qe.expert.rotation import check_rotation
+from tests.tables import each
 from tests.unit.certify.claims import objection
 
 
@@ -24,58 +23,52 @@ ANGLE = "ex x, y, z, c. x^2 + y^2 = a and x*z + y*c = b and z^2 + c^2 = 1"
 SPACE = "ex x, y, z. x^2 + y^2 + z^2 = a and z > b"
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "turns"),
-    [
-        (DISC, "ex x. x >= 0 and x^2 > a and x^2 < b", by(turn("y", "x", XY))),
-        (DISC, "ex y. y >= 0 and y^2 > a and y^2 < b", by(turn("x", "y", XY))),
-        ("all x, y. x^2 + y^2 > a", "all x. x < 0 or x^2 > a", by(turn("y", "x", XY))),
-        (
-            ANGLE,
-            "ex x, z, c. x >= 0 and x^2 = a and x*z = b and z^2 + c^2 = 1",
-            by(turn("y", "x", XY, ("z", "c", "1"))),
-        ),
-        (SPACE, "ex x, z. x >= 0 and x^2 + z^2 = a and z > b", by(turn("y", "x", XY))),
-        (
-            "ex x, y, z. x^2 + y^2 + z^2 = a",
-            "ex x. x >= 0 and x^2 = a",
-            by(turn("z", "y", ("y", "z", "1")), turn("y", "x", XY)),
-        ),
-        (
-            "ex x, y. x^2 + y^2 < a and (ex z, c. x*z + y*c > b)",
-            "ex x. x >= 0 and x^2 < a and (ex z, c. x*z > b)",
-            by(turn("y", "x", XY, ("z", "c", "1"))),
-        ),
-    ],
+@each(
+    (DISC, "ex x. x >= 0 and x^2 > a and x^2 < b", by(turn("y", "x", XY))),
+    (DISC, "ex y. y >= 0 and y^2 > a and y^2 < b", by(turn("x", "y", XY))),
+    ("all x, y. x^2 + y^2 > a", "all x. x < 0 or x^2 > a", by(turn("y", "x", XY))),
+    (
+        ANGLE,
+        "ex x, z, c. x >= 0 and x^2 = a and x*z = b and z^2 + c^2 = 1",
+        by(turn("y", "x", XY, ("z", "c", "1"))),
+    ),
+    (SPACE, "ex x, z. x >= 0 and x^2 + z^2 = a and z > b", by(turn("y", "x", XY))),
+    (
+        "ex x, y, z. x^2 + y^2 + z^2 = a",
+        "ex x. x >= 0 and x^2 = a",
+        by(turn("z", "y", ("y", "z", "1")), turn("y", "x", XY)),
+    ),
+    (
+        "ex x, y. x^2 + y^2 < a and (ex z, c. x*z + y*c > b)",
+        "ex x. x >= 0 and x^2 < a and (ex z, c. x*z > b)",
+        by(turn("y", "x", XY, ("z", "c", "1"))),
+    ),
 )
 def test_turned_into_an_axis(before: str, after: str, turns: Any) -> None:
     assert objection(check_rotation, before, after, turns) == ""
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "turns", "reason"),
-    [
-        (DISC, "ex x. x^2 > a and x^2 < b", by(turn("y", "x", XY)), "not the block with 0"),
-        (DISC, "ex x. x > 0 and x^2 > a and x^2 < b", by(turn("y", "x", XY)), "not the block with 0"),
-        (DISC, "ex x. x <= 0 and x^2 > a and x^2 < b", by(turn("y", "x", XY)), "not the block with 0"),
-        ("ex x, y. x^2 - y^2 > a", "ex x. x >= 0 and x^2 > a", by(turn("y", "x", XY)), "not constant along"),
-        ("ex x, y. x^2 + 2*y^2 > a", "ex x. x >= 0 and x^2 > a", by(turn("y", "x", XY)), "not constant along"),
-        (ANGLE, "true", by(turn("y", "x", XY)), "not constant along"),  # the other vector must turn, too
-        (ANGLE, "true", by(turn("y", "x", XY, ("z", "c", "-1"))), "not constant along"),
-        (ANGLE, "true", by(turn("y", "x", XY, ("z", "c", "2"))), "not constant along"),
-        (DISC, "true", by(turn("y", "x", ("x", "y", "2"))), "turned into each other alone"),
-        (SPACE, "true", by(turn("y", "x", XY, ("y", "z", "1"))), "turned into each other alone"),
-        (DISC, "true", by(turn("y", "y", XY)), "turned into each other alone"),
-        (DISC, "true", by(turn("a", "x", ("x", "a", "1"))), "one quantifier binds"),
-        (DISC, "true", by(turn("y", "x", XY, XY)), "each pair once"),
-        (DISC, "true", by(turn("y", "x", XY, ("y", "x", "1"))), "each pair once"),
-        (DISC, "true", by(turn("y", "x", ("x", "y", "0"))), "each pair once"),
-        (DISC, "true", by(turn("y", "x", ("x", "x", "1"))), "two variables"),
-        ("ex x. b > 0 and (ex y. x^2 + y^2 > a)", "true", by(turn("y", "x", XY)), "one quantifier binds"),
-        ("x^2 + y^2 > a", "true", by(turn("y", "x", XY)), "expected a block"),
-        ("ex x, y. x^2 + y^2 > a and (ex x. x > b)", "true", by(turn("y", "x", XY)), "bound twice"),
-        ("ex x, y. x > root(1, x^2 + y^2 - a, x)", "true", by(turn("y", "x", XY)), "not constant along"),
-    ],
+@each(
+    (DISC, "ex x. x^2 > a and x^2 < b", by(turn("y", "x", XY)), "not the block with 0"),
+    (DISC, "ex x. x > 0 and x^2 > a and x^2 < b", by(turn("y", "x", XY)), "not the block with 0"),
+    (DISC, "ex x. x <= 0 and x^2 > a and x^2 < b", by(turn("y", "x", XY)), "not the block with 0"),
+    ("ex x, y. x^2 - y^2 > a", "ex x. x >= 0 and x^2 > a", by(turn("y", "x", XY)), "not constant along"),
+    ("ex x, y. x^2 + 2*y^2 > a", "ex x. x >= 0 and x^2 > a", by(turn("y", "x", XY)), "not constant along"),
+    (ANGLE, "true", by(turn("y", "x", XY)), "not constant along"),  # the other vector must turn, too
+    (ANGLE, "true", by(turn("y", "x", XY, ("z", "c", "-1"))), "not constant along"),
+    (ANGLE, "true", by(turn("y", "x", XY, ("z", "c", "2"))), "not constant along"),
+    (DISC, "true", by(turn("y", "x", ("x", "y", "2"))), "turned into each other alone"),
+    (SPACE, "true", by(turn("y", "x", XY, ("y", "z", "1"))), "turned into each other alone"),
+    (DISC, "true", by(turn("y", "y", XY)), "turned into each other alone"),
+    (DISC, "true", by(turn("a", "x", ("x", "a", "1"))), "one quantifier binds"),
+    (DISC, "true", by(turn("y", "x", XY, XY)), "each pair once"),
+    (DISC, "true", by(turn("y", "x", XY, ("y", "x", "1"))), "each pair once"),
+    (DISC, "true", by(turn("y", "x", ("x", "y", "0"))), "each pair once"),
+    (DISC, "true", by(turn("y", "x", ("x", "x", "1"))), "two variables"),
+    ("ex x. b > 0 and (ex y. x^2 + y^2 > a)", "true", by(turn("y", "x", XY)), "one quantifier binds"),
+    ("x^2 + y^2 > a", "true", by(turn("y", "x", XY)), "expected a block"),
+    ("ex x, y. x^2 + y^2 > a and (ex x. x > b)", "true", by(turn("y", "x", XY)), "bound twice"),
+    ("ex x, y. x > root(1, x^2 + y^2 - a, x)", "true", by(turn("y", "x", XY)), "not constant along"),
 )
 def test_what_breaks_a_rotation(before: str, after: str, turns: Any, reason: str) -> None:
     assert reason in objection(check_rotation, before, after, turns)

@@ -14,6 +14,7 @@ from qe.expert.arithmetic.numbers import read_field
 from qe.expert.arithmetic.residue import of_rationals
 from qe.expert.solutions import check_solutions, value
 from qe.proof.entry import Entry
+from tests.tables import each
 
 SQRT2 = {"minimal_polynomial": ["-2", "0", "1"], "interval": ["1", "2"]}
 MINUS = {"minimal_polynomial": ["-2", "0", "1"], "interval": ["-2", "-1"]}
@@ -39,47 +40,41 @@ def payload(**other: Any) -> dict[str, Any]:
 ONE = [payload()["solutions"][1]]
 
 
-@pytest.mark.parametrize(
-    "other",
-    [
-        {},
-        {"weights": [3, 2]},
-        {"solutions": payload()["solutions"][::-1]},
-        {"conditions": [["x", ">"]], "solutions": ONE},
-        {"conditions": [["y", ">"]], "solutions": ONE},
-        {"conditions": [["x", ">"], ["y - 2", ">="], ["x - 1", "/="]], "solutions": ONE},
-        {"conditions": [["x^2 - 2", ">="]]},
-        {"conditions": [["x^2 - 2", ">"]], "solutions": []},
-        {"conditions": [["x^2 - 2", "/="]], "solutions": []},
-        {"conditions": [["x", "/="]]},
-    ],
+@each(
+    {},
+    {"weights": [3, 2]},
+    {"solutions": payload()["solutions"][::-1]},
+    {"conditions": [["x", ">"]], "solutions": ONE},
+    {"conditions": [["y", ">"]], "solutions": ONE},
+    {"conditions": [["x", ">"], ["y - 2", ">="], ["x - 1", "/="]], "solutions": ONE},
+    {"conditions": [["x^2 - 2", ">="]]},
+    {"conditions": [["x^2 - 2", ">"]], "solutions": []},
+    {"conditions": [["x^2 - 2", "/="]], "solutions": []},
+    {"conditions": [["x", "/="]]},
 )
 def test_the_solutions(other: Any) -> None:
     check_solutions(payload(**other))
 
 
-@pytest.mark.parametrize(
-    ("other", "reason"),
-    [
-        ({"solutions": ONE}, "there are 2 solutions, and 1 are listed"),
-        ({"solutions": []}, "there are 2 solutions"),
-        ({"solutions": ONE * 2}, "meets that of another"),
-        ({"conditions": [["x", ">"]]}, "do not satisfy a condition"),
-        ({"conditions": [["x^2 - 2", ">"]]}, "do not satisfy a condition"),
-        ({"conditions": [["x", "<"]]}, 'expected ">" or ">=" or "/="'),
-        ({"form": [0, 1]}, "the linear form has another value"),
-        ({"form": [2, 0]}, "the linear form has another value"),
-        ({"form": [1]}, "expected 2 integers"),
-        ({"form": [1, True]}, "expected an integer"),
-        ({"weights": [1]}, "expected 2 integers"),
-        ({"weights": [1, 0]}, "expected an integer of at least 1"),
-        ({"weights": [1, 10**6]}, "at most"),
-        ({"order": ["x", "x"]}, "listed twice"),
-        ({"order": []}, "different variables"),
-        ({"equations": ["x^2 - 2"], "solutions": []}, "infinitely many"),
-        ({"equations": ["x^2 - 2", "x - y + 2"]}, "do not satisfy an equation"),
-        ({"solutions": [point(SQRT2, ["0", "1"])]}, "expected 2 numbers"),
-    ],
+@each(
+    ({"solutions": ONE}, "there are 2 solutions, and 1 are listed"),
+    ({"solutions": []}, "there are 2 solutions"),
+    ({"solutions": ONE * 2}, "meets that of another"),
+    ({"conditions": [["x", ">"]]}, "do not satisfy a condition"),
+    ({"conditions": [["x^2 - 2", ">"]]}, "do not satisfy a condition"),
+    ({"conditions": [["x", "<"]]}, 'expected ">" or ">=" or "/="'),
+    ({"form": [0, 1]}, "the linear form has another value"),
+    ({"form": [2, 0]}, "the linear form has another value"),
+    ({"form": [1]}, "expected 2 integers"),
+    ({"form": [1, True]}, "expected an integer"),
+    ({"weights": [1]}, "expected 2 integers"),
+    ({"weights": [1, 0]}, "expected an integer of at least 1"),
+    ({"weights": [1, 10**6]}, "at most"),
+    ({"order": ["x", "x"]}, "listed twice"),
+    ({"order": []}, "different variables"),
+    ({"equations": ["x^2 - 2"], "solutions": []}, "infinitely many"),
+    ({"equations": ["x^2 - 2", "x - y + 2"]}, "do not satisfy an equation"),
+    ({"solutions": [point(SQRT2, ["0", "1"])]}, "expected 2 numbers"),
 )
 def test_what_is_refused(other: Any, reason: str) -> None:
     with pytest.raises(CertificateRejected, match=reason):

@@ -1,4 +1,4 @@
-"""What a node knows about itself: right, found once, and no part of what the node is."""
+"""Formulas as values: nodes, relations, constructors, counting, blocks."""
 
 from __future__ import annotations
 
@@ -8,22 +8,34 @@ import pickle
 import subprocess
 import sys
 import time
-from itertools import pairwise
+from collections.abc import Callable
+from itertools import pairwise, permutations
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+import qe
+from qe.api.eliminate import read_formula
+from qe.errors import InternalError
 from qe.exact.ring import Ring
-from qe.formula.build import atom, conj, convert, disj, exists, neg, root_atom
+from qe.formula import block as module
+from qe.formula.block import Block
+from qe.formula.build import atom, conj, convert, disj, exists, forall, iff, implies, neg, root_atom
+from qe.formula.counting import without_root_atoms
+from qe.formula.evaluate import holds_at, substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
-from qe.formula.traverse import atoms, children, is_quantifier_free, map_atoms, ring_of
+from qe.formula.traverse import atoms, children, has_root_atoms, is_quantifier_free, map_atoms, ring_of
 from qe.io.text import read
 from qe.simplify.simplify import _Recent, simplify
-from tests.strategies import formulas
+from tests.strategies import RELATIONS, formulas
+from tests.tables import each
 
 ROOT = Path(__file__).resolve().parents[3]
+
+
 FACTS = ("_free", "_hash", "_is_quantifier_free", "_ring")
 
 
@@ -52,13 +64,10 @@ def test_nodes_know_what_occurs_in_them(formula: Formula) -> None:
         assert is_quantifier_free(formula) is not quantified(formula)
 
 
-@pytest.mark.parametrize(
-    ("text", "free"),
-    [
-        ("x > 0 and (ex y. y > x)", ("x",)),
-        ("(ex y. y > x) or z = 0 or x = 1", ("z", "x")),
-        ("not (all x, z. x*y > z)", ("y",)),
-    ],
+@each(
+    ("x > 0 and (ex y. y > x)", ("x",)),
+    ("(ex y. y > x) or z = 0 or x = 1", ("z", "x")),
+    ("not (all x, z. x*y > z)", ("y",)),
 )
 def test_one_quantifier_among_other_parts(text: str, free: tuple[str, ...]) -> None:
     formula = read(text)
@@ -174,3 +183,145 @@ def test_hashes_are_the_same_in_every_process_of_one_seed() -> None:
     seeded = {**os.environ, "PYTHONHASHSEED": "1"}
     found = {subprocess.run(run, capture_output=True, check=True, env=seeded, cwd=ROOT).stdout for _ in range(2)}
     assert len(found) == 1
+
+
+SIGNS = (-1, 0, 1)
+
+
+@pytest.mark.parametrize("relation", list(Relation))
+def test_negation_turning_and_strictness_by_definition(relation: Relation) -> None:
+    python = {"=": "==", "/=": "!="}.get(relation.value, relation.value)
+    for sign in SIGNS:
+        truth = eval(f"{sign} {python} 0")
+        assert relation.holds(sign) is truth
+        assert (sign in relation.signs) is truth
+        assert relation.negated.holds(sign) is not truth
+        assert relation.flipped.holds(-sign) is truth
+    assert relation.negated.negated is relation and relation.flipped.flipped is relation
+    assert relation.is_strict is (0 not in relation.signs)
+
+
+NARROW, WIDE = Ring.of(("x",)), Ring.of(("x", "y"))
+
+
+SMALL = atom(NARROW.var("x"), Relation.GT)
+
+
+LARGE = atom(WIDE.var("x") - 1, Relation.LT)
+
+
+ROOT_ATOM = root_atom("x", Relation.EQ, WIDE.var("x") ** 3 - WIDE.var("y"), 1)
+
+
+@each(conj, disj, And, Or)
+@pytest.mark.parametrize(
+    "foreign",
+    [
+        LARGE,
+        ROOT_ATOM,
+        neg(ROOT_ATOM),
+        conj((LARGE, ROOT_ATOM)),
+        disj((LARGE, ROOT_ATOM)),
+        exists(["y"], ROOT_ATOM),
+        forall(["x"], LARGE),
+    ],
+    ids=str,
+)
+def test_a_formula_over_two_rings_is_an_error_where_it_is_built(
+    join: Callable[[tuple[Formula, ...]], Formula], foreign: Formula
+) -> None:
+    own = atom(NARROW.var("x") + 2, Relation.NE)
+    for parts in permutations((SMALL, own, foreign)):
+        with pytest.raises(InternalError, match=r"over two rings: Ring\(x(, y)?\) and Ring\(x(, y)?\)"):
+            join(parts)
+    assert join((SMALL, own)).ring is NARROW
+
+
+@each(implies, iff)
+def test_implications_are_over_one_ring(join: Callable[[Formula, Formula], Formula]) -> None:
+    with pytest.raises(InternalError):
+        join(SMALL, LARGE)
+    assert join(convert(SMALL, WIDE), LARGE).ring is WIDE
+
+
+def test_constants_go_with_every_ring() -> None:
+    assert conj((TRUE, SMALL)) is SMALL
+    assert And((TRUE, SMALL)).ring is NARROW
+    assert And((TRUE, TRUE)).ring is None
+
+
+POLYNOMIALS = ["x^2 - y", "x^3 - 3*x + y", "y*x^2 + x - 1", "y*x", "x^2*(x - y)", "x^2 + 1 + y^2", "y^2 - 1"]
+
+
+INDICES = [1, 2, 3, -1, -2, -3]
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.sampled_from(POLYNOMIALS),
+    st.sampled_from(INDICES),
+    RELATIONS,
+    st.integers(-4, 4),
+    st.sampled_from([-1, 0, 1, 2, 4]),
+)
+def test_same_truth_at_points(text: str, k: int, relation: Relation, x: int, y: int) -> None:
+    sides = read_formula(f"{text} = 0 or x = y")
+    poly = next(iter(sides.args)).poly  # type: ignore[attr-defined]
+    given_atom = root_atom("x", relation, poly, k)
+    counted = without_root_atoms(given_atom)
+    assert not has_root_atoms(counted) and set(counted.free) <= {"x", "y"}
+    assert qe.decide(substituted(counted, {"x": x, "y": y})) is holds_at(given_atom, {"x": x, "y": y})
+
+
+def test_formulas_without_root_atoms_are_left_alone() -> None:
+    formula = read_formula("ex x. x^2 < a")
+    assert without_root_atoms(formula) is formula
+
+
+@each(
+    ("ex c. c <= root(2, 4*b^3 + 27*c^2)", "b < 0"),  # two roots in c only there
+    ("all x. x < root(-1, x^2 - y) or x >= root(-1, x^2 - y)", "y >= 0"),  # false where there is no root
+    ("x = root(1, x^2 - y)", "x^2 = y and x <= 0"),
+    ("all t_0. t_0 > root(1, t_0 - a) -> t_0 > b", "b <= a"),  # the new names are new
+)
+def test_questions_about_roots_are_answered(text: str, expected: str) -> None:
+    answer = qe.eliminate(text)
+    assert answer.formula is not None and not has_root_atoms(answer.formula)
+    assert qe.equivalent(answer.formula, expected)
+    assert qe.equivalent(text, expected)
+
+
+def of(text: str) -> Block:
+    found = Block.of(read(text))
+    assert found is not None
+    return found
+
+
+def test_what_is_read_off_a_block() -> None:
+    block = of("all x, y. a*x^3 + b < 0 or x = 1 or x = 1")
+    assert block.universal and block.is_flat and block.free == ("a", "b")
+    assert (block.degree, block.curved, block.occurring, block.total) == (3, 1, 1, 3)
+    assert [repr(p) for p in block.polynomials] == ["Poly(a*x^3 + b)", "Poly(x - 1)"]
+    assert [str(part) for part in block.conditions] == ["a*x^3 + b >= 0", "x - 1 /= 0"]
+
+
+@each("ex x. x^2 < a or not x = 1", "all x. x^2 > a -> x = 1", "ex x. all y. x = y")
+def test_the_dual_is_existential_and_in_normal_form(text: str) -> None:
+    block = of(text)
+    dual = block.dual
+    assert isinstance(dual.formula, Exists) and dual.body.is_normal and dual.dual is dual
+    assert block.asked(dual.formula) == (block.formula if isinstance(block.formula, ForAll) else dual.formula)
+
+
+def test_the_normal_form_is_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    times: list[object] = []
+    normal = module.nnf
+    monkeypatch.setattr(module, "nnf", lambda *args, **negate: times.append(args) or normal(*args, **negate))
+    block = of("all x. x^2 + a*x > 0 or x < 1")
+    for _ in range(3):
+        assert block.positive is block.dual.body and block.conditions
+    assert len(times) == 1
+
+
+def test_what_is_no_block() -> None:
+    assert Block.of(read("x > 0 and (ex y. y = x)")) is None

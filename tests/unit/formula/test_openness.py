@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,25 +15,23 @@ from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.io.text import read
 from qe.reference import eliminate
 from tests.strategies import formulas, polynomials, rationals
+from tests.tables import each
 
 RING = Ring.of(("a", "x", "y"))
 
 
-@pytest.mark.parametrize(
-    ("text", "block", "open_", "closed"),
-    [
-        ("x > 0 and y /= 0", "x y", True, False),
-        ("x >= 0 or y = 0", "x y", False, True),
-        ("x > 0 and a = 0", "x", True, False),
-        ("x > 0 and a = 0", "a x", False, False),
-        ("a > 0 or x = 0", "x", False, True),
-        ("x < root(1, x^2 - a)", "y", True, True),
-        ("x < root(1, x^2 - a)", "x", False, False),
-        ("x < root(1, x^2 - a)", "a", False, False),
-        ("not x < root(1, x^2 - a)", "a", False, False),
-        ("ex y. x*y > 0", "x", False, False),
-        ("ex y. y > a", "x", True, True),
-    ],
+@each(
+    ("x > 0 and y /= 0", "x y", True, False),
+    ("x >= 0 or y = 0", "x y", False, True),
+    ("x > 0 and a = 0", "x", True, False),
+    ("x > 0 and a = 0", "a x", False, False),
+    ("a > 0 or x = 0", "x", False, True),
+    ("x < root(1, x^2 - a)", "y", True, True),
+    ("x < root(1, x^2 - a)", "x", False, False),
+    ("x < root(1, x^2 - a)", "a", False, False),
+    ("not x < root(1, x^2 - a)", "a", False, False),
+    ("ex y. x*y > 0", "x", False, False),
+    ("ex y. y > a", "x", True, True),
 )
 def test_shapes(text: str, block: str, open_: bool, closed: bool) -> None:
     formula = convert(read(text), RING)

@@ -17,6 +17,7 @@ from qe.exact.groebner import MonomialOrder, groebner_basis
 from qe.exact.polynomial_system import LIMITS
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly
+from tests.tables import each
 from tests.unit.groebner.support import Place, places
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
@@ -88,14 +89,14 @@ def _name(exponents: tuple[int, ...], names: list[str]) -> str:
     return "*".join(parts)
 
 
-@pytest.mark.parametrize("name", [pytest.param("F3", marks=pytest.mark.deep), "F4"])
+@each(pytest.param("F3", marks=pytest.mark.deep), "F4")
 def test_the_straight_lines(name: str, shared: Path) -> None:
     record = json.loads((shared / "corpora" / "ev3" / f"cgs_{name}_L120.json").read_text())
     assert compared(system(120, LINES[name]), record["segments"]) >= 3
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize(("length", "name"), [(120, "cgs_F1_L120"), (112, "cgs_F_L112")])
+@each((120, "cgs_F1_L120"), (112, "cgs_F_L112"))
 def test_the_whole_space(length: int, name: str, shared: Path) -> None:
     record = json.loads((shared / "corpora" / "ev3" / f"{name}.json").read_text())
     assert compared(system(length, None), record["segments"]) >= 10
@@ -111,16 +112,13 @@ PUBLISHED = tuple(reversed(VARIABLES))
 MIXED = ["c1", "s7", "s1", "c7", "c4", "s4"]
 
 
-@pytest.mark.parametrize(
-    ("variables", "order", "line"),
-    [
-        (PUBLISHED, "grevlex", LINES["F4"]),
-        pytest.param(PUBLISHED, "lex", LINES["F4"], marks=pytest.mark.deep),
-        pytest.param(PUBLISHED, "lex", None, marks=pytest.mark.deep),
-        pytest.param(PUBLISHED, "grevlex", None, marks=pytest.mark.deep),
-        pytest.param(MIXED, "grevlex", None, marks=pytest.mark.deep),
-        pytest.param(VARIABLES, "lex", None, marks=pytest.mark.deep),
-    ],
+@each(
+    (PUBLISHED, "grevlex", LINES["F4"]),
+    pytest.param(PUBLISHED, "lex", LINES["F4"], marks=pytest.mark.deep),
+    pytest.param(PUBLISHED, "lex", None, marks=pytest.mark.deep),
+    pytest.param(PUBLISHED, "grevlex", None, marks=pytest.mark.deep),
+    pytest.param(MIXED, "grevlex", None, marks=pytest.mark.deep),
+    pytest.param(VARIABLES, "lex", None, marks=pytest.mark.deep),
 )
 def test_other_orders_of_the_variables(variables: list[str], order: str, line: tuple[str, str, str] | None) -> None:
     """Out of reach for Buchberger's algorithm alone: the same solutions as in the order in which it is quick."""

@@ -21,6 +21,7 @@ from qe.groebner.segment import Segment
 from qe.groebner.signs import SignatureConditions
 from qe.groebner.trace_form import row_scales
 from qe.options import Budget
+from tests.tables import each
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
@@ -53,10 +54,7 @@ def test_only_solutions_where_others_are_positive() -> None:
         assert found.at([b, c]) == expected
 
 
-@pytest.mark.parametrize(
-    ("positive", "counts"),
-    [(["-1"], [0, 0]), (["0"], [0, 0]), (["-1", "1"], [0, 0]), (["2"], [0, 2]), (["2", "x"], [0, 1])],
-)
+@each((["-1"], [0, 0]), (["0"], [0, 0]), (["-1", "1"], [0, 0]), (["2"], [0, 2]), (["2", "x"], [0, 1]))
 def test_numbers_among_the_conditions_have_their_sign(positive: list[str], counts: list[int]) -> None:
     """-1 > 0 counted as if it held."""
     found = qe.real_root_classification(["x^2 - a"], "x", "a", positive=positive, process=False, check=True)
@@ -136,7 +134,7 @@ def test_rows_are_scaled_by_enough(powers: dict[tuple[int, int], int]) -> None:
 ENTRIES = Ring.of(("z",))
 
 
-@pytest.mark.parametrize("size", [1, 2, 3, 4])
+@each(1, 2, 3, 4)
 @settings(max_examples=10)
 @given(data=st.data())
 def test_sign_conditions_of_matrices(size: int, data: st.DataObject) -> None:

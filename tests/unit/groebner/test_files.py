@@ -12,6 +12,7 @@ from hypothesis import given, settings
 import qe
 from qe.exact.ring import Poly
 from tests.certificates.mutation import leaves, lists, replaced, without
+from tests.tables import each
 from tests.unit.groebner.test_system import systems
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
@@ -65,7 +66,7 @@ def texts(whole: Any, *, signed: bool) -> list[str]:
     return found + [json.dumps({k: v for k, v in whole.items() if k != left_out}) for left_out in whole]
 
 
-@pytest.mark.parametrize(("make", "read"), [(lambda: system(faithful=True), SYSTEM), (classes, CLASSES)])
+@each((lambda: system(faithful=True), SYSTEM), (classes, CLASSES))
 def test_damage_is_told_in_one_line(make: Callable[[], Any], read: Callable[[str], Any]) -> None:
     text = make().to_json()
     for damaged in [*texts(json.loads(text), signed=False), text[:-1], text[1:], "", "[]", "{}", "null", text + "}"]:
@@ -74,7 +75,7 @@ def test_damage_is_told_in_one_line(make: Callable[[], Any], read: Callable[[str
         assert "\n" not in str(caught.value) and len(str(caught.value)) < 300
 
 
-@pytest.mark.parametrize(("make", "read"), [(lambda: system(faithful=True), SYSTEM), (classes, CLASSES)])
+@each((lambda: system(faithful=True), SYSTEM), (classes, CLASSES))
 def test_signed_alterations_are_told_or_read_as_they_stand(make: Callable[[], Any], read: Callable[[str], Any]) -> None:
     """A digest that fits proves nothing: whatever is read says what the text says, and nothing else is raised."""
     for altered in texts(json.loads(make().to_json()), signed=True):
@@ -86,18 +87,15 @@ def test_signed_alterations_are_told_or_read_as_they_stand(make: Callable[[], An
             assert json.loads(found.to_json()) == json.loads(altered)
 
 
-@pytest.mark.parametrize(
-    ("entry", "value", "place"),
-    [
-        (("segments", 0, "dimension"), 5, "segments[0].dimension"),
-        (("segments", 0, "basis", 0), "x + +", "segments[0].basis[0]"),
-        (("segments", 0, "equal"), ["x"], "segments[0].equal"),
-        (("variables",), ["a"], "variables"),
-        (("numbers", "w", 0), [-4, 0, 1], "numbers.w"),
-        (("numbers", "w", 1), 2, "numbers.w"),
-        (("constants", "w"), "sqrt(3)", "constants.w"),
-        (("order",), "grevlex", "order"),
-    ],
+@each(
+    (("segments", 0, "dimension"), 5, "segments[0].dimension"),
+    (("segments", 0, "basis", 0), "x + +", "segments[0].basis[0]"),
+    (("segments", 0, "equal"), ["x"], "segments[0].equal"),
+    (("variables",), ["a"], "variables"),
+    (("numbers", "w", 0), [-4, 0, 1], "numbers.w"),
+    (("numbers", "w", 1), 2, "numbers.w"),
+    (("constants", "w"), "sqrt(3)", "constants.w"),
+    (("order",), "grevlex", "order"),
 )
 def test_the_entry_is_named(entry: tuple[str | int, ...], value: Any, place: str) -> None:
     with pytest.raises(qe.InputError) as caught:

@@ -17,6 +17,7 @@ from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
 from qe.formula.evaluate import holds_at
 from qe.groebner.system import condition_of, exact_number
+from tests.tables import each
 from tests.unit.exact.ideal_membership import in_ideal
 from tests.unit.groebner.support import Place, places
 
@@ -119,18 +120,15 @@ def test_conditions_on_the_parameters() -> None:
             nothing.at([1])
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (([], "x"), "at least one polynomial"),
-        ((["x - a"], "x, a", "a"), "a found twice"),
-        ((["x - a"], "x, x"), "x found twice"),
-        ((["x - a"], "x", "b"), "a found"),
-        ((["x - a"], []), "at least one variable"),
-        ((["x - "], "x"), "a polynomial expected"),
-        (("x - a", "x"), "polys: a list of polynomials"),
-        ((5, "x"), "polys: a list of polynomials"),
-    ],
+@each(
+    (([], "x"), "at least one polynomial"),
+    ((["x - a"], "x, a", "a"), "a found twice"),
+    ((["x - a"], "x, x"), "x found twice"),
+    ((["x - a"], "x", "b"), "a found"),
+    ((["x - a"], []), "at least one variable"),
+    ((["x - "], "x"), "a polynomial expected"),
+    (("x - a", "x"), "polys: a list of polynomials"),
+    ((5, "x"), "polys: a list of polynomials"),
 )
 def test_bad_input_is_named_in_one_line(arguments: tuple[object, ...], message: str) -> None:
     with pytest.raises(qe.InputError, match=message) as caught:

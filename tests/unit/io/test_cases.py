@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -16,6 +15,7 @@ from qe.io import cases
 from qe.io.cases import Case, Cases
 from qe.io.terms import Value
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.var("x"), RING.var("y")
@@ -111,15 +111,12 @@ def test_a_guard_that_the_sign_implies_is_left_out() -> None:
     assert str(cases.holds(even, Relation.GT)) == "x /= 0 and y > 0"
 
 
-@pytest.mark.parametrize(
-    ("guards", "expected"),
-    [
-        ((TRUE,), 1),
-        ((FALSE,), None),
-        ((atom(X, Relation.EQ),), 2),
-        ((atom(X, Relation.GT),), 1),  # said already
-        ((atom(X, Relation.LE),), None),  # the negation
-    ],
+@each(
+    ((TRUE,), 1),
+    ((FALSE,), None),
+    ((atom(X, Relation.EQ),), 2),
+    ((atom(X, Relation.GT),), 1),  # said already
+    ((atom(X, Relation.LE),), None),  # the negation
 )
 def test_guards_are_joined_without_repetition_or_contradiction(guards: tuple, expected: int | None) -> None:  # type: ignore[type-arg]
     found = cases.guarded(guards, Case((atom(X, Relation.GT),), value(1)))

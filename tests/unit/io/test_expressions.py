@@ -20,30 +20,28 @@ from qe.io import expressions
 from qe.io.substitution import substitute
 from qe.io.text import read, read_term
 from tests.strategies import formulas
+from tests.tables import each
 from tests.universe import UNIVERSE, holds
 
 x, y = qe.variables("x y")
 ROOT2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
-@pytest.mark.parametrize(
-    ("made", "text"),
-    [
-        ((x**2 + y <= 1) & (y > x), "x^2 + y <= 1 and y > x"),
-        ((x > 0) | ~(y > 0) | (x < y), "x > 0 or y <= 0 or x < y"),
-        ((x > 0) >> (y >= 0.1), "x > 0 -> y >= 0.1"),
-        (abs(x - 1) < Decimal("1.5"), "|x - 1| < 1.5"),
-        (1 / x > -y + 3, "1/x > 3 - y"),
-        (x ** Fraction(1, 2) < y / 2, "sqrt(x) < y/2"),
-        ((2 * x - 3).equals(+y), "2*x - 3 = y"),
-        (x.differs("y^2 + 1"), "x /= y^2 + 1"),
-        (x * x > ROOT2, "x^2 > sqrt(2)"),
-        (x > sympy.sqrt(sympy.Symbol("y")) - sympy.Rational(1, 2), "x > sqrt(y) - 1/2"),
-        (qe.exists(x, qe.forall([y], x <= y**2)), "ex x. all y. x <= y^2"),
-        (qe.exists("x", "x > y") & read("y > 0"), "(ex x. x > y) and y > 0"),
-        (read("y > 0") | (x > 0), "y > 0 or x > 0"),
-        (sympy.Symbol("y", real=True) > x, "y > x"),
-    ],
+@each(
+    ((x**2 + y <= 1) & (y > x), "x^2 + y <= 1 and y > x"),
+    ((x > 0) | ~(y > 0) | (x < y), "x > 0 or y <= 0 or x < y"),
+    ((x > 0) >> (y >= 0.1), "x > 0 -> y >= 0.1"),
+    (abs(x - 1) < Decimal("1.5"), "|x - 1| < 1.5"),
+    (1 / x > -y + 3, "1/x > 3 - y"),
+    (x ** Fraction(1, 2) < y / 2, "sqrt(x) < y/2"),
+    ((2 * x - 3).equals(+y), "2*x - 3 = y"),
+    (x.differs("y^2 + 1"), "x /= y^2 + 1"),
+    (x * x > ROOT2, "x^2 > sqrt(2)"),
+    (x > sympy.sqrt(sympy.Symbol("y")) - sympy.Rational(1, 2), "x > sqrt(y) - 1/2"),
+    (qe.exists(x, qe.forall([y], x <= y**2)), "ex x. all y. x <= y^2"),
+    (qe.exists("x", "x > y") & read("y > 0"), "(ex x. x > y) and y > 0"),
+    (read("y > 0") | (x > 0), "y > 0 or x > 0"),
+    (sympy.Symbol("y", real=True) > x, "y > x"),
 )
 def test_meaning(made: object, text: str) -> None:
     assert qe.equivalent(made, text)
@@ -66,23 +64,20 @@ def test_parts() -> None:
     assert repr(x) == "x" and repr(2 * x - 1) == "(2*x - 1)"
 
 
-@pytest.mark.parametrize(
-    ("text", "values", "expected"),
-    [
-        ("x^2 < y", {x: 2}, "4 < y"),
-        ("x < y", {"x": y, "y": x}, "y < x"),
-        ("x^3 < y", {x: -y / 2}, "-y^3 < 8*y"),
-        ("ex x. x > y", {y: x}, "true"),
-        ("ex x. x > y and x < z", {y: x, "z": x + 1}, "true"),
-        ("all x. x > y or x < z", {y: "x + z"}, "x < 0"),
-        ("x > y", {x: 1 / y}, "y /= 0 and 1/y > y"),
-        ("x > y", {x: ROOT2}, "y < sqrt(2)"),
-        ("x > y", {x: abs(y)}, "y < 0"),
-        ("x > y", {"w": 5}, "x > y"),
-        ("x = root(2, x^2 - y)", {x: 3}, "y = 9"),
-        ("y > root(2, y^2 - x)", {x: 4}, "y > 2"),
-        ("x > 0", {x: 1}, "true"),
-    ],
+@each(
+    ("x^2 < y", {x: 2}, "4 < y"),
+    ("x < y", {"x": y, "y": x}, "y < x"),
+    ("x^3 < y", {x: -y / 2}, "-y^3 < 8*y"),
+    ("ex x. x > y", {y: x}, "true"),
+    ("ex x. x > y and x < z", {y: x, "z": x + 1}, "true"),
+    ("all x. x > y or x < z", {y: "x + z"}, "x < 0"),
+    ("x > y", {x: 1 / y}, "y /= 0 and 1/y > y"),
+    ("x > y", {x: ROOT2}, "y < sqrt(2)"),
+    ("x > y", {x: abs(y)}, "y < 0"),
+    ("x > y", {"w": 5}, "x > y"),
+    ("x = root(2, x^2 - y)", {x: 3}, "y = 9"),
+    ("y > root(2, y^2 - x)", {x: 4}, "y > 2"),
+    ("x > 0", {x: 1}, "true"),
 )
 def test_substitution(text: str, values: dict[object, object], expected: str) -> None:
     assert qe.equivalent(qe.Statement(read(text)).substitute(values), expected)
@@ -102,33 +97,30 @@ def test_substitution_is_evaluation_later(formula: Formula, text: str, a: Fracti
     assert holds(changed, point) is holds_at(changed, point)
 
 
-@pytest.mark.parametrize(
-    ("wrong", "part"),
-    [
-        (lambda: x == 1, "x.equals(y)"),
-        (lambda: x != y, "x.differs(y)"),
-        (lambda: (x > 0) and (y > 0), "& | ~ >>"),
-        (lambda: 0 < x < 1, "(x < y) & (y < z)"),
-        (lambda: not (x > 0), "qe.decide"),
-        (lambda: (x > 0) == True, "qe.decide"),  # noqa: E712
-        (lambda: 1 if x else 2, "no truth value"),
-        (lambda: x**y > 1, "rational number"),
-        (lambda: x + True, "a number or an expression"),
-        (lambda: x + None, "a number or an expression"),
-        (lambda: x / 0 > 1, "division by zero"),
-        (lambda: x + "y z", "an operator is missing"),
-        (lambda: x + float("nan"), "a number or an expression"),
-        (lambda: x + sympy.pi, "no algebraic number"),
-        (lambda: qe.variables(""), "names of variables"),
-        (lambda: qe.variables("a|b"), "cannot be the name"),
-        (lambda: qe.exists([], x > 0), "at least one variable"),
-        (lambda: qe.exists(x + 1, x > 0), "names of variables"),
-        (lambda: qe.exists(x, x), "a formula"),
-        (lambda: (x > 0).substitute({x + 1: 2}), "the name of a variable"),
-        (lambda: (x > 0).substitute(3), "a mapping"),
-        (lambda: (x + 1).name, "a variable expected"),
-        (lambda: qe.decide(x > 0), "a sentence expected"),
-    ],
+@each(
+    (lambda: x == 1, "x.equals(y)"),
+    (lambda: x != y, "x.differs(y)"),
+    (lambda: (x > 0) and (y > 0), "& | ~ >>"),
+    (lambda: 0 < x < 1, "(x < y) & (y < z)"),
+    (lambda: not (x > 0), "qe.decide"),
+    (lambda: (x > 0) == True, "qe.decide"),  # noqa: E712
+    (lambda: 1 if x else 2, "no truth value"),
+    (lambda: x**y > 1, "rational number"),
+    (lambda: x + True, "a number or an expression"),
+    (lambda: x + None, "a number or an expression"),
+    (lambda: x / 0 > 1, "division by zero"),
+    (lambda: x + "y z", "an operator is missing"),
+    (lambda: x + float("nan"), "a number or an expression"),
+    (lambda: x + sympy.pi, "no algebraic number"),
+    (lambda: qe.variables(""), "names of variables"),
+    (lambda: qe.variables("a|b"), "cannot be the name"),
+    (lambda: qe.exists([], x > 0), "at least one variable"),
+    (lambda: qe.exists(x + 1, x > 0), "names of variables"),
+    (lambda: qe.exists(x, x), "a formula"),
+    (lambda: (x > 0).substitute({x + 1: 2}), "the name of a variable"),
+    (lambda: (x > 0).substitute(3), "a mapping"),
+    (lambda: (x + 1).name, "a variable expected"),
+    (lambda: qe.decide(x > 0), "a sentence expected"),
 )
 def test_mistakes_are_told_in_one_line(wrong: Callable[[], object], part: str) -> None:
     with pytest.raises((InputError, NoTruthValue)) as caught:

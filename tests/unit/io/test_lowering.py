@@ -1,8 +1,9 @@
-"""What surface trees mean: the logic of partial functions, sharing, and rings of names."""
+"""From surface trees to formulas: functions, chains, case distinctions."""
 
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import product
 
 import pytest
 
@@ -12,10 +13,13 @@ from qe.formula.evaluate import holds_at
 from qe.formula.relation import Relation
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.io import surface as s
+from qe.io.functions import FUNCTIONS, RELATIONS
 from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM
+from qe.io.text_errors import SyntaxFailure
 from qe.io.text_parser import TextParser
 from qe.io.total import Fill, Total
+from tests.tables import each
 
 
 def fail(message: str, at: int) -> InputError:
@@ -31,28 +35,25 @@ def term(text: str) -> s.Term:
     return found
 
 
-@pytest.mark.parametrize(
-    ("text", "holds"),
-    [
-        ("1/x > 0", lambda x: x != 0 and 1 / x > 0),
-        ("not 1/x > 0", lambda x: not (x != 0 and 1 / x > 0)),
-        ("1/x > 0 -> x > 1", lambda x: not (x != 0 and 1 / x > 0) or x > 1),
-        ("x/x = 1", lambda x: x != 0),
-        ("1/(1/x) = x", lambda x: x != 0),
-        ("x^-2 >= 1/4", lambda x: x != 0 and 1 / x**2 >= Fraction(1, 4)),
-        ("-infinity < 1/x < infinity", lambda x: x != 0),
-        ("infinity > x", lambda x: True),
-        ("x > infinity", lambda x: False),
-        ("sign(x)*abs(x) = x", lambda x: True),
-        ("max(x, 1/x) >= 1", lambda x: x != 0 and max(x, 1 / x) >= 1),
-        ("min(x, 2, -x) = -2", lambda x: min(x, 2, -x) == -2),
-        ("sqrt(x^2) = x", lambda x: x >= 0),
-        ("sqrt(x) >= 1", lambda x: x >= 1),
-        ("not sqrt(x) >= 1", lambda x: x < 1),
-        ("(if x > 0 then 1/x else x) <= 1/2", lambda x: (1 / x if x > 0 else x) <= Fraction(1, 2)),
-        ("1 < x <-> x < 2", lambda x: (x > 1) == (x < 2)),
-        ("0 < x < 2 < 3", lambda x: 0 < x < 2),
-    ],
+@each(
+    ("1/x > 0", lambda x: x != 0 and 1 / x > 0),
+    ("not 1/x > 0", lambda x: not (x != 0 and 1 / x > 0)),
+    ("1/x > 0 -> x > 1", lambda x: not (x != 0 and 1 / x > 0) or x > 1),
+    ("x/x = 1", lambda x: x != 0),
+    ("1/(1/x) = x", lambda x: x != 0),
+    ("x^-2 >= 1/4", lambda x: x != 0 and 1 / x**2 >= Fraction(1, 4)),
+    ("-infinity < 1/x < infinity", lambda x: x != 0),
+    ("infinity > x", lambda x: True),
+    ("x > infinity", lambda x: False),
+    ("sign(x)*abs(x) = x", lambda x: True),
+    ("max(x, 1/x) >= 1", lambda x: x != 0 and max(x, 1 / x) >= 1),
+    ("min(x, 2, -x) = -2", lambda x: min(x, 2, -x) == -2),
+    ("sqrt(x^2) = x", lambda x: x >= 0),
+    ("sqrt(x) >= 1", lambda x: x >= 1),
+    ("not sqrt(x) >= 1", lambda x: x < 1),
+    ("(if x > 0 then 1/x else x) <= 1/2", lambda x: (1 / x if x > 0 else x) <= Fraction(1, 2)),
+    ("1 < x <-> x < 2", lambda x: (x > 1) == (x < 2)),
+    ("0 < x < 2 < 3", lambda x: 0 < x < 2),
 )
 def test_comparisons_are_true_where_both_sides_have_a_value(text: str, holds: object) -> None:
     formula = meaning(text)
@@ -109,7 +110,7 @@ def test_terms_that_are_polynomials() -> None:
             lower_term(term(text), fail)
 
 
-@pytest.mark.parametrize(("fill", "text", "after"), [(Fill.ARGUMENT, "1/x = 1", "x = 0 or x = 1")])
+@each((Fill.ARGUMENT, "1/x = 1", "x = 0 or x = 1"))
 def test_functions_that_are_total(fill: Fill, text: str, after: str) -> None:
     total = Total(fill=fill)
     formula = meaning(text, total=total)
@@ -123,3 +124,84 @@ def test_unknown_values_agree_for_equal_arguments() -> None:
     formula = meaning("x/z = 1 and y/z = 2 and z = 0", total=total)
     assert len(total.values) == 2 and not total.weakened
     assert qe.equivalent(formula, "z = 0 and x /= y")
+
+
+def name(letter: str, at: int) -> s.Name:
+    return s.Name(letter, at)
+
+
+@each(
+    ("a + b - c", s.Sum([name("a", 0), name("b", 4), s.Minus(name("c", 8))])),
+    ("a - (b - c)", s.Sum([name("a", 0), s.Minus(s.Sum([name("b", 5), s.Minus(name("c", 9))]))])),
+    ("a*b/c", s.Quotient(s.Product(name("a", 0), name("b", 2), 1), name("c", 4), 3)),
+    ("-a^2", s.Minus(s.Power(name("a", 1), s.Number(2), 2))),
+    ("a^-2", s.Power(name("a", 0), s.Minus(s.Number(2)), 1)),
+    ("--a", name("a", 2)),
+    ("---a", s.Minus(name("a", 3))),
+    ("+a", name("a", 1)),
+    ("1.5e1", s.Number(Fraction(15))),
+    ("Max(a, b, 1)", s.Apply("max", [name("a", 4), name("b", 7), s.Number(1)], 0)),
+    ("sgn(a)", s.Apply("sign", [name("a", 4)], 0)),
+    ("CubeRoot(a)", s.Apply("cbrt", [name("a", 9)], 0)),
+    ("root(1, a, b)", s.Root(s.Number(1), name("a", 8), "b", 0)),
+    ("Root(1, a)", s.Root(s.Number(1), name("a", 8), None, 0)),
+)
+def test_terms(text: str, tree: s.Term) -> None:
+    assert term(text) == tree
+
+
+X, Y = s.Comparison([name("x", 0), s.Number(0)], [Relation.GT], 2), s.Truth(True)
+
+
+@each(
+    ("x > 0 and true and false", s.Every([X, Y, s.Truth(False)])),
+    ("x > 0 or true or false", s.Some([X, Y, s.Truth(False)])),
+    ("x > 0 -> true -> false", s.Implication(X, s.Implication(Y, s.Truth(False)))),
+    ("x > 0 <-> true <-> false", s.Equivalence(s.Equivalence(X, Y), s.Truth(False))),
+    ("not true", s.Negation(Y)),
+    ("not not true", Y),
+    ("not not not true", s.Negation(Y)),
+    (
+        "x > 0 <= y",
+        s.Comparison([name("x", 0), s.Number(0), name("y", 9)], [Relation.GT, Relation.LE], 2),
+    ),
+    ("ex x, y. true", s.Quantification(False, ["x", "y"], Y)),
+)
+def test_formulas(text: str, tree: s.Node) -> None:
+    assert TextParser(text).whole() == tree
+
+
+@each(
+    ("1 + abs(a, b)", 4, "abs takes 1 argument"),
+    ("min(" + ", ".join(["a"] * 1001) + ")", 0, "min takes 1 argument"),
+    ("1 + f(a)", 4, "unknown function f"),
+    ("root(a)", 0, "root takes a number"),
+    ("root(1, a, b, c)", 0, "root takes a number"),
+    ("root(1, a, b + 1)", 0, "root takes a number"),
+    ("a + 1e99999", 4, "exponent of the number"),
+)
+def test_what_is_refused(text: str, at: int, said: str) -> None:
+    with pytest.raises(SyntaxFailure) as error:
+        term(text)
+    assert error.value.at == at and said in error.value.message
+
+
+def test_all_spellings_of_relations_and_functions() -> None:
+    spelled = {relation: {text for text, found in RELATIONS.items() if found is relation} for relation in Relation}
+    assert {"=", "==", "Eq", "Equal"} <= spelled[Relation.EQ] and {"!=", "<>", "≠", "Ne"} <= spelled[Relation.NE]
+    assert {"<", "Lt", "Less"} == spelled[Relation.LT] and {">", "Gt", "Greater"} == spelled[Relation.GT]
+    assert {"<=", "=<", "≤", "⩽", "\\[LessEqual]", "Le", "LessEqual"} == spelled[Relation.LE]
+    assert {"≥", "⩾", ">=", "Ge"} <= spelled[Relation.GE]
+    assert set(FUNCTIONS.values()) == set(s.FUNCTIONS)
+
+
+@pytest.mark.parametrize("count", range(5))
+def test_an_odd_number_of_parts_holds(count: int) -> None:
+    parts: list[s.Node] = [s.Comparison([s.Name(f"x{k}", 0), s.Number(0)], [Relation.GT], 0) for k in range(count)]
+    formula = lower(s.odd(parts), lambda message, at: InputError(message))
+    for signs in product((0, 1), repeat=count):
+        assert holds_at(formula, {f"x{k}": sign for k, sign in enumerate(signs)}) == bool(sum(signs) % 2)
+
+
+def test_the_functions_take_as_many_arguments_as_the_text_says() -> None:
+    assert {name: ends for name, ends in s.FUNCTIONS.items() if ends != (1, 1)} == {"min": (1, 1000), "max": (1, 1000)}

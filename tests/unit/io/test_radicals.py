@@ -5,7 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 from math import isqrt
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,6 +14,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, Exists, ForAll, Formula, Relation
 from qe.io.radicals import MOST_SUBSTITUTED, Auxiliary, Place, settled
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("x", "t", "s"))
 X, T, S = (RING.var(name) for name in RING.names)
@@ -62,14 +62,11 @@ def cube_root() -> Auxiliary:
     return Auxiliary("s", atom(S**3 - T, Relation.EQ), TRUE)
 
 
-@pytest.mark.parametrize(
-    ("place", "kind"),
-    [
-        (Place(), Exists),
-        (Place(universal=True), ForAll),
-        (Place().denied, ForAll),
-        (Place(asserted=False, universal=True), Exists),
-    ],
+@each(
+    (Place(), Exists),
+    (Place(universal=True), ForAll),
+    (Place().denied, ForAll),
+    (Place(asserted=False, universal=True), Exists),
 )
 def test_other_values_get_the_quantifier_that_stands_around(place: Place, kind: type[Formula]) -> None:
     found = settled(atom(S - X, Relation.GT), {"s": cube_root()}, place)
@@ -85,7 +82,7 @@ def test_where_a_value_is_partial_the_universal_form_says_where() -> None:
     assert str(found).startswith("t >= 0 and all s. ")
 
 
-@pytest.mark.parametrize(("asserted", "kind"), [(True, Exists), (False, ForAll)])
+@each((True, Exists), (False, ForAll))
 def test_loose_values_weaken_what_is_asserted(asserted: bool, kind: type[Formula]) -> None:
     loose = Auxiliary("s", TRUE, TRUE, loose=True)
     gap = atom(S - X, Relation.GT)

@@ -14,64 +14,59 @@ from qe.errors import InputError
 from qe.formula.syntax import TRUE
 from qe.io.sympy import Exists, ForAll, from_sympy, to_sympy
 from qe.io.text import read
+from tests.tables import each
 
 HALF = sp.Rational(1, 2)
 
 
-@pytest.mark.parametrize(
-    ("given", "printed"),
-    [
-        (sp.And(x > HALF, sp.Ne(y, x)), "2*x - 1 > 0 and x - y /= 0"),
-        (sp.Eq(x**2, 2), "x^2 - 2 = 0"),
-        (x < sp.Float(0.1), "10*x - 1 < 0"),
-        (x + 0.25 * y < 0.1 + 0.2, "20*x + 5*y - 6 < 0"),
-        (x < -sp.Float("1.5e-3"), "2000*x + 3 < 0"),
-        (x > sp.Float("1e30"), "x - 1000000000000000000000000000000 > 0"),
-        (x < sp.Float("0.1", 60), "10*x - 1 < 0"),
-        (sp.Abs(x) <= 1, "x >= 0 and x - 1 <= 0 or x < 0 and x + 1 >= 0"),
-        (sp.Implies(x > 0, y > 0), "x <= 0 or y > 0"),
-        (sp.Xor(x > 0, y > 0), "not ((x <= 0 or y > 0) and (y <= 0 or x > 0))"),
-        (sp.Equivalent(x > 0, y > 0), "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
-        (sp.ITE(x > 0, y > 0, y < 0), "(x <= 0 or y > 0) and (x > 0 or y < 0)"),
-        (sp.Piecewise((x, x > 0), (y, True)) > 1, "x > 0 and x - 1 > 0 or x <= 0 and y - 1 > 0"),
-        (sp.Symbol("x", real=True) > 0, "x > 0"),
-        (Exists(x, sp.Eq(x**2, y)), "ex x. x^2 - y = 0"),
-        (Exists([x, "y"], x > y), "ex x, y. x - y > 0"),
-        (ForAll(x, Exists(y, y > x)), "all x. ex y. x - y < 0"),
-        ((x > 0) & Exists(y, y > x), "x > 0 and ex y. x - y < 0"),
-        (Exists(y, y > x) & (x > 0), "(ex y. x - y < 0) and x > 0"),
-        ((x > 0) | ForAll(y, y > x), "x > 0 or all y. x - y < 0"),
-        (~Exists(y, y > x), "not ex y. x - y < 0"),
-        ((x > 0) >> Exists(y, y > x), "x <= 0 or ex y. x - y < 0"),
-        (Exists(y, read("y > x")), "ex y. y - x > 0"),
-        (sp.true, "true"),
-        (sp.Symbol("x^*") > 0, "`x^*` > 0"),
-    ],
+@each(
+    (sp.And(x > HALF, sp.Ne(y, x)), "2*x - 1 > 0 and x - y /= 0"),
+    (sp.Eq(x**2, 2), "x^2 - 2 = 0"),
+    (x < sp.Float(0.1), "10*x - 1 < 0"),
+    (x + 0.25 * y < 0.1 + 0.2, "20*x + 5*y - 6 < 0"),
+    (x < -sp.Float("1.5e-3"), "2000*x + 3 < 0"),
+    (x > sp.Float("1e30"), "x - 1000000000000000000000000000000 > 0"),
+    (x < sp.Float("0.1", 60), "10*x - 1 < 0"),
+    (sp.Abs(x) <= 1, "x >= 0 and x - 1 <= 0 or x < 0 and x + 1 >= 0"),
+    (sp.Implies(x > 0, y > 0), "x <= 0 or y > 0"),
+    (sp.Xor(x > 0, y > 0), "not ((x <= 0 or y > 0) and (y <= 0 or x > 0))"),
+    (sp.Equivalent(x > 0, y > 0), "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
+    (sp.ITE(x > 0, y > 0, y < 0), "(x <= 0 or y > 0) and (x > 0 or y < 0)"),
+    (sp.Piecewise((x, x > 0), (y, True)) > 1, "x > 0 and x - 1 > 0 or x <= 0 and y - 1 > 0"),
+    (sp.Symbol("x", real=True) > 0, "x > 0"),
+    (Exists(x, sp.Eq(x**2, y)), "ex x. x^2 - y = 0"),
+    (Exists([x, "y"], x > y), "ex x, y. x - y > 0"),
+    (ForAll(x, Exists(y, y > x)), "all x. ex y. x - y < 0"),
+    ((x > 0) & Exists(y, y > x), "x > 0 and ex y. x - y < 0"),
+    (Exists(y, y > x) & (x > 0), "(ex y. x - y < 0) and x > 0"),
+    ((x > 0) | ForAll(y, y > x), "x > 0 or all y. x - y < 0"),
+    (~Exists(y, y > x), "not ex y. x - y < 0"),
+    ((x > 0) >> Exists(y, y > x), "x <= 0 or ex y. x - y < 0"),
+    (Exists(y, read("y > x")), "ex y. y - x > 0"),
+    (sp.true, "true"),
+    (sp.Symbol("x^*") > 0, "`x^*` > 0"),
 )
 def test_reading(given: object, printed: str) -> None:
     assert str(from_sympy(given)) == printed
 
 
-@pytest.mark.parametrize(
-    ("make", "part"),
-    [
-        (lambda: x**y > 1, "exponents"),
-        (lambda: sp.log(x) > 1, "log is not algebraic"),
-        (lambda: sp.sin(x) > 0, "sin"),
-        (lambda: sp.pi > x, "pi"),
-        (lambda: sp.And(sp.Symbol("p"), x > 0), "p found"),
-        (lambda: x, "Boolean combination"),
-        (lambda: "x > 0", "text found"),
-        (lambda: True, "Eq"),
-        (lambda: x**2 == y, "Eq"),
-        (lambda: Exists(x, x**2 == y), "Eq"),
-        (lambda: sp.Dummy("x") > 0, "Dummy"),
-        (lambda: 1.5, "float found"),
-        (lambda: x**99999999 > 0, "limit"),
-        (lambda: sp.Symbol("n", integer=True) < 1, "integer"),
-        (lambda: sp.Symbol("a|b") > 0, "name of a variable"),
-        (lambda: Exists([], x > 0).formula(), "at least one"),
-    ],
+@each(
+    (lambda: x**y > 1, "exponents"),
+    (lambda: sp.log(x) > 1, "log is not algebraic"),
+    (lambda: sp.sin(x) > 0, "sin"),
+    (lambda: sp.pi > x, "pi"),
+    (lambda: sp.And(sp.Symbol("p"), x > 0), "p found"),
+    (lambda: x, "Boolean combination"),
+    (lambda: "x > 0", "text found"),
+    (lambda: True, "Eq"),
+    (lambda: x**2 == y, "Eq"),
+    (lambda: Exists(x, x**2 == y), "Eq"),
+    (lambda: sp.Dummy("x") > 0, "Dummy"),
+    (lambda: 1.5, "float found"),
+    (lambda: x**99999999 > 0, "limit"),
+    (lambda: sp.Symbol("n", integer=True) < 1, "integer"),
+    (lambda: sp.Symbol("a|b") > 0, "name of a variable"),
+    (lambda: Exists([], x > 0).formula(), "at least one"),
 )
 def test_what_is_not_polynomial_is_refused(make: Callable[[], object], part: str) -> None:
     with pytest.raises(InputError, match=part) as caught:
@@ -96,7 +91,7 @@ def test_writing_uses_the_symbols_given() -> None:
     assert to_sympy(read("x^2 > 2 and not x < 0")).subs({sp.Symbol("x"): 2}) is sp.true
 
 
-@pytest.mark.parametrize("text", ["ex x. x > y", "x < root(1, x^2 - y)"])
+@each("ex x. x > y", "x < root(1, x^2 - y)")
 def test_what_sympy_cannot_say_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         to_sympy(read(text))

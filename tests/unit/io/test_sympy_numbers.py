@@ -9,6 +9,7 @@ import sympy
 
 from qe.exact.algebraic import RealAlgebraic
 from qe.io.sympy_numbers import decimal_of, number_from_sympy, number_to_sympy
+from tests.tables import each
 
 CUBIC = [RealAlgebraic.from_root([1, -3, 0, 1], low, low + 1) for low in (-2, 0, 1)]
 NUMBERS = [
@@ -28,9 +29,7 @@ def test_there_and_back(number: RealAlgebraic) -> None:
     assert float(there.evalf(20)) == pytest.approx(float(number), abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    "number", [sympy.pi, sympy.I, sympy.Symbol("x"), 3, sympy.oo, sympy.exp(1), sympy.sqrt(2) * sympy.I]
-)
+@each(sympy.pi, sympy.I, sympy.Symbol("x"), 3, sympy.oo, sympy.exp(1), sympy.sqrt(2) * sympy.I)
 def test_what_is_no_real_algebraic_number(number: object) -> None:
     assert number_from_sympy(number) is None
 

@@ -13,6 +13,7 @@ from qe.formula.syntax import Relation
 from qe.io import terms
 from qe.io.terms import MAX_DEGREE, MAX_DIGITS, MAX_EXPONENT, TermError, Value, decimal, integer
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = terms.variable(RING, "x"), terms.variable(RING, "y")
@@ -29,30 +30,27 @@ def bounded(value: Value) -> bool:
     return value.poly.height_bits() <= value.bits and value.den > 0
 
 
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [
-        ("12", Fraction(12)),
-        ("1.25", Fraction(5, 4)),
-        (".5", Fraction(1, 2)),
-        ("3.", Fraction(3)),
-        ("1.5e-3", Fraction(3, 2000)),
-        ("2E2", Fraction(200)),
-        ("0.0e10000", Fraction(0)),
-        ("1e-10000", Fraction(1, 10**10000)),
-    ],
+@each(
+    ("12", Fraction(12)),
+    ("1.25", Fraction(5, 4)),
+    (".5", Fraction(1, 2)),
+    ("3.", Fraction(3)),
+    ("1.5e-3", Fraction(3, 2000)),
+    ("2E2", Fraction(200)),
+    ("0.0e10000", Fraction(0)),
+    ("1e-10000", Fraction(1, 10**10000)),
 )
 def test_decimals_are_exact(text: str, value: Fraction) -> None:
     assert decimal(text) == value
 
 
-@pytest.mark.parametrize("text", ["1e10001", "1e-10001", "1e99999999", "1e999999999999999999"])
+@each("1e10001", "1e-10001", "1e99999999", "1e999999999999999999")
 def test_large_exponents_are_refused_unread(text: str) -> None:
     with pytest.raises(TermError, match="exponent of the number"):
         decimal(text)
 
 
-@pytest.mark.parametrize("digits", [1, 3999, 4000, 4001, 7999, 8000, 8001, 12_345])
+@each(1, 3999, 4000, 4001, 7999, 8000, 8001, 12_345)
 def test_long_integers(digits: int) -> None:
     """Built from a remainder: the text of the value would ask for what is tested."""
     text = ("1234567890" * (digits // 10 + 1))[:digits]
@@ -111,10 +109,7 @@ def test_division_only_by_numbers_other_than_zero() -> None:
         terms.quotient(X, terms.number(RING, 0))
 
 
-@pytest.mark.parametrize(
-    ("exponent", "said"),
-    [(-1, "negative exponent"), (MAX_EXPONENT + 1, "exponent 10001"), (10**30, "an exponent is above")],
-)
+@each((-1, "negative exponent"), (MAX_EXPONENT + 1, "exponent 10001"), (10**30, "an exponent is above"))
 def test_exponents_out_of_range(exponent: int, said: str) -> None:
     with pytest.raises(TermError, match=said):
         terms.power(X, exponent)

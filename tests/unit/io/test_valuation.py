@@ -16,6 +16,7 @@ from qe.io.radicals import Place
 from qe.io.terms import TermError, Value
 from qe.io.text_parser import TextParser
 from qe.io.valuation import Valuation
+from tests.tables import each
 
 RING = Ring.of(("x", "y", "s1", "s2", "s3"))
 
@@ -31,37 +32,31 @@ def value(text: str, valuation: Valuation | None = None) -> object:
     return (valuation or made()).term(TextParser(text).whole(TERM))
 
 
-@pytest.mark.parametrize(
-    ("text", "poly"),
-    [
-        ("(x + y)^2/2", "x^2 + 2*x*y + y^2"),
-        ("sqrt(4)*x", "2*x"),
-        ("sqrt(9/4) + y", "2*y + 3"),
-        ("abs(-5/3)", "5"),
-        ("sign(-7)", "-1"),
-        ("max(1, 2, 3) - min(4, 2)", "1"),
-        ("x^0", "1"),
-        ("root(2, x^2 - 4)", "2"),
-        ("root(-1, x^2 - 4)", "2"),
-        ("root(1, 2*x - 3)", "3"),
-    ],
+@each(
+    ("(x + y)^2/2", "x^2 + 2*x*y + y^2"),
+    ("sqrt(4)*x", "2*x"),
+    ("sqrt(9/4) + y", "2*y + 3"),
+    ("abs(-5/3)", "5"),
+    ("sign(-7)", "-1"),
+    ("max(1, 2, 3) - min(4, 2)", "1"),
+    ("x^0", "1"),
+    ("root(2, x^2 - 4)", "2"),
+    ("root(-1, x^2 - 4)", "2"),
+    ("root(1, 2*x - 3)", "3"),
 )
 def test_polynomials(text: str, poly: str) -> None:
     found = value(text)
     assert isinstance(found, Value) and str(found.poly) == f"Poly({poly})"
 
 
-@pytest.mark.parametrize(
-    ("text", "exact"),
-    [
-        ("1/x + 1/y", lambda x, y: Fraction(1) / x + Fraction(1) / y),
-        ("x/y/y", lambda x, y: Fraction(x) / y / y),
-        ("(x/y)^-2", lambda x, y: Fraction(y) ** 2 / Fraction(x) ** 2),
-        ("abs(x)*sign(y)", lambda x, y: abs(x) * ((y > 0) - (y < 0))),
-        ("max(x, y, 0) - min(x, y)", lambda x, y: max(x, y, 0) - min(x, y)),
-        ("sqrt(x^2)/y", lambda x, y: Fraction(abs(x)) / y),
-        ("sqrt(x^2*y^4)", lambda x, y: abs(x) * y * y),
-    ],
+@each(
+    ("1/x + 1/y", lambda x, y: Fraction(1) / x + Fraction(1) / y),
+    ("x/y/y", lambda x, y: Fraction(x) / y / y),
+    ("(x/y)^-2", lambda x, y: Fraction(y) ** 2 / Fraction(x) ** 2),
+    ("abs(x)*sign(y)", lambda x, y: abs(x) * ((y > 0) - (y < 0))),
+    ("max(x, y, 0) - min(x, y)", lambda x, y: max(x, y, 0) - min(x, y)),
+    ("sqrt(x^2)/y", lambda x, y: Fraction(abs(x)) / y),
+    ("sqrt(x^2*y^4)", lambda x, y: abs(x) * y * y),
 )
 def test_quotients_and_cases(text: str, exact: object) -> None:
     valuation = made()
@@ -83,22 +78,19 @@ def test_square_roots_share_their_names() -> None:
     assert list(valuation.made) == ["s1", "s2", "s3"]
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("1/0", "division by zero"),
-        ("x/(1 - 1)", "division by zero"),
-        ("x^y", "an exponent must be a rational number"),
-        ("x^(1/10001)", "a root of degree 10001"),
-        ("root(x, x^2 - 2)", "the first argument of root is its number"),
-        ("root(1/2, x^2 - 2)", "the first argument of root is its number"),
-        ("root(1, x^2 - y)", "needs its variable"),
-        ("root(0, x^2 - 2)", "counted from 1 or -1"),
-        ("root(1, x^2 - 2, y)", "no such root"),
-        ("root(1, 1/x, x)", "a polynomial expected"),
-        ("z", "unknown variable z"),
-        ("infinity + 1", "infinity is no number"),
-    ],
+@each(
+    ("1/0", "division by zero"),
+    ("x/(1 - 1)", "division by zero"),
+    ("x^y", "an exponent must be a rational number"),
+    ("x^(1/10001)", "a root of degree 10001"),
+    ("root(x, x^2 - 2)", "the first argument of root is its number"),
+    ("root(1/2, x^2 - 2)", "the first argument of root is its number"),
+    ("root(1, x^2 - y)", "needs its variable"),
+    ("root(0, x^2 - 2)", "counted from 1 or -1"),
+    ("root(1, x^2 - 2, y)", "no such root"),
+    ("root(1, 1/x, x)", "a polynomial expected"),
+    ("z", "unknown variable z"),
+    ("infinity + 1", "infinity is no number"),
 )
 def test_what_has_no_meaning(text: str, said: str) -> None:
     with pytest.raises((InputError, TermError), match=said):

@@ -1,15 +1,27 @@
-"""Global optima without convexity: values, attainment, points, all minimisers, certificates, bad input."""
+"""Global optima: finitely many candidates, their values, what callers get."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.cli.app import main
 from qe.convex.optimum import OptimumStatus
+from qe.exact.number import point_text
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom
+from qe.formula.syntax import Relation
+from qe.io.text import read
+from qe.optimization.finite import listed
+from qe.optimization.values import Goal, Objective, new_name
+from qe.options import Budget
+from tests.tables import each
 
 CASES = [
     ("x^4 - x^2", "x^2 <= 4", "-1/4", True),
@@ -43,14 +55,11 @@ def test_a_maximum_is_minus_the_minimum_of_the_negative(objective, constraints, 
     assert (str(found.value), found.attained) == (str(-qe.minimize(objective, constraints).value), attained)
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "status"),
-    [
-        ("x^3", "true", OptimumStatus.UNBOUNDED),
-        ("x*y", "x > 0", OptimumStatus.UNBOUNDED),
-        ("x^3", "x^4 < 0", OptimumStatus.INFEASIBLE),
-        ("x^4", "y^4 + 1 = 0", OptimumStatus.INFEASIBLE),
-    ],
+@each(
+    ("x^3", "true", OptimumStatus.UNBOUNDED),
+    ("x*y", "x > 0", OptimumStatus.UNBOUNDED),
+    ("x^3", "x^4 < 0", OptimumStatus.INFEASIBLE),
+    ("x^4", "y^4 + 1 = 0", OptimumStatus.INFEASIBLE),
 )
 def test_no_minimum(objective, constraints, status):
     found = qe.minimize(objective, constraints)
@@ -77,7 +86,7 @@ def test_values_of_a_maximum_are_the_values():
     assert qe.equivalent(str(qe.maximize("x^3", "x^4 <= 1").values), "value^2 <= 1")
 
 
-@pytest.mark.parametrize("given", ["sin(x)", "floor(x)", "1/0", "", "x = 1", "pi*x", b"x", ["x"], None, float("nan")])
+@each("sin(x)", "floor(x)", "1/0", "", "x = 1", "pi*x", b"x", ["x"], None, float("nan"))
 def test_objectives_that_are_no_terms(given):
     with pytest.raises(qe.InputError, match=r"^objective: [^\n]*$"):
         qe.minimize(given, "x > 0")
@@ -115,7 +124,7 @@ def test_no_value_on_a_grid_is_smaller_and_the_point_has_it(coefficients, low, w
         assert strict
 
 
-@pytest.mark.parametrize("given", [True, None, ["x"], "x +", "x = 1"])
+@each(True, None, ["x"], "x +", "x = 1")
 def test_bad_objectives(given):
     with pytest.raises(qe.QEError):
         qe.minimize(given, "x^4 < 2", timeout=5)
@@ -132,3 +141,104 @@ def test_the_point_of_a_value_of_high_degree():
     assert float(found.value) == pytest.approx(-1.0316284534898774, abs=1e-12)
     assert abs(float(found.point["x"])) == pytest.approx(0.08984201310031806, abs=1e-9)
     assert abs(float(found.point["y"])) == pytest.approx(0.7126564030207396, abs=1e-9)
+
+
+@each(
+    ("x^2 = 1 and y^2 = 2 and x*y > 0", ["x = -1, y = -sqrt(2)", "x = 1, y = sqrt(2)"]),
+    ("x^2 + y^2 <= 0", ["x = 0, y = 0"]),
+    ("x^2 + y^2 <= 1", []),
+    (
+        "x*y = 0 and x^2 = x and y >= 0 and y <= 1 and y^2 = y*x^2 + y",
+        ["x = 0, y = 0", "x = 0, y = 1", "x = 1, y = 0"],
+    ),
+    ("x = 0 and y >= 0", []),
+    ("x = 0", []),
+    ("x = y and ex z. z^2 + x^2 = 0", ["x = 0, y = 0"]),
+    ("x = y and x^2 < 0", []),
+)
+def test_points_of_a_set(text: str, points: list[str]) -> None:
+    assert list(map(point_text, listed(read(text), ("x", "y"), Budget()))) == points
+
+
+def test_little_work_is_spent(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("qe.optimization.finite.MOST_WORK", 1)
+    assert listed(read("x^2 = 1 and y^2 = x"), ("x", "y"), Budget()) == ()
+    monkeypatch.undo()
+    monkeypatch.setattr("qe.optimization.finite.MOST_POINTS", 1)
+    assert listed(read("x^2 = 1 and y^2 = x"), ("x", "y"), Budget()) == ()
+
+
+@each(
+    ("x^4 - x^2", "x^2 <= 4", "-1/4 at x = -sqrt(2)/2 or x = sqrt(2)/2"),
+    ("x^4 + y^4 - 4*x*y", "true", "-2 at x = -1, y = -1 or x = 1, y = 1"),
+    ("abs(x - 1) + abs(x + 1)", "true", "2 at x = 1, for example"),
+    ("(x*y - 1)^2 + x^2", "true", "0, not attained"),
+    ("x", "ex y. y^2 = x - 1", "1 at x = 1"),
+)
+def test_all_minimisers_are_shown(objective: str, where: str, shown: str) -> None:
+    found: Any = qe.minimize(objective, where)
+    assert repr(found) == f"GlobalOptimum({shown})"
+    assert ("or" in found._repr_latex_()) is (len(found.points) > 1)
+
+
+def test_at_numbers_for_the_parameters() -> None:
+    found = qe.minimize("x^4 - a*x^2", parameters="a").at({"a": 2})
+    assert repr(found) == "GlobalOptimum(-1 at x = -1 or x = 1)"
+
+
+def test_the_command_prints_all_points(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["minimize", "x^4 - x^2", "x^2 <= 4"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split(" (")[0] for line in lines[1:4]] == [
+        "at x = -sqrt(2)/2",
+        "at x = sqrt(2)/2",
+        "attained nowhere else",
+    ]
+
+
+RING = Ring.of(("x", "y"))
+
+
+X, Y = RING.var("x"), RING.var("y")
+
+
+def goal_of(poly: Poly, scale: Fraction | int, conditions: str, parameters: Iterable[str] = ()) -> Goal:
+    read_conditions = read(conditions)
+    return Goal.of(Objective.of(poly, scale, new_name(RING.names, read_conditions.free)), read_conditions, parameters)
+
+
+def test_names_come_into_one_ring() -> None:
+    goal = goal_of(X * Y, Fraction(1, 3), "x > a and z = 1", ["a"])
+    assert goal.parameters == ("a",) and goal.value == "value" and set(goal.variables) == {"x", "y", "z"}
+    assert goal.ring.names[:2] == ("a", "value")
+    value, x, y = map(goal.ring.var, ("value", "x", "y"))
+    assert goal.graph == atom(3 * value - x * y, Relation.EQ)
+
+
+def test_a_taken_name_is_avoided() -> None:
+    goal = goal_of(X, 1, "value > x and value_ < 1")
+    assert goal.value == "value__" and "value" in goal.variables
+
+
+@each(["b"], ["a", "a"], ["x", "q"])
+def test_strange_parameters(parameters: list[str]) -> None:
+    with pytest.raises(qe.InputError, match="parameters: "):
+        qe.minimize("x", "x > a", parameters=parameters)
+
+
+@each(
+    (X, 1, "0 < x and x <= 3", "0 < value and value <= 3"),
+    (X * X, -2, "-1 <= x and x < 2", "-8 < value and value <= 0"),
+    (X + Y, Fraction(1, 2), "x^2 + y^2 <= 2", "-1 <= value and value <= 1"),
+    (X, 1, "x > 0 and x < 0", "false"),
+)
+def test_the_values_that_are_taken(objective: Poly, scale: Fraction, conditions: str, values: str) -> None:
+    goal = goal_of(objective, scale, conditions)
+    found, answer = goal.values(Budget(60), check=False)
+    assert qe.equivalent(found.formula, values) and answer.formula == found.formula
+    assert goal.proved(found, Budget(60), check=False).formula == found.formula
+
+
+def test_with_parameters() -> None:
+    found, _ = goal_of(X, 1, "x^2 <= a", ["a"]).values(Budget(60), check=False)
+    assert qe.equivalent(found.formula, "value^2 <= a")

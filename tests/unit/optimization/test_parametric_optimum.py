@@ -10,28 +10,26 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("objective", "constraints", "parameters", "printed"),
-    [
-        ("x^2 + b*x + c", "true", "b, c", ["(-b^2 + 4*c)/4 at x = -b/2 if b any, c any"]),
-        ("a*x^2 + x", "true", "a", ["unbounded if a < 0", "unbounded if a = 0", "-1/(4*a) at x = -1/(2*a) if 0 < a"]),
-        ("x", "x^2 + y^2 <= r", "r", ["-sqrt(r) at x = -sqrt(r), y = 0 if 0 <= r"]),
-        (
-            "x^4 + a*x^2",
-            "true",
-            "a",
-            ["-a^2/4 at x = (-sqrt(-2*a))/2 or x = (sqrt(-2*a))/2 if a < 0", "0 at x = 0 if 0 <= a"],
-        ),
-        ("x", "x > a and x < 1", "a", ["a (not attained) if a < 1"]),
-        ("x", "x^2 < 0 and a = a", "a", ["no point meets the constraints"]),
-        ("max(x, a)", "x >= 0", "a", ["0 at x = 0 if a <= 0", "a at 0 <= x <= value if 0 < a"]),
-        ("x/y", "x > a and y > 0", "a", ["unbounded if a < 0", "0 (not attained) if 0 <= a"]),
-        ("a*x", "true", "a", ["unbounded if a < 0", "0 at x any if a = 0", "unbounded if 0 < a"]),
-        ("a", "a > 0", "a", ["a if 0 < a"]),
-        ("abs(x - a)", "ex y. y^2 = x", "a", ["-a at x = 0 if a <= 0", "0 at x = a if 0 < a"]),
-    ],
+@each(
+    ("x^2 + b*x + c", "true", "b, c", ["(-b^2 + 4*c)/4 at x = -b/2 if b any, c any"]),
+    ("a*x^2 + x", "true", "a", ["unbounded if a < 0", "unbounded if a = 0", "-1/(4*a) at x = -1/(2*a) if 0 < a"]),
+    ("x", "x^2 + y^2 <= r", "r", ["-sqrt(r) at x = -sqrt(r), y = 0 if 0 <= r"]),
+    (
+        "x^4 + a*x^2",
+        "true",
+        "a",
+        ["-a^2/4 at x = (-sqrt(-2*a))/2 or x = (sqrt(-2*a))/2 if a < 0", "0 at x = 0 if 0 <= a"],
+    ),
+    ("x", "x > a and x < 1", "a", ["a (not attained) if a < 1"]),
+    ("x", "x^2 < 0 and a = a", "a", ["no point meets the constraints"]),
+    ("max(x, a)", "x >= 0", "a", ["0 at x = 0 if a <= 0", "a at 0 <= x <= value if 0 < a"]),
+    ("x/y", "x > a and y > 0", "a", ["unbounded if a < 0", "0 (not attained) if 0 <= a"]),
+    ("a*x", "true", "a", ["unbounded if a < 0", "0 at x any if a = 0", "unbounded if 0 < a"]),
+    ("a", "a > 0", "a", ["a if 0 < a"]),
+    ("abs(x - a)", "ex y. y^2 = x", "a", ["-a at x = 0 if a <= 0", "0 at x = a if 0 < a"]),
 )
 def test_cases(objective, constraints, parameters, printed):
     assert str(qe.minimize(objective, constraints, parameters=parameters)).splitlines() == printed
@@ -149,14 +147,11 @@ def test_for_machines_and_for_print():
     assert "\\operatorname{root}_{1}" in qe.minimize("x", "x^3 + x = c", parameters="c").to_latex()
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ({}, "a value for each of a expected"),
-        ({"a": 1, "b": 2}, "a value for each of a expected"),
-        ({"a": "x"}, "an exact number for a expected"),
-        (3, "a mapping from names to values expected"),
-    ],
+@each(
+    ({}, "a value for each of a expected"),
+    ({"a": 1, "b": 2}, "a value for each of a expected"),
+    ({"a": "x"}, "an exact number for a expected"),
+    (3, "a mapping from names to values expected"),
 )
 def test_parameters_that_are_refused(given, message):
     with pytest.raises(qe.InputError, match=message):

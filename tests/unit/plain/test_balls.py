@@ -12,6 +12,7 @@ from qe.plain.balls import arb, arb_poly, ball, ctx
 from qe.plain.numbers import fmpq
 from qe.plain.roots import acb_poly
 from qe.plain.univariate import fmpz_poly
+from tests.tables import each
 
 
 def ends(x: arb) -> tuple[Fraction, Fraction]:
@@ -28,7 +29,7 @@ def inside(rng: random.Random, x: arb) -> Fraction:
     return rng.choice((low, high, low + (high - low) * Fraction(rng.randint(0, 99), 99)))
 
 
-@pytest.mark.parametrize("bits", [8, 53, 200])
+@each(8, 53, 200)
 def test_operations_contain_the_results(bits: int) -> None:
     rng = random.Random(bits)
     with ctx.workprec(bits):
@@ -107,7 +108,7 @@ def test_inexact_coefficients_give_boxes_for_all_polynomials_they_hold() -> None
     assert low**2 <= 2 - Fraction(1, 2**20) and high**2 >= 2 + Fraction(1, 2**20)
 
 
-@pytest.mark.parametrize("given", [[1, 2, 1], [0, 0, 1], [4, -4, -3, 2, 1]])
+@each([1, 2, 1], [0, 0, 1], [4, -4, -3, 2, 1])
 def test_multiple_roots_are_given_up(given: list[int]) -> None:
     with pytest.raises(ValueError, match="converge"):
         acb_poly(fmpz_poly(given)).roots(20_000)

@@ -8,9 +8,11 @@ import flint
 import pytest
 
 import qe.plain.flint as plain
+from tests.tables import each
 from tests.unit.plain.compared import factors, same, shown, terms
 
-OPERATIONS = [
+
+@each(
     lambda p, q, r: p + q,
     lambda p, q, r: p - q,
     lambda p, q, r: 7 - p * 2 + q,
@@ -38,17 +40,14 @@ OPERATIONS = [
     lambda p, q, r: (p * r).resultant(q * r, 0) if min((p * r).degrees()[0], (q * r).degrees()[0]) > 0 else 0,
     lambda p, q, r: p.discriminant(2) if p.degrees()[2] > 0 else 0,
     lambda p, q, r: (p * r).discriminant(2) if (p * r).degrees()[2] > 0 else 0,
-]
-
-
-@pytest.mark.parametrize("operation", OPERATIONS)
+)
 def test_operations(operation) -> None:
     rng = random.Random(1)
     for _ in range(40):
         assert same(operation, *(terms(rng, 3, count, 2) or {(0, 0, 0): 0} for count in (5, 4, 3)))
 
 
-@pytest.mark.parametrize("variables", [1, 2, 3, 5])
+@each(1, 2, 3, 5)
 def test_factors(variables: int) -> None:
     rng = random.Random(variables)
     for _ in range(25):

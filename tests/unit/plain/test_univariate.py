@@ -9,9 +9,11 @@ import flint
 import pytest
 
 import qe.plain.flint as plain
+from tests.tables import each
 from tests.unit.plain.compared import coefficients, factors, number, same, shown
 
-OPERATIONS = [
+
+@each(
     lambda p, q: p + q,
     lambda p, q: p - q,
     lambda p, q: p * q,
@@ -28,10 +30,7 @@ OPERATIONS = [
     lambda p, q: p(q),
     lambda p, q: [p.degree(), p.content(), p.leading_coefficient(), p.height_bits(), p[0], p[3], p[99]],
     lambda p, q: [p == q, p == p * 1, bool(p)],
-]
-
-
-@pytest.mark.parametrize("operation", OPERATIONS)
+)
 def test_operations(operation) -> None:
     rng = random.Random(1)
     assert all(same(operation, coefficients(rng, 6), coefficients(rng, 4)) for _ in range(60))
@@ -43,17 +42,14 @@ def test_factors() -> None:
         assert same(lambda p, q, r: factors(p * q * q * r), *(coefficients(rng, d) for d in (5, 2, 3)))
 
 
-@pytest.mark.parametrize(
-    "given",
-    [
-        [1, 0, -10, 0, 1],
-        [576, 0, -960, 0, 352, 0, -40, 0, 1],
-        [-1] + [0] * 14 + [1],
-        [0, 0, 0, 1],
-        [-4, 0, 9],
-        [2**80, 0, -(3**60)],
-        [1] * 21,
-    ],
+@each(
+    [1, 0, -10, 0, 1],
+    [576, 0, -960, 0, 352, 0, -40, 0, 1],
+    [-1] + [0] * 14 + [1],
+    [0, 0, 0, 1],
+    [-4, 0, 9],
+    [2**80, 0, -(3**60)],
+    [1] * 21,
 )
 def test_polynomials_that_split_modulo_every_prime_or_have_many_factors(given: list[int]) -> None:
     assert same(factors, given)

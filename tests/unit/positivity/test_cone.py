@@ -22,6 +22,7 @@ from qe.proof.step import Step
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
 CHAIN = "1 >= x and x >= y and y >= z and z >= 0"
@@ -34,7 +35,7 @@ def bounds(text: str) -> tuple[Bound, ...]:
     return tuple((form.convert(RING), sign, strict) for form, sign, strict in found)
 
 
-@pytest.mark.parametrize("where", [CHAIN, SIMPLEX, BOUNDED])
+@each(CHAIN, SIMPLEX, BOUNDED)
 @settings(deadline=None, max_examples=20, derandomize=True)
 @given(st.integers(0, 10**9))
 def test_sums_of_products_are_found_and_proved(where: str, seed: int) -> None:
@@ -80,14 +81,11 @@ def test_nothing_is_said_of_what_is_negative_somewhere(seed: int) -> None:
     assert found is None or value > 0 or (value == 0 and not found.strict)
 
 
-@pytest.mark.parametrize(
-    ("text", "truth"),
-    [
-        (f"all x, y, z. {CHAIN} -> x + y*z*(1 - x) >= x*y*z", True),
-        (f"ex x, y, z. {CHAIN} and x + y*z*(1 - x) < x*y*z", False),
-        ("all x, y, z. 0 < x and x < y and y < z and z < 1 -> x*y*z < x + y^2 + z^3", True),
-        ("all x, y, z. x >= 1 and y >= 2 and z >= 3 -> (x - 1)*(y - 2)*(z - 3) + (y - 2)^5 + x*y*z >= 6", True),
-    ],
+@each(
+    (f"all x, y, z. {CHAIN} -> x + y*z*(1 - x) >= x*y*z", True),
+    (f"ex x, y, z. {CHAIN} and x + y*z*(1 - x) < x*y*z", False),
+    ("all x, y, z. 0 < x and x < y and y < z and z < 1 -> x*y*z < x + y^2 + z^3", True),
+    ("all x, y, z. x >= 1 and y >= 2 and z >= 3 -> (x - 1)*(y - 2)*(z - 3) + (y - 2)^5 + x*y*z >= 6", True),
 )
 def test_signs_on_simplices_and_chains(text: str, truth: bool) -> None:
     answer = qe.eliminate(text, check=True)
@@ -112,12 +110,9 @@ def turned(parts: list[Formula]) -> tuple[Bound, ...]:
     return tuple((form, -sign, strict) for form, sign, strict in bounds_of(parts))
 
 
-@pytest.mark.parametrize(
-    ("broken", "text"),
-    [
-        (careless, f"ex x, y, z. {CHAIN} and x^2 <= y*z"),
-        (turned, "ex x, y, z. x <= 0 and y <= 0 and z <= 0 and x*y*z + x < 0"),
-    ],
+@each(
+    (careless, f"ex x, y, z. {CHAIN} and x^2 <= y*z"),
+    (turned, "ex x, y, z. x <= 0 and y <= 0 and z <= 0 and x*y*z + x < 0"),
 )
 def test_a_broken_producer_is_refused(broken: object, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     found = steps_of(text)

@@ -17,6 +17,7 @@ from qe.positivity.gram import sum_of_squares
 from qe.positivity.identity import Positive
 from qe.positivity.ordered import ordered_differences
 from qe.positivity.prove import nowhere_negative
+from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
 EVERY = frozenset(range(3))
@@ -47,16 +48,13 @@ def check(poly: Poly, proof: Positive, orthant: frozenset[int]) -> None:
             assert any(not powers for _, powers in rest)
 
 
-@pytest.mark.parametrize(
-    ("text", "orthant", "strict"),
-    [
-        ("x^4 + y^4 + z^4 + 1 - 4*x*y*z", NOWHERE, False),
-        ("x^4 + y^4 + z^4 + 2 - 4*x*y*z", NOWHERE, True),
-        ("x^4 - x^2 + 1", NOWHERE, True),
-        ("(x + y)*(y + z)*(z + x) - 8*x*y*z", EVERY, False),
-        ("x^3*z^2 + x - 2*x^2*z", frozenset({0}), False),
-        ("x^2 + 2*x*y + y^2", NOWHERE, False),
-    ],
+@each(
+    ("x^4 + y^4 + z^4 + 1 - 4*x*y*z", NOWHERE, False),
+    ("x^4 + y^4 + z^4 + 2 - 4*x*y*z", NOWHERE, True),
+    ("x^4 - x^2 + 1", NOWHERE, True),
+    ("(x + y)*(y + z)*(z + x) - 8*x*y*z", EVERY, False),
+    ("x^3*z^2 + x - 2*x^2*z", frozenset({0}), False),
+    ("x^2 + 2*x*y + y^2", NOWHERE, False),
 )
 def test_binomial_squares(text: str, orthant: frozenset[int], strict: bool) -> None:
     poly = poly_of(text)
@@ -65,13 +63,10 @@ def test_binomial_squares(text: str, orthant: frozenset[int], strict: bool) -> N
     check(poly, proof, orthant)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "x^3 + y^3 + z^3 - 3*x*y*z",
-        "x^2*(x - y)*(x - z) + y^2*(y - x)*(y - z) + z^2*(z - x)*(z - y)",
-        "x^2*y + y^2*z + z^2*x - 3*x*y*z",
-    ],
+@each(
+    "x^3 + y^3 + z^3 - 3*x*y*z",
+    "x^2*(x - y)*(x - z) + y^2*(y - x)*(y - z) + z^2*(z - x)*(z - y)",
+    "x^2*y + y^2*z + z^2*x - 3*x*y*z",
 )
 def test_ordered_differences(text: str) -> None:
     poly = poly_of(text)
@@ -82,15 +77,12 @@ def test_ordered_differences(text: str) -> None:
     assert ordered_differences(poly - RING.gen(0) ** 3, EVERY) is None
 
 
-@pytest.mark.parametrize(
-    ("text", "strict"),
-    [
-        ("2*x^4 + 2*x^3*y - x^2*y^2 + 5*y^4", False),
-        ("(x^2 - y + 1)^2 + (x + y*z - 2)^2 + (z - 1)^2", False),
-        ("(x^2 - y + 1)^2 + (x + y*z - 2)^2 + (z - 1)^2 + 1", True),
-        ("(x^2 + y^2 + z^2)*(x^4*y^2 + x^2*y^4 + z^6 - 3*x^2*y^2*z^2)", False),
-        ("x^4 - x^2*y^2 + 1/4*y^4", False),
-    ],
+@each(
+    ("2*x^4 + 2*x^3*y - x^2*y^2 + 5*y^4", False),
+    ("(x^2 - y + 1)^2 + (x + y*z - 2)^2 + (z - 1)^2", False),
+    ("(x^2 - y + 1)^2 + (x + y*z - 2)^2 + (z - 1)^2 + 1", True),
+    ("(x^2 + y^2 + z^2)*(x^4*y^2 + x^2*y^4 + z^6 - 3*x^2*y^2*z^2)", False),
+    ("x^4 - x^2*y^2 + 1/4*y^4", False),
 )
 def test_gram_matrices(text: str, strict: bool) -> None:
     pytest.importorskip("clarabel")
@@ -100,16 +92,13 @@ def test_gram_matrices(text: str, strict: bool) -> None:
     check(poly, proof, NOWHERE)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "x^4*y^2 + x^2*y^4 + 1 - 3*x^2*y^2 - 1/1000",  # below the Motzkin polynomial, which is 0 at (1, 1)
-        "x^4 - 2*x^2 + 999/1000",
-        "x*y*z",
-        "x^3 + y^3",
-        "-x^2 - y^2 - z^2",
-        "x^2*y^2 - x",
-    ],
+@each(
+    "x^4*y^2 + x^2*y^4 + 1 - 3*x^2*y^2 - 1/1000",  # below the Motzkin polynomial, which is 0 at (1, 1)
+    "x^4 - 2*x^2 + 999/1000",
+    "x*y*z",
+    "x^3 + y^3",
+    "-x^2 - y^2 - z^2",
+    "x^2*y^2 - x",
 )
 def test_what_takes_negative_values(text: str) -> None:
     poly = poly_of(text)

@@ -24,6 +24,7 @@ from qe.processes.limits import Limits
 from qe.processes.worker import IDLE, end_idle
 from qe.progress import Event
 from tests.conftest import ROOT
+from tests.tables import each
 from tests.waiting import ending
 from tests.workers import only_idle_children
 
@@ -88,7 +89,7 @@ def test_time_in_which_modules_are_loaded_does_not_count() -> None:
         del sys.modules[f"a module that is loaded by {os.getpid()}"]
 
 
-@pytest.mark.parametrize("limits", [Limits(process=False), Limits(timeout=60, process=False)])
+@each(Limits(process=False), Limits(timeout=60, process=False))
 def test_the_keyword_keeps_it_here(limits: Limits) -> None:
     assert perform(work(2 * HERE), limits, at_once=True) == os.getpid()
 
@@ -140,9 +141,9 @@ def failing(error: Exception, budget: Budget) -> None:
     raise error
 
 
-@pytest.mark.parametrize("seconds", [0.0, 3 * HERE])
-@pytest.mark.parametrize("error", [InputError("wrong"), Unable("too hard"), BudgetExceeded("cells", limit="cells")])
-def test_own_errors_are_the_same_on_both_sides(seconds: float, error: Exception) -> None:
+@each(0.0, 3 * HERE)
+@each(InputError("wrong"), Unable("too hard"), BudgetExceeded("cells", limit="cells"))
+def test_own_errors_are_the_same_on_both_sides(error: Exception, seconds: float) -> None:
     with pytest.raises(type(error), match=str(error)):
         perform(work(seconds, partial(failing, error)), Limits())
 
@@ -196,7 +197,7 @@ def outer(first: Callable[[Budget], object], at_once: bool, budget: Budget) -> t
     return perform(first, Limits(), at_once=at_once), os.getpid()
 
 
-@pytest.mark.parametrize(("seconds", "at_once"), [(3 * HERE, False), (0.0, True)])
+@each((3 * HERE, False), (0.0, True))
 def test_a_question_inside_another_moves_with_it(seconds: float, at_once: bool) -> None:
     """Else the outer one would begin again after the inner one was answered."""
     first, last = perform(partial(outer, work(seconds), at_once), Limits())

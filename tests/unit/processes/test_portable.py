@@ -9,6 +9,7 @@ import pytest
 
 from qe.errors import BudgetExceeded, InputError, InternalError, ParseError, QEError, Unable
 from qe.processes.portable import portable, rebuilt
+from tests.tables import each
 
 
 def sent(error: BaseException) -> QEError:
@@ -22,7 +23,7 @@ def raised(error: BaseException) -> BaseException:
         return found
 
 
-@pytest.mark.parametrize("error", [InputError("x: expected a number"), Unable("too hard"), QEError("so")])
+@each(InputError("x: expected a number"), Unable("too hard"), QEError("so"))
 def test_our_errors_keep_class_and_message(error: QEError) -> None:
     found = sent(raised(error))
     assert type(found) is type(error) and str(found) == str(error)
@@ -38,21 +39,18 @@ def test_attributes_come_along_and_messages_are_formatted_once() -> None:
     assert vars(found) == vars(caught.value)
 
 
-@pytest.mark.parametrize(
-    "error",
-    [
-        MemoryError(),
-        OSError(errno.ENOMEM, "Cannot allocate memory"),
-        ImportError("libflint.so: failed to map segment from shared object"),
-        ImportError("cannot allocate memory in static TLS block"),
-    ],
+@each(
+    MemoryError(),
+    OSError(errno.ENOMEM, "Cannot allocate memory"),
+    ImportError("libflint.so: failed to map segment from shared object"),
+    ImportError("cannot allocate memory in static TLS block"),
 )
 def test_little_memory_is_a_limit_whoever_notices(error: BaseException) -> None:
     found = sent(error)
     assert isinstance(found, BudgetExceeded) and found.limit == "memory"
 
 
-@pytest.mark.parametrize("error", [OSError(errno.ENOENT, "no such file"), ImportError("no module named x")])
+@each(OSError(errno.ENOENT, "no such file"), ImportError("no module named x"))
 def test_other_errors_of_the_system_are_no_limit(error: BaseException) -> None:
     assert isinstance(sent(error), InternalError)
 

@@ -16,6 +16,7 @@ from qe.errors import InternalError, QEError
 from qe.processes.channel import Channel, WorkerDied
 from qe.processes.limits import Limits
 from qe.processes.racing import first
+from tests.tables import each
 from tests.workers import only_idle_children
 
 pytestmark = pytest.mark.processes
@@ -81,7 +82,7 @@ def test_a_race_holds_the_limit() -> None:
     assert answer.status is qe.Status.UNABLE and "time" in answer.reason
 
 
-@pytest.mark.parametrize("other", [{"method": "cad"}, {"workers": 2}, {"process": False}])
+@each({"method": "cad"}, {"workers": 2}, {"process": False})
 def test_a_race_stands_alone(other: dict[str, object]) -> None:
     with pytest.raises(qe.InputError, match="race: cannot go with"):
         qe.eliminate("x > 0", race="cad", **other)  # type: ignore[arg-type]

@@ -25,6 +25,7 @@ from qe.processes.limits import Limits
 from qe.processes.worker import IDLE, MOST_IDLE, end_idle
 from qe.progress import Event
 from tests.conftest import ROOT
+from tests.tables import each
 from tests.waiting import ending
 from tests.workers import children, is_gone, only_idle_children
 
@@ -208,7 +209,7 @@ def out_of_budget(channel: Channel) -> None:
     raise BudgetExceeded("time limit reached while doing: lift", limit="time")
 
 
-@pytest.mark.parametrize("limits", [Limits(timeout=60), Limits(process=False)])
+@each(Limits(timeout=60), Limits(process=False))
 def test_a_soft_limit_reports_what_is_known(limits: Limits) -> None:
     with pytest.raises(WorkerStopped) as caught:
         run(out_of_budget, limits)
@@ -225,7 +226,7 @@ def power(channel: Channel) -> int:
     return int((fmpz_poly([1, 1]) ** 10**12).degree())
 
 
-@pytest.mark.parametrize("work", [large, power])
+@each(large, power)
 def test_memory_limits_hold_also_where_a_library_aborts(work: object, capfd: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(BudgetExceeded) as caught:
         run(work, Limits(memory=600))  # type: ignore[arg-type]
@@ -301,7 +302,7 @@ def says_its_name(channel: Channel) -> None:
     time.sleep(60)
 
 
-@pytest.mark.parametrize("error", [KeyboardInterrupt, Unable])
+@each(KeyboardInterrupt, Unable)
 def test_a_failing_listener_leaves_no_worker(error: type[BaseException]) -> None:
     def listener(event: Event) -> None:
         raise error("enough")
@@ -397,7 +398,7 @@ def in_another(code: str) -> subprocess.Popen[str]:
 SAYS = "say = lambda event: print(event.done, flush=True)\n"
 
 
-@pytest.mark.parametrize("work", ["says_its_name", "says_its_name_and_is_stuck", "asks_another"])
+@each("says_its_name", "says_its_name_and_is_stuck", "asks_another")
 def test_workers_end_with_the_process_that_asks_however_it_ends(work: str) -> None:
     with ending(in_another(f"{SAYS}t.run(t.{work}, t.Limits(progress=say))")) as parent:
         assert parent.stdout is not None

@@ -16,6 +16,7 @@ from qe.io import formats
 from qe.options import Budget
 from qe.regions.convex_region import ConvexRegion, shadow_of
 from tests.optimum_problems import at_most_zero, cubic
+from tests.tables import each
 
 SQRT2 = RealAlgebraic.from_root((-2, 0, 1), 1, 2)
 BALL = "x^2 + y^2 + z^2 + w^2 <= 4 and x + y >= 1"
@@ -113,10 +114,7 @@ def test_spatial_membership_and_box() -> None:
         region.contains({"a0": SQRT2, "a1": SQRT2, "a2": 0})
 
 
-@pytest.mark.parametrize(
-    ("q0", "r0", "r2", "point"),
-    [((3, 4), (1, 2), 25, (3, 4)), ((3, 4), (-3, 4), 25, (3, 4)), ((3, 4), (3, 4), 25, (3, 4))],
-)
+@each(((3, 4), (1, 2), 25, (3, 4)), ((3, 4), (-3, 4), 25, (3, 4)), ((3, 4), (3, 4), 25, (3, 4)))
 def test_via_point_on_the_circle(q0: tuple[int, int], r0: tuple[int, int], r2: int, point: tuple[int, int]) -> None:
     """|Q0| = r leaves Q1 = Q0 alone: a set without interior points."""
     region = qe.region(shadow(q0, r0, r2))
@@ -124,12 +122,9 @@ def test_via_point_on_the_circle(q0: tuple[int, int], r0: tuple[int, int], r2: i
     assert qe.equivalent(region.formula, f"a0 = {point[0]} and a1 = {point[1]}")
 
 
-@pytest.mark.parametrize(
-    ("q0", "r0", "r2", "formula"),
-    [
-        ((0, 0), (0, 0), 1, "9*a0^2 + 9*a1^2 <= 1"),
-        ((1, 1), (1, 1), 4, "9*a0^2 + 9*a1^2 - 24*a0 - 24*a1 + 28 <= 0 and a0^2 + a1^2 <= 4"),
-    ],
+@each(
+    ((0, 0), (0, 0), 1, "9*a0^2 + 9*a1^2 <= 1"),
+    ((1, 1), (1, 1), 4, "9*a0^2 + 9*a1^2 - 24*a0 - 24*a1 + 28 <= 0 and a0^2 + a1^2 <= 4"),
 )
 def test_coinciding_via_points_and_the_origin(q0: tuple[int, int], r0: tuple[int, int], r2: int, formula: str) -> None:
     assert qe.equivalent(qe.region(shadow(q0, r0, r2)).formula, formula)

@@ -9,26 +9,24 @@ import pytest
 
 import qe
 from qe.regions.convex_region import ConvexRegion
+from tests.tables import each
 
 DISC = qe.region("x^2 + y^2 <= 1")
 HALF = qe.region("y > x", order="x, y")
 BALL = "x^2 + y^2 + z^2 + w^2 <= 4 and x + y >= 1"
 
 
-@pytest.mark.parametrize(
-    ("made", "meant"),
-    [
-        (DISC & HALF, "x^2 + y^2 <= 1 and y > x"),
-        (DISC | HALF, "x^2 + y^2 <= 1 or y > x"),
-        (DISC - HALF, "x^2 + y^2 <= 1 and y <= x"),
-        (DISC ^ HALF, "not (x^2 + y^2 <= 1 <-> y > x)"),
-        (~DISC, "x^2 + y^2 > 1"),
-        (DISC & "x > 0", "x^2 + y^2 <= 1 and x > 0"),
-        ("x > 0" | DISC, "x^2 + y^2 <= 1 or x > 0"),
-        (DISC.interior(), "x^2 + y^2 < 1"),
-        ((DISC & HALF).closure(), "x^2 + y^2 <= 1 and y >= x"),
-        (HALF.boundary(), "x = y"),
-    ],
+@each(
+    (DISC & HALF, "x^2 + y^2 <= 1 and y > x"),
+    (DISC | HALF, "x^2 + y^2 <= 1 or y > x"),
+    (DISC - HALF, "x^2 + y^2 <= 1 and y <= x"),
+    (DISC ^ HALF, "not (x^2 + y^2 <= 1 <-> y > x)"),
+    (~DISC, "x^2 + y^2 > 1"),
+    (DISC & "x > 0", "x^2 + y^2 <= 1 and x > 0"),
+    ("x > 0" | DISC, "x^2 + y^2 <= 1 or x > 0"),
+    (DISC.interior(), "x^2 + y^2 < 1"),
+    ((DISC & HALF).closure(), "x^2 + y^2 <= 1 and y >= x"),
+    (HALF.boundary(), "x = y"),
 )
 def test_operators_make_the_set_that_they_mean(made: qe.Region, meant: str) -> None:
     assert made == qe.region(meant, order="x, y")
@@ -42,25 +40,22 @@ def test_relations_of_sets() -> None:
     assert DISC != HALF and qe.region("x^2 <= 1") != DISC and DISC != "x^2 + y^2 <= 1"
 
 
-@pytest.mark.parametrize(
-    ("wrong", "words"),
-    [
-        (lambda: DISC & qe.region("z > 0"), "same variables"),
-        (lambda: DISC & "z > 0", "z found"),
-        (lambda: DISC & 3, "3 found"),
-        (lambda: DISC.project("z"), "some of x, y"),
-        (lambda: DISC.project("x x"), "each name once"),
-        (lambda: DISC.section({"x": 0, "y": 0}), "a variable without a value"),
-        (lambda: DISC.section({"z": 0}), "z found"),
-        (lambda: DISC.distance({"x": 0}), "a value for y"),
-        (lambda: (DISC & "x > 5").distance({"x": 0, "y": 0}), "empty"),
-        (lambda: (DISC & "x > 5").sample(), "empty"),
-        (lambda: (DISC & "x > 5").bounding_box(), "empty"),
-        (lambda: DISC.find_instances(-1), "natural number"),
-        (lambda: DISC.sample("a"), "integers"),
-        (lambda: DISC.closure(timeout=-1), "positive"),
-        (lambda: (DISC & HALF).interior(timeout="1"), "positive"),
-    ],
+@each(
+    (lambda: DISC & qe.region("z > 0"), "same variables"),
+    (lambda: DISC & "z > 0", "z found"),
+    (lambda: DISC & 3, "3 found"),
+    (lambda: DISC.project("z"), "some of x, y"),
+    (lambda: DISC.project("x x"), "each name once"),
+    (lambda: DISC.section({"x": 0, "y": 0}), "a variable without a value"),
+    (lambda: DISC.section({"z": 0}), "z found"),
+    (lambda: DISC.distance({"x": 0}), "a value for y"),
+    (lambda: (DISC & "x > 5").distance({"x": 0, "y": 0}), "empty"),
+    (lambda: (DISC & "x > 5").sample(), "empty"),
+    (lambda: (DISC & "x > 5").bounding_box(), "empty"),
+    (lambda: DISC.find_instances(-1), "natural number"),
+    (lambda: DISC.sample("a"), "integers"),
+    (lambda: DISC.closure(timeout=-1), "positive"),
+    (lambda: (DISC & HALF).interior(timeout="1"), "positive"),
 )
 def test_misuse_gets_one_line(wrong, words: str) -> None:
     with pytest.raises(qe.InputError) as caught:
@@ -100,14 +95,11 @@ def test_convex_sets_stay_convex() -> None:
     assert whole.contains(whole.sample(3))
 
 
-@pytest.mark.parametrize(
-    ("text", "closed", "opened"),
-    [
-        ("x^2 + y^2 + z^2 < 1 and x > 0", "x^2 + y^2 + z^2 <= 1 and x >= 0", "x^2 + y^2 + z^2 < 1 and x > 0"),
-        ("x^2 + y^2 < 1 and x > 1 and z > 0", "false", "false"),  # the weak conditions have points
-        ("x^2 + y^2 <= 1 and x = 1 and z > 0", "x = 1 and y = 0 and z >= 0", "false"),
-        ("z*(x^2 + y^2) > 0", "z >= 0", "z*(x^2 + y^2) > 0"),
-    ],
+@each(
+    ("x^2 + y^2 + z^2 < 1 and x > 0", "x^2 + y^2 + z^2 <= 1 and x >= 0", "x^2 + y^2 + z^2 < 1 and x > 0"),
+    ("x^2 + y^2 < 1 and x > 1 and z > 0", "false", "false"),  # the weak conditions have points
+    ("x^2 + y^2 <= 1 and x = 1 and z > 0", "x = 1 and y = 0 and z >= 0", "false"),
+    ("z*(x^2 + y^2) > 0", "z >= 0", "z*(x^2 + y^2) > 0"),
 )
 def test_topology_in_space(text: str, closed: str, opened: str) -> None:
     given = qe.region(text, order="x, y, z")

@@ -20,6 +20,7 @@ from qe.processes.limits import Limits
 from qe.regions import build, operators, picture, planar, sketch, slices, solutions, turnable, volume, walk
 from qe.regions.region import Region
 from qe.regions.upright import isolated, uprights
+from tests.tables import each
 
 
 def region(text: str, order: str) -> Region:
@@ -60,16 +61,13 @@ def upright(text: str) -> list[tuple[float, float, float, bool]]:
     return [(line.x, round(line.low, 2), round(line.high, 2), line.closed) for line in lines]
 
 
-@pytest.mark.parametrize(
-    ("text", "lines"),
-    [
-        ("0 <= x and x < 1 and 0 <= y and y <= 1", [(0, 0, 1, True), (1, 0, 1, False)]),
-        ("0 <= x and x <= 2 and 0 <= y and y <= 1 and x != 1", [(0, 0, 1, True), (1, 0, 1, False), (2, 0, 1, True)]),
-        ("x^2 + y^2 <= 4 and (y >= 0 or x <= 0)", [(0, -2, 0, True)]),
-        ("x*y = 0 and x^2 + y^2 <= 4", [(0, -2, 0, True), (0, 0, 2, True)]),
-        ("x^2 + y^2 < 4", []),
-        ("x = 1 and 0 <= y and y < 2", [(1, 0, 2, True)]),
-    ],
+@each(
+    ("0 <= x and x < 1 and 0 <= y and y <= 1", [(0, 0, 1, True), (1, 0, 1, False)]),
+    ("0 <= x and x <= 2 and 0 <= y and y <= 1 and x != 1", [(0, 0, 1, True), (1, 0, 1, False), (2, 0, 1, True)]),
+    ("x^2 + y^2 <= 4 and (y >= 0 or x <= 0)", [(0, -2, 0, True)]),
+    ("x*y = 0 and x^2 + y^2 <= 4", [(0, -2, 0, True), (0, 0, 2, True)]),
+    ("x^2 + y^2 < 4", []),
+    ("x = 1 and 0 <= y and y < 2", [(1, 0, 2, True)]),
 )
 def test_upright_borders(text: str, lines: list[tuple[float, float, float, bool]]) -> None:
     """Where a region ends over one value of x: closed, open, and not where it goes on."""
@@ -127,16 +125,13 @@ def test_turnable_pages_are_of_space() -> None:
 
 
 # --- walks -----------------------------------------------------------------------------------------------------
-@pytest.mark.parametrize(
-    "text",
-    [
-        "x^2 + y^2 <= 1",
-        "y > x^2",
-        "x*y = 1",
-        "x^2 = 2 and y^2 = 3",
-        "x > 10^30 and y < x",
-        "0 < x and x < 1/10^20 and y = 1",
-    ],
+@each(
+    "x^2 + y^2 <= 1",
+    "y > x^2",
+    "x*y = 1",
+    "x^2 = 2 and y^2 = 3",
+    "x > 10^30 and y < x",
+    "0 < x and x < 1/10^20 and y = 1",
 )
 def test_walks_end_in_the_region(text: str) -> None:
     given = region(text, "x y")
@@ -155,9 +150,7 @@ def test_different_points() -> None:
     assert walk.different_points(region("x^2 < 0", "x"), 3, 0, Budget(60)) == []
 
 
-@pytest.mark.parametrize(
-    ("width", "step"), [(4096, 1), (8191, 1), (8192, 2), (Fraction(1, 2), Fraction(1, 8192)), (3, Fraction(1, 2048))]
-)
+@each((4096, 1), (8191, 1), (8192, 2), (Fraction(1, 2), Fraction(1, 8192)), (3, Fraction(1, 2048)))
 def test_the_grid_of_random_values(width: Fraction, step: Fraction) -> None:
     assert walk._grid(Fraction(width)) == step
 
@@ -177,19 +170,16 @@ def test_values_of_intervals() -> None:
 
 
 # --- measures --------------------------------------------------------------------------------------------------
-@pytest.mark.parametrize(
-    ("text", "order", "value"),
-    [
-        ("0 <= x and x <= 3 or x = 7", "x", 3.0),
-        ("x^2 <= 2", "x", 2 * 2**0.5),
-        ("x^2 + y^2 <= 4", "x y", 4 * pi),
-        ("y >= x^2 and y <= 1", "x y", 4 / 3),
-        ("x^2 + y^2 + z^2 <= 1", "x y z", 4 * pi / 3),
-        ("x^2 + y^2 + z^2 <= 1 and x + z >= 0", "x y z", 2 * pi / 3),
-        ("0 <= x and x <= 1 and 0 <= y and y <= x and 0 <= z and z <= x + y", "x y z", 0.5),
-        ("x^2 + y^2 = 1", "x y", 0.0),
-        ("(x - 10^20)^2 + y^2 <= 1", "x y", pi),
-    ],
+@each(
+    ("0 <= x and x <= 3 or x = 7", "x", 3.0),
+    ("x^2 <= 2", "x", 2 * 2**0.5),
+    ("x^2 + y^2 <= 4", "x y", 4 * pi),
+    ("y >= x^2 and y <= 1", "x y", 4 / 3),
+    ("x^2 + y^2 + z^2 <= 1", "x y z", 4 * pi / 3),
+    ("x^2 + y^2 + z^2 <= 1 and x + z >= 0", "x y z", 2 * pi / 3),
+    ("0 <= x and x <= 1 and 0 <= y and y <= x and 0 <= z and z <= x + y", "x y z", 0.5),
+    ("x^2 + y^2 = 1", "x y", 0.0),
+    ("(x - 10^20)^2 + y^2 <= 1", "x y", pi),
 )
 def test_enclosures_of_measures(text: str, order: str, value: float) -> None:
     low, high = volume.enclose(region(text, order), Fraction(1, 10), budget=Budget(120))
@@ -202,14 +192,11 @@ def test_unbounded_regions_have_no_measure() -> None:
         volume.enclose(region("x^2 <= 1 and y > 0", "x y"), Fraction(1, 10), budget=Budget(60))
 
 
-@pytest.mark.parametrize(
-    ("text", "closed"),
-    [
-        ("x^2 + y^2 + z^2 <= 1", True),
-        ("0 <= x and x <= 1 and 0 <= y and y <= 1 and x*y - 1 <= z and z <= x*y", True),
-        ("0 <= x and x <= 1 and 0 <= y and y <= 1 and 0 <= z and z^3 <= x", False),
-        ("0 <= x and x <= 1 and 0 <= y and y <= 1 and z >= 0", False),
-    ],
+@each(
+    ("x^2 + y^2 + z^2 <= 1", True),
+    ("0 <= x and x <= 1 and 0 <= y and y <= 1 and x*y - 1 <= z and z <= x*y", True),
+    ("0 <= x and x <= 1 and 0 <= y and y <= 1 and 0 <= z and z^3 <= x", False),
+    ("0 <= x and x <= 1 and 0 <= y and y <= 1 and z >= 0", False),
 )
 def test_which_slices_have_a_closed_form(text: str, closed: bool) -> None:
     full = [p for p in region(text, "x y z").cells if p.dimension == 3]
@@ -227,10 +214,7 @@ def test_cells_and_their_frontiers() -> None:
     assert qe.equivalent(closed, "x^2 + y^2 <= 1")
 
 
-@pytest.mark.parametrize(
-    ("text", "plain"),
-    [("ex y. x = y^2 and y < 2", "x >= 0"), ("x < root(2, x^2 - a, x)", "a > 0 and (x^2 < a or x < 0)")],
-)
+@each(("ex y. x = y^2 and y < 2", "x >= 0"), ("x < root(2, x^2 - a, x)", "a > 0 and (x^2 < a or x < 0)"))
 def test_descriptions_of_any_formula(text: str, plain: str) -> None:
     found = build.described(read(text), None, Budget(60), Limits(None))
     assert found.answer is not None and qe.equivalent(found.formula, plain)

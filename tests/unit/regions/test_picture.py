@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 import qe
 from qe.regions.sketch import sketch
+from tests.tables import each
 
 BALL = "x^2 + y^2 + z^2 <= 4 and x >= 0"
 
@@ -30,7 +31,7 @@ def test_the_caller_s_axes_are_painted_and_returned():
     assert len(mine.collections) == 1
 
 
-@pytest.mark.parametrize(("text", "styles"), [("x^2 + y^2 < 4", {"--"}), ("x^2 + y^2 <= 4", {"-"})])
+@each(("x^2 + y^2 < 4", {"--"}), ("x^2 + y^2 <= 4", {"-"}))
 def test_open_and_closed_borders_are_told_apart(text, styles):
     borders = [line for line in qe.region(text).plot(ax=axes()).lines if len(line.get_xdata()) > 2]
     assert {line.get_linestyle() for line in borders} == styles
@@ -57,7 +58,7 @@ def test_space():
     assert painted.name == "3d" and len(painted.collections) == 1
 
 
-@pytest.mark.parametrize(("text", "given"), [(BALL, None), ("x^2 + y^2 < 1", "3d"), ("x < 1", "no axes")])
+@each((BALL, None), ("x^2 + y^2 < 1", "3d"), ("x < 1", "no axes"))
 def test_other_axes_are_refused(text, given):
     mine = "axes" if given == "no axes" else axes(given)
     with pytest.raises(qe.InputError, match="ax: "):
@@ -69,7 +70,7 @@ def test_a_file_and_axes_are_refused(tmp_path):
         qe.region("x < 1").plot(tmp_path / "a.png", ax=axes())
 
 
-@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
+@each("png", "svg", "pdf")
 def test_files(ending, tmp_path):
     qe.region("x^2 + y^2 <= 1").plot(tmp_path / f"a.{ending}")
     assert (tmp_path / f"a.{ending}").stat().st_size > 1000

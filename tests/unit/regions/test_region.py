@@ -1,34 +1,46 @@
-"""Regions as users meet them: degenerate sets, exact bounds, volume, JSON, certificates."""
+"""Regions as sets: members, solutions, ends, topology."""
 
 from __future__ import annotations
 
 import math
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import qe
+from qe.api.input import read_formula
+from qe.errors import InputError
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import Formula
+from qe.formula.traverse import is_quantifier_free
+from qe.io.text import read
+from qe.options import Budget
+from qe.regions.ends import ends
 from qe.regions.region import Region
+from qe.regions.topology import boundary, closure, interior
+from tests.strategies import formulas, points
+from tests.tables import each
 
 THREE = "x^2+y^2+z^2 <= 27 and (x+2)^2+(y-6)^2+(z-6)^2 <= 27 and (x-2)^2+(y-6)^2+(z-6)^2 <= 27"
 
 
-@pytest.mark.parametrize(
-    ("text", "dimension", "inside"),
-    [
-        ("x^2+y^2+z^2 <= 1 and (x-2)^2+y^2+z^2 <= 1", 0, {"x": 1, "y": 0, "z": 0}),
-        ("x^2+y^2+z^2 <= 1 and x^2+y^2+z^2 <= 1", 3, {"x": 0, "y": 0, "z": 0}),
-        (
-            "x^2+y^2+z^2 = 1 and (x-1)^2+y^2+z^2 = 1",
-            1,
-            {"x": "1/2", "y": 0, "z": qe.RealAlgebraic.from_root([-3, 0, 4], 0, 1)},
-        ),
-        ("x^2+y^2 <= 1 and x > 1", -1, None),
-        ("x^2+y^2 = 1 and y = x", 0, None),
-        ("x^2+y^2 = 1", 1, {"x": "3/5", "y": "4/5"}),
-        ("x^2+y^2 < 1", 2, {"x": "0.5", "y": 0}),
-        ("x = 1 and y > 0", 1, {"x": 1, "y": 3}),
-    ],
+@each(
+    ("x^2+y^2+z^2 <= 1 and (x-2)^2+y^2+z^2 <= 1", 0, {"x": 1, "y": 0, "z": 0}),
+    ("x^2+y^2+z^2 <= 1 and x^2+y^2+z^2 <= 1", 3, {"x": 0, "y": 0, "z": 0}),
+    (
+        "x^2+y^2+z^2 = 1 and (x-1)^2+y^2+z^2 = 1",
+        1,
+        {"x": "1/2", "y": 0, "z": qe.RealAlgebraic.from_root([-3, 0, 4], 0, 1)},
+    ),
+    ("x^2+y^2 <= 1 and x > 1", -1, None),
+    ("x^2+y^2 = 1 and y = x", 0, None),
+    ("x^2+y^2 = 1", 1, {"x": "3/5", "y": "4/5"}),
+    ("x^2+y^2 < 1", 2, {"x": "0.5", "y": 0}),
+    ("x = 1 and y > 0", 1, {"x": 1, "y": 3}),
 )
 def test_degenerate_sets(text: str, dimension: int, inside: dict | None) -> None:
     region = qe.region(text)
@@ -51,20 +63,17 @@ def test_three_balls_are_two_pieces_with_radical_bounds() -> None:
     assert qe.verify(again.certificate).accepted
 
 
-@pytest.mark.parametrize(
-    ("text", "value", "error"),
-    [
-        ("x^2 <= 2", 2 * math.sqrt(2), 0.001),
-        ("x^2+y^2 <= 4", 4 * math.pi, 0.001),
-        ("x^2+y^2+z^2 <= 4", 32 * math.pi / 3, 0.02),
-        ("x^2+2*y^2+3*z^2+x*y <= 1", 4 * math.pi / 3 / math.sqrt(21 / 4), 0.03),  # an ellipsoid, not axis-parallel
-        ("x^2+y^2+z^2 <= 1 and (x-1)^2+y^2+z^2 <= 1", 5 * math.pi / 12, 0.1),  # a lens
-        ("x^2+y^2+z^2 <= 1 and z >= y", 2 * math.pi / 3, 0.1),
-        ("0 <= x and x <= 1 and 0 <= y and y <= x and 0 <= z and z <= x*y", 1 / 8, 0.1),
-        ("0 <= x and x <= 1 and 0 <= y and y <= x", 0.5, 0.01),
-        ("x^2+y^2 = 1", 0.0, 0.01),
-        ("x^4+y^4 <= 1", 3.7081493546, 0.02),
-    ],
+@each(
+    ("x^2 <= 2", 2 * math.sqrt(2), 0.001),
+    ("x^2+y^2 <= 4", 4 * math.pi, 0.001),
+    ("x^2+y^2+z^2 <= 4", 32 * math.pi / 3, 0.02),
+    ("x^2+2*y^2+3*z^2+x*y <= 1", 4 * math.pi / 3 / math.sqrt(21 / 4), 0.03),  # an ellipsoid, not axis-parallel
+    ("x^2+y^2+z^2 <= 1 and (x-1)^2+y^2+z^2 <= 1", 5 * math.pi / 12, 0.1),  # a lens
+    ("x^2+y^2+z^2 <= 1 and z >= y", 2 * math.pi / 3, 0.1),
+    ("0 <= x and x <= 1 and 0 <= y and y <= x and 0 <= z and z <= x*y", 1 / 8, 0.1),
+    ("0 <= x and x <= 1 and 0 <= y and y <= x", 0.5, 0.01),
+    ("x^2+y^2 = 1", 0.0, 0.01),
+    ("x^4+y^4 <= 1", 3.7081493546, 0.02),
 )
 def test_volume_is_enclosed(text: str, value: float, error: float) -> None:
     low, high = qe.region(text).volume(error)
@@ -81,14 +90,11 @@ def test_bounds_of_open_and_unbounded_sets() -> None:
         region.volume()
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda r: r.contains({"x": 1}), "a value for y expected"),
-        (lambda r: r.contains({"x": "one", "y": 0}), "an exact number for x expected"),
-        (lambda r: r.bounds("w"), "one of x, y expected"),
-        (lambda r: r.volume(2), "between 0 and 1"),
-    ],
+@each(
+    (lambda r: r.contains({"x": 1}), "a value for y expected"),
+    (lambda r: r.contains({"x": "one", "y": 0}), "an exact number for x expected"),
+    (lambda r: r.bounds("w"), "one of x, y expected"),
+    (lambda r: r.volume(2), "between 0 and 1"),
 )
 def test_bad_requests_get_one_line(call, message: str) -> None:
     with pytest.raises(qe.InputError, match=message):
@@ -102,3 +108,150 @@ def test_order_must_name_every_variable() -> None:
 
 def test_a_formula_without_variables_has_a_region() -> None:
     assert qe.region("false").is_empty and not qe.region("true").is_empty
+
+
+@each(1, 0.5, "1/2", Fraction(1, 2), [1], {"x": 1}, sympy.sqrt(2))
+def test_points_of_a_line(point: object) -> None:
+    line = qe.region("x > 0")
+    assert point in line and point not in ~line
+
+
+def test_points_of_a_plane() -> None:
+    disc = qe.region("x^2 + y^2 < 1")
+    assert (0, 0.5) in disc and {"y": 0, "x": 0} in disc and (1, 0) not in disc
+    with pytest.raises(qe.InputError, match="values in order"):
+        0.5 in disc
+
+
+@each(
+    ("x^2 = 2", None, ["x = -sqrt(2)", "x = sqrt(2)"]),
+    ("x^2 + y^2 = 1 and x = y", "x y", ["x = -sqrt(2)/2 and y = x", "x = sqrt(2)/2 and y = x"]),
+    ("a*x < b", "x", ["a < 0 and b/a < x", "a = 0 and 0 < b", "0 < a and x < b/a"]),
+    ("x^2 + y^2 <= 1", ("x", "y"), ["-1 <= x <= 1 and -sqrt(-x^2 + 1) <= y <= sqrt(-x^2 + 1)"]),
+    ("y^3 = x", "y", ["y = root(1, y^3 - x, y)"]),
+    ("ex y. x = y^2", None, ["0 <= x"]),
+    ("x^5 - x = 1", None, ["x = root(1, x^5 - x - 1)"]),
+    ("x < x", "x", ["false"]),
+    ("ex y. x < y", "x", ["true"]),
+)
+def test_cases(text: str, variables: object, lines: list[str]) -> None:
+    found = qe.solve(text, variables)
+    assert str(found).split(" or\n") == lines
+    assert qe.equivalent(str(found), text) and qe.equivalent(found.formula, text)
+
+
+def test_double_roots_are_counted_once() -> None:
+    found = qe.solve("x*y^2 - y - 1 >= 0")  # at x = -1/4 both roots are y = -2
+    assert qe.equivalent(str(found), "x*y^2 - y - 1 >= 0")
+    assert qe.equivalent(f"x = -1/4 and y = -2 and ({found})", "x = -1/4 and y = -2")
+
+
+def test_the_object() -> None:
+    found = qe.reduce("x^2 + b*x + c = 0", "x")
+    assert found.order == ("b", "c", "x") and len(found) == len(list(found)) == 3 and str(found[0]) in str(found)
+    assert repr(found) == "Solutions(b, c, x: 3 cases)" and "<li><code>" in found._repr_html_()
+    assert found.region.contains(found[0].sample) and qe.verify(found.region.certificate).accepted
+
+
+def test_misuse() -> None:
+    for wrong in (lambda: qe.solve("x > 0", 3), lambda: qe.solve("x >"), lambda: qe.solve("x > 0", "x", timeout=0)):
+        with pytest.raises(qe.InputError):
+            wrong()
+
+
+@settings(max_examples=30)
+@given(formulas(names=("x", "y"), max_degree=3), st.lists(points(("x", "y")), min_size=4, max_size=4))
+def test_each_case_is_read_back_and_all_together_are_the_formula(formula, at) -> None:
+    found = qe.solve(formula, "x y")
+    read = [read_formula(str(case)) for case in found]
+    for point in at:
+        assert sum(holds_at(f, point) for f in read) == holds_at(formula, point)  # the cases are disjoint
+    for case, f in zip(found, read, strict=True):
+        if all(not isinstance(value, qe.RealAlgebraic) for value in case.sample.values()):
+            assert holds_at(f, case.sample)
+
+
+@settings(max_examples=12)
+@given(formulas(names=("`a b`", "pi", "ex"), max_degree=2))
+def test_odd_names(formula) -> None:
+    found = qe.solve(formula)
+    assert read_formula(str(found)).free == found.formula.free
+
+
+@each(
+    "x^2 < 2 and x /= 0 or x = 3",
+    "x^2 + y^2 <= 4 and (x - 1)^2 + y^2 < 4 or x = 3 and y = 1",
+    "y > x^2",
+    "y^2 < x^3 - x",
+    "x^2 + y^2 + z^2 <= 4 and x + y + z >= 1",
+    "x^2 < 0",
+)
+def test_one_to_three_variables(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "region.png"
+    qe.region(text).plot(path)
+    assert path.read_bytes().startswith(b"\x89PNG")
+    assert path.stat().st_size > 5000
+
+
+def test_other_formats(tmp_path: Path) -> None:
+    region = qe.region("x^2 + y^2 <= 1")
+    region.plot(tmp_path / "r.svg")
+    region.plot(str(tmp_path / "r.pdf"))
+    assert "<svg" in (tmp_path / "r.svg").read_text()
+    assert (tmp_path / "r.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_refusals(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="1 to 3 variables"):
+        qe.region("a + b + c + d > 0").plot(tmp_path / "r.png")
+    with pytest.raises(InputError, match="ending in"):
+        qe.region("x > 0").plot(tmp_path / "r.doc")
+
+
+def test_ends_are_followed() -> None:
+    """On the circle x^2 + y^2 = 4 the ends over x are -sqrt(4 - x^2) and sqrt(4 - x^2)."""
+    (piece,) = qe.region("x^2 + y^2 <= 4", order=("x", "y")).cells
+    for x in (-1.5, 0.0, 1.0):
+        low, high = ends(piece, 1, {0: x}, (-9.0, 9.0))
+        assert high == pytest.approx((4 - x * x) ** 0.5)
+        assert low == pytest.approx(-high)
+
+
+def test_double_roots_count_once_over_a_single_value() -> None:
+    """y^2 < x^3 - x: where the oval has its extreme y, x starts at the branch, not at the oval's double root."""
+    pieces = [p for p in qe.region("y^2 < x^3 - x", order=("y", "x")).cells if p.ranges[0].is_point]
+    assert len(pieces) == 2
+    for piece in pieces:
+        y = float(piece.sample["y"])
+        low, _ = ends(piece, 1, {0: y}, (-9.0, 9.0))
+        assert low == pytest.approx(2 / 3**0.5)
+
+
+def found(operation: object, text: str) -> Formula:
+    formula = read(text)
+    return operation(formula, formula.free, Budget())  # type: ignore[operator,no-any-return]
+
+
+@each(
+    ("x^2 + y^2 < 1 and y >= 0", "x^2 + y^2 <= 1 and y >= 0", "x^2 + y^2 < 1 and y > 0"),
+    ("x^2 + y^2 <= 1 and x + y > 1", "x^2 + y^2 <= 1 and x + y >= 1", "x^2 + y^2 < 1 and x + y > 1"),
+    ("x = 1 and y < 2", "x = 1 and y <= 2", "false"),
+    ("x^2 + y^2 < 1 and x >= 1", "false", "false"),
+    ("x^2 <= 0 and y > 0", "x = 0 and y >= 0", "false"),
+)
+def test_convex_sets_by_other_relations(text: str, closed: str, opened: str) -> None:
+    for operation, expected in ((closure, closed), (interior, opened)):
+        answer = found(operation, text)
+        assert is_quantifier_free(answer) and qe.equivalent(answer, expected)
+
+
+@each(
+    ("x^3 - x^2 > 0", "x >= 1", "x > 1"),
+    ("x^2*(1 - x) >= 0 and x > 0", "0 <= x and x <= 1", "0 < x and x < 1"),
+    ("x^3 - x^2 >= 0", "x >= 1 or x = 0", "x > 1"),
+    ("x /= 0 and x <= 1", "x <= 1", "x < 1 and x /= 0"),
+    ("x < 0 or x >= 1", "x <= 0 or x >= 1", "x < 0 or x > 1"),
+)
+def test_others_by_the_definition(text: str, closed: str, opened: str) -> None:
+    assert qe.equivalent(found(closure, text), closed) and qe.equivalent(found(interior, text), opened)
+    assert qe.equivalent(found(boundary, text), f"({closed}) and not ({opened})")

@@ -13,23 +13,10 @@ from hypothesis import strategies as st
 import qe
 from qe.regions.solid import Solid, Surface
 from qe.regions.space import framed, shape_of
+from tests.tables import each
 
 ORDER = ("x", "y", "z")
 BOX = "0 <= x and x <= 2 and 0 <= y and y <= 1 and -1 <= z and z <= 2"
-VOLUMES = [
-    (BOX, 6.0),
-    ("x^2 + y^2 <= 1 and 0 < z and z < 2", 2 * pi),
-    ("y^2 + z^2 <= 1 and 0 <= x and x <= 2", 2 * pi),
-    ("x^2 + z^2 <= 1 and 0 <= y and y <= 2", 2 * pi),
-    ("x^2 + y^2 + z^2 <= 4 and z >= 0", 16 * pi / 3),
-    ("x^2 + y^2 + z^2 <= 4 and x < 0", 16 * pi / 3),
-    ("x >= 0 and y >= 0 and x + y <= 1 and -1 <= z and z <= 1", 1.0),
-    ("x >= 0 and y >= 0 and z >= 0 and x + y + z <= 1", 1 / 6),
-    ("x^2 + y^2 + z^2 <= 4 and x^2 + y^2 + z^2 >= 1 and y >= 0", 14 * pi / 3),
-    ("(x^2 + y^2 + z^2 + 3)^2 <= 16*(x^2 + y^2)", 4 * pi**2),
-    ("x^2 + y^2 <= 1 and x^2 + z^2 <= 1", 16 / 3),
-    ("y^2 <= 1 and z^2 <= 1 and 0 <= x and x <= 2 and (x <= 1 or z <= 0)", 6.0),
-]
 
 
 def edges(surface: Surface) -> Counter[tuple[int, int]]:
@@ -49,7 +36,20 @@ def volume(shape: Solid) -> float:
     return sum(block.volume for block in shape.blocks)
 
 
-@pytest.mark.parametrize(("text", "exact"), VOLUMES)
+@each(
+    (BOX, 6.0),
+    ("x^2 + y^2 <= 1 and 0 < z and z < 2", 2 * pi),
+    ("y^2 + z^2 <= 1 and 0 <= x and x <= 2", 2 * pi),
+    ("x^2 + z^2 <= 1 and 0 <= y and y <= 2", 2 * pi),
+    ("x^2 + y^2 + z^2 <= 4 and z >= 0", 16 * pi / 3),
+    ("x^2 + y^2 + z^2 <= 4 and x < 0", 16 * pi / 3),
+    ("x >= 0 and y >= 0 and x + y <= 1 and -1 <= z and z <= 1", 1.0),
+    ("x >= 0 and y >= 0 and z >= 0 and x + y + z <= 1", 1 / 6),
+    ("x^2 + y^2 + z^2 <= 4 and x^2 + y^2 + z^2 >= 1 and y >= 0", 14 * pi / 3),
+    ("(x^2 + y^2 + z^2 + 3)^2 <= 16*(x^2 + y^2)", 4 * pi**2),
+    ("x^2 + y^2 <= 1 and x^2 + z^2 <= 1", 16 / 3),
+    ("y^2 <= 1 and z^2 <= 1 and 0 <= x and x <= 2 and (x <= 1 or z <= 0)", 6.0),
+)
 def test_bounded_solids_are_closed_and_have_their_volume(text: str, exact: float) -> None:
     shape = shape_of(qe.region(text, order=ORDER))[0]
     assert_closed(shape)
@@ -74,10 +74,7 @@ def test_a_cylinder_had_no_mantle() -> None:
     assert np.linalg.norm(normals[mantle], axis=1).sum() / 2 == pytest.approx(4 * pi, rel=0.01)
 
 
-@pytest.mark.parametrize(
-    ("text", "exact"),
-    [("z >= x^2 + y^2 and x >= 0", None), ("x^2 + y^2 >= 100 and z >= 0 and z <= 5", None), ("x = x or y = z", 512.0)],
-)
+@each(("z >= x^2 + y^2 and x >= 0", None), ("x^2 + y^2 >= 100 and z >= 0 and z <= 5", None), ("x = x or y = z", 512.0))
 def test_what_goes_on_for_ever_is_cut_by_the_frame(text: str, exact: float | None) -> None:
     region = qe.region(text, order=ORDER)
     inside, frame = framed(region)

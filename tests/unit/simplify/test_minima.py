@@ -11,22 +11,20 @@ from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
 from qe.simplify.minima import minimum, minimum_of_quadratic, vanishing
+from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
 X, Y, Z = (RING.gen(i) for i in range(3))
 
 
-@pytest.mark.parametrize(
-    ("poly", "value", "zeros"),
-    [
-        (X**2, 0, (X,)),
-        (X**2 - 2 * X, -1, (X - 1,)),
-        (X**2 + X * Y + Y**2 + 3, 3, (2 * X + Y, Y)),
-        ((X - Y) ** 2 + 4, 4, (X - Y,)),
-        (2 * X**4 + 3 * X**2 * Y**2 - 5, -5, (X * Y, X)),
-        (2 * (X - Y + 1) ** 2 + 3 * (Z - 2) ** 2, 0, (X - Y + 1, Z - 2)),
-        (2 * X**2 + 2 * X, Fraction(-1, 2), (2 * X + 1,)),
-    ],
+@each(
+    (X**2, 0, (X,)),
+    (X**2 - 2 * X, -1, (X - 1,)),
+    (X**2 + X * Y + Y**2 + 3, 3, (2 * X + Y, Y)),
+    ((X - Y) ** 2 + 4, 4, (X - Y,)),
+    (2 * X**4 + 3 * X**2 * Y**2 - 5, -5, (X * Y, X)),
+    (2 * (X - Y + 1) ** 2 + 3 * (Z - 2) ** 2, 0, (X - Y + 1, Z - 2)),
+    (2 * X**2 + 2 * X, Fraction(-1, 2), (2 * X + 1,)),
 )
 def test_minimum(poly: Poly, value: int, zeros: tuple[Poly, ...]) -> None:
     found = minimum(poly)

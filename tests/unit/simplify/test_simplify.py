@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import pytest
-
 from qe.formula.syntax import FALSE, TRUE
 from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.simplify.simplify import simplify
+from tests.tables import each
 
-CASES = [
+
+@each(
     # implied bounds: one polynomial up to a constant
     ("x^2 + y^2 - 4 <= 0 and x^2 + y^2 - 9 <= 0", "x^2 + y^2 - 4 <= 0"),
     ("x^2 + y^2 - 4 <= 0 or x^2 + y^2 - 9 <= 0", "x^2 + y^2 - 9 <= 0"),
@@ -67,10 +67,7 @@ CASES = [
     # quantifiers over nothing
     ("ex x, y. x*z > 1", "ex x. x*z > 1"),
     ("not ex x. (x > 0 and (y < 0 or x >= 0))", "all x. x <= 0"),
-]
-
-
-@pytest.mark.parametrize(("given", "expected"), CASES)
+)
 def test_rule(given: str, expected: str) -> None:
     assert str(simplify(read(given))) == str(simplify(read(expected)))
     assert len(str(simplify(read(given)))) <= len(str(read(expected))) + 4
@@ -86,14 +83,11 @@ def test_contradictory_assumptions_allow_everything() -> None:
     assert simplify(read("x > y"), read("x > 0 and x < 0")) == TRUE
 
 
-@pytest.mark.parametrize(
-    "kept",
-    [
-        "x > 1 and ex x. (x > 0 and x*y > 1)",  # the bound x is not the free one
-        "x > 1 and ex x. (x < 0 and x + y > 0)",
-        "x >= 0 and x + y >= 0 and y < 3",
-        "x^2 - 2*x*y + y^2 + z <= 0",
-    ],
+@each(
+    "x > 1 and ex x. (x > 0 and x*y > 1)",  # the bound x is not the free one
+    "x > 1 and ex x. (x < 0 and x + y > 0)",
+    "x >= 0 and x + y >= 0 and y < 3",
+    "x^2 - 2*x*y + y^2 + z <= 0",
 )
 def test_nothing_to_do(kept: str) -> None:
     given = read(kept)

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import pytest
-
 import qe
 from qe.api.input import read_formula
 from qe.formula.build import convert
 from qe.formula.traverse import ring_of
+from tests.tables import each
 
 AXES = "xyz"
 
@@ -43,14 +42,11 @@ def symbols(name: str, n: int) -> list[str]:
     return [f"{name}{a}" for a in AXES[:n]]
 
 
-@pytest.mark.parametrize(
-    ("q0", "r0", "square"),
-    [
-        ((-1, 3, 3), (1, 3, 3), "27"),
-        (("1/2", "-3/7", 2), (0, 0, "5/3"), "9"),
-        (symbols("q0", 3), symbols("r0", 3), "r^2"),
-        (symbols("q0", 2), symbols("r0", 2), "r^2"),
-    ],
+@each(
+    ((-1, 3, 3), (1, 3, 3), "27"),
+    (("1/2", "-3/7", 2), (0, 0, "5/3"), "9"),
+    (symbols("q0", 3), symbols("r0", 3), "r^2"),
+    (symbols("q0", 2), symbols("r0", 2), "r^2"),
 )
 def test_answer_as_printed(q0: Sequence[object], r0: Sequence[object], square: str) -> None:
     answer = qe.eliminate(printed(q0, r0, square))
@@ -69,7 +65,7 @@ def existence(n: int, *, factor: int = 1) -> str:
     return f"all {', '.join(q0 + r0)}, r. {' and '.join(inside)} and r >= 0 -> ({formula})"
 
 
-@pytest.mark.parametrize("n", [2, 3])
+@each(2, 3)
 def test_existence_theorem_is_found(n: int) -> None:
     answer = qe.eliminate(existence(n), timeout=120)
     assert answer.truth is True

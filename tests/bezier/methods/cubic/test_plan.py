@@ -21,6 +21,7 @@ from bezier.problem import INNER, PlanMethod, PointCondition, Problem
 from qe.errors import InputError
 from qe.io import text
 from tests.bezier.numbers import points
+from tests.tables import each
 
 COORDINATE = st.integers(-3, 3).map(Fraction)
 POINT = points(3, COORDINATE)
@@ -348,7 +349,7 @@ def test_too_much_speed_is_refuted():
     assert plan.outcome is Outcome.INFEASIBLE and plan.certified
 
 
-@pytest.mark.parametrize("unit", [Fraction(10**4), Fraction(10**9), Fraction(1, 10**12)])
+@each(Fraction(10**4), Fraction(10**9), Fraction(1, 10**12))
 def test_the_unit_of_length_does_not_matter(unit):
     """In micrometres as in kilometres: the same active conditions, the optimum in the square of the unit."""
     q0, r0 = embedded(-3, 2), embedded(2, 2)

@@ -2,7 +2,6 @@
 
 from fractions import Fraction
 
-import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -14,6 +13,7 @@ from bezier.paths.path import assemble
 from bezier.problem import PlanMethod, Problem
 from qe.io import text
 from tests.bezier.numbers import points, small
+from tests.tables import each
 
 
 def problem(q0, r0, r2, kind=WorkspaceKind.BALL):
@@ -108,7 +108,7 @@ def test_three_ball_condition(q0, r0, r2):
     assert found.meet == (meet_numerically(q0, r0, r2) <= 0) == (difference < 0)
 
 
-@pytest.mark.parametrize(("d", "k", "r"), [(1, 3, Fraction(10, 3)), (1, 2, Fraction(5, 2)), (2, 3, Fraction(13, 3))])
+@each((1, 3, Fraction(10, 3)), (1, 2, Fraction(5, 2)), (2, 3, Fraction(13, 3)))
 def test_symmetric_threshold(d, k, r):
     # Q0 = (-d, k), R0 = (d, k) with k > d: feasible iff d^2 + k^2 <= r k
     at = quadratic.three_balls(problem((-d, k, 0), (d, k, 0), r * r))

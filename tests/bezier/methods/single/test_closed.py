@@ -20,6 +20,7 @@ from bezier.methods.single.formula import VALUE
 from bezier.methods.single.program import choose, curve, dips, weights_at
 from qe.errors import InputError, Unable
 from tests.bezier.singles import FLAT, axis, tasks, unit_task
+from tests.tables import each
 
 F = Fraction
 SPACE = st.sampled_from(WorkspaceKind)
@@ -88,7 +89,7 @@ def check_against_elimination(given_task, ratio):
     assert qe.decide(f"all {VALUE}. ({sums}) -> {VALUE} >= {found.bound}")
 
 
-@pytest.mark.parametrize("squared", ["6/5", "3/2", "8/5"])
+@each("6/5", "3/2", "8/5")
 def test_against_exact_elimination_of_t(squared):
     """No curve, a curve that the ball bounds, and one that it does not."""
     given_task = unit_task(4, "2/5", "7/10", axis("y", 0, "1/2", 1), FLAT)

@@ -22,6 +22,7 @@ from bezier.plans import Outcome, Stated
 from bezier.problem import from_json, load_problem, read_problem, to_json
 from qe.errors import CertificateRejected, InputError
 from qe.proof.certificate import Certificate
+from tests.tables import each
 
 F = Fraction
 EXAMPLES = ("single", "single_leaves", "single_dip")
@@ -130,29 +131,26 @@ def test_without_a_degree_the_least_one_from_six_on_is_taken():
     assert task.degree == 13
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"single": "degree = 4\na = 4\nb = 7\nheight_y = 10"}, "via: expected no via points beside a, b and heights"),
-        (
-            {"single": "degree = 2"},
-            "single.degree: expected an interval, a degree and heights that fit together, found degree 2: no p",
-        ),
-        ({"single": "degree = 65"}, "single.degree: expected a whole number from 0 to 64, found 65"),
-        ({"single": "degree = 6.5"}, "single.degree: expected a whole number"),
-        ({"single": "degree = 6\np = 1"}, "single.p: expected 2, which follows from a and b, found 1"),
-        ({"single": "order = 6"}, "single.order: expected one of the keys degree, a, b"),
-        ({"single": "degree = 6", "method": "cubic"}, 'single: expected this table with method = "single" only'),
-        ({"via": "via = [[4, 10, 1], [7, 9, 1]]"}, "via: expected two points with the same y above zero, or"),
-        ({"via": "via = [[4, 10, 0], [7, 10, -1]]"}, "found z = 0 and -1"),
-        ({"via": "", "single": "a = 4\nb = 7"}, "heights that fit together, found no positive height"),
-        ({"via": "", "single": "a = 4\nheight_y = 10"}, "single.b: expected an integer"),
-        (
-            {"via": "", "single": "a = 4\nb = 7\nheight_y = -1"},
-            "single.height_y: expected a number above zero, found -1",
-        ),
-        ({"via": "", "single": "a = 4\nb = 7\nheight_y = 1", "goal": "[0, 1, 0]"}, "goal: expected a goal beyond"),
-    ],
+@each(
+    ({"single": "degree = 4\na = 4\nb = 7\nheight_y = 10"}, "via: expected no via points beside a, b and heights"),
+    (
+        {"single": "degree = 2"},
+        "single.degree: expected an interval, a degree and heights that fit together, found degree 2: no p",
+    ),
+    ({"single": "degree = 65"}, "single.degree: expected a whole number from 0 to 64, found 65"),
+    ({"single": "degree = 6.5"}, "single.degree: expected a whole number"),
+    ({"single": "degree = 6\np = 1"}, "single.p: expected 2, which follows from a and b, found 1"),
+    ({"single": "order = 6"}, "single.order: expected one of the keys degree, a, b"),
+    ({"single": "degree = 6", "method": "cubic"}, 'single: expected this table with method = "single" only'),
+    ({"via": "via = [[4, 10, 1], [7, 9, 1]]"}, "via: expected two points with the same y above zero, or"),
+    ({"via": "via = [[4, 10, 0], [7, 10, -1]]"}, "found z = 0 and -1"),
+    ({"via": "", "single": "a = 4\nb = 7"}, "heights that fit together, found no positive height"),
+    ({"via": "", "single": "a = 4\nheight_y = 10"}, "single.b: expected an integer"),
+    (
+        {"via": "", "single": "a = 4\nb = 7\nheight_y = -1"},
+        "single.height_y: expected a number above zero, found -1",
+    ),
+    ({"via": "", "single": "a = 4\nb = 7\nheight_y = 1", "goal": "[0, 1, 0]"}, "goal: expected a goal beyond"),
 )
 def test_bad_tables_get_one_clear_line(change, message):
     with pytest.raises(InputError) as caught:
@@ -176,8 +174,8 @@ def test_a_missing_certificate_is_noticed(plans, label):
         SINGLE.restore(plan.problem, Certificate.bundle(left), stated_by(plan))
 
 
-@pytest.mark.parametrize("name", ["single", "single_leaves"])
-def test_certificates_of_another_problem_are_rejected(plans, name):
+@each("single", "single_leaves")
+def test_certificates_of_another_problem_are_rejected(name, plans):
     other = plans["single_leaves" if name == "single" else "single"]
     with pytest.raises(CertificateRejected):
         SINGLE.restore(plans[name].problem, other.certificate, stated_by(plans[name]))
@@ -205,8 +203,8 @@ def with_points(plan, points):
     return Stated(stated.summary, {**stated.path, "points": written})
 
 
-@pytest.mark.parametrize(("point", "axis", "value"), [(1, 0, -1), (2, 1, 1), (3, 1, 30), (0, 2, 1), (6, 1, 1)])
-def test_an_altered_curve_is_rejected(plans, point, axis, value):
+@each((1, 0, -1), (2, 1, 1), (3, 1, 30), (0, 2, 1), (6, 1, 1))
+def test_an_altered_curve_is_rejected(point, axis, value, plans):
     plan = plans["single_leaves"]
     points = [list(p) for p in plan.path.curves["P"].points]
     points[point][axis] = F(value)
@@ -228,22 +226,19 @@ def test_curves_that_meet_the_equations_of_4_alone_are_rejected(plans):
             certified_curve(plan.problem, task, with_points(plan, drawn.points))
 
 
-@pytest.mark.parametrize(
-    "cut",
-    [
-        {"kind": "height", "axis": "y", "t": "1/10", "plane": []},  # before t_a nothing is asked of the height
-        {"kind": "height", "axis": "x", "t": "1/2", "plane": []},
-        {"kind": "ball", "axis": "", "t": "2", "plane": ["1", "1", "1"]},
-        {"kind": "ball", "axis": "", "t": "1/2", "plane": ["1", "1"]},
-        {"kind": "start", "axis": "", "t": "1/2", "plane": []},
-        {"kind": "tangent", "axis": "", "t": "1/2", "plane": []},
-        {"kind": "wish", "axis": "", "t": "1/2", "plane": []},
-        {"kind": "height", "axis": "y", "t": "1/2"},
-        {"kind": ["height"], "axis": {}, "t": "1/2", "plane": []},
-        "height",
-    ],
+@each(
+    {"kind": "height", "axis": "y", "t": "1/10", "plane": []},  # before t_a nothing is asked of the height
+    {"kind": "height", "axis": "x", "t": "1/2", "plane": []},
+    {"kind": "ball", "axis": "", "t": "2", "plane": ["1", "1", "1"]},
+    {"kind": "ball", "axis": "", "t": "1/2", "plane": ["1", "1"]},
+    {"kind": "start", "axis": "", "t": "1/2", "plane": []},
+    {"kind": "tangent", "axis": "", "t": "1/2", "plane": []},
+    {"kind": "wish", "axis": "", "t": "1/2", "plane": []},
+    {"kind": "height", "axis": "y", "t": "1/2"},
+    {"kind": ["height"], "axis": {}, "t": "1/2", "plane": []},
+    "height",
 )
-def test_a_cut_that_does_not_follow_is_rejected(plans, cut):
+def test_a_cut_that_does_not_follow_is_rejected(cut, plans):
     plan = plans["single_leaves"]
     stated = stated_by(plan)
     with pytest.raises(CertificateRejected, match=r"summary.json: cuts\[0\]"):
@@ -260,10 +255,8 @@ def test_the_files(plans, tmp_path):
     assert rows[-1].split(",")[:4] == ["1", "3", "0", "0"]
 
 
-@pytest.mark.parametrize(
-    ("stated", "expected"), [("65", "a whole number"), ('"7/2"', "a whole number"), ('"x"', "an integer")]
-)
-def test_a_bad_degree_gets_one_message(root, stated, expected):
+@each(("65", "a whole number"), ('"7/2"', "a whole number"), ('"x"', "an integer"))
+def test_a_bad_degree_gets_one_message(stated, expected, root):
     text = (root / "examples" / "single_leaves.toml").read_text().replace("degree = 6", f"degree = {stated}")
     with pytest.raises(InputError, match=rf"^p.toml:\d+: single.degree: expected {expected}[^:]*$"):
         read_problem(text, "p.toml")

@@ -18,6 +18,7 @@ from bezier.methods.single.simplex import Contradiction, certificate
 from qe.errors import InputError
 from qe.formula.evaluate import holds_at
 from tests.bezier.singles import FLAT, HEIGHTS, axis, has_indices, tasks, unit_task
+from tests.tables import each
 
 F = Fraction
 THIRDS = st.integers(1, 29).map(lambda k: Fraction(k, 30))
@@ -42,15 +43,12 @@ def test_indices_are_those_of_the_paper_or_refused(degree, a, b):
         assert not any(has_indices(n, a, b) for n in range(2, least))
 
 
-@pytest.mark.parametrize(
-    ("degree", "a", "b", "reason"),
-    [
-        (4, "1/4", "3/4", "no p >= 1, since a = 1/4 is not beyond x_1 = 1/4; the least degree that works is 5"),
-        (4, "3/10", "2/5", "no q > p, since no control point has its x between a = 3/10 and b = 2/5"),
-        (6, "1/2", "1/2", "not x_0 < a < b < x_n"),
-        (6, "1/2", "1", "not x_0 < a < b < x_n"),
-        (1, "1/3", "1/2", f"which is not from 2 to {MAX_DEGREE}"),
-    ],
+@each(
+    (4, "1/4", "3/4", "no p >= 1, since a = 1/4 is not beyond x_1 = 1/4; the least degree that works is 5"),
+    (4, "3/10", "2/5", "no q > p, since no control point has its x between a = 3/10 and b = 2/5"),
+    (6, "1/2", "1/2", "not x_0 < a < b < x_n"),
+    (6, "1/2", "1", "not x_0 < a < b < x_n"),
+    (1, "1/3", "1/2", f"which is not from 2 to {MAX_DEGREE}"),
 )
 def test_refusals_say_why(degree, a, b, reason):
     with pytest.raises(InputError, match=reason.replace("(", r"\(")):
@@ -71,7 +69,7 @@ def test_a_task_needs_a_height_and_a_goal_beyond_the_start():
 # --- the identities ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("degree", [2, 5, 12, 20])
+@each(2, 5, 12, 20)
 def test_the_identities_are_proved(degree):
     assert single_formula.identities_hold(degree)
 
@@ -143,7 +141,7 @@ def test_symbols_give_the_optimum_of_every_number(given_task, height):
             assert not holds_at(found.least, {**place, VALUE: outcome.value + 1})
 
 
-@pytest.mark.parametrize("symbol", [Symbol.A, Symbol.B])
+@each(Symbol.A, Symbol.B)
 def test_the_ends_of_the_interval_as_symbols(symbol):
     of = axis("y", 0, "1/2", 1)
     given_task = unit_task(4, "3/10", "4/5", of, FLAT)

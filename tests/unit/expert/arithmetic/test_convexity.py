@@ -13,6 +13,7 @@ from qe.errors import CertificateRejected
 from qe.exact.quadratic_form import Definiteness, definiteness, independent_rows
 from qe.expert.arithmetic.convexity import is_convex, is_linear, rank, read_form
 from qe.proof.entry import Entry
+from tests.tables import each
 
 SMALL = st.integers(-3, 3).map(Fraction)
 
@@ -36,19 +37,16 @@ def test_squares_are_convex_and_stay_so_only_in_one_direction(rows):
     assert is_convex([[-v for v in row] for row in gram]) == (not any(map(any, gram)))
 
 
-@pytest.mark.parametrize(
-    ("matrix", "convex"),
-    [
-        ([[0, 0], [0, 0]], True),
-        ([[0, 1], [1, 0]], False),
-        ([[0, 1], [1, 5]], False),
-        ([[1, 1], [1, 1]], True),
-        ([[1, 2], [2, 4]], True),
-        ([[1, 2], [2, 3]], False),
-        ([[0, 0, 0], [0, 1, 1], [0, 1, 1]], True),
-        ([[1, 1, 0], [1, 1, 1], [0, 1, 9]], False),
-        ([[-1]], False),
-    ],
+@each(
+    ([[0, 0], [0, 0]], True),
+    ([[0, 1], [1, 0]], False),
+    ([[0, 1], [1, 5]], False),
+    ([[1, 1], [1, 1]], True),
+    ([[1, 2], [2, 4]], True),
+    ([[1, 2], [2, 3]], False),
+    ([[0, 0, 0], [0, 1, 1], [0, 1, 1]], True),
+    ([[1, 1, 0], [1, 1, 1], [0, 1, 9]], False),
+    ([[-1]], False),
 )
 def test_convexity_by_hand(matrix, convex):
     assert is_convex([[Fraction(v) for v in row] for row in matrix]) is convex
@@ -70,17 +68,14 @@ def test_a_form_has_the_values_of_its_terms(terms):
     assert is_linear(form) == (max((sum(e) for e in terms), default=0) <= 1)
 
 
-@pytest.mark.parametrize(
-    "terms",
-    [
-        [["1", [1, 2]]],
-        [["1", [3, 0]]],
-        [["1", [1]]],
-        [["0", [1, 0]]],
-        [["1", [1, 0]], ["2", [1, 0]]],
-        [["1", [1, 0], 3]],
-        [["1"]],
-    ],
+@each(
+    [["1", [1, 2]]],
+    [["1", [3, 0]]],
+    [["1", [1]]],
+    [["0", [1, 0]]],
+    [["1", [1, 0]], ["2", [1, 0]]],
+    [["1", [1, 0], 3]],
+    [["1"]],
 )
 def test_what_is_no_form_is_refused(terms):
     with pytest.raises(CertificateRejected):

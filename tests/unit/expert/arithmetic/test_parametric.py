@@ -17,6 +17,7 @@ from qe.expert.arithmetic.parametric_forms import ParametricForms
 from qe.expert.classification import _signatures
 from qe.formula.evaluate import holds_at
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("a", "b"))
 A, B = RING.gen(0), RING.gen(1)
@@ -111,7 +112,7 @@ def test_a_third_leading_monomial_alone_spares_no_pair() -> None:
     assert found.is_finite and len(found.monomials) == 2  # x^2 = a b, y = a/x, z = b/x
 
 
-@pytest.mark.parametrize("whole", [True, False])
+@each(True, False)
 def test_a_remainder_is_whole_or_has_an_irreducible_first_monomial(whole: bool) -> None:
     one = RING.constant(1)
     (found,) = cases([{(2, 0): one, (0, 0): -A}], 2, Conditions.of(RING, (), (), tick))
@@ -132,7 +133,7 @@ def test_a_factor_that_was_given_as_a_product() -> None:
     assert irreducible(-2 * A**2 * B) in ([A, B], [B, A])
 
 
-@pytest.mark.parametrize("poly", [A**2 - 2, RING.constant(3)])
+@each(A**2 - 2, RING.constant(3))
 def test_reduction_keeps_common_multiples(poly: Poly) -> None:
     where = Conditions.of(RING, (2 * A - B,), (), tick)
     one, other, rest = where.reduced([A, poly, 2 * A - B])

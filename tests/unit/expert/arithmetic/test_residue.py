@@ -14,6 +14,7 @@ from qe.expert.arithmetic import residue
 from qe.expert.arithmetic.numbers import read_field, read_number
 from qe.expert.arithmetic.residue import ZERO, Residue, RootField, add, of_rationals, scale
 from qe.proof.entry import Entry
+from tests.tables import each
 
 COEFFICIENTS = st.lists(st.fractions(-3, 3, max_denominator=4), min_size=1, max_size=3)
 
@@ -52,20 +53,17 @@ def test_residues_are_in_lowest_terms() -> None:
     assert of_rationals([Fraction(0)]) == ZERO and ZERO.is_zero
 
 
-@pytest.mark.parametrize(
-    ("p", "low", "high", "reason"),
-    [
-        ((-2, 0, 1), 2, 1, "above the upper"),
-        ((-2, 0, 1), 2, 3, "does not change sign"),
-        ((-2, 0, 1), -2, 2, "does not change sign"),
-        ((-4, 0, 1), 2, 3, "does not change sign"),  # the root is an end
-        ((-4, 0, 1), 1, 2, "does not change sign"),
-        ((0, -1, 0, 1), -2, 2, "one simple root"),  # three roots
-        ((-1, 3, -3, 1), 0, 2, "one simple root"),  # a triple root
-        ((-2, 0, 1), 1, 1, "not a root"),
-        ((1,), 0, 1, "positive degree"),
-        ((1, 0), 0, 1, "positive degree"),
-    ],
+@each(
+    ((-2, 0, 1), 2, 1, "above the upper"),
+    ((-2, 0, 1), 2, 3, "does not change sign"),
+    ((-2, 0, 1), -2, 2, "does not change sign"),
+    ((-4, 0, 1), 2, 3, "does not change sign"),  # the root is an end
+    ((-4, 0, 1), 1, 2, "does not change sign"),
+    ((0, -1, 0, 1), -2, 2, "one simple root"),  # three roots
+    ((-1, 3, -3, 1), 0, 2, "one simple root"),  # a triple root
+    ((-2, 0, 1), 1, 1, "not a root"),
+    ((1,), 0, 1, "positive degree"),
+    ((1, 0), 0, 1, "positive degree"),
 )
 def test_the_interval_has_to_isolate_a_simple_root(p: tuple[int, ...], low: int, high: int, reason: str) -> None:
     with pytest.raises(CertificateRejected, match=reason):
@@ -101,16 +99,13 @@ def test_the_sign_at_the_other_root_is_the_other_one() -> None:
     assert negative.sign(negative.multiply(of_rationals([Fraction(0), Fraction(1)]), Residue((0, 1), 1))) == 1
 
 
-@pytest.mark.parametrize(
-    ("polynomial", "interval"),
-    [
-        (["-2", "0", "2"], ["1", "2"]),  # not primitive
-        (["2", "0", "-1"], ["1", "2"]),
-        (["-1/2", "0", "1"], ["0", "1"]),
-        ([], ["1", "2"]),
-        (["-2", "0", "1"], ["1"]),
-        (["-2", "0", "1"], ["1", "2", "3"]),
-    ],
+@each(
+    (["-2", "0", "2"], ["1", "2"]),  # not primitive
+    (["2", "0", "-1"], ["1", "2"]),
+    (["-1/2", "0", "1"], ["0", "1"]),
+    ([], ["1", "2"]),
+    (["-2", "0", "1"], ["1"]),
+    (["-2", "0", "1"], ["1", "2", "3"]),
 )
 def test_fields_are_read_strictly(polynomial: list[str], interval: list[str]) -> None:
     entry = {"minimal_polynomial": polynomial, "interval": interval}
