@@ -23,10 +23,10 @@ from qe.errors import InputError
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, format_poly
 from qe.formula.block import Block
-from qe.formula.build import atom, conj, disj, exists, forall, neg
+from qe.formula.build import atom, conj, exists, forall, map_children, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart
-from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import TRUE, And, Atom, Atomic, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import atoms, conjuncts, map_atoms, subformulas
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
@@ -151,18 +151,14 @@ def _instantiated(
             return exists(left, _instantiated(substituted(body, given), terms, visible, unused))
         case ForAll(variables, body):
             return forall(variables, _instantiated(body, terms, scope | set(variables), unused))
-        case And(args):
-            return conj(_instantiated(a, terms, scope, unused) for a in args)
-        case Or(args):
-            return disj(_instantiated(a, terms, scope, unused) for a in args)
-    return formula
+    return map_children(formula, lambda part: _instantiated(part, terms, scope, unused))
 
 
 def substituted(formula: Formula, terms: Mapping[str, Term]) -> Formula:
     """The formula with variables replaced by polynomials; every atom is multiplied by a positive number."""
 
-    def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom):
+    def change(found: Atomic) -> Formula:
+        if not isinstance(found, Atom):
             return found
         return atom(_composed(found.poly, terms), found.relation)
 
@@ -294,9 +290,9 @@ def _candidates(block: Exists) -> Iterator[dict[str, Term]]:
             yield dict(zip(block.variables, centre, strict=True))
 
 
-def _slope(condition: Atom | RootAtom, places: Sequence[int]) -> _Slope | None:
+def _slope(condition: Atomic, places: Sequence[int]) -> _Slope | None:
     """None for atoms that are no weak or strict inequality of constant second derivatives in y."""
-    if isinstance(condition, RootAtom) or condition.relation in (Relation.EQ, Relation.NE):
+    if not isinstance(condition, Atom) or condition.relation in (Relation.EQ, Relation.NE):
         return None
     g = condition.poly if condition.relation in (Relation.LE, Relation.LT) else -condition.poly
     gradient = [g.derivative(i) for i in places]

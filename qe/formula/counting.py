@@ -12,7 +12,7 @@ from itertools import pairwise
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, disj, exists, neg
-from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import TRUE, Atomic, Formula, Relation, RootAtom
 from qe.formula.traverse import atoms, has_root_atoms, map_atoms
 
 
@@ -26,7 +26,7 @@ def without_root_atoms(formula: Formula) -> Formula:
     roots = [name for name, _ in zip(free, range(max(abs(a.k) for a in found)), strict=False)]
     extended = Ring.of((*ring.names, *roots))
 
-    def counted(leaf: Atom | RootAtom) -> Formula:
+    def counted(leaf: Atomic) -> Formula:
         return _counted(leaf, roots[: abs(leaf.k)]) if isinstance(leaf, RootAtom) else leaf
 
     return map_atoms(convert(formula, extended), counted)

@@ -323,7 +323,7 @@ class ForAll(Quantified):
 Atomic = Atom | RootAtom
 """The kinds of atomic formulas."""
 
-Formula = Atom | RootAtom | Constant | And | Or | Not | Exists | ForAll
+Formula = Atomic | Constant | And | Or | Not | Exists | ForAll
 """All kinds of nodes: a ``match`` that ends with ``assert_never`` is one that mypy holds against this list."""
 
 

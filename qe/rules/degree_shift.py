@@ -13,7 +13,7 @@ from math import gcd
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj
-from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import TRUE, Atom, Atomic, Formula, Relation
 from qe.formula.traverse import atoms, bound_variables, conjuncts, map_atoms
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import RootOf
@@ -44,7 +44,7 @@ def common_exponent(body: Formula, x: int, *, nonnegative: bool = False) -> int:
     """
     step, bare = 0, False
     for found in atoms(body):
-        if isinstance(found, RootAtom) and (found.poly.degree(x) or found.poly.ring.index[found.variable] == x):
+        if not isinstance(found, Atom) and found.poly.ring.names[x] in found.free:
             return 1
         if _is_bare(found.poly, x):
             bare = bare or found.relation not in (Relation.EQ, Relation.NE)
@@ -66,9 +66,9 @@ def _is_bare(poly: Poly, x: int) -> bool:
 def lowered(body: Formula, x: int, k: int) -> Formula:
     """The formula with x^k renamed to x, but for atoms that compare x itself with 0."""
 
-    def change(found: Atom | RootAtom) -> Formula:
+    def change(found: Atomic) -> Formula:
         poly = found.poly
-        if isinstance(found, RootAtom) or not poly.degree(x) or _is_bare(poly, x):
+        if not isinstance(found, Atom) or not poly.degree(x) or _is_bare(poly, x):
             return found
         image = poly.ring.constant(0)
         for c in reversed(poly.coefficients(x)[::k]):

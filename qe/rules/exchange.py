@@ -15,7 +15,7 @@ from itertools import combinations
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
-from qe.formula.syntax import Atom, Constant, Formula, Relation, RootAtom
+from qe.formula.syntax import Atom, Atomic, Constant, Formula, Relation
 from qe.formula.traverse import atoms, bound_variables, conjuncts, map_atoms
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Assignment, Solve, Value, root, simplest, value_at
@@ -31,7 +31,7 @@ def exchange_variables(variables: tuple[str, ...], body: Formula, context: Block
     if len(variables) < 2:
         return None
     found = list(atoms(body))
-    if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
+    if any(not isinstance(a, Atom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
         return None
     inner = frozenset(bound_variables(body))
     for x, y in combinations([v for v in variables if v not in inner], 2):
@@ -99,12 +99,12 @@ def _symmetry(poly: Poly, i: int, j: int, sign: int = 1) -> bool:
     return _swapped(poly, i, j) == poly * sign
 
 
-def _is_of_squares(found: Atom | RootAtom) -> bool:
+def _is_of_squares(found: Atomic) -> bool:
     """Whether p^2 may stand for p: in equations and inequations."""
     return isinstance(found, Atom) and found.relation in (Relation.EQ, Relation.NE)
 
 
-def _in_new_terms(found: Atom | RootAtom, i: int, j: int) -> Formula:
+def _in_new_terms(found: Atomic, i: int, j: int) -> Formula:
     poly = found.poly if _symmetry(found.poly, i, j) else found.poly**2
     return atom(symmetric(poly, i, j), found.relation)
 

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Poly
-from qe.formula.build import atom, conj, disj, exists, forall, neg
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+from qe.formula.build import atom, map_children
+from qe.formula.syntax import Atom, Atomic, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import atoms
 from qe.simplify.facts import Facts
 
@@ -116,9 +116,7 @@ def _occurrences(parts: Sequence[Formula]) -> Counter[int]:
     found: Counter[int] = Counter()
     for part in parts:
         for a in atoms(part):
-            found.update(a.poly.variables)
-            if isinstance(a, RootAtom):
-                found[a.poly.ring.index[a.variable]] += 1
+            found.update(map(a.poly.ring.index.__getitem__, a.free))
     return found
 
 
@@ -154,38 +152,36 @@ def substitute(formula: Formula, pivot: Pivot) -> Formula | None:
     name = ring.names[i]
     used = {ring.names[v] for p in (pivot.lead, pivot.rest) for v in p.variables}
 
-    def walk(f: Formula) -> Formula | None:
+    def walk(f: Formula) -> Formula:
         match f:
             case Atom(poly, relation):
                 return f if not poly.degree(i) else _substituted(poly, relation, pivot)
-            case RootAtom(variable, _, poly, _):
-                return None if variable == name or poly.degree(i) else f
-            case And(args) | Or(args):
-                parts = [walk(a) for a in args]
-                if any(p is None for p in parts):
-                    return None
-                done = [p for p in parts if p is not None]
-                return conj(done) if isinstance(f, And) else disj(done)
-            case Not(arg):
-                inner = walk(arg)
-                return None if inner is None else neg(inner)
             case Exists(variables, body) | ForAll(variables, body):
                 if name in variables:
                     return f
                 inner = walk(body)
-                if inner is None or (inner != body and used & set(variables)):
-                    return None
-                return exists(variables, inner) if isinstance(f, Exists) else forall(variables, inner)
-        return f
+                if inner != body and used & set(variables):
+                    raise _NotPossible
+                return map_children(f, lambda _: inner)
+        if isinstance(f, Atomic) and name in f.free:
+            raise _NotPossible
+        return map_children(f, walk)
 
-    return walk(formula)
+    try:
+        return walk(formula)
+    except _NotPossible:
+        return None
 
 
-def _substituted(poly: Poly, relation: Relation, pivot: Pivot) -> Formula | None:
+class _NotPossible(Exception):
+    """The substitution is not possible in a part of the formula."""
+
+
+def _substituted(poly: Poly, relation: Relation, pivot: Pivot) -> Formula:
     try:
         image = poly.at_quotient(pivot.variable, -pivot.rest, pivot.lead, most_terms=_TERMS)
-    except BudgetExceeded:
-        return None
+    except BudgetExceeded as error:
+        raise _NotPossible from error
     if poly.degree(pivot.variable) % 2 and relation not in (Relation.EQ, Relation.NE):
         if pivot.sign == -1:
             image = -image

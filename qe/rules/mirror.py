@@ -20,8 +20,8 @@ from itertools import chain, combinations
 from qe.exact.ring import Poly
 from qe.formula.build import atom, exists, forall
 from qe.formula.normal import nnf
-from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation, RootAtom
-from qe.formula.traverse import atoms, bound_variables, polynomials
+from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
+from qe.formula.traverse import atoms, bound_variables, has_root_atoms, polynomials
 from qe.rules.block_context import BlockContext
 from qe.rules.lift import Solve
 from qe.rules.rewrite import rewrite
@@ -79,7 +79,7 @@ def _mirrors(variables: Sequence[str], body: Formula, watch: Callable[[], object
     if isinstance(body, Constant) or len(variables) + len(inner) > _VARIABLES or {*inner} & {*variables, *body.free}:
         return
     single = [v for v in variables if v in body.free and is_convex(body, frozenset((v,)))]
-    if not single or any(isinstance(a, RootAtom) for a in atoms(body)):
+    if not single or has_root_atoms(body):
         return
     if sum(a.poly.term_count() for a in atoms(body)) > _TERMS:
         return

@@ -22,8 +22,8 @@ from typing import TypeVar
 
 from qe.exact.ring import Poly
 from qe.exact.watch import IDLE
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
-from qe.formula.traverse import atoms, children, polynomials, subformulas
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.traverse import children, has_root_atoms, polynomials, subformulas
 
 Key = TypeVar("Key")
 Pair = tuple[int, int]
@@ -62,7 +62,7 @@ def invariant_plane(
     Planes with one of ``wanted`` go first, as u; then the ones that occur in most terms. None if there is no plane.
     """
     polys = polynomials(body)
-    if not polys or any(isinstance(a, RootAtom) for a in atoms(body)):
+    if not polys or has_root_atoms(body):
         return None
     if max(p.total_degree for p in polys) < 2 or sum(p.term_count() for p in polys) > _TERMS:
         return None

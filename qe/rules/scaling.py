@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom
-from qe.formula.syntax import Atom, Formula, RootAtom
+from qe.formula.syntax import Atom, Formula
 from qe.formula.traverse import atoms, bound_variables, conjuncts
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
@@ -68,7 +68,7 @@ def _worthwhile(body: Formula) -> bool:
     """Some atom is not linear, none is a root atom, and there are not too many terms."""
     size, degree = 0, 0
     for found in atoms(body):
-        if isinstance(found, RootAtom):
+        if not isinstance(found, Atom):
             return False
         size += found.poly.term_count()
         degree = max(degree, found.poly.total_degree)

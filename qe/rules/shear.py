@@ -20,8 +20,8 @@ from collections.abc import Iterator, Sequence
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj
-from qe.formula.syntax import Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms, bound_variables, conjuncts
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import atoms, bound_variables, conjuncts, has_root_atoms
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
 from qe.rules.rewrite import rewrite
@@ -42,7 +42,7 @@ def linear_form(variables: tuple[str, ...], body: Formula, context: BlockContext
     """The theorem for the first form that makes the atoms much shorter."""
     polys = list(dict.fromkeys(a.poly for a in atoms(body)))
     size, ring = _size(body), polys[0].ring
-    if not _LEAST <= size <= _MOST or any(isinstance(a, RootAtom) for a in atoms(body)):
+    if not _LEAST <= size <= _MOST or has_root_atoms(body):
         return None
     inner = {ring.index[name] for name in bound_variables(body)}
     for name in variables:

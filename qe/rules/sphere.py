@@ -21,7 +21,7 @@ from math import prod
 
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj
-from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import TRUE, Atom, Atomic, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts, has_root_atoms, map_atoms
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.step import StepKind
@@ -141,7 +141,7 @@ def _along(
     if len(images) < len(found) or (ball.strict and not length.is_constant):
         return None
 
-    def change(found: Atom | RootAtom) -> Formula:
+    def change(found: Atomic) -> Formula:
         unit, parts = found.poly.factors()
         return atom(prod((images[f] ** k for f, k in parts), start=ring.constant(unit)), found.relation)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom
-from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import FALSE, TRUE, Atom, Atomic, Formula, Relation
 from qe.formula.traverse import conjuncts, is_quantifier_free, map_atoms, polynomials
 from qe.positivity.cone import bounds_of, positive_on_cone
 from qe.positivity.identity import Identity, Positive
@@ -37,9 +37,9 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     signs: dict[Poly, frozenset[int]] = {}
     proofs: list[Identity] = []
 
-    def replaced(found: Atom | RootAtom) -> Formula:
+    def replaced(found: Atomic) -> Formula:
         poly = found.poly
-        if isinstance(found, RootAtom) or poly not in signs:
+        if not isinstance(found, Atom) or poly not in signs:
             return found
         left = found.relation.signs & signs[poly]
         if not left or left == signs[poly]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from qe.formula.build import atom
-from qe.formula.syntax import Atom, Formula, RootAtom
+from qe.formula.syntax import Atom, Formula
 from qe.formula.traverse import atoms, bound_variables
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
@@ -24,7 +24,7 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
     """
     found = list(atoms(body))
     inner = frozenset(bound_variables(body))
-    if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
+    if any(not isinstance(a, Atom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
         return None
     if inner & set(body.free):
         return None

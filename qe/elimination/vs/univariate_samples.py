@@ -12,7 +12,7 @@ from qe.exact.ring import Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, convert
 from qe.formula.evaluate import truth_under
-from qe.formula.syntax import Atom, Formula, RootAtom
+from qe.formula.syntax import Atom, Atomic, Formula
 from qe.formula.traverse import map_atoms, polynomials
 
 Number = Fraction | RealAlgebraic
@@ -51,9 +51,9 @@ def solution(formula: Formula, variable: str, values: Values) -> Number | None:
 def _at(formula: Formula, name: str, value: Fraction) -> Formula:
     """The formula with a variable set to a rational number."""
 
-    def change(found: Atom | RootAtom) -> Formula:
+    def change(found: Atomic) -> Formula:
         i = found.poly.ring.index.get(name)
-        if isinstance(found, RootAtom):
+        if not isinstance(found, Atom):
             raise Unable("no witness for a formula with root atoms")
         if i is None or not found.poly.degree(i):
             return found
