@@ -182,11 +182,11 @@ def prenex(formula: Formula) -> tuple[tuple[PrefixBlock, ...], Formula]:
     least: with the kind of the outermost block fixed, putting every quantifier into the first block that is open
     to it is optimal by induction on depth; both kinds are tried. Blocks alternate.
     """
-    apart = rename_apart(nnf(formula))
-    if isinstance(apart, Constant):
-        return (), apart
-    prefix = min((_blocks(apart, first) for first in Quantifier), key=_cost)
-    return prefix, matrix_of(apart)
+    renamed = rename_apart(nnf(formula))
+    if isinstance(renamed, Constant):
+        return (), renamed
+    prefix = min((_blocks(renamed, first) for first in Quantifier), key=_cost)
+    return prefix, matrix_of(renamed)
 
 
 def _cost(blocks: tuple[PrefixBlock, ...]) -> int:

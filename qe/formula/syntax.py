@@ -217,10 +217,10 @@ class Connective(FormulaNode):
     def _find_ring(self) -> Ring | None:
         ring = None
         for arg in self.args:
-            if (own := arg.ring) is not ring and own is not None:
+            if (other := arg.ring) is not ring and other is not None:
                 if ring is not None:
-                    raise InternalError(f"a formula over two rings: {ring!r} and {own!r}")
-                ring = own
+                    raise InternalError(f"a formula over two rings: {ring!r} and {other!r}")
+                ring = other
         return ring
 
     def _find_free(self) -> tuple[str, ...]:
@@ -331,7 +331,7 @@ def _together(ring: Ring | None, parts: tuple[Formula, ...]) -> tuple[str, ...]:
     """The free variables of all parts, in the order of their ring."""
     if ring is None:
         return ()
-    found: set[str] = set()
+    names: set[str] = set()
     for part in parts:
-        found.update(part.free)
-    return tuple([name for name in ring.names if name in found])
+        names.update(part.free)
+    return tuple([name for name in ring.names if name in names])

@@ -126,13 +126,13 @@ def connected(
     without: list[Formula] = []
     groups: list[tuple[frozenset[Name], tuple[Formula, ...]]] = []
     for part in parts:
-        own, members = names(part), (part,)
-        if not own:
+        shared, members = names(part), (part,)
+        if not shared:
             without.append(part)
             continue
-        touching = [g for g in groups if g[0] & own]
+        touching = [g for g in groups if g[0] & shared]
         groups = [g for g in groups if g not in touching]
-        groups.append((own.union(*(g[0] for g in touching)), sum((g[1] for g in touching), ()) + members))
+        groups.append((shared.union(*(g[0] for g in touching)), sum((g[1] for g in touching), ()) + members))
     return tuple(without), groups
 
 

@@ -63,7 +63,7 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
     best: Pivot | None = None
     best_cost: tuple[int, int, int] | None = None
     # those with a constant coefficient first: where there is one, the signs of the others need not be known
-    linear = sorted(_linear_in(parts, variables), key=lambda found: not found[3].is_constant)
+    linear = sorted(_linear_in(parts, variables), key=lambda entry: not entry[3].is_constant)
     occurrences = _occurrences(parts if linear else ())
     for position, i, rest, lead in linear:
         if best_cost is not None and best_cost[0] == 0 and not lead.is_constant:
@@ -97,7 +97,7 @@ def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
     """
     alone: dict[int, Pivot] = {}
     best: tuple[int, Pivot] | None = None
-    linear = [found for found in _linear_in(parts, variables) if found[3].is_constant]
+    linear = [entry for entry in _linear_in(parts, variables) if entry[3].is_constant]
     occurrences = _occurrences(parts if linear else ())
     few = len(occurrences) <= MOST_VARIABLES
     for position, i, rest, lead in linear:
@@ -113,11 +113,11 @@ def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
 
 def _occurrences(parts: Sequence[Formula]) -> Counter[int]:
     """In how many atoms each variable stands."""
-    found: Counter[int] = Counter()
+    times: Counter[int] = Counter()
     for part in parts:
         for a in atoms(part):
-            found.update(map(a.poly.ring.index.__getitem__, a.free))
-    return found
+            times.update(map(a.poly.ring.index.__getitem__, a.free))
+    return times
 
 
 def _linear_in(parts: Sequence[Formula], variables: Sequence[str]) -> Iterator[tuple[int, int, Poly, Poly]]:

@@ -37,14 +37,14 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     signs: dict[Poly, frozenset[int]] = {}
     proofs: list[Identity] = []
 
-    def replaced(found: Atomic) -> Formula:
-        poly = found.poly
-        if not isinstance(found, Atom) or poly not in signs:
-            return found
-        left = found.relation.signs & signs[poly]
-        if not left or left == signs[poly]:
-            return TRUE if left else FALSE
-        return atom(poly, Relation.EQ) if left == {0} else found
+    def replaced(atomic: Atomic) -> Formula:
+        poly = atomic.poly
+        if not isinstance(atomic, Atom) or poly not in signs:
+            return atomic
+        possible = atomic.relation.signs & signs[poly]
+        if not possible or possible == signs[poly]:
+            return TRUE if possible else FALSE
+        return atom(poly, Relation.EQ) if possible == {0} else atomic
 
     for poly in polys:
         for sign in (1, -1):

@@ -29,13 +29,13 @@ class Rows:
     @cached_property
     def _columns(self) -> dict[Poly, tuple[int, dict[int, int]]]:
         """By the polynomial of an atom: the sign of its factor, and where the column has which sign, as bits."""
-        found = {}
+        columns = {}
         for k, p in enumerate(self.polys):
             unit, normal = p.normal()
             text = [row[k] for row in reversed(self.signs)]
             masks = {s: int("0" + "".join("01"[t == s] for t in text), 2) for s in (1, 0, -1)}
-            found[normal] = (1 if unit > 0 else -1), masks
-        return found
+            columns[normal] = (1 if unit > 0 else -1), masks
+        return columns
 
     def where(self, formula: Formula) -> int:
         """The rows on which a formula holds, as bits."""
@@ -44,15 +44,15 @@ class Rows:
                 turn, masks = self._columns[poly]
                 return sum(masks[turn * s] for s in relation.signs)
             case And(args):
-                found = (1 << len(self.signs)) - 1
+                mask = (1 << len(self.signs)) - 1
                 for arg in args:
-                    found &= self.where(arg)
-                return found
+                    mask &= self.where(arg)
+                return mask
             case Or(args):
-                found = 0
+                mask = 0
                 for arg in args:
-                    found |= self.where(arg)
-                return found
+                    mask |= self.where(arg)
+                return mask
             case Constant(value):
                 return (1 << len(self.signs)) - 1 if value else 0
         raise TypeError(formula)
@@ -64,9 +64,9 @@ class Rows:
         best = gathered(formula_of_cells([self.polys], self._cells(true, True) + self._cells(false, False)))
         for k, p in enumerate(splitting):
             for first, second in ((LE, GE), (GE, LE)):
-                found = self._divided(true, false, atom(p, first), atom(p, second), splitting[k + 1 :], length(best))
-                if length(found) < length(best):
-                    best = found
+                divided = self._divided(true, false, atom(p, first), atom(p, second), splitting[k + 1 :], length(best))
+                if length(divided) < length(best):
+                    best = divided
         return best
 
     def _divided(

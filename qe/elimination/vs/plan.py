@@ -110,11 +110,11 @@ def _is_positive(formula: Formula, x: int) -> bool:
     return positive and all(a.relation.is_strict for a in with_x)
 
 
-def _spread(found: Atomic, x: int, others: frozenset[int]) -> float:
+def _spread(atomic: Atomic, x: int, others: frozenset[int]) -> float:
     """A penalty for atoms whose other block variables would get a higher degree."""
-    if found.poly.degree(x) < 2:
+    if atomic.poly.degree(x) < 2:
         return 0.0
-    return _QUADRATIC_SPREAD * sum(found.poly.degree(i) for i in others)
+    return _QUADRATIC_SPREAD * sum(atomic.poly.degree(i) for i in others)
 
 
 def _with_gauss(problem: _Problem, originals: tuple[Formula, ...], gauss: Gauss, k: int) -> Plan | None:
