@@ -15,7 +15,7 @@ from qe.errors import InternalError
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import FALSE, TRUE, Atomic, Formula, Relation
 from qe.formula.traverse import map_atoms
 from qe.proof.cells import CellTable, FreeCell
 
@@ -55,7 +55,7 @@ def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mappi
     those of the side f < 0 (or f > 0), so that the conditions of two sides do not hold there together.
     """
 
-    def closed(found: Atom | RootAtom) -> Formula:
+    def closed(found: Atomic) -> Formula:
         below = found.relation in (Relation.LT, Relation.LE)
         strict = owners.get(found.poly) == (1 if below else -1)
         relation = (Relation.LT if strict else Relation.LE) if below else (Relation.GT if strict else Relation.GE)

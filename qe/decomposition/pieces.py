@@ -30,7 +30,7 @@ LONGEST_BITS = 10_000
 class RootFunction:
     """The k-th real root (from 1) of ``poly`` in its main variable; its text is a term that can be read back.
 
-    Distinct roots are counted, as in ``RootAtom``; those of a polynomial of degree 2 with a constant leading
+    Distinct roots are counted, as in root atoms; those of a polynomial of degree 2 with a constant leading
     coefficient, which are written with ``sqrt``, by their multiplicity. ``value`` is the number itself when the
     polynomial has one variable.
     """
@@ -194,7 +194,7 @@ class _Branch:
 def merge(table: CellTable, *, distinct: bool = False, budget: Budget | None = None) -> list[Piece]:
     """The pieces of the set of true cells (all variables free), in order.
 
-    With ``distinct`` the roots in the bounds are counted without multiplicity, as ``RootAtom`` does; then fewer
+    With ``distinct`` the roots in the bounds are counted without multiplicity, as root atoms do; then fewer
     cells merge. Raises ``BudgetExceeded``.
     """
     branches = _Merging(table, distinct, budget or Budget()).branches(root_place(table))

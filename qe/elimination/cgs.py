@@ -67,26 +67,26 @@ class ComprehensiveGroebner:
             return None
         parts = list(_conjunctions(convert(dual.body, ring)))
         read = [_Conjunction.of(part, ring, dual.variables) for part in parts]
-        found, listed = list[Formula](), not free
+        answers, listed = list[Formula](), not free
         for part in read:
             zeros = None if free else part.zeros()
             if zeros is None:
                 listed = False
-                found.append(part.eliminated(context.budget))
+                answers.append(part.eliminated(context.budget))
             elif (witness := part.witness(zeros)) is not None:
                 # whatever does not occur in this conjunction may be 0
                 return _outcome(problem, context, TRUE, {v: witness.get(v, Fraction(0)) for v in problem.variables})
         refuted = OnDemand(_Conjunctions(tuple(read)).certificates) if listed else None
-        return _outcome(problem, context, simplify(disj(found), watch=context.budget.check), None, refuted)
+        return _outcome(problem, context, simplify(disj(answers), watch=context.budget.check), None, refuted)
 
 
 def _outcome(
-    problem: Block, context: Context, found: Formula, witness: Values | None, refuted: OnDemand | None = None
+    problem: Block, context: Context, formula: Formula, witness: Values | None, refuted: OnDemand | None = None
 ) -> Outcome:
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(problem.formula)
-    moved = found if ring is None else convert(found, ring)
-    evidence = {} if refuted is None or found != FALSE else {"proof": refuted}
+    moved = formula if ring is None else convert(formula, ring)
+    evidence = {} if refuted is None or formula != FALSE else {"proof": refuted}
     answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved), evidence=evidence)
     return Outcome(answer, witness)
 
@@ -163,11 +163,11 @@ class _Conjunction:
         index = self.ring.index
         inner = tuple(index[v] for v in variables)
         others = tuple(i for i in reversed(range(self.ring.size)) if i not in inner)
-        found = []
+        parts = []
         for segment in segments(equations, BlockOrder(inner, others), budget, equal=zero, nonzero=nonzero):
             if not segment.is_unit:
-                found.append(conj([condition_of(segment), self._of_segment(segment, variables, budget)]))
-        return disj(found)
+                parts.append(conj([condition_of(segment), self._of_segment(segment, variables, budget)]))
+        return disj(parts)
 
     def _of_segment(self, segment: Segment, variables: Sequence[str], budget: Budget) -> Formula:
         if segment.dimension == 0:
@@ -212,13 +212,13 @@ class _Conjunction:
         if not p:
             return everywhere()
         others = tuple(i for i in reversed(range(self.ring.size)) if i != x)
-        found = []
+        parts = []
         for segment in segments((p,), BlockOrder((x,), others), budget):
             if segment.dimension == 0:
-                found.append(conj([condition_of(segment), SolutionCount(segment, conditions, budget).is_positive]))
+                parts.append(conj([condition_of(segment), SolutionCount(segment, conditions, budget).is_positive]))
             elif segment.dimension == 1:
-                found.append(conj([condition_of(segment), everywhere()]))
-        return disj(found)
+                parts.append(conj([condition_of(segment), everywhere()]))
+        return disj(parts)
 
     def zeros(self) -> list[Zero] | None:
         """All real solutions of equations without parameters; None where there are infinitely many complex ones."""
@@ -245,19 +245,19 @@ class _Conjunction:
 
 def _at_end(g: Poly, relation: Relation, x: int, side: int) -> Formula:
     """That g > 0, or g /= 0, as x goes to plus (``side`` = 1) or minus (-1) infinity."""
-    found: Formula = FALSE
+    formula: Formula = FALSE
     for (power,), c in sorted(g.collected((x,)).items()):
         lead = c * side**power
-        found = disj([atom(lead, relation), conj([atom(lead, Relation.EQ), found])])
-    return found
+        formula = disj([atom(lead, relation), conj([atom(lead, Relation.EQ), formula])])
+    return formula
 
 
-def _upward(found: Atom) -> Condition:
+def _upward(given: Atom) -> Condition:
     """The polynomial and one of >, >=, /=."""
-    turned = {Relation.LT: Relation.GT, Relation.LE: Relation.GE}
-    if found.relation in turned:
-        return -found.poly, turned[found.relation]
-    return found.poly, found.relation
+    upward = {Relation.LT: Relation.GT, Relation.LE: Relation.GE}
+    if given.relation in upward:
+        return -given.poly, upward[given.relation]
+    return given.poly, given.relation
 
 
 @dataclass(frozen=True)
@@ -266,8 +266,8 @@ class _Conjunctions:
 
     def certificates(self, budget: Budget) -> dict[str, object]:
         """Of the solutions of each."""
-        found = []
+        listed = []
         for part in self.parts:
             budget.check("prove")
-            found.append(part.certificate())
-        return {"certificates": found}
+            listed.append(part.certificate())
+        return {"certificates": listed}

@@ -132,10 +132,10 @@ def _named(problem: Block) -> tuple[Formula, list[Fraction]] | None:
     for line in (*lines, None):
         block = _Block(indices, line)
         for form in _forms(block.part(conditions[0].poly, 2), block):
-            found = [q for p in conditions if (q := _in_form(p.poly, form, block)) is not None]
-            if len(found) == len(conditions):
-                shift = _shift(found[0])
-                quadratics = [q.moved(shift) for q in found]
+            quadratic_forms = [q for p in conditions if (q := _in_form(p.poly, form, block)) is not None]
+            if len(quadratic_forms) == len(conditions):
+                shift = _shift(quadratic_forms[0])
+                quadratics = [q.moved(shift) for q in quadratic_forms]
                 return _nested(problem, linear, conditions, form + shift, quadratics)
     return None
 
@@ -163,49 +163,49 @@ def _in_form(poly: Poly, form: Poly, block: _Block) -> _Quadratic | None:
     units = square.normal()[0], top.normal()[0]
     common = gcd(*units) * (1 if units[0] > 0 else -1)
     scale, factor = units[0] // common, units[1] // common
-    left = block.reduced(poly * scale - form**2 * factor, 2)
-    slope, first = block.rest(block.part(left, 1)), block.rest(form)
+    rest = block.reduced(poly * scale - form**2 * factor, 2)
+    slope, first = block.rest(block.part(rest, 1)), block.rest(form)
     if slope.gcd(first) not in (first, -first):
         return None
     slope = slope.exact_divide(first)
-    offset = block.reduced(left - slope * form, 1)
+    offset = block.reduced(rest - slope * form, 1)
     return None if block.degree(offset) else _Quadratic(scale, factor, slope, offset)
 
 
-def _shift(found: _Quadratic) -> Poly:
+def _shift(quadratic: _Quadratic) -> Poly:
     """What is to be added to the form so that the quadratic polynomial becomes short."""
-    ring = found.slope.ring
+    ring = quadratic.slope.ring
     shift = ring.constant(0)
     for _ in range(ROUNDS):
-        size, best = _size(found), None
-        for exponents, c in found.slope.terms():
-            for divisor in (found.square, 2 * found.square):
+        size, best = _size(quadratic), None
+        for exponents, c in quadratic.slope.terms():
+            for divisor in (quadratic.square, 2 * quadratic.square):
                 if divisor and not c % divisor:
                     step = ring.from_terms({exponents: c // divisor})
-                    if _size(found.moved(step)) < size:
-                        size, best = _size(found.moved(step)), step
+                    if _size(quadratic.moved(step)) < size:
+                        size, best = _size(quadratic.moved(step)), step
         if best is None:
             break
-        found, shift = found.moved(best), shift + best
+        quadratic, shift = quadratic.moved(best), shift + best
     return shift
 
 
-def _size(found: _Quadratic) -> int:
-    return found.slope.term_count() + found.offset.term_count()
+def _size(quadratic: _Quadratic) -> int:
+    return quadratic.slope.term_count() + quadratic.offset.term_count()
 
 
 def _nested(
-    problem: Block, linear: Sequence[Formula], conditions: Sequence[Atom], form: Poly, found: Sequence[_Quadratic]
+    problem: Block, linear: Sequence[Formula], conditions: Sequence[Atom], form: Poly, quadratics: Sequence[_Quadratic]
 ) -> tuple[Formula, list[Fraction]] | None:
     """The right side of the theorem; None where two conditions become one, or one becomes constant."""
     ring = form.ring
     name = fresh(ring)
     wider = Ring.of((*ring.names, name))
     y = wider.var(name)
-    images = [q.at(y) for q in found]
+    images = [q.at(y) for q in quadratics]
     outer = [atom(q, p.relation) for q, p in zip(images, conditions, strict=True)]
     if len(set(outer)) < len(outer) or not all(isinstance(part, Atom) for part in outer):
         return None
     inner = conj((*(convert(part, wider) for part in linear), atom(y - form.convert(wider), Relation.EQ)))
     nested = exists((name,), conj((*outer, exists(problem.variables, inner))))
-    return nested, [Fraction(q.scale, abs(image.normal()[0])) for q, image in zip(found, images, strict=True)]
+    return nested, [Fraction(q.scale, abs(image.normal()[0])) for q, image in zip(quadratics, images, strict=True)]

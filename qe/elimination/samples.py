@@ -72,8 +72,8 @@ def find(body: Formula, budget: Budget) -> dict[str, Fraction] | None:
         point = [_drawn(rng, *limits) for limits in box]
         if _descended(measure, point, places, box, budget, units) > 0:
             continue
-        for found in _rounded(point):
-            named = dict(zip(ring.names, found, strict=True))
+        for rounded in _rounded(point):
+            named = dict(zip(ring.names, rounded, strict=True))
             if holds_at(body, named):
                 return {name: named[name] for name in body.free}
     return None
@@ -173,9 +173,9 @@ def _descended(
                 if best <= 0:
                     return best
                 point[place] = value
-                found = measure(point)
-                if found < best:
-                    best, kept = found, value
+                size = measure(point)
+                if size < best:
+                    best, kept = size, value
             point[place] = kept
         if best <= 0 or (best == before and k > ROUNDS // 2):
             return best

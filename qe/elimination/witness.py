@@ -23,10 +23,10 @@ from qe.errors import InputError
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, format_poly
 from qe.formula.block import Block
-from qe.formula.build import atom, conj, disj, exists, forall, neg
+from qe.formula.build import atom, conj, exists, forall, map_children, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart
-from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import TRUE, And, Atom, Atomic, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import atoms, conjuncts, map_atoms, subformulas
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
@@ -113,8 +113,8 @@ class PolynomialWitness:
 def find(sentence: Formula, *, budget: Budget, log: RunLog | None = None) -> tuple[PolynomialWitness, ...] | None:
     """Witnesses for the existential blocks that together prove the sentence; None when none were found."""
     log = log or RunLog()
-    apart = log.step("renaming", sentence, rename_apart(sentence))
-    return _Search(budget, log).prove(log.step("negation normal form", apart, nnf(apart)), TRUE)
+    renamed = log.step("renaming", sentence, rename_apart(sentence))
+    return _Search(budget, log).prove(log.step("negation normal form", renamed, nnf(renamed)), TRUE)
 
 
 def instantiate(sentence: Formula, terms: Mapping[str, Term]) -> Formula:
@@ -140,31 +140,27 @@ def _instantiated(
     match formula:
         case Exists(variables, body):
             given = {name: terms[name] for name in variables if name in terms}
-            left = [name for name in variables if name not in given]
-            visible = scope | set(left)
+            kept = [name for name in variables if name not in given]
+            visible = scope | set(kept)
             for name, term in given.items():
                 ring, unknown = term.numerator.ring, term.numerator.variables
                 hidden = [ring.names[i] for i in unknown if ring.names[i] not in visible]
                 if hidden:
                     raise InputError(f"witness: {name} depends on {', '.join(hidden)}, which is not known at its place")
                 unused.pop(name, None)
-            return exists(left, _instantiated(substituted(body, given), terms, visible, unused))
+            return exists(kept, _instantiated(substituted(body, given), terms, visible, unused))
         case ForAll(variables, body):
             return forall(variables, _instantiated(body, terms, scope | set(variables), unused))
-        case And(args):
-            return conj(_instantiated(a, terms, scope, unused) for a in args)
-        case Or(args):
-            return disj(_instantiated(a, terms, scope, unused) for a in args)
-    return formula
+    return map_children(formula, lambda part: _instantiated(part, terms, scope, unused))
 
 
 def substituted(formula: Formula, terms: Mapping[str, Term]) -> Formula:
     """The formula with variables replaced by polynomials; every atom is multiplied by a positive number."""
 
-    def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom):
-            return found
-        return atom(_composed(found.poly, terms), found.relation)
+    def change(atomic: Atomic) -> Formula:
+        if not isinstance(atomic, Atom):
+            return atomic
+        return atom(_composed(atomic.poly, terms), atomic.relation)
 
     return map_atoms(formula, change) if terms else formula
 
@@ -244,9 +240,9 @@ class _Search:
 def _is_barren(block: Exists) -> bool:
     """Whether no minimiser can be expected to do: there is none, or equations that preparation could not solve are left
     among the conditions."""
-    own = set(block.variables)
+    names = set(block.variables)
     equations = (a for a in conjuncts(block.body) if isinstance(a, Atom) and a.relation is Relation.EQ)
-    return any(own & set(a.free) for a in equations) or next(_candidates(block), None) is None
+    return any(names & set(a.free) for a in equations) or next(_candidates(block), None) is None
 
 
 def _witness(block: Exists, known: Formula, budget: Budget) -> PolynomialWitness | None:
@@ -262,11 +258,11 @@ def _witness(block: Exists, known: Formula, budget: Budget) -> PolynomialWitness
 
 def _probes(known: Formula, names: Iterable[str]) -> Iterator[dict[str, Fraction]]:
     """A few small points where ``known`` holds, many coordinates 0: they only spare proofs that cannot succeed."""
-    source, found = random.Random(1), 0
+    source, count = random.Random(1), 0
     for _ in range(40 * PROBES):
         point = {name: Fraction(source.choice((0, 0, 0, 0, -1, 1, -2, 2, -3, 4))) for name in names}
-        if found < PROBES and holds_at(known, point):
-            found += 1
+        if count < PROBES and holds_at(known, point):
+            count += 1
             yield point
 
 
@@ -294,9 +290,9 @@ def _candidates(block: Exists) -> Iterator[dict[str, Term]]:
             yield dict(zip(block.variables, centre, strict=True))
 
 
-def _slope(condition: Atom | RootAtom, places: Sequence[int]) -> _Slope | None:
+def _slope(condition: Atomic, places: Sequence[int]) -> _Slope | None:
     """None for atoms that are no weak or strict inequality of constant second derivatives in y."""
-    if isinstance(condition, RootAtom) or condition.relation in (Relation.EQ, Relation.NE):
+    if not isinstance(condition, Atom) or condition.relation in (Relation.EQ, Relation.NE):
         return None
     g = condition.poly if condition.relation in (Relation.LE, Relation.LT) else -condition.poly
     gradient = [g.derivative(i) for i in places]

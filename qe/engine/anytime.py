@@ -54,8 +54,8 @@ def partly(question: Formula, options: Options, budget: Budget, limits: Limits) 
     """
     plain = rename_apart(without_root_atoms(question))
     search = _Search(options, limits, Ring.of(question.free))
-    found = search.known(plain, budget, tried=True)
-    true, false = found.proved_true, found.proved_false
+    outcome = search.known(plain, budget, tried=True)
+    true, false = outcome.proved_true, outcome.proved_false
     certificate = None
     if options.certify:  # the parts stay as the proofs give them
         certificate = search.certificate(question, true, false)
@@ -100,12 +100,12 @@ class _Search:
                     self.proofs.append(self.proof(formula, outcome, budget))
                 return _answered(convert(outcome.formula, self.ring))
         try:
-            found = self.held(partial(_decided_cells, formula, self.options), budget, 1)
+            cells = self.held(partial(_decided_cells, formula, self.options), budget, 1)
         except Unable:
             return Partial()
         if self.options.certify:
-            self.proofs.append(found.certificate)
-        return Partial(convert(found.proved_true, self.ring), convert(found.proved_false, self.ring))
+            self.proofs.append(cells.certificate)
+        return Partial(convert(cells.proved_true, self.ring), convert(cells.proved_false, self.ring))
 
     def proof(self, formula: Formula, outcome: Outcome, budget: Budget) -> Certificate | None:
         """The certificate of a part's answer; None where none is found in its share."""
@@ -121,25 +121,25 @@ class _Search:
             return None
         clear = without_clashes(question)
         order = Ring.of(dict.fromkeys(n for f in (clear, true, false) for n in names_in(f)))
-        asked, true, false = (moved(f, order) for f in (clear, true, false))
-        return Certificate.parts(order.names, asked, true, false, proofs)
+        start, true, false = (moved(f, order) for f in (clear, true, false))
+        return Certificate.parts(order.names, start, true, false, proofs)
 
     def of_parts(self, parts: list[Formula], budget: Budget) -> Partial:
         """A disjunction; each part may take its share of what is left."""
-        found = []
+        answers = []
         for k, part in enumerate(parts):
-            found.append(self.known(part, _apportioned(budget, 1 / (len(parts) - k))))
-        return Partial.of_disjunction(found)
+            answers.append(self.known(part, _apportioned(budget, 1 / (len(parts) - k))))
+        return Partial.of_disjunction(answers)
 
     def held(self, work: Callable[[Budget], T], budget: Budget, share: float) -> T:
         """The work within a share of the budget, ended at its limit of time whatever it does. Raises ``Unable``."""
         budget.check("parts")
-        own = _apportioned(budget, share)
-        seconds = own.remaining()
+        allowed = _apportioned(budget, share)
+        seconds = allowed.remaining()
         if seconds is None:
-            return work(own)
+            return work(allowed)
         limits = replace(self.limits, timeout=max(seconds, 0.001))
-        return perform(partial(_within, work, own.left()), limits, at_once=True)
+        return perform(partial(_within, work, allowed.left()), limits, at_once=True)
 
 
 def _within(work: Callable[[Budget], T], units: int | None, budget: Budget) -> T:
@@ -153,9 +153,9 @@ def _answered(answer: Formula) -> Partial:
 
 def _apportioned(budget: Budget, share: float) -> Budget:
     """A budget for a part of the work: at most this share of the time and of the work that are left."""
-    left = budget.left()
+    units = budget.left()
     timed = budget.share(share)
-    return timed if left is None else timed.part(max(1, int(left * share)))
+    return timed if units is None else timed.part(max(1, int(units * share)))
 
 
 def _decided_cells(formula: Formula, options: Options, budget: Budget) -> Partial:

@@ -231,8 +231,8 @@ def curved_and_many_parameters(problem: Block, options: Options) -> str | None:
 def _one_but_for_bounds(problem: Block) -> bool:
     """Whether one polynomial has the variable, beside numbers or letters that it is compared with."""
     (name,) = problem.variables
-    found = {p for p in problem.polynomials if name in p.ring.index and p.degree(p.ring.index[name])}
-    leads = [(p.degree(x), p.leading(x)) for p in found for x in (p.ring.index[name],)]
+    having = {p for p in problem.polynomials if name in p.ring.index and p.degree(p.ring.index[name])}
+    leads = [(p.degree(x), p.leading(x)) for p in having for x in (p.ring.index[name],)]
     return sum(not (degree == 1 and lead.is_constant) for degree, lead in leads) <= 1
 
 

@@ -11,7 +11,7 @@ from math import prod
 from qe.elimination.protocol import Context
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
-from qe.formula.features import features
+from qe.formula.features import features, length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
@@ -107,7 +107,7 @@ def constant_value(
     if not cheap and any(_at(formula, names, pattern) for pattern in _scattered(len(names))):
         return None
     exception = nnf(formula, negate=always)
-    if question is not None and not always and (not cheap or _size(question) < _size(formula)):
+    if question is not None and not always and (not cheap or length(question)[1] < length(formula)[1]):
         exception = question
     if is_satisfiable(exists(exception.free, exception)):
         return None
@@ -202,10 +202,6 @@ def _closes(question: Formula) -> bool:
     if question.is_quantifier_free:
         return False
     return len(question.free) + len(features(question).bound) <= MANY
-
-
-def _size(formula: Formula) -> int:
-    return sum(a.poly.term_count() for a in atoms(formula))
 
 
 def _is_cheap(formula: Formula, size: int) -> bool:

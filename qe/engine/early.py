@@ -32,7 +32,7 @@ def early_parts(body: Formula) -> tuple[Formula, Formula] | None:
     several = [(names, group) for names, group in groups.items() if len(group) > 1]
     if not several:
         return None
-    _, chosen = min(several, key=lambda found: (len(found[0]), -len(found[1])))
+    _, chosen = min(several, key=lambda group_of: (len(group_of[0]), -len(group_of[1])))
     rest = [part for part in parts if part not in chosen]
     if all(part.is_quantifier_free for part in rest):
         return None

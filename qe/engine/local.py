@@ -49,23 +49,23 @@ class WithoutLocals:
     steps: tuple[Step, ...]
     local: tuple[tuple[tuple[str, ...], Formula], ...]
 
-    def values(self, found: Outcome, decide: Callable[[Formula], Outcome]) -> Values | None:
+    def values(self, outcome: Outcome, decide: Callable[[Formula], Outcome]) -> Values | None:
         """Values for all variables from those with which the formula was found to be true; None where there are none.
 
         ``decide``: the outcome for a sentence.
         """
-        if found.formula != TRUE or (found.witness is None and self.formula != TRUE):
+        if outcome.formula != TRUE or (outcome.witness is None and self.formula != TRUE):
             return None
-        values: Values = dict(found.witness or {})
-        for own, part in self.local:
-            outer = [values.setdefault(name, Fraction(0)) for name in part.free if name not in own]
+        values: Values = dict(outcome.witness or {})
+        for names, part in self.local:
+            outer = [values.setdefault(name, Fraction(0)) for name in part.free if name not in names]
             if not all(isinstance(value, Fraction) for value in outer):
                 return None
-            known = {v: x for v, x in values.items() if v not in own and isinstance(x, Fraction)}
-            inner = decide(exists(own, substituted(part, known)))
+            known = {v: x for v, x in values.items() if v not in names and isinstance(x, Fraction)}
+            inner = decide(exists(names, substituted(part, known)))
             if inner.formula != TRUE:
                 return None
-            values |= dict.fromkeys(own, Fraction(0)) | (inner.witness or {})
+            values |= dict.fromkeys(names, Fraction(0)) | (inner.witness or {})
         return values
 
 
@@ -78,22 +78,22 @@ def without_locals(problem: Block, options: Options, eliminate: Eliminate) -> Wi
         return None
     problem = problem.dual
     for most in SHARED_BY:
-        found = [
-            (own, parts, shorter)
-            for own, parts in _local(problem, most)
-            if (shorter := _shorter(own, parts, eliminate))
+        shortened = [
+            (names, parts, shorter)
+            for names, parts in _local(problem, most)
+            if (shorter := _shorter(names, parts, eliminate))
         ]
-        if found:
-            false = [one for one in found if one[2].answer == FALSE]
-            made = _without(problem, false[:1] or found)
+        if shortened:
+            false = [one for one in shortened if one[2].answer == FALSE]
+            made = _without(problem, false[:1] or shortened)
             return made if made is not None and _is_left_to_search(made.formula, options) else None
     return None
 
 
 def _is_left_to_search(formula: Formula, options: Options) -> bool:
     """Whether no cases are left, or still so many that the search takes them: a few are slower for other methods."""
-    left = Block.of(formula)
-    return left is None or not case_count(left) or hopeless_cases(left, options) is not None
+    block = Block.of(formula)
+    return block is None or not case_count(block) or hopeless_cases(block, options) is not None
 
 
 def _local(problem: Block, most: int) -> Iterator[tuple[tuple[str, ...], list[Formula]]]:
@@ -106,27 +106,27 @@ def _local(problem: Block, most: int) -> Iterator[tuple[tuple[str, ...], list[Fo
             yield tuple(name for name in problem.variables if name in names), list(group)
 
 
-def _shorter(own: tuple[str, ...], parts: list[Formula], eliminate: Eliminate) -> Nested | None:
+def _shorter(names: tuple[str, ...], parts: list[Formula], eliminate: Eliminate) -> Nested | None:
     """How the variables are eliminated, if the conditions do not become longer by that."""
-    found = eliminate(exists(own, conj(parts)))
-    if found is None or not found.answer.is_quantifier_free or _size(found.answer) > sum(map(_size, parts)):
+    nested = eliminate(exists(names, conj(parts)))
+    if nested is None or not nested.answer.is_quantifier_free or _size(nested.answer) > sum(map(_size, parts)):
         return None
-    return found
+    return nested
 
 
-def _without(problem: Block, found: list[tuple[tuple[str, ...], list[Formula], Nested]]) -> WithoutLocals | None:
+def _without(problem: Block, chosen: list[tuple[tuple[str, ...], list[Formula], Nested]]) -> WithoutLocals | None:
     """The sentence with these blocks moved inwards and eliminated; None where no other variable is left."""
-    gone = {name for own, _, _ in found for name in own}
-    left = tuple(name for name in problem.variables if name not in gone)
-    taken = {part for _, parts, _ in found for part in parts}
+    gone = {name for names, _, _ in chosen for name in names}
+    kept = tuple(name for name in problem.variables if name not in gone)
+    taken = {part for _, parts, _ in chosen for part in parts}
     rest = [part for part in conjuncts(problem.body) if part not in taken]
-    nested = exists(left, conj((*rest, *(shorter.start for _, _, shorter in found))))
-    if not isinstance(nested, Exists) or nested.variables != left:
+    nested = exists(kept, conj((*rest, *(shorter.start for _, _, shorter in chosen))))
+    if not isinstance(nested, Exists) or nested.variables != kept:
         return None
     opened = Step(StepKind.GATHERING.value, problem.formula, nested)
-    steps = (opened, *(step for _, _, shorter in found for step in shorter.steps))
-    formula = exists(left, conj((*rest, *(shorter.answer for _, _, shorter in found))))
-    return WithoutLocals(formula, steps, tuple((own, conj(parts)) for own, parts, _ in found))
+    steps = (opened, *(step for _, _, shorter in chosen for step in shorter.steps))
+    formula = exists(kept, conj((*rest, *(shorter.answer for _, _, shorter in chosen))))
+    return WithoutLocals(formula, steps, tuple((names, conj(parts)) for names, parts, _ in chosen))
 
 
 def _size(formula: Formula) -> int:

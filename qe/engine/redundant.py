@@ -85,16 +85,16 @@ def without_redundant_parts(formula: Formula, context: Context, start: object = 
         sentence = part.sentence
         linear = all(a.poly.total_degree <= 1 for a in atoms(sentence))
         try:
-            found = context.decide(sentence, options, budget.part(LINEAR_WORK if linear else QUESTION_WORK))
+            outcome = context.decide(sentence, options, budget.part(LINEAR_WORK if linear else QUESTION_WORK))
         except Unable:
             context.budget.check("shorten")
-            found = None
-        if found is not None and found.formula == FALSE:
-            formula = _dropped(formula, part, found.nested(sentence), context)
+            outcome = None
+        if outcome is not None and outcome.formula == FALSE:
+            formula = _dropped(formula, part, outcome.nested(sentence), context)
             patience = PATIENCE
         else:
             kept.add(sentence)
-            points.take(found.witness if found is not None else None)
+            points.take(outcome.witness if outcome is not None else None)
             patience -= 1
     return formula
 
@@ -103,12 +103,12 @@ def _without_excluded_parts(formula: Formula, context: Context) -> Formula:
     """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
     if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
         return formula
-    points, kept, left = _Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
+    points, kept, terms = _Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
     # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
     while (part := next((p for p in _by_size(formula, points) if p.formula not in kept), None)) is not None:
-        left -= sum(length(condition)[1] for condition in part.conditions)
-        if left < 0:
+        terms -= sum(length(condition)[1] for condition in part.conditions)
+        if terms < 0:
             break
         if simplify(conj(part.conditions), watch=context.budget.check) == FALSE:
             nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
@@ -155,19 +155,19 @@ def without_part(formula: Formula, place: Sequence[int]) -> Formula:
 
 def _unsettled(formula: Formula, points: _Points, kept: set[Formula]) -> Iterator[Part]:
     """The parts worth a question of which no known point says that they matter, largest first."""
-    found: list[Part] = []
+    parts: list[Part] = []
     for count in (FIRST, COARSE, COARSE + FINE):
         points.fill(count)
-        found = [p for p in _by_size(formula, points) if _is_cheap(p)]
-        if not found:
+        parts = [p for p in _by_size(formula, points) if _is_cheap(p)]
+        if not parts:
             return
-    yield from (p for p in found if p.sentence not in kept)
+    yield from (p for p in parts if p.sentence not in kept)
 
 
 def _by_size(formula: Formula, points: _Points) -> list[Part]:
     """The parts of which no point tells that they matter, largest first."""
-    found = _silent(formula, points, (), (), points.everywhere)
-    return sorted(found, key=lambda part: length(part.formula), reverse=True)
+    parts = _silent(formula, points, (), (), points.everywhere)
+    return sorted(parts, key=lambda part: length(part.formula), reverse=True)
 
 
 def _is_cheap(part: Part) -> bool:
@@ -190,10 +190,10 @@ def _silent(formula: Formula, points: _Points, place: Place, above: tuple[Formul
         here = there
         for j, other in enumerate(masks):
             here = here if j == k else here & other if both else here & ~other
-        beside = (*above, *(rest if both else (nnf(r, negate=True) for r in rest)))
+        conditions = (*above, *(rest if both else (nnf(r, negate=True) for r in rest)))
         if not here & (~mask if both else mask):
-            yield Part((*place, k), arg, both, (*beside, nnf(arg, negate=True) if both else arg))
-        yield from _silent(arg, points, (*place, k), beside, here)
+            yield Part((*place, k), arg, both, (*conditions, nnf(arg, negate=True) if both else arg))
+        yield from _silent(arg, points, (*place, k), conditions, here)
 
 
 @dataclass(slots=True)

@@ -232,10 +232,10 @@ def attempts(scope: Scope, problem: Block, options: Options) -> Iterator[tuple[A
             seen.add(attempt.method)
             attempt, reason = replace(attempt, when=on.always, work=None), "asked for"
         else:
-            found = None if attempt.listed.switch in options.without else attempt.when(problem, options)
-            if found is None:
+            why = None if attempt.listed.switch in options.without else attempt.when(problem, options)
+            if why is None:
                 continue
-            reason = found
+            reason = why
         method = attempt.load()
         if method.suits(problem, options) is not None:
             yield attempt, method, reason

@@ -6,8 +6,8 @@ from qe.elimination.protocol import Context
 from qe.errors import InternalError, Unable
 from qe.formula.build import conj, convert, disj
 from qe.formula.features import length
-from qe.formula.normal import nnf
-from qe.formula.syntax import And, Atom, Exists, Formula, Or, Relation
+from qe.formula.normal import matrix_of, nnf
+from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts, disjuncts, ring_of
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
@@ -75,7 +75,7 @@ def _untangled_by(enabled: frozenset[StepKind], formula: Formula, context: Conte
         return formula
     for step in rules.log.steps():
         rule = StepKind.SIMPLIFY.value if step.rule == StepKind.MINISCOPE.value else step.rule
-        steps.step(rule, _unquantified(step.before), _unquantified(step.after), context=step.context)
+        steps.step(rule, matrix_of(step.before), matrix_of(step.after), context=step.context)
     steps.step(StepKind.SIMPLIFY.value, matrix, shorter)
     return context.log.step("equations taken apart", formula, shorter, evidence={"trace": steps})
 
@@ -90,13 +90,3 @@ def _matrix(node: Node) -> Formula:
         case All(children):
             return conj(map(_matrix, children))
     raise InternalError("a rule that is no equivalence at every point")
-
-
-def _unquantified(formula: Formula) -> Formula:
-    """A formula of a block that is only there to say which variables there are; without it, parts are joined."""
-    match formula:
-        case Exists(_, body):
-            return _unquantified(body)
-        case And(args) | Or(args):
-            return (conj if isinstance(formula, And) else disj)(map(_unquantified, args))
-    return formula

@@ -19,7 +19,7 @@ from typing import TypeGuard
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, exists
-from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import map_atoms, subformulas
 from qe.kernel.block import existential
 from qe.kernel.step import Claim, Context, Limits, only
@@ -91,8 +91,8 @@ def _values(images: Images, variables: tuple[str, ...], claim: Claim) -> Images:
     return values
 
 
-def _at(given: Atom | RootAtom, images: Images, claim: Claim) -> Formula:
-    if isinstance(given, RootAtom):
+def _at(given: Atomic, images: Images, claim: Claim) -> Formula:
+    if not isinstance(given, Atom):
         raise claim.fail("no mirror images of root atoms")
     return atom(given.poly.compose(dict(images)), given.relation)
 

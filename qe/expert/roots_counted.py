@@ -13,7 +13,7 @@ from itertools import pairwise
 
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists
-from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import Atomic, Formula, Relation, RootAtom
 from qe.formula.traverse import atoms, map_atoms
 from qe.kernel.negation import negation, normal
 from qe.kernel.renaming import arranged
@@ -34,7 +34,7 @@ def check_roots_counted(claim: Claim, context: Context, limits: Limits) -> None:
     names = [f"t{'_' * longest}{k}" for k in range(most)]  # longer than all others, so new
     ring = Ring.of((*claim.ring.names, *names))
 
-    def counted(found: Atom | RootAtom) -> Formula:
+    def counted(found: Atomic) -> Formula:
         return _counted(found, ring, names[: abs(found.k)]) if isinstance(found, RootAtom) else found
 
     replaced = map_atoms(convert(claim.before, ring), counted)

@@ -20,7 +20,7 @@ from fractions import Fraction
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import And, Atom, Atomic, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import children, subformulas
 from qe.kernel.block import existential
 from qe.kernel.step import Claim, Context, Limits, only
@@ -90,7 +90,7 @@ def _derivatives(formula: Formula, skew: Skew) -> Iterator[Poly]:
     """Polynomials that vanish only if the truth of the formula is the same along the curves of the theorem."""
     if isinstance(formula, Atom):
         yield _along(formula.poly, skew)
-    elif isinstance(formula, RootAtom):
+    elif isinstance(formula, Atomic):
         yield formula.poly  # never 0: nothing is known of it
     elif isinstance(formula, And | Or):
         relation = Relation.EQ if isinstance(formula, And) else Relation.NE

@@ -8,7 +8,7 @@ from functools import cached_property
 from qe.exact.ring import Poly
 from qe.formula.build import exists, forall
 from qe.formula.normal import nnf
-from qe.formula.syntax import Atom, Exists, ForAll, Formula, RootAtom
+from qe.formula.syntax import Atom, Atomic, Exists, ForAll, Formula
 from qe.formula.traverse import atoms, conjuncts
 
 
@@ -62,7 +62,7 @@ class Block:
         return conjuncts(self.positive)
 
     @cached_property
-    def atoms(self) -> tuple[Atom | RootAtom, ...]:
+    def atoms(self) -> tuple[Atomic, ...]:
         """Every atom occurrence of the body."""
         return tuple(atoms(self.body))
 
@@ -74,7 +74,7 @@ class Block:
     @cached_property
     def has_root_atoms(self) -> bool:
         """Whether a root atom occurs."""
-        return any(isinstance(a, RootAtom) for a in self.atoms)
+        return any(not isinstance(a, Atom) for a in self.atoms)
 
     @cached_property
     def degree(self) -> int:

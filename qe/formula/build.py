@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import assert_never
 
 from qe.exact.descartes import most_real_roots
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+from qe.formula.syntax import (
+    FALSE,
+    TRUE,
+    And,
+    Atom,
+    Atomic,
+    Constant,
+    Exists,
+    ForAll,
+    Formula,
+    Not,
+    Or,
+    Relation,
+    RootAtom,
+)
 
 
 def atom(poly: Poly, relation: Relation) -> Formula:
@@ -105,6 +120,36 @@ def root_atom(variable: str, relation: Relation, poly: Poly, k: int) -> Formula:
     return RootAtom(variable, relation, poly.normal()[1], k)
 
 
+def map_children(formula: Formula, change: Callable[[Formula], Formula]) -> Formula:
+    """The formula with every direct subformula changed; what has none stays the node."""
+    match formula:
+        case And(args):
+            return conj(map(change, args))
+        case Or(args):
+            return disj(map(change, args))
+        case Not(arg):
+            return neg(change(arg))
+        case Exists(variables, body):
+            return exists(variables, change(body))
+        case ForAll(variables, body):
+            return forall(variables, change(body))
+        case Constant() | Atom() | RootAtom():
+            return formula
+        case _:
+            assert_never(formula)
+
+
+def with_polynomial(atomic: Atomic, poly: Poly) -> Formula:
+    """The atom with another polynomial, normalised."""
+    match atomic:
+        case Atom(_, relation):
+            return atom(poly, relation)
+        case RootAtom(variable, relation, _, k):
+            return root_atom(variable, relation, poly, k)
+        case _:
+            assert_never(atomic)
+
+
 def convert(formula: Formula, ring: Ring) -> Formula:
     """The same formula with its polynomials in another ring (by variable name); equal parts are converted once."""
     known: dict[Formula, Formula] = {}
@@ -113,25 +158,10 @@ def convert(formula: Formula, ring: Ring) -> Formula:
         if f.ring is ring:
             return f
         if f not in known:
-            known[f] = anew(f)
+            if isinstance(f, Atomic):
+                known[f] = with_polynomial(f, f.poly.convert(ring))
+            else:
+                known[f] = map_children(f, converted)
         return known[f]
-
-    def anew(f: Formula) -> Formula:
-        match f:
-            case Atom(poly, relation):
-                return atom(poly.convert(ring), relation)
-            case RootAtom(variable, relation, poly, k):
-                return root_atom(variable, relation, poly.convert(ring), k)
-            case And(args):
-                return conj(map(converted, args))
-            case Or(args):
-                return disj(map(converted, args))
-            case Not(arg):
-                return neg(converted(arg))
-            case Exists(variables, body):
-                return exists(variables, converted(body))
-            case ForAll(variables, body):
-                return forall(variables, converted(body))
-        return f
 
     return converted(formula)

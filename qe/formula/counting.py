@@ -12,7 +12,7 @@ from itertools import pairwise
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, disj, exists, neg
-from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import TRUE, Atomic, Formula, Relation, RootAtom
 from qe.formula.traverse import atoms, has_root_atoms, map_atoms
 
 
@@ -20,23 +20,23 @@ def without_root_atoms(formula: Formula) -> Formula:
     """An equivalent formula without root atoms, with quantifiers in their place; its ring has the new names last."""
     if not has_root_atoms(formula):
         return formula
-    found = [a for a in atoms(formula) if isinstance(a, RootAtom)]
-    ring = found[0].poly.ring
-    free = (name for k in range(ring.size + max(abs(a.k) for a in found)) if (name := f"t_{k}") not in ring.index)
-    roots = [name for name, _ in zip(free, range(max(abs(a.k) for a in found)), strict=False)]
+    root_atoms = [a for a in atoms(formula) if isinstance(a, RootAtom)]
+    ring = root_atoms[0].poly.ring
+    free = (name for k in range(ring.size + max(abs(a.k) for a in root_atoms)) if (name := f"t_{k}") not in ring.index)
+    roots = [name for name, _ in zip(free, range(max(abs(a.k) for a in root_atoms)), strict=False)]
     extended = Ring.of((*ring.names, *roots))
 
-    def counted(leaf: Atom | RootAtom) -> Formula:
+    def counted(leaf: Atomic) -> Formula:
         return _counted(leaf, roots[: abs(leaf.k)]) if isinstance(leaf, RootAtom) else leaf
 
     return map_atoms(convert(formula, extended), counted)
 
 
-def _counted(found: RootAtom, names: list[str]) -> Formula:
+def _counted(atomic: RootAtom, names: list[str]) -> Formula:
     """The root atom by numbers of roots; ``names``: as many as the roots that are counted."""
-    poly, ring = found.poly, found.poly.ring
-    x = ring.index[found.variable]
-    up = found.k > 0
+    poly, ring = atomic.poly, atomic.poly.ring
+    x = ring.index[atomic.variable]
+    up = atomic.k > 0
 
     def at_least(relation: Relation | None) -> Formula:
         return _at_least(poly, x, [ring.index[n] for n in names], relation)
@@ -52,7 +52,7 @@ def _counted(found: RootAtom, names: list[str]) -> Formula:
         weakly: not_past,
         Relation.EQ: conj((reached, neg(past))),
         Relation.NE: disj((past, before)),
-    }[found.relation]
+    }[atomic.relation]
     return conj((truth, disj(atom(c, Relation.NE) for c in poly.coefficients(x))))
 
 

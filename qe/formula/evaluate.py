@@ -9,7 +9,7 @@ from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly
 from qe.formula.build import atom
-from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, RootAtom
+from qe.formula.syntax import And, Atom, Atomic, Constant, Formula, Not, Or, RootAtom
 from qe.formula.traverse import map_atoms, ring_of
 from qe.truth import Truth, conjunction, disjunction, negation
 
@@ -42,15 +42,15 @@ def holds_at(formula: Formula, point: Mapping[str, Fraction | int]) -> bool:
 def substituted(formula: Formula, values: Mapping[str, Fraction | int]) -> Formula:
     """A quantifier-free formula without root atoms, with rational numbers for variables; its ring stays the same."""
 
-    def put(found: Atom | RootAtom) -> Formula:
-        poly = found.poly
-        if isinstance(found, RootAtom):
+    def put(atomic: Atomic) -> Formula:
+        poly = atomic.poly
+        if isinstance(atomic, RootAtom):
             raise InputError("numbers are not put into root atoms")
         for i in poly.variables:
             name = poly.ring.names[i]
             if name in values:
                 poly = poly.at_rational(i, Fraction(values[name]))
-        return atom(poly, found.relation)
+        return atom(poly, atomic.relation)
 
     return map_atoms(formula, put)
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from qe.formula.syntax import Formula, Or
-from qe.formula.traverse import atoms, bound_variables, subformulas
+from qe.formula.traverse import atoms, bound_variables, has_root_atoms, subformulas
 
 SMALL_DEGREE = {1: 40, 2: 12, 3: 4, 4: 2}
 """An answer in so many variables is small up to this total degree: its whole space is decomposed in no time."""
@@ -25,12 +25,12 @@ class Features:
 
 def features(formula: Formula) -> Features:
     """The features of a formula."""
-    found = list(atoms(formula))
+    listed = list(atoms(formula))
     return Features(
         free=formula.free,
         bound=bound_variables(formula),
-        atoms=len(found),
-        total_degree=max((a.poly.total_degree for a in found), default=0),
+        atoms=len(listed),
+        total_degree=max((a.poly.total_degree for a in listed), default=0),
     )
 
 
@@ -44,12 +44,17 @@ def is_small(formula: Formula, degrees: Mapping[int, int] = SMALL_DEGREE) -> boo
 
 def _overlaps(formula: Formula) -> bool:
     """Whether an atom of a conjunction may follow from the others: a curve in the plane, and more than one atom."""
-    found = list(atoms(formula))
+    listed = list(atoms(formula))
     return (
-        len(found) > 1
+        len(listed) > 1
         and len(formula.free) == 2
-        and any(len(a.poly.variables) == 2 and a.poly.total_degree > 1 for a in found)
+        and any(len(a.poly.variables) == 2 and a.poly.total_degree > 1 for a in listed)
     )
+
+
+def is_short(formula: Formula, terms: int) -> bool:
+    """Whether no root atom occurs, and at most so many terms stand in all atoms."""
+    return not has_root_atoms(formula) and length(formula)[1] <= terms
 
 
 def length(formula: Formula) -> tuple[int, int]:

@@ -18,8 +18,8 @@ def direction(formula: Formula, x: int) -> int:
     them, and so do statements with quantifiers over other variables. That dp/dx has no other sign is seen from terms
     with even exponents and coefficients of one sign.
     """
-    found = set(_directions(formula, x))
-    return found.pop() if len(found) == 1 else 0
+    directions = set(_directions(formula, x))
+    return directions.pop() if len(directions) == 1 else 0
 
 
 def _directions(formula: Formula, x: int) -> Iterator[int]:

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from enum import StrEnum
 
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, disj, exists, forall, neg, root_atom
-from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
+from qe.formula.build import atom, conj, disj, exists, forall, map_children, neg, root_atom
+from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or, Quantified, RootAtom
 from qe.formula.traverse import children, clashes, map_atoms, ring_of
 
 
@@ -55,7 +55,7 @@ def rename_apart(formula: Formula, avoid: Iterable[str] = ()) -> Formula:
     """
     ring = ring_of(formula)
     if ring is None:
-        return _strip(formula)
+        return matrix_of(formula)
     renaming = _Renaming(ring, (*formula.free, *avoid))
     names = renaming.plan(formula)
     return renaming.apply(formula, names, {})
@@ -66,18 +66,10 @@ def without_clashes(formula: Formula) -> Formula:
     return rename_apart(formula) if clashes(formula) else formula
 
 
-def _strip(formula: Formula) -> Formula:
-    """A formula without atoms: quantifiers say nothing there."""
-    match formula:
-        case And(args):
-            return conj([_strip(arg) for arg in args])
-        case Or(args):
-            return disj([_strip(arg) for arg in args])
-        case Not(arg):
-            return neg(_strip(arg))
-        case Exists(_, body) | ForAll(_, body):
-            return _strip(body)
-    return formula
+def matrix_of(formula: Formula) -> Formula:
+    """The formula with its quantifiers left out: what they bind is free then, and of a formula without atoms nothing
+    is lost."""
+    return matrix_of(formula.body) if isinstance(formula, Quantified) else map_children(formula, matrix_of)
 
 
 class _Renaming:
@@ -127,18 +119,13 @@ class _Renaming:
             case RootAtom(variable, relation, poly, k):
                 moved, name = self._poly(poly, scope), scope.get(variable, variable)
                 return formula if moved is poly and name == variable else root_atom(name, relation, moved, k)
-            case And(args):
-                return conj([self.apply(arg, names, scope) for arg in args])
-            case Or(args):
-                return disj([self.apply(arg, names, scope) for arg in args])
-            case Not(arg):
-                return neg(self.apply(arg, names, scope))
             case Exists(variables, body) | ForAll(variables, body):
                 bound = [(name, names.pop()) for name in variables]
                 quantify = exists if isinstance(formula, Exists) else forall
                 inner = self.apply(body, names, {**scope, **{old: new for old, new in bound if new}})
                 return quantify([new for _, new in bound if new], inner)
-        return formula
+        parts = [self.apply(part, names, scope) for part in children(formula)][::-1]  # all, as each takes its names
+        return map_children(formula, lambda part: parts.pop())
 
     def _poly(self, poly: Poly, scope: Mapping[str, str]) -> Poly:
         present = tuple(scope.get(self.ring.names[i], self.ring.names[i]) for i in poly.variables)
@@ -178,11 +165,11 @@ def rename(formula: Formula, names: Mapping[str, str]) -> Formula:
     target = Ring.of([names.get(name, name) for name in ring.names])
     where = {i: names.get(name, name) for i, name in enumerate(ring.names)}
 
-    def change(found: Atom | RootAtom) -> Formula:
-        poly = _renamed(found.poly, target, where)
-        if isinstance(found, RootAtom):
-            return root_atom(names.get(found.variable, found.variable), found.relation, poly, found.k)
-        return atom(poly, found.relation)
+    def change(atomic: Atomic) -> Formula:
+        poly = _renamed(atomic.poly, target, where)
+        if isinstance(atomic, RootAtom):
+            return root_atom(names.get(atomic.variable, atomic.variable), atomic.relation, poly, atomic.k)
+        return atom(poly, atomic.relation)
 
     return map_atoms(formula, change)
 
@@ -195,11 +182,11 @@ def prenex(formula: Formula) -> tuple[tuple[PrefixBlock, ...], Formula]:
     least: with the kind of the outermost block fixed, putting every quantifier into the first block that is open
     to it is optimal by induction on depth; both kinds are tried. Blocks alternate.
     """
-    apart = rename_apart(nnf(formula))
-    if isinstance(apart, Constant):
-        return (), apart
-    prefix = min((_blocks(apart, first) for first in Quantifier), key=_cost)
-    return prefix, _matrix(apart)
+    renamed = rename_apart(nnf(formula))
+    if isinstance(renamed, Constant):
+        return (), renamed
+    prefix = min((_blocks(renamed, first) for first in Quantifier), key=_cost)
+    return prefix, matrix_of(renamed)
 
 
 def _cost(blocks: tuple[PrefixBlock, ...]) -> int:
@@ -222,17 +209,6 @@ def _blocks(formula: Formula, first: Quantifier) -> tuple[PrefixBlock, ...]:
     place(formula, 0)
     kinds = [first if i % 2 == 0 else first.dual for i in range(len(names))]
     return tuple((kind, tuple(block)) for kind, block in zip(kinds, names) if block)
-
-
-def _matrix(formula: Formula) -> Formula:
-    match formula:
-        case And(args):
-            return conj([_matrix(arg) for arg in args])
-        case Or(args):
-            return disj([_matrix(arg) for arg in args])
-        case Exists(_, body) | ForAll(_, body):
-            return _matrix(body)
-    return formula
 
 
 def close(prefix: Iterable[PrefixBlock], matrix: Formula) -> Formula:

@@ -14,7 +14,7 @@ from collections.abc import Collection
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import And, Atom, Atomic, Constant, Formula, Or, Relation
 from qe.formula.traverse import atoms, map_atoms
 
 _STRICT = {Relation.LE: Relation.LT, Relation.GE: Relation.GT}
@@ -41,9 +41,8 @@ def _has_shape(formula: Formula, block: frozenset[int], *, strict: bool) -> bool
     return all(block.isdisjoint(_variables(a)) for a in atoms(formula))
 
 
-def _variables(found: Atom | RootAtom) -> tuple[int, ...]:
-    named = (found.poly.ring.index[found.variable],) if isinstance(found, RootAtom) else ()
-    return found.poly.variables + named
+def _variables(atomic: Atomic) -> tuple[int, ...]:
+    return tuple(atomic.poly.ring.index[name] for name in atomic.free)
 
 
 def somewhere_nonzero(poly: Poly, block: Collection[int]) -> Formula:
@@ -63,12 +62,12 @@ def thinned(formula: Formula, block: Collection[int]) -> Formula:
     identically; finitely many such sets contain no nonempty open set.
     """
 
-    def thin(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom) or found.relation.is_strict or not set(block) & set(found.poly.variables):
-            return found
-        nothing = conj(atom(c, Relation.EQ) for c in found.poly.coefficients_in(block))
-        if found.relation is Relation.EQ:
+    def thin(atomic: Atomic) -> Formula:
+        if not isinstance(atomic, Atom) or atomic.relation.is_strict or not set(block) & set(atomic.poly.variables):
+            return atomic
+        nothing = conj(atom(c, Relation.EQ) for c in atomic.poly.coefficients_in(block))
+        if atomic.relation is Relation.EQ:
             return nothing
-        return disj((Atom(found.poly, _STRICT[found.relation]), nothing))
+        return disj((Atom(atomic.poly, _STRICT[atomic.relation]), nothing))
 
     return map_atoms(formula, thin)

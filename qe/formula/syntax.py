@@ -217,10 +217,10 @@ class Connective(FormulaNode):
     def _find_ring(self) -> Ring | None:
         ring = None
         for arg in self.args:
-            if (own := arg.ring) is not ring and own is not None:
+            if (other := arg.ring) is not ring and other is not None:
                 if ring is not None:
-                    raise InternalError(f"a formula over two rings: {ring!r} and {own!r}")
-                ring = own
+                    raise InternalError(f"a formula over two rings: {ring!r} and {other!r}")
+                ring = other
         return ring
 
     def _find_free(self) -> tuple[str, ...]:
@@ -323,7 +323,7 @@ class ForAll(Quantified):
 Atomic = Atom | RootAtom
 """The kinds of atomic formulas."""
 
-Formula = Atom | RootAtom | Constant | And | Or | Not | Exists | ForAll
+Formula = Atomic | Constant | And | Or | Not | Exists | ForAll
 """All kinds of nodes: a ``match`` that ends with ``assert_never`` is one that mypy holds against this list."""
 
 
@@ -331,7 +331,7 @@ def _together(ring: Ring | None, parts: tuple[Formula, ...]) -> tuple[str, ...]:
     """The free variables of all parts, in the order of their ring."""
     if ring is None:
         return ()
-    found: set[str] = set()
+    names: set[str] = set()
     for part in parts:
-        found.update(part.free)
-    return tuple([name for name in ring.names if name in found])
+        names.update(part.free)
+    return tuple([name for name in ring.names if name in names])

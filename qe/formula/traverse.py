@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TypeVar
+from itertools import count
+from typing import TypeVar, assert_never
 
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import conj, disj, exists, forall, neg
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, Quantified, RootAtom
+from qe.formula.build import map_children
+from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or, Quantified, RootAtom
 
 Name = TypeVar("Name")
 
@@ -21,7 +22,10 @@ def children(formula: Formula) -> tuple[Formula, ...]:
             return (arg,)
         case Exists(_, body) | ForAll(_, body):
             return (body,)
-    return ()
+        case Constant() | Atom() | RootAtom():
+            return ()
+        case _:
+            assert_never(formula)
 
 
 def conjuncts(formula: Formula) -> tuple[Formula, ...]:
@@ -50,12 +54,8 @@ def subformula(formula: Formula, place: Sequence[int]) -> Formula:
 
 def with_child(formula: Formula, k: int, child: Formula) -> Formula:
     """The formula with another direct subformula in the place of one."""
-    match formula:
-        case And(args) | Or(args):
-            return (conj if isinstance(formula, And) else disj)((*args[:k], child, *args[k + 1 :]))
-        case Exists(variables, _) | ForAll(variables, _):
-            return (exists if isinstance(formula, Exists) else forall)(variables, child)
-    return neg(child)
+    place = count()
+    return map_children(formula, lambda part: child if next(place) == k else part)
 
 
 def bound_variables(formula: Formula) -> tuple[str, ...]:
@@ -84,9 +84,9 @@ def clashes(formula: Formula, visible: Iterable[str] = ()) -> frozenset[str]:
     return rebound(formula) | bound.intersection((*formula.free, *visible)) if bound else bound
 
 
-def atoms(formula: Formula) -> Iterator[Atom | RootAtom]:
+def atoms(formula: Formula) -> Iterator[Atomic]:
     """Every atom occurrence, left to right."""
-    if isinstance(formula, Atom | RootAtom):
+    if isinstance(formula, Atomic):
         yield formula
     for child in children(formula):
         yield from atoms(child)
@@ -97,27 +97,13 @@ def has_root_atoms(formula: Formula) -> bool:
     return any(isinstance(a, RootAtom) for a in atoms(formula))
 
 
-def map_atoms(formula: Formula, change: Callable[[Atom | RootAtom], Formula]) -> Formula:
+def map_atoms(formula: Formula, change: Callable[[Atomic], Formula]) -> Formula:
     """Replace every atom by a formula and rebuild with the smart constructors; what does not change stays the node."""
-    rebuilt = _mapped(formula, change)
+    if isinstance(formula, Atomic):
+        rebuilt = change(formula)
+    else:
+        rebuilt = map_children(formula, lambda part: map_atoms(part, change))
     return formula if rebuilt == formula else rebuilt
-
-
-def _mapped(formula: Formula, change: Callable[[Atom | RootAtom], Formula]) -> Formula:
-    match formula:
-        case Atom() | RootAtom():
-            return change(formula)
-        case And(args):
-            return conj(map_atoms(a, change) for a in args)
-        case Or(args):
-            return disj(map_atoms(a, change) for a in args)
-        case Not(arg):
-            return neg(map_atoms(arg, change))
-        case Exists(variables, body):
-            return exists(variables, map_atoms(body, change))
-        case ForAll(variables, body):
-            return forall(variables, map_atoms(body, change))
-    return formula
 
 
 def polynomials(formula: Formula) -> list[Poly]:
@@ -140,13 +126,13 @@ def connected(
     without: list[Formula] = []
     groups: list[tuple[frozenset[Name], tuple[Formula, ...]]] = []
     for part in parts:
-        own, members = names(part), (part,)
-        if not own:
+        shared, members = names(part), (part,)
+        if not shared:
             without.append(part)
             continue
-        touching = [g for g in groups if g[0] & own]
+        touching = [g for g in groups if g[0] & shared]
         groups = [g for g in groups if g not in touching]
-        groups.append((own.union(*(g[0] for g in touching)), sum((g[1] for g in touching), ()) + members))
+        groups.append((shared.union(*(g[0] for g in touching)), sum((g[1] for g in touching), ()) + members))
     return tuple(without), groups
 
 

@@ -21,8 +21,8 @@ def may_block(formula: Formula) -> bool:
     ``total degree ^ (number of variables)`` of a polynomial, for at most three of its variables, measures the size of
     its resultants. A guess in both directions: it decides where work is done, never its result.
     """
-    found = list(islice(atoms(formula), MOST_ATOMS + 1))
-    return len(found) > MOST_ATOMS or any(_is_large(a.poly) for a in found)
+    listed = list(islice(atoms(formula), MOST_ATOMS + 1))
+    return len(listed) > MOST_ATOMS or any(_is_large(a.poly) for a in listed)
 
 
 def written_out(formula: Formula) -> tuple[int, int]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import json
 import re
-from typing import Any
+from typing import Any, Never
 
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
@@ -85,7 +85,9 @@ def _encode(formula: Formula) -> object:
             return {"exists": list(variables), "body": _encode(body)}
         case ForAll(variables, body):
             return {"forall": list(variables), "body": _encode(body)}
-    raise InputError(f"not a formula: {formula!r}")
+        case _:
+            unknown: Never = formula  # mypy holds the cases against all kinds
+            raise InputError(f"not a formula: {unknown!r}")
 
 
 def _poly(poly: Poly) -> list[list[object]]:

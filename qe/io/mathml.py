@@ -6,7 +6,9 @@ import re
 from collections.abc import Callable
 from html import escape
 from itertools import pairwise
+from typing import Never
 
+from qe.formula.features import length
 from qe.formula.notation import Monomial, digits, oriented, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 from qe.io.latex import GREEK
@@ -69,19 +71,6 @@ def _rows(formula: And | Or, draw: Draw) -> str:
     return f"<mtable columnalign='right left'>{''.join(rows)}</mtable>"
 
 
-def _size(formula: Formula) -> int:
-    match formula:
-        case Atom(poly, _) | RootAtom(_, _, poly, _):
-            return poly.term_count()
-        case And(args) | Or(args):
-            return sum(map(_size, args))
-        case Not(arg):
-            return _size(arg)
-        case Exists(_, body) | ForAll(_, body):
-            return _size(body)
-    return 1
-
-
 def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, broken: bool = False) -> str:
     """A formula; ``bracket``: compound ones need brackets here; ``broken``: long polynomials take several lines."""
     match formula:
@@ -101,13 +90,14 @@ def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, br
             return f"<mrow>{_operator('¬')}{expression(arg, bracket=True, draw=draw, broken=broken)}</mrow>"
         case Exists(_, body) | ForAll(_, body):
             inner = f"{_quantifier(formula, draw)}{expression(body, draw=draw, broken=broken)}"
-        case And() | Or() if broken and _size(formula) > WIDTH:
+        case And() | Or() if broken and length(formula)[1] > WIDTH:
             inner = _rows(formula, draw)
         case And(args) | Or(args):
             operator = _operator(_AND if isinstance(formula, And) else _OR)
             inner = operator.join(expression(arg, bracket=True, draw=draw, broken=broken) for arg in args)
         case _:
-            raise TypeError(f"not a formula: {formula!r}")
+            unknown: Never = formula  # mypy holds the cases against all kinds
+            raise TypeError(f"not a formula: {unknown!r}")
     return bracketed(inner) if bracket else f"<mrow>{inner}</mrow>"
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 
 from qe.errors import InputError
-from qe.formula.syntax import Formula, RootAtom
+from qe.formula.syntax import Atom, Formula
 from qe.formula.traverse import atoms, bound_variables, ring_of
 
 _FORBIDDEN = re.compile(r"[|\\\ud800-\udfff]")
@@ -61,6 +61,6 @@ def names_in(formula: Formula) -> list[str]:
     """Every name of a formula: those of its ring, and those that only quantifiers and root atoms mention."""
     ring = ring_of(formula)
     found = dict.fromkeys(ring.names if ring is not None else ())
-    found.update(dict.fromkeys(a.variable for a in atoms(formula) if isinstance(a, RootAtom)))
+    found.update(dict.fromkeys(a.variable for a in atoms(formula) if not isinstance(a, Atom)))
     found.update(dict.fromkeys(bound_variables(formula)))
     return list(found)

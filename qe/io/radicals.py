@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, disj, exists, forall, implies, neg
-from qe.formula.syntax import And, Atom, Formula, Not, Or, Quantified, Relation
+from qe.formula.build import atom, conj, disj, exists, forall, implies, map_children, neg
+from qe.formula.syntax import Atom, Formula, Quantified, Relation
 
 MOST_SUBSTITUTED = 2
 """Square roots of one comparison up to which they are substituted: each one doubles the degrees."""
@@ -79,15 +79,9 @@ def _substituted(formula: Formula, name: str, radicand: Poly) -> Formula:
     match formula:
         case Atom(poly, relation):
             return _with_root(poly, relation, name, radicand)
-        case And(args):
-            return conj(_substituted(arg, name, radicand) for arg in args)
-        case Or(args):
-            return disj(_substituted(arg, name, radicand) for arg in args)
-        case Not(arg):
-            return neg(_substituted(arg, name, radicand))
-        case Quantified(variables, body) if name in formula.free:
-            return type(formula)(variables, _substituted(body, name, radicand))
-    return formula
+        case Quantified() if name not in formula.free:
+            return formula
+    return map_children(formula, lambda part: _substituted(part, name, radicand))
 
 
 def _with_root(poly: Poly, relation: Relation, name: str, radicand: Poly) -> Formula:

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, convert, exists, root_atom
+from qe.formula.build import conj, convert, exists, with_polynomial
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import rename_apart
-from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import Atom, Atomic, Formula, Relation
 from qe.formula.traverse import atoms, bound_variables, map_atoms, ring_of
 from qe.io import surface as s
 from qe.io.collecting import Names
@@ -22,7 +22,7 @@ def substitute(formula: Formula, values: Mapping[str, s.Term]) -> Formula:
 
     Bound variables are renamed where a term has their names. Where a term has no value the result is false.
     """
-    if any(isinstance(a, RootAtom) and a.variable in values for a in atoms(formula)):
+    if any(not isinstance(a, Atom) and a.variable in values for a in atoms(formula)):
         formula = without_root_atoms(formula)
     values = {name: term for name, term in values.items() if name in formula.free}
     names = {name for term in values.values() for name in _names(term)}
@@ -66,9 +66,8 @@ def trimmed(formula: Formula) -> Formula:
 def _put(formula: Formula, i: int, top: Poly, bottom: Poly) -> Formula:
     """The formula with top/bottom in the place of variable ``i``, for a positive constant ``bottom``."""
 
-    def put(a: Atom | RootAtom) -> Formula:
-        poly = a.poly.at_quotient(i, top, bottom)
-        return atom(poly, a.relation) if isinstance(a, Atom) else root_atom(a.variable, a.relation, poly, a.k)
+    def put(a: Atomic) -> Formula:
+        return with_polynomial(a, a.poly.at_quotient(i, top, bottom))
 
     return map_atoms(formula, put)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms, conjuncts, disjuncts
 from qe.kernel.cubic_root import SOME, asks_one, existence
 from qe.kernel.turning_points import vanishing
@@ -62,7 +62,7 @@ def _tried(entry: Entry, body: Formula, x: int, ring: Ring) -> Tried:
     if not is_free_of(condition, x):
         raise guard.fail("expected a condition on the other variables")
     kept = body if formula.value is None else formula_from_json(formula, ring)
-    if where is not None and any(isinstance(a, RootAtom) and ring.names[x] in a.free for a in atoms(kept)):
+    if where is not None and any(not isinstance(a, Atom) and ring.names[x] in a.free for a in atoms(kept)):
         raise formula.fail("no test point is put into root atoms")  # the variable would be left, and mean another one
     found = Tried(where, condition, kept, frozenset(formula_from_json(s, ring) for s in settled.items()))
     _check_implication(found, body, x, formula)

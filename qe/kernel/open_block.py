@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import And, Atom, Atomic, Constant, Formula, Or, Relation
 from qe.formula.traverse import map_atoms
 from qe.kernel.elimination_set import block_of, check_parts
 from qe.kernel.step import Claim, Context, Limits, only, outside
@@ -56,11 +56,11 @@ def inside(formula: Formula, names: Collection[str]) -> Formula:
 def _is_plain(formula: Formula) -> bool:
     if isinstance(formula, And | Or):
         return all(map(_is_plain, formula.args))
-    return isinstance(formula, Atom | RootAtom | Constant)
+    return isinstance(formula, Atomic | Constant)
 
 
-def _inside(found: Atom | RootAtom, names: Collection[str]) -> Formula:
-    if isinstance(found, RootAtom) or found.relation.is_strict or not set(names) & set(found.free):
+def _inside(found: Atomic, names: Collection[str]) -> Formula:
+    if not isinstance(found, Atom) or found.relation.is_strict or not set(names) & set(found.free):
         return found
     ring = found.poly.ring
     coefficients = found.poly.collected([ring.index[n] for n in names])

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import Atom, Atomic, Formula, Relation
 from qe.formula.traverse import map_atoms
 from qe.kernel.cubic_root import SOME, at_root
 from qe.kernel.limits import check_power
@@ -55,8 +55,8 @@ def whichever(point: TestPoint) -> TestPoint | None:
 def put(formula: Formula, x: int, point: TestPoint, settled: Collection[Formula] = ()) -> Formula:
     """The formula at the point; the atoms ``settled`` at the root that the point is next to."""
 
-    def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom) or not found.poly.degree(x):
+    def change(found: Atomic) -> Formula:
+        if not isinstance(found, Atom) or not found.poly.degree(x):
             return found
         at_root = not point.shift or found in settled
         if not point.coefficients:

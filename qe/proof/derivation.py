@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from qe.exact.ring import Ring
-from qe.formula.build import conj, convert, disj, exists, forall, neg
-from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Not, Or
+from qe.formula.build import conj, convert, disj, exists, forall, map_children, neg
+from qe.formula.syntax import And, Atomic, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import children
 from qe.io.names import names_in
 from qe.proof.step import Place, Step
@@ -88,14 +88,11 @@ def moved(formula: Formula, ring: Ring) -> Formula:
     """The formula over another ring, with its negations where they stand."""
     if formula.ring is ring:
         return formula
-    match formula:
-        case Not(arg):
-            return negated(moved(arg, ring))
-        case And(args) | Or(args):
-            return (conj if isinstance(formula, And) else disj)(moved(a, ring) for a in args)
-        case Exists(variables, body) | ForAll(variables, body):
-            return (exists if isinstance(formula, Exists) else forall)(variables, moved(body, ring))
-    return convert(formula, ring)
+    if isinstance(formula, Atomic):
+        return convert(formula, ring)
+    if isinstance(formula, Not):
+        return negated(moved(formula.arg, ring))
+    return map_children(formula, lambda part: moved(part, ring))
 
 
 def negated(formula: Formula) -> Formula:

@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import assert_never
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring, format_poly
@@ -208,7 +209,8 @@ def formula_to_json(formula: Formula, *, quantified: bool = False) -> Json:
             return ["exists" if isinstance(formula, Exists) else "forall", list(variables), inner(body)]
         case Exists() | ForAll():
             raise CertificateRejected("matrix", "a quantifier where a quantifier-free formula is needed")
-    raise CertificateRejected("matrix", f"unknown kind of formula {type(formula).__name__}")
+        case _:
+            assert_never(formula)
 
 
 def formula_from_json(entry: Entry, ring: Ring, *, quantified: bool = False) -> Formula:

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import FALSE, Atom, Exists, Formula, Not, RootAtom
+from qe.formula.syntax import FALSE, Atomic, Exists, Formula, Not
 from qe.formula.traverse import map_atoms
 from qe.kernel.block import existential
 from qe.kernel.negation import negation, normal
@@ -59,7 +59,7 @@ def _move(direction: Entry, claim: Claim) -> tuple[str, dict[str, Fraction]]:
 
 
 def _at_zero(formula: Formula, names: list[str]) -> Formula:
-    def change(found: Atom | RootAtom) -> Formula:
+    def change(found: Atomic) -> Formula:
         ring = found.poly.ring
         return atom(found.poly.compose({ring.index[v]: ring.constant(0) for v in names}), found.relation)
 

@@ -7,7 +7,7 @@ from functools import partial
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import Atom, Exists, Formula, Relation, RootAtom
+from qe.formula.syntax import Atom, Atomic, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts, map_atoms
 from qe.kernel.block import existential
 from qe.kernel.statements import theorem
@@ -122,7 +122,7 @@ def _texts(letters: Mapping[str, Poly]) -> Json:
     return {name: poly_to_text(poly) for name, poly in letters.items()}
 
 
-def _renamed(found: Atom | RootAtom, by: Mapping[int, Poly], made: Made) -> Formula:
-    if isinstance(found, RootAtom):
+def _renamed(found: Atomic, by: Mapping[int, Poly], made: Made) -> Formula:
+    if not isinstance(found, Atom):
         raise made.claim.fail("no root atoms")
     return atom(found.poly.compose(dict(by)), found.relation)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert
-from qe.formula.syntax import And, Atom, Exists, Formula, Relation, RootAtom
+from qe.formula.syntax import And, Atom, Atomic, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts, map_atoms
 from qe.proof.certificate import Certificate
 
@@ -48,8 +48,8 @@ def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
     rest, lead = equation.coefficients(i)
     top, bottom = (-rest, lead) if lead.constant_value() > 0 else (rest, -lead)
 
-    def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom) or not found.poly.degree(i):
+    def change(found: Atomic) -> Formula:
+        if not isinstance(found, Atom) or not found.poly.degree(i):
             return found
         return atom(found.poly.at_quotient(i, top, bottom), found.relation)
 

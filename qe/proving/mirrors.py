@@ -7,7 +7,7 @@ from functools import partial
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, exists, forall
-from qe.formula.syntax import Atom, Exists, ForAll, Formula, RootAtom
+from qe.formula.syntax import Atom, Atomic, Exists, ForAll, Formula
 from qe.formula.traverse import atoms, conjuncts, map_atoms
 from qe.kernel.block import existential
 from qe.kernel.step import Claim, Context, Limits, only
@@ -98,8 +98,8 @@ def _put(formula: Formula, terms: Mapping[str, Quotient], made: Made) -> Formula
     return map_atoms(formula, partial(_at, by=by, made=made))
 
 
-def _at(found: Atom | RootAtom, by: Terms, made: Made) -> Formula:
-    if isinstance(found, RootAtom):
+def _at(found: Atomic, by: Terms, made: Made) -> Formula:
+    if not isinstance(found, Atom):
         raise made.claim.fail("no mirror images of root atoms")
     return atom(at_terms(found.poly, by), found.relation)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation, RootAtom
+from qe.formula.syntax import TRUE, Atom, Atomic, Exists, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts, map_atoms
 from qe.kernel.elimination_set import block_of
 from qe.kernel.inequations import generic
@@ -126,7 +126,7 @@ def lower(made: Made, block: Exists, low: Formula, name: str, power: int) -> Non
     made.moved(exists(names, at_y), low)
 
 
-def _put(found: Atom | RootAtom, made: Made, by: dict[int, object]) -> Formula:
-    if isinstance(found, RootAtom):
+def _put(found: Atomic, made: Made, by: dict[int, object]) -> Formula:
+    if not isinstance(found, Atom):
         raise made.claim.fail("no degree shift in root atoms")
     return atom(found.poly.compose(by), found.relation)  # type: ignore[arg-type]

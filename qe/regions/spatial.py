@@ -34,7 +34,7 @@ from qe.exact.nearby import enclosure, without_zeros
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, convert
-from qe.formula.syntax import Atom, Formula, RootAtom
+from qe.formula.syntax import Atomic, Formula
 from qe.formula.traverse import map_atoms, polynomials
 from qe.options import Budget
 from qe.proof.cells import CellTable
@@ -283,7 +283,7 @@ class Coordinates:
         z = ring.gen(2)
         moved = {i: ring.gen(i) + z * (sign * slope) for i, slope in enumerate(self.slant)}
 
-        def change(found: Atom | RootAtom) -> Formula:
+        def change(found: Atomic) -> Formula:
             return atom(found.poly.compose(moved), found.relation)
 
         return map_atoms(convert(formula, ring), change)

@@ -17,7 +17,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, exists, forall, implies, neg
 from qe.formula.normal import nnf, rename
 from qe.formula.openness import is_closed, is_open
-from qe.formula.syntax import FALSE, And, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import FALSE, And, Atom, Atomic, Formula, Relation
 from qe.formula.traverse import map_atoms
 from qe.io.substitution import over_one_ring
 from qe.options import Budget
@@ -81,8 +81,8 @@ def _is_convex(formula: Formula) -> bool:
 def _related(formula: Formula, relations: dict[Relation, Relation]) -> Formula:
     """The conditions with other relations; strict ones turn an equation into a contradiction."""
 
-    def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom) or (relations is _STRICT and found.relation is Relation.EQ):
+    def change(found: Atomic) -> Formula:
+        if not isinstance(found, Atom) or (relations is _STRICT and found.relation is Relation.EQ):
             return FALSE
         return atom(found.poly, relations.get(found.relation, found.relation))
 

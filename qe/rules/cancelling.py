@@ -35,14 +35,15 @@ def difference(poly: Poly, equation: Poly) -> tuple[int, int, Poly] | None:
         return None
     if poly.total_degree < 2 or equation.total_degree > poly.total_degree:
         return None
-    own, other = dict(poly.terms()), dict(equation.terms())
-    shared = [exponents for exponents in own if exponents in other]
+    terms, other = dict(poly.terms()), dict(equation.terms())
+    shared = [exponents for exponents in terms if exponents in other]
     ratios: dict[tuple[int, int], int] = {}
     for exponents in shared:
-        common = gcd(own[exponents], other[exponents])
-        scale, factor = abs(other[exponents]) // common, own[exponents] // common * (1 if other[exponents] > 0 else -1)
+        common = gcd(terms[exponents], other[exponents])
+        sign = 1 if other[exponents] > 0 else -1
+        scale, factor = abs(other[exponents]) // common, terms[exponents] // common * sign
         ratios[scale, factor] = ratios.get((scale, factor), 0) + 1
-    alike = len(own) == len(other) and poly.total_degree == equation.total_degree
+    alike = len(terms) == len(other) and poly.total_degree == equation.total_degree
     likely = [ratio for ratio, count in ratios.items() if alike or count >= 2]
     if not likely or _is_product(poly):
         return None
@@ -60,10 +61,10 @@ def _is_product(poly: Poly) -> bool:
 def cancelled(formula: Formula, equation: Poly, watch: Callable[[], object] = IDLE) -> Formula:
     """The formula with a multiple of the equation subtracted from every polynomial where a product remains."""
 
-    def change(found: Atom) -> Formula:
+    def change(given: Atom) -> Formula:
         watch()
-        known = difference(found.poly, equation)
-        return found if known is None else atom(known[2], found.relation)
+        known = difference(given.poly, equation)
+        return given if known is None else atom(known[2], given.relation)
 
     return rewrite(formula, change, {equation.ring.names[i] for i in equation.variables})
 

@@ -18,18 +18,18 @@ def groebner_equations(variables: tuple[str, ...], body: Formula, context: Block
     """Replace the equations by a better basis of their ideal, and reduce the other atoms by it."""
     if context.bases <= 0:
         return None
-    found, others = eq.split_equations(conjuncts(body))
-    if not found or (not others and len(found) == 1):
+    equations, others = eq.split_equations(conjuncts(body))
+    if not equations or (not others and len(equations) == 1):
         return None
-    basis = eq.ideal_basis(eq.squarefree(found), eq.variable_order(body, variables))
+    basis = eq.ideal_basis(eq.squarefree(equations), eq.variable_order(body, variables))
     if basis is None:
         return None
     context.bases -= 1
     if basis.is_unit:
-        return Found(StepKind.GROEBNER, f"{eq.describe(found)}: no common zero", NEVER)
-    chosen = eq.better_equations(found, basis, variables) if len(found) > 1 else tuple(found)
+        return Found(StepKind.GROEBNER, f"{eq.describe(equations)}: no common zero", NEVER)
+    chosen = eq.better_equations(equations, basis, variables) if len(equations) > 1 else tuple(equations)
     reduced = [eq.reduce_atoms(f, basis, context.watch) for f in others]
-    if set(chosen) == set(found) and reduced == others:
+    if set(chosen) == set(equations) and reduced == others:
         return None
     result = conj((eq.equal_to_zero(chosen), *reduced))
     node = NEVER if result == FALSE else Pending(variables, result)
@@ -42,12 +42,12 @@ def split_factors(variables: tuple[str, ...], body: Formula, context: BlockConte
     Later cases may assume that the factors of the earlier ones do not vanish; that is said only of linear factors in
     one variable, where it costs nothing and may serve as a guard.
     """
-    found, others = eq.split_equations(conjuncts(body))
-    choice = eq.factor_choice(found, _FACTORS)
+    equations, others = eq.split_equations(conjuncts(body))
+    choice = eq.factor_choice(equations, _FACTORS)
     if choice is None or not context.may_split(StepKind.FACTOR_SPLIT, len(choice[1])):
         return None
     position, factors = choice
-    rest = conj((*(atom(p, Relation.EQ) for k, p in enumerate(found) if k != position), *others))
+    rest = conj((*(atom(p, Relation.EQ) for k, p in enumerate(equations) if k != position), *others))
     nodes: list[Node] = []
     earlier: list[Poly] = []
     for factor in factors:

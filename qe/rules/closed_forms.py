@@ -150,11 +150,11 @@ def matches(families: tuple[str, ...], variables: Sequence[str], body: Formula) 
     candidates = patterns(families, parameters, len(variables), degree, relations)
     orders = (permutations(variables) if len(variables) < 3 else [tuple(variables)]) if candidates else ()
     ways = [(names, [_both_sides(part, [index[v] for v in names]) for part in parts]) for names in orders]
-    for found in candidates:
-        if not found.row.data.get("dense") or all(set(variables) <= set(part.free) for part in parts):
+    for one in candidates:
+        if not one.row.data.get("dense") or all(set(variables) <= set(part.free) for part in parts):
             for names, sides in ways:
-                for letters in _assigned(found.conditions, sides, {}):
-                    yield from _completed(found, letters, names, variables, body)
+                for letters in _assigned(one.conditions, sides, {}):
+                    yield from _completed(one, letters, names, variables, body)
 
 
 def _both_sides(part: Atom, indices: Sequence[int]) -> tuple[Condition, Condition]:
@@ -164,20 +164,20 @@ def _both_sides(part: Atom, indices: Sequence[int]) -> tuple[Condition, Conditio
 
 
 def _completed(
-    found: Pattern, letters: Letters, names: Sequence[str], variables: Sequence[str], body: Formula
+    given: Pattern, letters: Letters, names: Sequence[str], variables: Sequence[str], body: Formula
 ) -> Iterator[Match]:
     """The matches, with names for the variables that only the answer binds and square roots, if the block fits."""
     assert body.ring is not None
-    others = [v for v in found.theorem.variables if v not in found.variables]
+    others = [v for v in given.theorem.variables if v not in given.variables]
     if len(others) > len(variables):
         return
-    named = dict(zip((*found.variables, *others), (*names, *variables), strict=False))
-    whole = {name: letters.get(name, body.ring.constant(0)) for name in found.theorem.letters}
-    match = Match(found.theorem, whole, named, body.ring)
+    named = dict(zip((*given.variables, *others), (*names, *variables), strict=False))
+    whole = {name: letters.get(name, body.ring.constant(0)) for name in given.theorem.letters}
+    match = Match(given.theorem, whole, named, body.ring)
     block = match.formula("block")
     if not isinstance(block, Exists) or set(conjuncts(block.body)) != set(conjuncts(body)):
         return
-    roots = {name: square_root(match.theorem.term(tree, whole, body.ring)) for name, tree in found.roots.items()}
+    roots = {name: square_root(match.theorem.term(tree, whole, body.ring)) for name, tree in given.roots.items()}
     if None not in roots.values():
         for signs in product((1, -1), repeat=len(roots)):
             signed = {name: root * s for (name, root), s in zip(roots.items(), signs, strict=True) if root is not None}

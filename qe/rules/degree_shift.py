@@ -13,7 +13,7 @@ from math import gcd
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj
-from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import TRUE, Atom, Atomic, Formula, Relation
 from qe.formula.traverse import atoms, bound_variables, conjuncts, map_atoms
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import RootOf
@@ -43,13 +43,13 @@ def common_exponent(body: Formula, x: int, *, nonnegative: bool = False) -> int:
     itself with 0; where those occur and the variable may be negative, its odd part. No root atom may contain it.
     """
     step, bare = 0, False
-    for found in atoms(body):
-        if isinstance(found, RootAtom) and (found.poly.degree(x) or found.poly.ring.index[found.variable] == x):
+    for atomic in atoms(body):
+        if not isinstance(atomic, Atom) and atomic.poly.ring.names[x] in atomic.free:
             return 1
-        if _is_bare(found.poly, x):
-            bare = bare or found.relation not in (Relation.EQ, Relation.NE)
-        elif found.poly.degree(x):
-            for exponent, coefficient in enumerate(found.poly.coefficients(x)):
+        if _is_bare(atomic.poly, x):
+            bare = bare or atomic.relation not in (Relation.EQ, Relation.NE)
+        elif atomic.poly.degree(x):
+            for exponent, coefficient in enumerate(atomic.poly.coefficients(x)):
                 if coefficient:
                     step = gcd(step, exponent)
         if step == 1:
@@ -66,14 +66,14 @@ def _is_bare(poly: Poly, x: int) -> bool:
 def lowered(body: Formula, x: int, k: int) -> Formula:
     """The formula with x^k renamed to x, but for atoms that compare x itself with 0."""
 
-    def change(found: Atom | RootAtom) -> Formula:
-        poly = found.poly
-        if isinstance(found, RootAtom) or not poly.degree(x) or _is_bare(poly, x):
-            return found
+    def change(atomic: Atomic) -> Formula:
+        poly = atomic.poly
+        if not isinstance(atomic, Atom) or not poly.degree(x) or _is_bare(poly, x):
+            return atomic
         image = poly.ring.constant(0)
         for c in reversed(poly.coefficients(x)[::k]):
             image = image * poly.ring.gen(x) + c
-        return atom(image, found.relation)
+        return atom(image, atomic.relation)
 
     return map_atoms(body, change)
 

@@ -40,9 +40,9 @@ def variable_order(formula: Formula, block: Sequence[str]) -> tuple[int, ...]:
     """The variables of the formula, those of the block first, within each part the ones in fewer atoms first."""
     counts: dict[int, int] = {}
     names: tuple[str, ...] = ()
-    for found in atoms(formula):
-        names = found.poly.ring.names
-        for i in found.poly.variables:
+    for atomic in atoms(formula):
+        names = atomic.poly.ring.names
+        for i in atomic.poly.variables:
             counts[i] = counts.get(i, 0) + 1
     return tuple(sorted(counts, key=lambda i: (names[i] not in block, counts[i], -i)))
 
@@ -57,15 +57,15 @@ def ideal_basis(polys: Sequence[Poly], variables: Sequence[int]) -> Basis | None
 def reduce_atoms(formula: Formula, basis: Basis, watch: Callable[[], object] = IDLE) -> Formula:
     """The formula with every atom's polynomial replaced by its normal form where that is simpler."""
 
-    def change(found: Atom) -> Formula:
+    def change(given: Atom) -> Formula:
         watch()
-        scale, rest = basis.reduce(found.poly)
+        scale, rest = basis.reduce(given.poly)
         if not rest:
-            return atom(rest, found.relation)
+            return atom(rest, given.relation)
         rest = rest if scale > 0 else -rest
-        if complexity(rest) < complexity(found.poly):
-            return atom(rest, found.relation)
-        return found
+        if complexity(rest) < complexity(given.poly):
+            return atom(rest, given.relation)
+        return given
 
     names = {basis.ring.names[i] for p in basis.polys for i in p.variables}
     return rewrite(formula, change, names)
@@ -75,8 +75,8 @@ def reduce_by_equations(
     assumed: Sequence[Formula], parts: Sequence[Formula], watch: Callable[[], object] = IDLE
 ) -> tuple[Formula, ...]:
     """The parts, every one that has quantifiers with its atoms reduced by the equations among what is assumed."""
-    found, _ = split_equations(assumed)
-    basis = ideal_basis(squarefree(found), variable_order(conj((*assumed, *parts)), ())) if found else None
+    equations, _ = split_equations(assumed)
+    basis = ideal_basis(squarefree(equations), variable_order(conj((*assumed, *parts)), ())) if equations else None
     if basis is None or basis.is_unit:
         return tuple(parts)
     return tuple(part if is_quantifier_free(part) else reduce_atoms(part, basis, watch) for part in parts)

@@ -15,7 +15,8 @@ from itertools import combinations
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
-from qe.formula.syntax import Atom, Constant, Formula, Relation, RootAtom
+from qe.formula.features import is_short
+from qe.formula.syntax import Atom, Atomic, Constant, Formula, Relation
 from qe.formula.traverse import atoms, bound_variables, conjuncts, map_atoms
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Assignment, Solve, Value, root, simplest, value_at
@@ -28,14 +29,11 @@ _TERMS, _DEGREE = 600, 12
 
 def exchange_variables(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first two variables of the block that it makes simpler."""
-    if len(variables) < 2:
-        return None
-    found = list(atoms(body))
-    if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
+    ring = body.ring
+    if len(variables) < 2 or ring is None or not is_short(body, _TERMS):
         return None
     inner = frozenset(bound_variables(body))
     for x, y in combinations([v for v in variables if v not in inner], 2):
-        ring = found[0].poly.ring
         i, j = ring.index[x], ring.index[y]
         new = None if _is_easy(body, i, j) else by_sum_and_product(body, i, j)
         if new is not None and _is_simpler(new, body, i, j):
@@ -66,20 +64,20 @@ def _is_simpler(new: Formula, body: Formula, i: int, j: int) -> bool:
 
 def _degrees(body: Formula, i: int, j: int) -> tuple[int, int, int]:
     """The degrees in two variables, and in both together."""
-    found = [(e[i], e[j]) for a in atoms(body) for e, _ in a.poly.terms()]
+    exponents = [(e[i], e[j]) for a in atoms(body) for e, _ in a.poly.terms()]
     return (
-        max((k for k, _ in found), default=0),
-        max((k for _, k in found), default=0),
-        max(map(sum, found), default=0),
+        max((k for k, _ in exponents), default=0),
+        max((k for _, k in exponents), default=0),
+        max(map(sum, exponents), default=0),
     )
 
 
 def by_sum_and_product(body: Formula, i: int, j: int) -> Formula | None:
     """g of the theorem, with the names of the two variables for their sum and product; None where f may change."""
     parts: list[Formula] = []
-    left = list(conjuncts(body))
-    while left:
-        part = left.pop(0)
+    rest = list(conjuncts(body))
+    while rest:
+        part = rest.pop(0)
         if all(_symmetry(a.poly, i, j) or (_symmetry(a.poly, i, j, -1) and _is_of_squares(a)) for a in atoms(part)):
             parts.append(map_atoms(part, lambda a: _in_new_terms(a, i, j)))
             continue
@@ -87,9 +85,9 @@ def by_sum_and_product(body: Formula, i: int, j: int) -> Formula | None:
             return None
         p, q = part.poly, _swapped(part.poly, i, j)
         other = atom(q, part.relation)
-        if other not in left:
+        if other not in rest:
             return None
-        left.remove(other)
+        rest.remove(other)
         parts += _both(p, q, part.relation, i, j)
     return conj(parts)
 
@@ -99,14 +97,14 @@ def _symmetry(poly: Poly, i: int, j: int, sign: int = 1) -> bool:
     return _swapped(poly, i, j) == poly * sign
 
 
-def _is_of_squares(found: Atom | RootAtom) -> bool:
+def _is_of_squares(atomic: Atomic) -> bool:
     """Whether p^2 may stand for p: in equations and inequations."""
-    return isinstance(found, Atom) and found.relation in (Relation.EQ, Relation.NE)
+    return isinstance(atomic, Atom) and atomic.relation in (Relation.EQ, Relation.NE)
 
 
-def _in_new_terms(found: Atom | RootAtom, i: int, j: int) -> Formula:
-    poly = found.poly if _symmetry(found.poly, i, j) else found.poly**2
-    return atom(symmetric(poly, i, j), found.relation)
+def _in_new_terms(atomic: Atomic, i: int, j: int) -> Formula:
+    poly = atomic.poly if _symmetry(atomic.poly, i, j) else atomic.poly**2
+    return atom(symmetric(poly, i, j), atomic.relation)
 
 
 def _both(p: Poly, q: Poly, relation: Relation, i: int, j: int) -> tuple[Formula, ...]:

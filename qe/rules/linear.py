@@ -17,8 +17,8 @@ from dataclasses import dataclass
 
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Poly
-from qe.formula.build import atom, conj, disj, exists, forall, neg
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+from qe.formula.build import atom, map_children
+from qe.formula.syntax import Atom, Atomic, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import atoms
 from qe.simplify.facts import Facts
 
@@ -63,7 +63,7 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
     best: Pivot | None = None
     best_cost: tuple[int, int, int] | None = None
     # those with a constant coefficient first: where there is one, the signs of the others need not be known
-    linear = sorted(_linear_in(parts, variables), key=lambda found: not found[3].is_constant)
+    linear = sorted(_linear_in(parts, variables), key=lambda entry: not entry[3].is_constant)
     occurrences = _occurrences(parts if linear else ())
     for position, i, rest, lead in linear:
         if best_cost is not None and best_cost[0] == 0 and not lead.is_constant:
@@ -97,7 +97,7 @@ def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
     """
     alone: dict[int, Pivot] = {}
     best: tuple[int, Pivot] | None = None
-    linear = [found for found in _linear_in(parts, variables) if found[3].is_constant]
+    linear = [entry for entry in _linear_in(parts, variables) if entry[3].is_constant]
     occurrences = _occurrences(parts if linear else ())
     few = len(occurrences) <= MOST_VARIABLES
     for position, i, rest, lead in linear:
@@ -113,13 +113,11 @@ def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
 
 def _occurrences(parts: Sequence[Formula]) -> Counter[int]:
     """In how many atoms each variable stands."""
-    found: Counter[int] = Counter()
+    times: Counter[int] = Counter()
     for part in parts:
         for a in atoms(part):
-            found.update(a.poly.variables)
-            if isinstance(a, RootAtom):
-                found[a.poly.ring.index[a.variable]] += 1
-    return found
+            times.update(map(a.poly.ring.index.__getitem__, a.free))
+    return times
 
 
 def _linear_in(parts: Sequence[Formula], variables: Sequence[str]) -> Iterator[tuple[int, int, Poly, Poly]]:
@@ -154,38 +152,36 @@ def substitute(formula: Formula, pivot: Pivot) -> Formula | None:
     name = ring.names[i]
     used = {ring.names[v] for p in (pivot.lead, pivot.rest) for v in p.variables}
 
-    def walk(f: Formula) -> Formula | None:
+    def walk(f: Formula) -> Formula:
         match f:
             case Atom(poly, relation):
                 return f if not poly.degree(i) else _substituted(poly, relation, pivot)
-            case RootAtom(variable, _, poly, _):
-                return None if variable == name or poly.degree(i) else f
-            case And(args) | Or(args):
-                parts = [walk(a) for a in args]
-                if any(p is None for p in parts):
-                    return None
-                done = [p for p in parts if p is not None]
-                return conj(done) if isinstance(f, And) else disj(done)
-            case Not(arg):
-                inner = walk(arg)
-                return None if inner is None else neg(inner)
             case Exists(variables, body) | ForAll(variables, body):
                 if name in variables:
                     return f
                 inner = walk(body)
-                if inner is None or (inner != body and used & set(variables)):
-                    return None
-                return exists(variables, inner) if isinstance(f, Exists) else forall(variables, inner)
-        return f
+                if inner != body and used & set(variables):
+                    raise _NotPossible
+                return map_children(f, lambda _: inner)
+        if isinstance(f, Atomic) and name in f.free:
+            raise _NotPossible
+        return map_children(f, walk)
 
-    return walk(formula)
+    try:
+        return walk(formula)
+    except _NotPossible:
+        return None
 
 
-def _substituted(poly: Poly, relation: Relation, pivot: Pivot) -> Formula | None:
+class _NotPossible(Exception):
+    """The substitution is not possible in a part of the formula."""
+
+
+def _substituted(poly: Poly, relation: Relation, pivot: Pivot) -> Formula:
     try:
         image = poly.at_quotient(pivot.variable, -pivot.rest, pivot.lead, most_terms=_TERMS)
-    except BudgetExceeded:
-        return None
+    except BudgetExceeded as error:
+        raise _NotPossible from error
     if poly.degree(pivot.variable) % 2 and relation not in (Relation.EQ, Relation.NE):
         if pivot.sign == -1:
             image = -image

@@ -14,17 +14,17 @@ convex g; and ``ex x. g`` where g is convex in x and the moved variables.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from functools import partial
 from itertools import chain, combinations
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, exists, forall
+from qe.formula.features import is_short
 from qe.formula.normal import nnf
-from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import atoms, bound_variables, polynomials
 from qe.rules.block_context import BlockContext
+from qe.rules.change import Change
 from qe.rules.lift import Solve
-from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
 
 _VARIABLES, _TERMS = 10, 300
@@ -45,13 +45,12 @@ def at_fixed_points(formula: Exists | ForAll, context: BlockContext) -> tuple[Fo
         mirror = next(_mirrors(current.variables, body, context.watch), None)
         if mirror is None:
             break
-        values = fixed(mirror, current.variables, next(atoms(body)).poly)
-        rest = [v for v in current.variables if v not in values]
-        centred = rewrite(current.body, partial(_put_in, values), ())
-        after = (forall if universal else exists)(rest, centred)
+        change = Change(fixed(mirror, current.variables, next(atoms(body)).poly))
+        rest = [v for v in current.variables if v not in change.values]
+        after = (forall if universal else exists)(rest, change.image(current.body))
         moved = [[name, *image] for name, image in mirror.items()]
-        context.step(StepKind.MIRROR.value, current, after, ", ".join(values), {"mirror": moved})
-        rules += [Solve(name, value, value.ring.constant(1)) for name, value in values.items()]
+        context.step(StepKind.MIRROR.value, current, after, ", ".join(change.values), {"mirror": moved})
+        rules += change.lifts
         current = after
     return current, rules
 
@@ -68,20 +67,13 @@ def fixed(mirror: Mirror, variables: Sequence[str], known: Poly) -> dict[str, Po
     return values
 
 
-def _put_in(values: Mapping[str, Poly], given: Atom) -> Formula:
-    places = {given.poly.ring.index[name]: value for name, value in values.items()}
-    return atom(given.poly.compose(places), given.relation)
-
-
 def _mirrors(variables: Sequence[str], body: Formula, watch: Callable[[], object]) -> Iterator[Mirror]:
     """The mirrors that leave the body alone, where it is convex."""
     inner = bound_variables(body)
     if isinstance(body, Constant) or len(variables) + len(inner) > _VARIABLES or {*inner} & {*variables, *body.free}:
         return
     single = [v for v in variables if v in body.free and is_convex(body, frozenset((v,)))]
-    if not single or any(isinstance(a, RootAtom) for a in atoms(body)):
-        return
-    if sum(a.poly.term_count() for a in atoms(body)) > _TERMS:
+    if not single or not is_short(body, _TERMS):
         return
     same = _shape(body, {})
     for mirror in chain(_sign_changes(single, inner, polynomials(body)), _exchanges(single)):

@@ -95,8 +95,8 @@ def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     variables: tuple[str, ...] = ()
     symmetric = centred
     if isinstance(centred, type(formula)):
-        variables, symmetric, turned = without_rotations(centred, context)
-        rules += turned
+        variables, symmetric, turns = without_rotations(centred, context)
+        rules += turns
     body = _inside(symmetric, context)
     if isinstance(formula, Exists):
         tree = reduce_block(variables, body, context)

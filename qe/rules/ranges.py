@@ -38,12 +38,12 @@ _DOWN = {Relation.GE, Relation.GT, Relation.EQ}
 def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the comparisons of the conjunction."""
     parts = conjuncts(body)
-    found = [(k, a) for k, a in enumerate(parts) if isinstance(a, Atom) and a.relation is not Relation.NE]
-    if len(found) < 2 or sum(a.poly.term_count() for _, a in found) > MOST_TERMS:
+    inequalities = [(k, a) for k, a in enumerate(parts) if isinstance(a, Atom) and a.relation is not Relation.NE]
+    if len(inequalities) < 2 or sum(a.poly.term_count() for _, a in inequalities) > MOST_TERMS:
         return None
-    if all(a.poly.total_degree < 2 for _, a in found):
+    if all(a.poly.total_degree < 2 for _, a in inequalities):
         return None  # linear conditions have methods of their own
-    conditions = [_Condition(k, p, a.relation, _terms(p), _names(p)) for k, a in found for p in _at_most_zero(a)]
+    conditions = [_Condition(k, p, a.relation, _terms(p), _names(p)) for k, a in inequalities for p in _at_most_zero(a)]
     if not _may_fail(conditions):
         return None
     search = _Search(conditions)

@@ -4,24 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 
-from qe.formula.build import conj, disj, exists, forall, neg
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or
+from qe.formula.build import map_children
+from qe.formula.syntax import Atom, Formula, Quantified
 
 
-def rewrite(formula: Formula, change: Callable[[Atom], Formula], names: Collection[str]) -> Formula:
-    """Every atom changed, except under quantifiers that bind one of ``names`` and inside root atoms."""
-    match formula:
-        case Atom():
-            return change(formula)
-        case And(args):
-            return conj(rewrite(a, change, names) for a in args)
-        case Or(args):
-            return disj(rewrite(a, change, names) for a in args)
-        case Not(arg):
-            return neg(rewrite(arg, change, names))
-        case Exists(variables, body) | ForAll(variables, body):
-            if not set(variables).isdisjoint(names):
-                return formula
-            inner = rewrite(body, change, names)
-            return exists(variables, inner) if isinstance(formula, Exists) else forall(variables, inner)
-    return formula
+def rewrite(formula: Formula, change: Callable[[Atom], Formula], names: Collection[str] = ()) -> Formula:
+    """Every comparison with 0 changed, except under quantifiers that bind one of ``names``."""
+    if isinstance(formula, Atom):
+        return change(formula)
+    if isinstance(formula, Quantified) and not set(formula.variables).isdisjoint(names):
+        return formula
+    return map_children(formula, lambda part: rewrite(part, change, names))

@@ -22,8 +22,8 @@ from typing import TypeVar
 
 from qe.exact.ring import Poly
 from qe.exact.watch import IDLE
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
-from qe.formula.traverse import atoms, children, polynomials, subformulas
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.traverse import children, has_root_atoms, polynomials, subformulas
 
 Key = TypeVar("Key")
 Pair = tuple[int, int]
@@ -62,7 +62,7 @@ def invariant_plane(
     Planes with one of ``wanted`` go first, as u; then the ones that occur in most terms. None if there is no plane.
     """
     polys = polynomials(body)
-    if not polys or any(isinstance(a, RootAtom) for a in atoms(body)):
+    if not polys or has_root_atoms(body):
         return None
     if max(p.total_degree for p in polys) < 2 or sum(p.term_count() for p in polys) > _TERMS:
         return None
@@ -160,20 +160,20 @@ def _movable(polys: Sequence[Poly], candidates: set[int]) -> set[int]:
 
 def rotations(polys: Sequence[Poly], pairs: Sequence[Pair], watch: Callable[[], object] = IDLE) -> list[Skew]:
     """A basis of the matrices on these pairs whose X annihilates all polynomials, in reduced echelon form."""
-    found: list[Skew] = [{pair: Fraction(1)} for pair in pairs]
+    basis: list[Skew] = [{pair: Fraction(1)} for pair in pairs]
     for p in sorted(dict.fromkeys(polys), key=Poly.term_count):
-        own = set(p.variables)
-        moving = [skew for skew in found if any(i in own or j in own for i, j in skew)]
+        names = set(p.variables)
+        moving = [skew for skew in basis if any(i in names or j in names for i, j in skew)]
         if moving:
-            turned: dict[Pair, Image] = {}
+            images: dict[Pair, Image] = {}
             for pair in dict.fromkeys(pair for skew in moving for pair in skew):
                 watch()
-                turned[pair] = _turned(p, pair)
-            relations = _relations([_image(skew, turned) for skew in moving], watch)
-            found = [skew for skew in found if skew not in moving] + [_combined(moving, r) for r in relations]
-        if not found:
+                images[pair] = _turned(p, pair)
+            relations = _relations([_image(skew, images) for skew in moving], watch)
+            basis = [skew for skew in basis if skew not in moving] + [_combined(moving, r) for r in relations]
+        if not basis:
             break
-    return _echelon(found)
+    return _echelon(basis)
 
 
 def _turned(p: Poly, pair: Pair) -> Image:
@@ -189,11 +189,11 @@ def _turned(p: Poly, pair: Pair) -> Image:
     return total
 
 
-def _image(skew: Skew, turned: Mapping[Pair, Image]) -> Image:
+def _image(skew: Skew, images: Mapping[Pair, Image]) -> Image:
     """The terms of X p from those for single pairs."""
     total: Image = {}
     for pair, factor in skew.items():
-        _add(total, turned[pair], factor)
+        _add(total, images[pair], factor)
     return total
 
 
@@ -216,17 +216,17 @@ def _relations(rows: Sequence[Image], watch: Callable[[], object]) -> list[dict[
     return relations
 
 
-def _combined(found: Sequence[Skew], relation: dict[int, Fraction]) -> Skew:
+def _combined(basis: Sequence[Skew], relation: dict[int, Fraction]) -> Skew:
     total: Skew = {}
     for k, factor in relation.items():
-        _add(total, found[k], factor)
+        _add(total, basis[k], factor)
     return total
 
 
-def _echelon(found: Sequence[Skew]) -> list[Skew]:
+def _echelon(basis: Sequence[Skew]) -> list[Skew]:
     """The reduced echelon form: a rotation in few planes stands alone."""
     done: list[tuple[Pair, Skew]] = []
-    for skew in found:
+    for skew in basis:
         rest = dict(skew)
         for lead, other in done:
             if lead in rest:

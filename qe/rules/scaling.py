@@ -6,15 +6,14 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from qe.exact.ring import Poly
-from qe.formula.build import atom
-from qe.formula.syntax import Atom, Formula, RootAtom
+from qe.formula.features import is_short
+from qe.formula.syntax import Formula
 from qe.formula.traverse import atoms, bound_variables, conjuncts
 from qe.rules.block_context import BlockContext, Found
-from qe.rules.lift import Solve
+from qe.rules.change import Change
 from qe.rules.nullspace import kernel_vector, occurring
-from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
-from qe.rules.tree import Any, Lifted, Node, Pending
+from qe.rules.tree import Any
 
 _TERMS = 600  # terms in all atoms together up to which weights are looked for
 
@@ -27,10 +26,8 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
 
     Lift: x is the number that was substituted for it.
     """
-    if not _worthwhile(body):
-        return None
     inner = frozenset(bound_variables(body))
-    if inner & set(body.free):
+    if not is_short(body, _TERMS) or inner & set(body.free) or all(a.poly.total_degree < 2 for a in atoms(body)):
         return None
     weights = find_weights(body, frozenset(variables) | inner)
     if weights is None:
@@ -43,45 +40,21 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
         if name in inner or not weights.get(index):
             continue
         signs = known.signs(ring.gen(index))
-        degree = max(found.poly.degree(index) for found in atoms(body))
+        degree = max(a.poly.degree(index) for a in atoms(body))
         candidates.append((len(signs), -degree, name, signs))
     if not candidates:
         return None
     count, _, name, signs = min(candidates)
     if not context.may_split(StepKind.SCALING, max(1, count)):
         return None
-    rest = tuple(v for v in variables if v != name)
-    one = ring.constant(1)
-    nodes: list[Node] = []
-    for sign in sorted(signs, reverse=True):
-        fixed = _at(body, ring.index[name], sign)
-        nodes.append(Lifted((Solve(name, ring.constant(sign), one),), Pending(rest, fixed)))
+    values = sorted(signs, reverse=True)
+    nodes = tuple(Change.to_number(name, value, ring).node(variables, body) for value in values)
     proof = {
         "variable": name,
         "weights": [(ring.names[i], w) for i, w in weights.items() if w],
-        "values": sorted(signs, reverse=True),
+        "values": values,
     }
-    return Found(StepKind.SCALING, f"{name} in {sorted(signs)}", Any(tuple(nodes)), proof)
-
-
-def _worthwhile(body: Formula) -> bool:
-    """Some atom is not linear, none is a root atom, and there are not too many terms."""
-    size, degree = 0, 0
-    for found in atoms(body):
-        if isinstance(found, RootAtom):
-            return False
-        size += found.poly.term_count()
-        degree = max(degree, found.poly.total_degree)
-    return degree > 1 and size <= _TERMS
-
-
-def _at(body: Formula, index: int, value: int) -> Formula:
-    def change(found: Atom) -> Formula:
-        if not found.poly.degree(index):
-            return found
-        return atom(found.poly.at_rational(index, Fraction(value)), found.relation)
-
-    return rewrite(body, change, ())
+    return Found(StepKind.SCALING, f"{name} in {sorted(signs)}", Any(nodes), proof)
 
 
 def find_weights(body: Formula, names: frozenset[str]) -> dict[int, Fraction] | None:

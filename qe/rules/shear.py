@@ -20,8 +20,8 @@ from collections.abc import Iterator, Sequence
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj
-from qe.formula.syntax import Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms, bound_variables, conjuncts
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import atoms, bound_variables, conjuncts, has_root_atoms
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
 from qe.rules.rewrite import rewrite
@@ -42,7 +42,7 @@ def linear_form(variables: tuple[str, ...], body: Formula, context: BlockContext
     """The theorem for the first form that makes the atoms much shorter."""
     polys = list(dict.fromkeys(a.poly for a in atoms(body)))
     size, ring = _size(body), polys[0].ring
-    if not _LEAST <= size <= _MOST or any(isinstance(a, RootAtom) for a in atoms(body)):
+    if not _LEAST <= size <= _MOST or has_root_atoms(body):
         return None
     inner = {ring.index[name] for name in bound_variables(body)}
     for name in variables:
@@ -75,11 +75,11 @@ def _forms(polys: Sequence[Poly], x: int) -> Iterator[tuple[Poly, Poly]]:
         slope, offset = coefficients[-1] * degree, coefficients[-2]
         common = slope.gcd(offset)
         slope, offset = slope.exact_divide(common), offset.exact_divide(common)
-        turned = (slope * p.ring.gen(x) + offset).normal()[0] < 0
+        is_negative = (slope * p.ring.gen(x) + offset).normal()[0] < 0
         if slope.is_constant:
-            turned = slope.constant_value() < 0
+            is_negative = slope.constant_value() < 0
         if slope.term_count() + offset.term_count() <= _FORM_TERMS:
-            yield (-slope, -offset) if turned else (slope, offset)
+            yield (-slope, -offset) if is_negative else (slope, offset)
 
 
 def _helps(polys: Sequence[Poly], x: int, m: Poly, n: Poly) -> bool:
@@ -97,11 +97,11 @@ def _helps(polys: Sequence[Poly], x: int, m: Poly, n: Poly) -> bool:
 
 def by_form(p: Poly, x: int, m: Poly, n: Poly, *, even: bool, most_terms: int | None = None) -> Poly:
     """The q of the theorem, with the greatest e; ``even``: d - e is to be even. Raises ``BudgetExceeded``."""
-    left = p.degree(x)
+    power = p.degree(x)
     q = p.at_quotient(x, p.ring.gen(x) - n, m, most_terms=most_terms)
-    while left and not m.is_constant and q.gcd(m) in (m, -m):
-        q, left = q.exact_divide(m), left - 1
-    return q * m if even and left % 2 and not m.is_constant else q
+    while power and not m.is_constant and q.gcd(m) in (m, -m):
+        q, power = q.exact_divide(m), power - 1
+    return q * m if even and power % 2 and not m.is_constant else q
 
 
 def _cases(variables: tuple[str, ...], body: Formula, name: str, m: Poly, n: Poly) -> Node:
@@ -112,7 +112,7 @@ def _cases(variables: tuple[str, ...], body: Formula, name: str, m: Poly, n: Pol
         even = given.relation not in (Relation.EQ, Relation.NE)
         return atom(by_form(given.poly, x, m, n, even=even), given.relation)
 
-    image = rewrite(body, change, ())
+    image = rewrite(body, change)
     lift = Solve(name, ring.gen(x) - n, m)
     if m.is_constant:
         return Lifted((lift,), Pending(variables, image))

@@ -21,8 +21,9 @@ from math import prod
 
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj
-from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms, conjuncts, has_root_atoms, map_atoms
+from qe.formula.features import is_short
+from qe.formula.syntax import TRUE, Atom, Atomic, Formula, Relation
+from qe.formula.traverse import atoms, conjuncts, map_atoms
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.step import StepKind
 from qe.rules.tree import Pending
@@ -71,21 +72,20 @@ def sphere_along_form(variables: tuple[str, ...], body: Formula, context: BlockC
     if len(variables) < 2 or set(body.free) <= set(variables):
         return None
     parts = conjuncts(body)
-    if len(parts) > _PARTS or not body.is_quantifier_free or has_root_atoms(body):
-        return None
-    if sum(a.poly.term_count() for a in atoms(body)) > _TERMS:
+    if len(parts) > _PARTS or not body.is_quantifier_free or not is_short(body, _TERMS):
         return None
     for part in parts:
         rest = [p for p in parts if p != part]
-        for own in _candidates(part, variables):
+        for names in _candidates(part, variables):
             context.budget.check("prepare")
-            ball = None if _is_solved(own, rest) else _ball(part, own)
-            found = None if ball is None else _along(ball, own, rest)
+            ball = None if _is_solved(names, rest) else _ball(part, names)
+            found = None if ball is None else _along(ball, names, rest)
             if found is not None:
                 form, after = found
-                left = tuple(v for v in variables if v not in own[1:])
-                proof = {"sphere": part, "variables": list(own), "form": form}
-                return Found(StepKind.SPHERE, f"{format_poly(form)} for {', '.join(own)}", Pending(left, after), proof)
+                kept = tuple(v for v in variables if v not in names[1:])
+                proof = {"sphere": part, "variables": list(names), "form": form}
+                detail = f"{format_poly(form)} for {', '.join(names)}"
+                return Found(StepKind.SPHERE, detail, Pending(kept, after), proof)
     return None
 
 
@@ -136,14 +136,14 @@ def _along(
         return None
     direction = [form.derivative(i) for i in indices]
     length = sum((p * p for p in direction), ring.constant(0))
-    found = {f: _image(linear[f], form, indices) if f in linear else f for f in factors}
-    images = {f: image for f, image in found.items() if image is not None}
-    if len(images) < len(found) or (ball.strict and not length.is_constant):
+    each = {f: _image(linear[f], form, indices) if f in linear else f for f in factors}
+    images = {f: image for f, image in each.items() if image is not None}
+    if len(images) < len(each) or (ball.strict and not length.is_constant):
         return None
 
-    def change(found: Atom | RootAtom) -> Formula:
-        unit, parts = found.poly.factors()
-        return atom(prod((images[f] ** k for f, k in parts), start=ring.constant(unit)), found.relation)
+    def change(each: Atomic) -> Formula:
+        unit, parts = each.poly.factors()
+        return atom(prod((images[f] ** k for f, k in parts), start=ring.constant(unit)), each.relation)
 
     offset = sum((p * q for p, q in zip(direction, ball.linear, strict=True)), ring.constant(0))
     bound = (ring.gen(indices[0]) * (2 * ball.lead) + offset) ** 2 - length * ball.radicand

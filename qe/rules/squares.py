@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom
-from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import FALSE, TRUE, Atom, Atomic, Formula, Relation
 from qe.formula.traverse import conjuncts, is_quantifier_free, map_atoms, polynomials
 from qe.positivity.cone import bounds_of, positive_on_cone
 from qe.positivity.identity import Identity, Positive
@@ -37,14 +37,14 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     signs: dict[Poly, frozenset[int]] = {}
     proofs: list[Identity] = []
 
-    def replaced(found: Atom | RootAtom) -> Formula:
-        poly = found.poly
-        if isinstance(found, RootAtom) or poly not in signs:
-            return found
-        left = found.relation.signs & signs[poly]
-        if not left or left == signs[poly]:
-            return TRUE if left else FALSE
-        return atom(poly, Relation.EQ) if left == {0} else found
+    def replaced(atomic: Atomic) -> Formula:
+        poly = atomic.poly
+        if not isinstance(atomic, Atom) or poly not in signs:
+            return atomic
+        possible = atomic.relation.signs & signs[poly]
+        if not possible or possible == signs[poly]:
+            return TRUE if possible else FALSE
+        return atom(poly, Relation.EQ) if possible == {0} else atomic
 
     for poly in polys:
         for sign in (1, -1):

@@ -36,8 +36,8 @@ def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockC
         return None
     children: list[Node] = [Leaf((), conj(outside))] if outside else []
     for names, members in groups:
-        own = tuple(v for v in variables if v in names)
-        children.append(Pending(own, conj(members), tuple(outside)))
+        shared = tuple(v for v in variables if v in names)
+        children.append(Pending(shared, conj(members), tuple(outside)))
     return Found(StepKind.MINISCOPE, "conjunction", All(tuple(children)))
 
 
@@ -84,8 +84,8 @@ def definitions(variables: tuple[str, ...], body: Formula, context: BlockContext
         body = after
     if not rules:
         return None
-    left = tuple(v for v in variables if v not in {rule.variable for rule in rules})
-    return Found(StepKind.LINEAR, ", ".join(details), Lifted(tuple(rules), Pending(left, body)), {"solved": solved_by})
+    kept = tuple(v for v in variables if v not in {rule.variable for rule in rules})
+    return Found(StepKind.LINEAR, ", ".join(details), Lifted(tuple(rules), Pending(kept, body)), {"solved": solved_by})
 
 
 def _solved(parts: Sequence[Formula], pivot: Pivot) -> Formula | None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from qe.formula.build import atom, conj, disj, exists, forall
-from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
+from qe.formula.syntax import Exists, ForAll, Formula, Relation
 from qe.formula.traverse import ring_of
 from qe.rules.block_context import BlockContext
+from qe.rules.change import Change
 from qe.rules.lift import Solve
-from qe.rules.rewrite import rewrite
 from qe.rules.rotation import invariant_plane
 from qe.rules.step import StepKind
 
@@ -32,13 +32,9 @@ def without_rotations(formula: Exists | ForAll, context: BlockContext) -> tuple[
         turns.append(turn.proof)
         ring = ring_of(body)
         assert ring is not None
-        index = ring.index[v]
-
-        def change(given: Atom, index: int = index) -> Formula:
-            return atom(given.poly.at_rational(index, 0), given.relation) if given.poly.degree(index) else given
-
-        variables, body = tuple(name for name in variables if name != v), rewrite(body, change, ())
-        rules.append(Solve(v, ring.constant(0), ring.constant(1)))
+        change = Change.to_number(v, 0, ring)
+        variables, body = tuple(name for name in variables if name != v), change.image(body)
+        rules += change.lifts
     if not rules:
         return variables, body, rules
     ring = rules[0].numerator.ring

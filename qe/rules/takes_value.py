@@ -64,23 +64,23 @@ def drop_what_can_be_met(variables: tuple[str, ...], body: Formula, context: Blo
         where = [k for k, part in enumerate(parts) if _mentions(part, name)]
         if len(where) != 1 or name in inner:
             continue
-        found = parts[where[0]]
+        condition = parts[where[0]]
         others = [part for k, part in enumerate(parts) if k != where[0]]
-        if isinstance(found, Atom) and _is_met(found, name, others, context):
+        if isinstance(condition, Atom) and _is_met(condition, name, others, context):
             rest = tuple(v for v in variables if v != name)
-            rule = TakesValue(name, found.poly, found.relation)
+            rule = TakesValue(name, condition.poly, condition.relation)
             node = Lifted((rule,), Pending(rest, conj(others)))
-            return Found(StepKind.TAKES_VALUE, f"{name} in {format_poly(found.poly)}", node, {"variable": name})
+            return Found(StepKind.TAKES_VALUE, f"{name} in {format_poly(condition.poly)}", node, {"variable": name})
     return None
 
 
-def _is_met(found: Atom, name: str, others: list[Formula], context: BlockContext) -> bool:
+def _is_met(given: Atom, name: str, others: list[Formula], context: BlockContext) -> bool:
     """Whether the theorem applies; its leading coefficient is looked at where the other conjuncts hold."""
-    index = found.poly.ring.index[name]
-    lead = found.poly.leading(index)
+    index = given.poly.ring.index[name]
+    lead = given.poly.leading(index)
     signs = context.facts.extended([p for p in others if isinstance(p, Atom)]).signs(lead)
     if 0 in signs:
         return False
-    if found.poly.degree(index) % 2 or found.relation is Relation.NE:
+    if given.poly.degree(index) % 2 or given.relation is Relation.NE:
         return True
-    return signs == {_WANTED.get(found.relation, 0)}
+    return signs == {_WANTED.get(given.relation, 0)}

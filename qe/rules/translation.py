@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from qe.formula.build import atom
-from qe.formula.syntax import Atom, Formula, RootAtom
-from qe.formula.traverse import atoms, bound_variables
+from qe.formula.features import is_short
+from qe.formula.syntax import Formula
+from qe.formula.traverse import bound_variables
 from qe.rules.block_context import BlockContext, Found
-from qe.rules.lift import Solve
+from qe.rules.change import Change
 from qe.rules.nullspace import derivative_rows, kernel_vector, occurring
-from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
-from qe.rules.tree import Lifted, Pending
 
 _TERMS = 600  # terms in all atoms together up to which directions are looked for
 
@@ -22,11 +20,8 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
 
     Lift: x = 0.
     """
-    found = list(atoms(body))
     inner = frozenset(bound_variables(body))
-    if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
-        return None
-    if inner & set(body.free):
+    if not is_short(body, _TERMS) or inner & set(body.free):
         return None
     polys, columns = occurring(body, frozenset(variables) | inner)
     direction = kernel_vector(columns, (row for poly in polys for row in derivative_rows(poly, columns)))
@@ -37,13 +32,6 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
     if not moving:
         return None
     name = max(moving, key=lambda v: (sum(p.degree(ring.index[v]) > 0 for p in polys), v))
-    index = ring.index[name]
-
-    def change(given: Atom) -> Formula:
-        return atom(given.poly.at_rational(index, 0), given.relation) if given.poly.degree(index) else given
-
-    rest = tuple(v for v in variables if v != name)
-    child = Pending(rest, rewrite(body, change, ()))
-    node = Lifted((Solve(name, ring.constant(0), ring.constant(1)),), child)
+    node = Change.to_number(name, 0, ring).node(variables, body)
     proof = {"variable": name, "weights": [(ring.names[i], w) for i, w in direction.items() if w]}
     return Found(StepKind.TRANSLATION, f"{name} = 0", node, proof)

@@ -86,10 +86,10 @@ def _signs(zero: Pattern, names: Sequence[int]) -> Callable[[Poly], int | None]:
     others = set(names) - zero
 
     def sign(poly: Poly) -> int | None:
-        left = [(e, c) for e, c in poly.terms() if not any(e[i] for i in zero)]
-        if len(left) > 1:
+        rest = [(e, c) for e, c in poly.terms() if not any(e[i] for i in zero)]
+        if len(rest) > 1:
             return None
-        for exponents, c in left:
+        for exponents, c in rest:
             if any(power % 2 or i not in others for i, power in enumerate(exponents) if power):
                 return None
             return 1 if c > 0 else -1

@@ -16,7 +16,7 @@ from functools import lru_cache
 
 from qe.exact.ring import Poly, Ring
 from qe.exact.watch import IDLE
-from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import Atom, Atomic, Formula, Relation
 from qe.simplify.minima import minimum
 from qe.simplify.ranges import EVERYTHING, Range, add, compare, make, meet, multiply, power, scale
 
@@ -177,11 +177,8 @@ class Facts:
         def free(poly: Poly) -> bool:
             return not any(poly.ring.names[i] in names for i in poly.variables)
 
-        literals: dict[Formula, bool] = {
-            f: value
-            for f, value in self.literals.items()
-            if isinstance(f, RootAtom) and free(f.poly) and f.variable not in names
-        }
+        kept = (f for f in self.literals if isinstance(f, Atomic) and not {*names} & {*f.free})
+        literals: dict[Formula, bool] = {f: self.literals[f] for f in kept}
         return Facts({key: r for key, r in self.ranges.items() if free(key)}, literals, self.watch)
 
 

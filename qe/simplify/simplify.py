@@ -15,7 +15,7 @@ from qe.exact.ring import Poly
 from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import conjuncts, ring_of
 from qe.simplify.absorb import absorb
 from qe.simplify.factors import reduce_atom
@@ -142,7 +142,7 @@ def _sort(args: Iterable[Formula], conjunctive: bool) -> tuple[list[Atom], list[
     for arg in args:
         if isinstance(arg, Atom):
             atoms.append(arg)
-        elif isinstance(arg, RootAtom | Not):
+        elif isinstance(arg, Atomic | Not):
             literals.append(arg)
         elif isinstance(arg, And if conjunctive else Or):
             a, b, c = _sort(arg.args, conjunctive)

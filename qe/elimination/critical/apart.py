@@ -19,8 +19,8 @@ from math import lcm, prod
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj
 from qe.formula.evaluate import substituted
-from qe.formula.syntax import Atom, Formula, RootAtom
-from qe.formula.traverse import atoms, conjuncts, disjuncts, map_atoms
+from qe.formula.syntax import Atomic, Formula
+from qe.formula.traverse import conjuncts, disjuncts, has_root_atoms, map_atoms
 from qe.rules.nullspace import derivative_rows, kernel_vector, occurring
 
 MOST_PIECES = 4
@@ -48,7 +48,7 @@ class Piece:
 def taken_apart(variables: Sequence[str], body: Formula, most: int) -> tuple[Piece, ...]:
     """The pieces of a quantifier-free body, if each has one to ``most`` parameters left; else none."""
     choices = [list(disjuncts(part)) for part in conjuncts(body)]
-    if prod(map(len, choices)) > MOST_PIECES or any(isinstance(a, RootAtom) for a in atoms(body)):
+    if prod(map(len, choices)) > MOST_PIECES or has_root_atoms(body):
         return ()
     pieces = tuple(_piece(conj(chosen), frozenset(variables)) for chosen in product(*choices))
     few = all(0 < len(set(p.body.free) - set(variables)) <= most and p.whole.free for p in pieces)
@@ -82,7 +82,7 @@ def _whole(direction: Mapping[str, Fraction]) -> dict[str, int]:
 def _moved(formula: Formula, name: str, direction: Direction) -> Formula:
     """Every other parameter q_j of the direction becomes (w_i*q_j - w_j*p_i)/w_i, where w_i > 0."""
 
-    def change(given: Atom | RootAtom) -> Formula:
+    def change(given: Atomic) -> Formula:
         poly: Poly = given.poly
         ring = poly.ring
         for other, w in direction.items():

@@ -48,9 +48,9 @@ class Rows:
         best = gathered(formula_of_cells([self.polys], self._cells(true, True) + self._cells(false, False)))
         for k, p in enumerate(splitting):
             for first, second in ((LE, GE), (GE, LE)):
-                found = self._divided(true, false, atom(p, first), atom(p, second), splitting[k + 1 :], length(best))
-                if length(found) < length(best):
-                    best = found
+                divided = self._divided(true, false, atom(p, first), atom(p, second), splitting[k + 1 :], length(best))
+                if length(divided) < length(best):
+                    best = divided
         return best
 
     def _divided(

@@ -24,50 +24,50 @@ MOST_TERMS = 4_000
 def power_sums(c: Sequence[Poly], most: int) -> list[Poly]:
     """a^k times the sums of the k-th powers of the roots, for k up to ``most``."""
     n, a = len(c) - 1, c[-1]
-    found = [a.ring.constant(n)]
+    sums = [a.ring.constant(n)]
     for k in range(1, most + 1):
         total = a.ring.constant(0)
         for i in range(1, min(k, n) + 1):
-            total = total - a ** (i - 1) * c[n - i] * (found[k - i] if i < k else k)
-        found.append(total)
-    return found
+            total = total - a ** (i - 1) * c[n - i] * (sums[k - i] if i < k else k)
+        sums.append(total)
+    return sums
 
 
 @lru_cache(maxsize=16)
 def general(degree: int, g: tuple[int, ...]) -> tuple[dict[tuple[int, ...], int], ...]:
     """``minors`` for coefficients that are variables and a g with integer ones: exponents and factors."""
     ring = Ring.of(tuple(f"c{k}" for k in range(degree + 1)))
-    found = minors([ring.gen(k) for k in range(degree + 1)], [ring.constant(v) for v in g], Budget())
-    return tuple(dict(p.terms()) for p in found)
+    forms = minors([ring.gen(k) for k in range(degree + 1)], [ring.constant(v) for v in g], Budget())
+    return tuple(dict(p.terms()) for p in forms)
 
 
 def special(c: Sequence[Poly], g: tuple[int, ...], budget: Budget) -> list[Poly]:
     """``minors`` from the general ones: nothing has to be divided. Raises ``Unable`` past the limit."""
-    found = []
+    forms = []
     for terms in general(len(c) - 1, g):
         total = c[0].ring.constant(0)
         for exponents, factor in terms.items():
             budget.check("minors of Hermite's forms")
             total = total + _monomial(c, exponents, budget) * factor
-        found.append(total)
-    return found
+        forms.append(total)
+    return forms
 
 
 def _monomial(c: Sequence[Poly], exponents: tuple[int, ...], budget: Budget) -> Poly:
-    found = c[0].ring.constant(1)
+    product = c[0].ring.constant(1)
     for p, power in zip(c, exponents, strict=True):
         for _ in range(power):
-            found = _product(found, p, budget)
-    return found
+            product = _product(product, p, budget)
+    return product
 
 
 def _product(left: Poly, right: Poly, budget: Budget) -> Poly:
     """Raises ``Unable`` where it has too many terms."""
     budget.spend(1 + left.term_count() * right.term_count() // 1_000)
-    found = left * right
-    if found.term_count() > MOST_TERMS:
+    product = left * right
+    if product.term_count() > MOST_TERMS:
         raise Unable("a minor of a form of Hermite grows past its limits")
-    return found
+    return product
 
 
 def minors(c: Sequence[Poly], g: Sequence[Poly], budget: Budget) -> list[Poly]:
@@ -77,7 +77,7 @@ def minors(c: Sequence[Poly], g: Sequence[Poly], budget: Budget) -> list[Poly]:
     zero = a.ring.constant(0)
     weights = [p * a ** (m - j) for j, p in enumerate(g)]
     entries = [sum((w * sums[k + j] for j, w in enumerate(weights) if w), start=zero) for k in range(2 * n - 1)]
-    found: list[Poly] = []
+    leading: list[Poly] = []
 
     def times(one: Poly, other: Poly) -> Poly:
         budget.check("minors of Hermite's forms")
@@ -85,5 +85,5 @@ def minors(c: Sequence[Poly], g: Sequence[Poly], budget: Budget) -> list[Poly]:
 
     for k, minor in enumerate(leading_minors(lambda i, j: entries[i + j], n, a.ring.constant(1), times=times)):
         spare = k * (k - 1 + m)
-        found.append(minor.exact_divide(a**spare) if spare and a != 1 else minor)
-    return found
+        leading.append(minor.exact_divide(a**spare) if spare and a != 1 else minor)
+    return leading

@@ -47,8 +47,8 @@ class RootsBySigns:
         question = read(dual.body, x)
         if question is None:
             return None
-        found = answer(question, x, context.budget)
-        return Outcome(context.log.step(self.name, problem.formula, problem.asked(found)))
+        formula = answer(question, x, context.budget)
+        return Outcome(context.log.step(self.name, problem.formula, problem.asked(formula)))
 
 
 def answer(question: Question, x: int, budget: Budget) -> Formula:
@@ -75,7 +75,7 @@ def _decisive(question: Question, budget: Budget) -> _Table:
     shape = question.shape
     for squares in (False, True) if shape.place is Place.CONDITION else (False,):
         table = _table(question, replace(shape, squares=squares), budget)
-        if all(len(found) == 1 for found in table.truths):
+        if all(len(truths) == 1 for truths in table.truths):
             return table
     raise Unable("the signs of Hermite's forms do not decide")
 
@@ -97,42 +97,42 @@ def _table(question: Question, shape: Shape, budget: Budget) -> _Table:
         else:
             columns[normal] = (k, turn)
     kept = [k for k, _ in columns.values()]
-    found: dict[Signs, set[bool]] = {}
-    asked: dict[tuple[int, RootType], bool] = {}
+    truths_by_signs: dict[Signs, set[bool]] = {}
+    held: dict[tuple[int, RootType], bool] = {}
     for signs, lead, kind in rows(shape):
         if all(signs[k] == (turn if other < 0 else turn * signs[other]) for k, other, turn in checks):
-            if (lead, kind) not in asked:
-                asked[lead, kind] = question.holds(lead, kind)
-            found.setdefault(tuple([signs[k] for k in kept]), set()).add(asked[lead, kind])
+            if (lead, kind) not in held:
+                held[lead, kind] = question.holds(lead, kind)
+            truths_by_signs.setdefault(tuple([signs[k] for k in kept]), set()).add(held[lead, kind])
     budget.check("rows of signs")
-    budget.spend(len(found) // 20)
-    truths = tuple(frozenset(t) for t in found.values())
-    return _Table(tuple(listed[k] for k in kept), tuple(found), truths, polys["P", shape.degree])
+    budget.spend(len(truths_by_signs) // 20)
+    truths = tuple(frozenset(t) for t in truths_by_signs.values())
+    return _Table(tuple(listed[k] for k in kept), tuple(truths_by_signs), truths, polys["P", shape.degree])
 
 
 def _polynomials(question: Question, shape: Shape, budget: Budget) -> dict[Name, Poly]:
     """The literals."""
     f = question.f
-    found: dict[Name, Poly] = {("c", k): p for k, p in enumerate(f)}
+    named: dict[Name, Poly] = {("c", k): p for k, p in enumerate(f)}
     forms = {"P": special(f, (1,), budget)}
     if shape.place is not Place.LINE:
         forms["A"] = special(f, (0, 1), budget) if shape.place is Place.RAY else minors(f, question.g, budget)
     if shape.squares:
         forms["Q"] = minors(f, _square(question.g), budget)
     for name, listed in forms.items():
-        found |= {(name, k): p for k, p in enumerate(listed, 1)}
+        named |= {(name, k): p for k, p in enumerate(listed, 1)}
     if shape.invariant:
         e, d, c, b, a = f
-        found["I", 0] = 12 * (a * e) - 3 * (b * d) + c * c
-    return found
+        named["I", 0] = 12 * (a * e) - 3 * (b * d) + c * c
+    return named
 
 
 def _square(g: tuple[Poly, ...]) -> tuple[Poly, ...]:
-    found = [g[0].ring.constant(0)] * (2 * len(g) - 1)
+    square = [g[0].ring.constant(0)] * (2 * len(g) - 1)
     for i, p in enumerate(g):
         for j, q in enumerate(g):
-            found[i + j] = found[i + j] + p * q
-    return tuple(found)
+            square[i + j] = square[i + j] + p * q
+    return tuple(square)
 
 
 def _formula(question: Question, table: _Table) -> Formula:

@@ -82,11 +82,11 @@ class Question:
 def read(body: Formula, x: int) -> Question | None:
     """The question that ``ex x. body`` asks, with the variable y named x; None for one of another kind."""
     parts = conjuncts(body)
-    found = [a for a in parts if isinstance(a, Atom) and a.poly.degree(x) > 0]
-    if len(found) < len(parts):
+    having = [a for a in parts if isinstance(a, Atom) and a.poly.degree(x) > 0]
+    if len(having) < len(parts):
         return None
-    bounds = [a for a in found if a.poly.degree(x) == 1 and a.poly.leading(x).is_constant and a.relation in _ENDS]
-    others = [a for a in found if a not in bounds]
+    bounds = [a for a in having if a.poly.degree(x) == 1 and a.poly.leading(x).is_constant and a.relation in _ENDS]
+    others = [a for a in having if a not in bounds]
     equations = [a for a in others if a.relation is EQ]
     if len(others) == 2 and len(equations) == 1 and not bounds:
         return _under_condition(equations[0], next(a for a in others if a not in equations), x)
@@ -147,24 +147,24 @@ def _on_interval(poly: Poly, relation: Relation, bounds: Sequence[Atom], x: int)
     moved = _composed(f, (l, u), (one * common, one * common))
     while not moved[-1] and len(moved) > 1:
         moved = moved[:-1]
-    found = Question(moved, relation, Place.RAY, closed=(low.closed, high.closed))
+    question = Question(moved, relation, Place.RAY, closed=(low.closed, high.closed))
     side = atom(u - l, GE if low.closed and high.closed else GT) if u - l != zero else None
     if side is None:
         return None
-    return replace(found, side=side) if len(moved) == len(f) else None
+    return replace(question, side=side) if len(moved) == len(f) else None
 
 
 def _composed(f: Sequence[Poly], top: Sequence[Poly], bottom: Sequence[Poly]) -> tuple[Poly, ...]:
     """The coefficients of the sum of f_i * top^i * bottom^(n-i), for linear ``top`` and ``bottom``."""
-    found: tuple[Poly, ...] = (f[-1],)
+    image: tuple[Poly, ...] = (f[-1],)
     power: tuple[Poly, ...] = (f[-1].ring.constant(1),)
     for c in reversed(f[:-1]):
         power = _product(power, bottom)
-        found = _product(found, top)
-        found = tuple(p + c * q if k < len(power) else p for k, (p, q) in enumerate(_both(found, power)))
-        if sum(p.term_count() for p in found) > MOST_TERMS:
+        image = _product(image, top)
+        image = tuple(p + c * q if k < len(power) else p for k, (p, q) in enumerate(_both(image, power)))
+        if sum(p.term_count() for p in image) > MOST_TERMS:
             raise Unable("a polynomial grows past its limits on an interval")
-    return found
+    return image
 
 
 def _both(left: tuple[Poly, ...], right: tuple[Poly, ...]) -> list[tuple[Poly, Poly]]:
@@ -176,16 +176,16 @@ def _both(left: tuple[Poly, ...], right: tuple[Poly, ...]) -> list[tuple[Poly, P
 
 def _product(left: Sequence[Poly], right: Sequence[Poly]) -> tuple[Poly, ...]:
     zero = left[0].ring.constant(0)
-    found = [zero] * (len(left) + len(right) - 1)
+    product = [zero] * (len(left) + len(right) - 1)
     for i, p in enumerate(left):
         for j, q in enumerate(right):
-            found[i + j] = found[i + j] + p * q
-    return tuple(found)
+            product[i + j] = product[i + j] + p * q
+    return tuple(product)
 
 
 def _value(f: Sequence[Poly], y: Poly) -> Poly:
     """The polynomial with these coefficients."""
-    found = y.ring.constant(0)
+    value = y.ring.constant(0)
     for c in reversed(f):
-        found = found * y + c
-    return found
+        value = value * y + c
+    return value

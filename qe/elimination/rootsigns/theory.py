@@ -66,15 +66,15 @@ class Shape:
     @property
     def names(self) -> tuple[Name, ...]:
         """The literals: leading coefficient, minors, the other coefficients."""
-        n, found = self.degree, [("c", self.degree)]
-        found += [("P", k) for k in range(2, n + 1)]
+        n, names = self.degree, [("c", self.degree)]
+        names += [("P", k) for k in range(2, n + 1)]
         if self.place is Place.RAY:
-            found += [("A", k) for k in range(1, n)] + [("c", k) for k in range(n)]
+            names += [("A", k) for k in range(1, n)] + [("c", k) for k in range(n)]
         if self.place is Place.CONDITION:
-            found += [("A", k) for k in range(1, n + 1)]
+            names += [("A", k) for k in range(1, n + 1)]
         if self.squares:
-            found += [("Q", k) for k in range(1, n + 1)]
-        return (*found, ("I", 0)) if self.invariant else tuple(found)
+            names += [("Q", k) for k in range(1, n + 1)]
+        return (*names, ("I", 0)) if self.invariant else tuple(names)
 
 
 def types(shape: Shape) -> Iterator[RootType]:
@@ -98,9 +98,9 @@ def types(shape: Shape) -> Iterator[RootType]:
     return further(shape.degree, 0)
 
 
-def count(found: RootType, *roots: Root) -> int:
+def count(kind: RootType, *roots: Root) -> int:
     """The number of distinct roots, or pairs, of some kinds."""
-    return sum(r in roots for r, _ in found)
+    return sum(r in roots for r, _ in kind)
 
 
 REAL = (Root.NEGATIVE, Root.ZERO, Root.POSITIVE)
@@ -109,12 +109,12 @@ REAL = (Root.NEGATIVE, Root.ZERO, Root.POSITIVE)
 @lru_cache(maxsize=32)
 def rows(shape: Shape) -> tuple[tuple[Signs, int, RootType], ...]:
     """All rows of signs, in the order of the names, with the sign of the leading coefficient and the type."""
-    found = []
+    listed = []
     for kind in types(shape):
         for lead in (1, -1):
             parts = [[(lead,)], *_parts(shape, kind, lead)]
-            found += [(sum(chosen, ()), lead, kind) for chosen in product(*parts)]
-    return tuple(found)
+            listed += [(sum(chosen, ()), lead, kind) for chosen in product(*parts)]
+    return tuple(listed)
 
 
 def _parts(shape: Shape, kind: RootType, lead: int) -> Iterator[Sequence[Signs]]:
@@ -125,8 +125,8 @@ def _parts(shape: Shape, kind: RootType, lead: int) -> Iterator[Sequence[Signs]]
     yield [s[1:] for s in minors(n, real + unreal, real) if s[0] == 1]  # the first is the degree
     if shape.place is not Place.LINE:
         rank = positive + negative + imaginary
-        turned = lead if shape.odd else 1
-        forms = [tuple(turned * s for s in row) for row in minors(n, rank, positive - negative)]
+        sign = lead if shape.odd else 1
+        forms = [tuple(sign * s for s in row) for row in minors(n, rank, positive - negative)]
         yield list(dict.fromkeys(s[:-1] for s in forms)) if shape.place is Place.RAY else forms
     if shape.place is Place.RAY:
         yield [s[:-1] for s in coefficients(n, kind, lead)]
@@ -141,11 +141,11 @@ def minors(size: int, rank: int, signature: int) -> tuple[Signs, ...]:
     """The signs of the leading minors of Hankel matrices, by the theorem of Frobenius."""
     if not rank:
         return ((0,) * size,) if not signature else ()
-    found = []
+    listed = []
     for signs in product((1, 0, -1), repeat=rank):
         if signs[-1] and _signature(signs) == signature:
-            found.append((*signs, *(0,) * (size - rank)))
-    return tuple(found)
+            listed.append((*signs, *(0,) * (size - rank)))
+    return tuple(listed)
 
 
 def _signature(signs: Signs) -> int | None:
@@ -166,7 +166,7 @@ def _signature(signs: Signs) -> int | None:
 def coefficients(degree: int, kind: RootType, lead: int) -> tuple[Signs, ...]:
     """Their signs, the constant one first, by Descartes' rule."""
     places = {r: sum(m for s, m in kind if s is r) for r in REAL}
-    zeros, found = (0,) * places[Root.ZERO], []
+    zeros, listed = (0,) * places[Root.ZERO], []
     for signs in product((1, 0, -1), repeat=degree - len(zeros)):
         row = (*zeros, *signs, lead)
         if not row[len(zeros)]:
@@ -174,8 +174,8 @@ def coefficients(degree: int, kind: RootType, lead: int) -> tuple[Signs, ...]:
         mirrored = [(-1) ** k * s for k, s in enumerate(row)]
         spare = [_changes(row) - places[Root.POSITIVE], _changes(mirrored) - places[Root.NEGATIVE]]
         if all(k >= 0 and k % 2 == 0 for k in spare):
-            found.append(row)
-    return tuple(found)
+            listed.append(row)
+    return tuple(listed)
 
 
 def _changes(signs: Sequence[int]) -> int:

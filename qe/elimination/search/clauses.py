@@ -72,18 +72,18 @@ class Clauses:
 
     def says(self) -> dict[int, Atom]:
         """What the literals of signs say."""
-        found = {literal: Atom(poly, relation) for literal, poly, relation in self.inequalities()}
+        meanings = {literal: Atom(poly, relation) for literal, poly, relation in self.inequalities()}
         for poly, (_, _, zero) in self._signs.items():
-            found[zero], found[-zero] = Atom(poly, Relation.EQ), Atom(poly, Relation.NE)
-        return found
+            meanings[zero], meanings[-zero] = Atom(poly, Relation.EQ), Atom(poly, Relation.NE)
+        return meanings
 
     def phases(self, sign: Callable[[Poly], int]) -> Clause:
         """The literals of the signs that the polynomials have somewhere."""
-        found = []
+        literals_first = []
         for poly, literals in self._signs.items():
             present = sign(poly)
-            found += [v if present == k else -v for v, k in zip(literals, (1, -1, 0), strict=True)]
-        return found
+            literals_first += [v if present == k else -v for v, k in zip(literals, (1, -1, 0), strict=True)]
+        return literals_first
 
     def chosen(self, model: Iterable[int], sign: Callable[[Poly], int]) -> list[Atom]:
         """Atoms, true in the model, that make the formula true.
@@ -116,8 +116,8 @@ class Clauses:
                 case Atom(poly, Relation.NE) if poly.total_degree == 1:
                     side = Relation.GT if self._of(poly)[0] in true else Relation.LT
                     taken[Atom(poly, side)] = None
-                case Atom() as found:
-                    taken[found] = None
+                case Atom() as literal:
+                    taken[literal] = None
                 case And(args):
                     pending.extend(args)
                 case Or(args):

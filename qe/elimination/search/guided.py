@@ -33,7 +33,7 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
     from pysat.solvers import Cadical195, pysolvers
 
     budget = theory.budget
-    found: Values = {}
+    point: Values = {}
     bounds = list(said(clauses.inequalities()))
     theories: list[LinearTheory] = []
     differences = Differences(bounds) if Differences.suit(bounds) else None
@@ -54,7 +54,7 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
         theory.bounds.start(theories[-1].point())
         looked = theory.look(clauses.chosen(model, theory.bounds.sign))
         if isinstance(looked, dict):
-            found.update(looked)
+            point.update(looked)
             return []
         return [[-clauses.literal(a) for a in reason] for reason in looked]
 
@@ -75,7 +75,7 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
         solver.disconnect_propagator()
     if propagator.failure is not None:
         raise propagator.failure
-    return found if true else propagator.lemmas
+    return point if true else propagator.lemmas
 
 
 @contextmanager

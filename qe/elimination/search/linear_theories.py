@@ -174,13 +174,13 @@ class Forms:
 
     def changes(self) -> list[int]:
         """The literals that hold at the present point, of those forms that have moved since the last call."""
-        found: list[int] = []
+        implied: list[int] = []
         for x, listed in self.offered.items():
             value = self.bounds.values[x]
             if self._seen.get(x) != value:
                 self._seen[x] = value
-                found += [one.literal for one in listed if one.holds(self.bounds.side(x, one.bound))]
-        return found
+                implied += [one.literal for one in listed if one.holds(self.bounds.side(x, one.bound))]
+        return implied
 
     def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:
         """The bounds of a variable, the weakest first."""

@@ -91,11 +91,11 @@ def found_point(body: Formula, context: Context) -> Values | Refuted:
     refutations: dict[frozenset[Formula], Nested] = {}
 
     def decided(sentence: Formula, budget: Budget) -> Values | None:
-        own = _in_own_ring(sentence)
-        outcome = decide(own, context.options, budget)
+        narrow = _in_own_ring(sentence)
+        outcome = decide(narrow, context.options, budget)
         if outcome.formula == FALSE:
             body = sentence.body if isinstance(sentence, Exists) else sentence
-            refutations[frozenset(conjuncts(body))] = outcome.nested(own)
+            refutations[frozenset(conjuncts(body))] = outcome.nested(narrow)
             return None
         if outcome.witness is None:
             raise Unable("a conjunction is satisfiable, but no point was found")
@@ -115,8 +115,8 @@ def _in_own_ring(sentence: Formula) -> Formula:
     ring = sentence.ring
     if ring is None or not ring.is_wide or not isinstance(sentence, Exists):
         return sentence
-    own = set(sentence.body.free)
-    return convert(sentence, Ring.of(name for name in ring.names if name in own))
+    names = set(sentence.body.free)
+    return convert(sentence, Ring.of(name for name in ring.names if name in names))
 
 
 def _completed(
@@ -136,11 +136,11 @@ def _completed(
         while solver.solve():
             context.budget.spend(UNITS)
             context.budget.check("search", len(conflicts) + 1)
-            found = theory.look(clauses.chosen(solver.get_model(), theory.bounds.sign))
-            if isinstance(found, dict):
+            looked = theory.look(clauses.chosen(solver.get_model(), theory.bounds.sign))
+            if isinstance(looked, dict):
                 context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(conflicts)})
-                return found
-            for reason in found:
+                return looked
+            for reason in looked:
                 conflicts.append(tuple(reason))
                 solver.add_clause([-clauses.literal(a) for a in reason])
             solver.set_phases(clauses.phases(theory.bounds.sign))

@@ -143,9 +143,9 @@ class Propagator:
         if self._clauses or self.failure is not None:
             return False
         with self:
-            found = self.last(model)
-            self._clauses += map(self._lemma, found)
-            return not found
+            conflicts = self.last(model)
+            self._clauses += map(self._lemma, conflicts)
+            return not conflicts
         return False
 
     def has_clause(self) -> bool:
@@ -174,16 +174,16 @@ class Propagator:
                     return []
         if any(self._against(theory.settle()) for theory in self.theories):
             return []
-        found = []
+        implied = []
         for theory in self.theories:
             for literal, reasons in theory.implied():
-                if literal not in self._true and literal not in found:
+                if literal not in self._true and literal not in implied:
                     self._reasons[literal] = reasons
-                    found.append(literal)
+                    implied.append(literal)
         if not self._levels:  # the solver asks for no reasons of what holds in any case
-            for literal in found:
+            for literal in implied:
                 self.provide_reason(literal)
-        return found
+        return implied
 
     def _against(self, conflict: Literals | None) -> bool:
         """Whether there is a contradiction; the solver is told of it."""

@@ -71,14 +71,14 @@ class Theory:
         """Sets of atoms whose linear bounds contradict each other, until none is left: from conflicts without a common
         atom, each atom as weak as may be."""
         rest = list(atoms)
-        found: list[list[Atom]] = []
-        while len(found) < _AT_ONCE:
+        conflicts: list[list[Atom]] = []
+        while len(conflicts) < _AT_ONCE:
             conflict = self.bounds.conflict(rest, lambda: self.budget.check("search: bounds"))
             if conflict is None:
                 break
-            found.append(self.bounds.weakened(conflict))
+            conflicts.append(self.bounds.weakened(conflict))
             rest = [a for a in rest if a not in conflict]
-        return found
+        return conflicts
 
     def _grown(self, part: list[Atom], point: Values) -> Values | list[Atom]:
         """Values for the atoms, or some that cannot hold together: first those only that fail at the point, then with

@@ -57,9 +57,9 @@ def eliminate_block(
         return BlockResult(formula, (), Leaf((), formula))
     run = _Run(ring, budget, simplify, highest)
     block = frozenset(ring.index[v] for v in variables if v in ring.index)
-    found, tree, trace = run.solve(formula, block)
-    answer = simplify(found)
-    return BlockResult(answer, tuple(_existentials(answer)), tree, dict(run.stats), Eliminated(formula, found, trace))
+    result, tree, trace = run.solve(formula, block)
+    answer = simplify(result)
+    return BlockResult(answer, tuple(_existentials(answer)), tree, dict(run.stats), Eliminated(formula, result, trace))
 
 
 def _existentials(formula: Formula) -> Iterator[Exists]:
@@ -110,17 +110,17 @@ class _Run:
         """exists x, y. C and F(x) and G(y)  iff  C and (exists x. F) and (exists y. G)."""
         answers: list[Formula] = list(context)
         trees: list[Node] = []
-        found: list[Part] = []
+        parts_solved: list[Part] = []
         for part in parts:
             # the context comes along as background knowledge and is taken out of the answer again
             whole, tree, trace = self._step(conj((*context, part)), part, block)
             formula = without(whole, context)
-            found.append(Part(part, whole, trace))
+            parts_solved.append(Part(part, whole, trace))
             if formula == FALSE:
-                return FALSE, NEVER, Apart(context, tuple(found))
+                return FALSE, NEVER, Apart(context, tuple(parts_solved))
             answers.append(formula)
             trees.append(tree)
-        return conj(answers), All((Leaf((), conj(context)), *trees)), Apart(context, tuple(found))
+        return conj(answers), All((Leaf((), conj(context)), *trees)), Apart(context, tuple(parts_solved))
 
     def _step(self, formula: Formula, part: Formula, block: frozenset[int]) -> Solved:
         """Eliminate one variable of ``part`` (``formula`` is ``part`` with its context), then the others."""
@@ -139,8 +139,8 @@ class _Run:
             simple = tuple(map(self.simplify, cases))
             answer, tree, traces = self._any(self.solve(case, inside) for case in simple)
             return answer, tree, Split(cases, simple, traces)
-        left = Exists(tuple(self.ring.names[i] for i in sorted(inside)), part)
-        return left, Leaf(left.variables, part), Unchanged()
+        remaining = Exists(tuple(self.ring.names[i] for i in sorted(inside)), part)
+        return remaining, Leaf(remaining.variables, part), Unchanged()
 
     def _decide(self, formula: Formula, variable: str) -> Solved:
         """A formula in one variable alone, of any degree."""
@@ -189,16 +189,16 @@ class _Run:
 
     def _any(self, alternatives: Iterable[Solved]) -> tuple[Formula, Node, Traces]:
         """The disjunction; stops at the first alternative that is TRUE."""
-        found: dict[Formula, Node] = {}
+        trees_by_formula: dict[Formula, Node] = {}
         traces: list[tuple[Formula, Trace]] = []
         for formula, tree, trace in alternatives:
             traces.append((formula, trace))
             if formula == TRUE:
                 return TRUE, tree, tuple(traces)
             if formula != FALSE:
-                found.setdefault(formula, tree)
-        trees = tuple(found.values())
-        return disj(found), trees[0] if len(trees) == 1 else Any(trees), tuple(traces)
+                trees_by_formula.setdefault(formula, tree)
+        trees = tuple(trees_by_formula.values())
+        return disj(trees_by_formula), trees[0] if len(trees) == 1 else Any(trees), tuple(traces)
 
 
 def _free_of(formula: Formula, x: int) -> list[Formula]:

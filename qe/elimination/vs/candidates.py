@@ -78,8 +78,8 @@ def bounds(
             gauss = best_gauss([gauss_constituent(a, x, side, facts, highest) for a in args])
             if gauss is not None:
                 return _with_gauss(formula, *gauss, x, side, facts, omit, highest)
-            found = (bounds(arg, x, side, facts, omit, highest) for arg in args)
-            return _joined(_within(formula, args, k, ends) for k, ends in enumerate(found))
+            ends_of_parts = (bounds(arg, x, side, facts, omit, highest) for arg in args)
+            return _joined(_within(formula, args, k, ends) for k, ends in enumerate(ends_of_parts))
         case Or(args):
             return _joined(bounds(arg, x, side, facts, omit, highest) for arg in args)
     return ()
@@ -93,10 +93,10 @@ def gauss_constituent(formula: Formula, x: int, side: int, facts: Facts, highest
             return None if points is None else Gauss(points, vanishing(poly, x, facts))
         case Or(args):
             parts = [gauss_constituent(a, x, side, facts, highest) for a in args]
-            found = [p for p in parts if p is not None]
-            if len(found) < len(parts):
+            constituents = [p for p in parts if p is not None]
+            if len(constituents) < len(parts):
                 return None
-            return Gauss(tuple(chain(*(p.candidates for p in found))), disj(p.degenerate for p in found))
+            return Gauss(tuple(chain(*(p.candidates for p in constituents))), disj(p.degenerate for p in constituents))
         case And(args):
             best = best_gauss([gauss_constituent(a, x, side, facts, highest) for a in args])
             if best is None:
@@ -109,8 +109,8 @@ def gauss_constituent(formula: Formula, x: int, side: int, facts: Facts, highest
 
 def best_gauss(options: list[Gauss | None]) -> tuple[Gauss, int] | None:
     """The Gauss constituent with the cheapest candidates, and its position."""
-    found = [(gauss, k) for k, gauss in enumerate(options) if gauss is not None]
-    return min(found, key=lambda pair: gauss_cost(pair[0]), default=None)
+    ranked = [(gauss, k) for k, gauss in enumerate(options) if gauss is not None]
+    return min(ranked, key=lambda pair: gauss_cost(pair[0]), default=None)
 
 
 def gauss_cost(gauss: Gauss) -> float:
@@ -184,13 +184,13 @@ def _with_gauss(
 
 
 def _within(
-    whole: Formula, args: tuple[Formula, ...], k: int, found: tuple[Candidate, ...] | None
+    whole: Formula, args: tuple[Formula, ...], k: int, ends: tuple[Candidate, ...] | None
 ) -> tuple[Candidate, ...] | None:
     """Candidates of conjunct k as candidates of the conjunction."""
-    if found is None:
+    if ends is None:
         return None
     rest = (*args[:k], *args[k + 1 :])
-    return tuple(replace(c, formula=whole if c.formula is args[k] else conj((c.formula, *rest))) for c in found)
+    return tuple(replace(c, formula=whole if c.formula is args[k] else conj((c.formula, *rest))) for c in ends)
 
 
 def _joined(parts: Iterable[tuple[Candidate, ...] | None]) -> tuple[Candidate, ...] | None:

@@ -19,13 +19,13 @@ from qe.formula.syntax import And, Atom, Formula, Or
 
 def clustered(candidates: Iterable[Candidate], x: int) -> tuple[Candidate, ...]:
     """The candidates, with one for the three roots of a cubic where the theorem allows it."""
-    found = tuple(dict.fromkeys(candidates))
+    distinct = tuple(dict.fromkeys(candidates))
     out: list[Candidate] = []
-    for candidate in found:
+    for candidate in distinct:
         e = candidate.point
         if isinstance(e, CubicRoot) and e.index and not e.epsilon:
             three = [replace(candidate, point=replace(e, index=k)) for k in (1, 2, 3)]
-            if all(c in found for c in three) and asks_one(candidate.formula, x, e):
+            if all(c in distinct for c in three) and asks_one(candidate.formula, x, e):
                 out += [replace(candidate, point=replace(e, index=SOME))] if e.index == 1 else []
                 continue
         out.append(candidate)

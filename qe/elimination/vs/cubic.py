@@ -204,8 +204,8 @@ class Ranked:
         """All slopes are v."""
         if self.index == 2:
             return [(MIDDLE, TRUE)]
-        turned = self.atom(self.v, GT if self.index == 1 else LT)
-        return [(LEAST, TRUE)] if turned == TRUE else [(GREATEST, TRUE), (LEAST, turned)]
+        side = self.atom(self.v, GT if self.index == 1 else LT)
+        return [(LEAST, TRUE)] if side == TRUE else [(GREATEST, TRUE), (LEAST, side)]
 
     def _outer(self) -> Lines:
         table = TABLE[self.index]

@@ -74,11 +74,11 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
         return FarFirst(TRUE, FALSE, (TRUE,), (solutions, Nested(FALSE, (), FALSE)))
     if lead.is_constant:
         return None
-    left = conj((body, nnf(neg(far))))
+    rest_of_body = conj((body, nnf(neg(far))))
     cases = [atom(lead, relation) for relation in (Relation.GT, Relation.LT, Relation.EQ)]
     parts: list[Nested] = []
     for case in cases:
-        parts.insert(0, _prepared(exists([variable], conj((left, case))), budget))
+        parts.insert(0, _prepared(exists([variable], conj((rest_of_body, case))), budget))
         if case is not cases[-1] and parts[0].answer != FALSE:
             return None
     rest = parts[0].answer
@@ -89,8 +89,8 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
 
 def _degrees(formula: Formula, variable: str) -> int:
     """The sum of the degrees above 2 in a variable."""
-    found = (p.degree(p.ring.index[variable]) for p in polynomials(formula) if variable in p.ring.index)
-    return sum(degree for degree in found if degree > 2)
+    degrees = (p.degree(p.ring.index[variable]) for p in polynomials(formula) if variable in p.ring.index)
+    return sum(degree for degree in degrees if degree > 2)
 
 
 def _prepared(block: Formula, budget: Budget) -> Nested:

@@ -37,7 +37,7 @@ class VirtualSubstitution:
         answer = context.log.step("elimination set", problem.formula, problem.asked(result.formula), evidence=evidence)
         values: Values | None = None
         if not result.remaining and result.formula == TRUE:
-            certain = next((found for found in result.answers if tidy(found.guard) == TRUE), None)
+            certain = next((candidate for candidate in result.answers if tidy(candidate.guard) == TRUE), None)
             values = None if certain is None else witness(certain, budget=context.budget)
         return Outcome(answer, values)
 

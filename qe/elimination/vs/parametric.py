@@ -73,8 +73,8 @@ class ParametricWitness:
         budget.check("guard")
         if not _holds(self.guard, given):
             raise InputError("parameters: the guard does not hold there")
-        found = witness(self._answer, given, budget=budget)
-        return ExactPoint({name: found.get(name, Fraction(0)) for name in self._variables})
+        values = witness(self._answer, given, budget=budget)
+        return ExactPoint({name: values.get(name, Fraction(0)) for name in self._variables})
 
     def __str__(self) -> str:
         terms = ", ".join(f"{name} = {term}" for name, term in self.terms.items())
@@ -95,7 +95,7 @@ class ParametricWitnesses(tuple[ParametricWitness, ...]):
 
     def equivalent_to(self, block: Formula) -> Formula:
         """What the guards say of the block."""
-        return nnf(disj(found.guard for found in self), negate=isinstance(block, ForAll))
+        return nnf(disj(answer.guard for answer in self), negate=isinstance(block, ForAll))
 
 
 def parametric_witnesses(block: Formula, *, budget: Budget, log: RunLog | None = None) -> ParametricWitnesses:
@@ -116,10 +116,10 @@ def parametric_witnesses(block: Formula, *, budget: Budget, log: RunLog | None =
     if result.remaining:
         names = ", ".join(result.remaining[0].variables)
         raise DegreeTooHigh(f"no parametric witness: substitution does not eliminate {names}, whose degree is too high")
-    found = list(islice(result.answers, MOST + 1))
-    if len(found) > MOST:
+    answers = list(islice(result.answers, MOST + 1))
+    if len(answers) > MOST:
         raise Unable(f"more than {MOST} parametric witnesses")
-    guarded = ((tidy(answer.guard), answer) for answer in found)
+    guarded = ((tidy(answer.guard), answer) for answer in answers)
     made = ParametricWitnesses(
         ParametricWitness(guard, _terms(answer), answer, block.variables) for guard, answer in guarded if guard != FALSE
     )

@@ -17,8 +17,8 @@ from qe.elimination.vs.clusters import clustered
 from qe.elimination.vs.points import Infinity
 from qe.elimination.vs.radical_free import without_radicals
 from qe.formula.build import conj
-from qe.formula.syntax import FALSE, Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms, children, conjuncts
+from qe.formula.syntax import FALSE, Atom, Atomic, Formula, Relation
+from qe.formula.traverse import atoms, conjuncts
 from qe.rules.degree_shift import common_exponent, lowered, values
 from qe.simplify.facts import NOTHING, Facts, factor_list
 
@@ -47,15 +47,7 @@ class Plan:
 
 def occurring(formula: Formula) -> frozenset[int]:
     """The indices of the variables that occur in a quantifier-free formula."""
-    match formula:
-        case Atom(poly, _):
-            return frozenset(poly.variables)
-        case RootAtom(variable, _, poly, _):
-            return frozenset(poly.variables) | {poly.ring.index[variable]}
-    found: frozenset[int] = frozenset()
-    for child in children(formula):
-        found |= occurring(child)
-    return found
+    return frozenset() if formula.ring is None else frozenset(map(formula.ring.index.__getitem__, formula.free))
 
 
 def choose(formula: Formula, block: frozenset[int], *, strict: bool, highest: int = 2) -> Plan | None:
@@ -93,7 +85,7 @@ class _Problem:
 
 
 def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict: bool, highest: int) -> Plan | None:
-    if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
+    if any(not isinstance(a, Atom) and x in occurring(a) for a in atoms(formula)):
         return None
     ring = next(atoms(formula)).poly.ring
     exponent = common_exponent(formula, x, nonnegative=-1 not in facts.signs(ring.gen(x)))
@@ -118,11 +110,11 @@ def _is_positive(formula: Formula, x: int) -> bool:
     return positive and all(a.relation.is_strict for a in with_x)
 
 
-def _spread(found: Atom | RootAtom, x: int, others: frozenset[int]) -> float:
+def _spread(atomic: Atomic, x: int, others: frozenset[int]) -> float:
     """A penalty for atoms whose other block variables would get a higher degree."""
-    if found.poly.degree(x) < 2:
+    if atomic.poly.degree(x) < 2:
         return 0.0
-    return _QUADRATIC_SPREAD * sum(found.poly.degree(i) for i in others)
+    return _QUADRATIC_SPREAD * sum(atomic.poly.degree(i) for i in others)
 
 
 def _with_gauss(problem: _Problem, originals: tuple[Formula, ...], gauss: Gauss, k: int) -> Plan | None:

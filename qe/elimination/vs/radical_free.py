@@ -73,15 +73,15 @@ class Parabola:
 
 def convex_family(formula: Formula, x: int, facts: Facts) -> tuple[Parabola, ...]:
     """The conjuncts f < 0 and f <= 0 (f of degree 2, known positive leading coefficient) met nowhere else."""
-    found: list[Parabola] = []
+    family: list[Parabola] = []
     elsewhere: set[Poly] = set()
     for part in conjuncts(formula):
         parabola = _parabola(part, x, facts) if isinstance(part, Atom) else None
         if parabola is not None:
-            found.append(parabola)
+            family.append(parabola)
         else:
             elsewhere |= {f for a in atoms(part) for f, _ in factor_list(a.poly)}
-    return tuple(p for p in found if p.factor not in elsewhere)
+    return tuple(p for p in family if p.factor not in elsewhere)
 
 
 def _parabola(given: Atom, x: int, facts: Facts) -> Parabola | None:

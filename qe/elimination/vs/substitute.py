@@ -12,7 +12,7 @@ from qe.elimination.vs.points import CubicRoot, Infinity, LinearRoot, QuadraticR
 from qe.elimination.vs.tables import root_condition
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
-from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.formula.syntax import Atom, Atomic, Formula, Relation
 from qe.formula.traverse import map_atoms
 from qe.simplify.factors import atom_under
 from qe.simplify.facts import Facts
@@ -37,8 +37,8 @@ class Substitution:
         """The formula at the point. Root atoms must not contain the variable."""
         return map_atoms(formula, self._leaf)
 
-    def _leaf(self, leaf: Atom | RootAtom) -> Formula:
-        if isinstance(leaf, RootAtom) or not leaf.poly.degree(self.x):
+    def _leaf(self, leaf: Atomic) -> Formula:
+        if not isinstance(leaf, Atom) or not leaf.poly.degree(self.x):
             return leaf
         found = self._done.get(leaf)
         if found is None:

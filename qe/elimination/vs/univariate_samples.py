@@ -12,7 +12,7 @@ from qe.exact.ring import Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, convert
 from qe.formula.evaluate import truth_under
-from qe.formula.syntax import Atom, Formula, RootAtom
+from qe.formula.syntax import Atom, Atomic, Formula
 from qe.formula.traverse import map_atoms, polynomials
 
 Number = Fraction | RealAlgebraic
@@ -41,7 +41,7 @@ def solution(formula: Formula, variable: str, values: Values) -> Number | None:
     fixed = {p: point.sign(p) for p in polys if not p.degree(point.depth)}
     stack = isolate_over(point, tuple(p for p in polys if p.degree(point.depth)))
     signs = stack.sign_maps()
-    sectors = sorted(enumerate(stack.samples), key=lambda found: (found[1].denominator, abs(found[1])))
+    sectors = sorted(enumerate(stack.samples), key=lambda sector: (sector[1].denominator, abs(sector[1])))
     for position in (*(2 * k for k, _ in sectors), *range(1, len(signs), 2)):
         if truth_under(line, (signs[position] | fixed).get) is True:
             return stack.sample(position).number(point.depth)
@@ -51,12 +51,12 @@ def solution(formula: Formula, variable: str, values: Values) -> Number | None:
 def _at(formula: Formula, name: str, value: Fraction) -> Formula:
     """The formula with a variable set to a rational number."""
 
-    def change(found: Atom | RootAtom) -> Formula:
-        i = found.poly.ring.index.get(name)
-        if isinstance(found, RootAtom):
+    def change(atomic: Atomic) -> Formula:
+        i = atomic.poly.ring.index.get(name)
+        if not isinstance(atomic, Atom):
             raise Unable("no witness for a formula with root atoms")
-        if i is None or not found.poly.degree(i):
-            return found
-        return atom(found.poly.at_rational(i, value), found.relation)
+        if i is None or not atomic.poly.degree(i):
+            return atomic
+        return atom(atomic.poly.at_rational(i, value), atomic.relation)
 
     return map_atoms(formula, change)
