@@ -1,4 +1,4 @@
-"""Answers by roots of cubics: proved by a decomposition where one is small enough; those of broken producers are not."""
+"""Answers by roots of cubics: proved by a decomposition where one is small enough; not if a producer is broken."""
 
 from __future__ import annotations
 
