@@ -7,7 +7,7 @@ from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation, RootAtom
 from qe.formula.traverse import atoms, conjuncts, map_atoms
 from qe.kernel.elimination_set import block_of
-from qe.kernel.inequations import generic
+from qe.kernel.open_block import generic
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.options import Options
 from qe.proof.certificate import written
@@ -41,7 +41,7 @@ def lower_first(made: Made, block: Exists, name: str, power: int) -> Exists:
     positive, weak = atom(ring.gen(x), Relation.GT), atom(ring.gen(x), Relation.GE)
     if power % 2 == 0 and positive in conjuncts(after) and positive not in conjuncts(block.body):
         inner = Exists((name,), block.body)
-        plain = exists((name,), generic(inner, made.claim))
+        plain = exists((name,), generic(inner))
         regular = exists((name,), conj((block.body, atom(ring.gen(x), Relation.NE))))
         nested = Exists(tuple(v for v in block.variables if v != name), inner) if len(block.variables) > 1 else inner
         made.moved(block, nested)

@@ -91,12 +91,9 @@ ELSEWHERE = {
 OTHERWISE = {"cells", "convex", "critical values", "shorter", "steps", "virtual substitution"}
 """Rules whose evidence has tests of its own."""
 
-FORMER = {"only asked to be no root"}
-"""Rules of older certificates, which nothing makes any more: see ``test_broken_producers``."""
-
 
 def test_every_rule_is_in_a_case_that_is_altered() -> None:
-    assert {rule for text in CASES.values() for rule in rules(text)} | set(ELSEWHERE) | FORMER == set(RULES)
+    assert {rule for text in CASES.values() for rule in rules(text)} | set(ELSEWHERE) == set(RULES)
     for name in ELSEWHERE.values():
         assert (Path(__file__).parents[1] / f"{name}.py").exists()
 
