@@ -83,7 +83,6 @@ ELSEWHERE = {
     "critical values of a universal block": "certificates/test_critical_universal",
     "covering": "certificates/test_covering",
     "comprehensive Gröbner system": "certificates/test_counted_solutions",
-    "mirror images of a convex set": "unit/expert/test_mirror",
     "point or multipliers": "certificates/test_derivation_rejected",
 }
 """Rules whose evidence is altered in a file of its own."""
