@@ -33,6 +33,7 @@ from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.along import constant_along
 from qe.proving.apart import alternatives, independent_parts
+from qe.proving.counted_roots import roots_counted
 from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
@@ -445,6 +446,7 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "value that is taken": value_taken,
     "redundant part": redundant,
     "constant": constant,
+    "roots counted": roots_counted,
     "only asked to be no root": only_nonzero,
     "witness in the parameters": witness,
     "degenerate truth set": degenerate_truth_set,
