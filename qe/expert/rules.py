@@ -7,9 +7,7 @@ from collections.abc import Mapping
 from qe.expert.counted_solutions import check_counted_solutions
 from qe.expert.critical_universal import check_critical_universal
 from qe.expert.critical_values import check_critical_values
-from qe.expert.mirror import check_mirror
 from qe.expert.roots_by_signs import check_roots_by_signs
-from qe.expert.roots_counted import check_roots_counted
 from qe.expert.rotation import check_rotation
 from qe.kernel.step import Check
 
@@ -17,8 +15,6 @@ EXPERT: Mapping[str, Check] = {
     "comprehensive Gröbner system": check_counted_solutions,
     "critical values": check_critical_values,
     "critical values of a universal block": check_critical_universal,
-    "mirror images of a convex set": check_mirror,  # of those that no elaborator makes of the kernel's steps
     "roots by signs": check_roots_by_signs,
-    "roots counted": check_roots_counted,
     "rotation of the axes": check_rotation,
 }

@@ -3,7 +3,7 @@
 THEOREM. Let r be the k-th smallest of the distinct real roots of p in x, p not identically zero there. Then x > r iff
 at least k roots are < x, and x >= r iff at least k roots are <= x; x < r and x <= r are the negations of these among
 the points over which p has at least k roots. From the largest root down (k < 0) the same holds with > for <.
-At least m roots with a property: there are t_1 < ... < t_m that are roots with it.
+At least m roots with a property: there are t_1 < ... < t_m that are roots with it. No name is bound twice for one atom.
 """
 
 from __future__ import annotations
@@ -22,37 +22,36 @@ def without_root_atoms(formula: Formula) -> Formula:
         return formula
     root_atoms = [a for a in atoms(formula) if isinstance(a, RootAtom)]
     ring = root_atoms[0].poly.ring
-    free = (name for k in range(ring.size + max(abs(a.k) for a in root_atoms)) if (name := f"t_{k}") not in ring.index)
-    roots = [name for name, _ in zip(free, range(max(abs(a.k) for a in root_atoms)), strict=False)]
+    most = 3 * max(abs(a.k) for a in root_atoms)
+    free = (name for k in range(ring.size + most) if (name := f"t_{k}") not in ring.index)
+    roots = [name for name, _ in zip(free, range(most), strict=False)]
     extended = Ring.of((*ring.names, *roots))
 
     def counted(leaf: Atomic) -> Formula:
-        return _counted(leaf, roots[: abs(leaf.k)]) if isinstance(leaf, RootAtom) else leaf
+        return counted_roots(leaf, roots) if isinstance(leaf, RootAtom) else leaf
 
     return map_atoms(convert(formula, extended), counted)
 
 
-def _counted(atomic: RootAtom, names: list[str]) -> Formula:
-    """The root atom by numbers of roots; ``names``: as many as the roots that are counted."""
-    poly, ring = atomic.poly, atomic.poly.ring
-    x = ring.index[atomic.variable]
-    up = atomic.k > 0
+def counted_roots(root: RootAtom, names: list[str]) -> Formula:
+    """The root atom by numbers of roots; ``names``: at most three for each root that is counted."""
+    poly, ring = root.poly, root.poly.ring
+    x, count, spare = ring.index[root.variable], abs(root.k), [ring.index[n] for n in names]
 
     def at_least(relation: Relation | None) -> Formula:
-        return _at_least(poly, x, [ring.index[n] for n in names], relation)
+        roots = [spare.pop(0) for _ in range(count)]
+        return _at_least(poly, x, roots, relation)
 
-    strictly, weakly = (Relation.LT, Relation.LE) if up else (Relation.GT, Relation.GE)
-    past, reached = at_least(strictly), at_least(weakly)  # x lies beyond the root; beyond it or on it
-    enough = at_least(None)
-    before, not_past = conj((enough, neg(reached))), conj((enough, neg(past)))
-    truth = {
-        strictly.flipped: past,
-        weakly.flipped: reached,
-        strictly: before,
-        weakly: not_past,
-        Relation.EQ: conj((reached, neg(past))),
-        Relation.NE: disj((past, before)),
-    }[atomic.relation]
+    strictly, weakly = (Relation.LT, Relation.LE) if root.k > 0 else (Relation.GT, Relation.GE)
+    if root.relation in (strictly.flipped, weakly.flipped):  # x lies beyond the root, or on it
+        truth = at_least(root.relation.flipped)
+    elif root.relation is Relation.EQ:
+        truth = conj((at_least(weakly), neg(at_least(strictly))))
+    else:
+        missed = strictly if root.relation is weakly else weakly
+        truth = conj((at_least(None), neg(at_least(missed))))
+        if root.relation is Relation.NE:
+            truth = disj((at_least(strictly), truth))
     return conj((truth, disj(atom(c, Relation.NE) for c in poly.coefficients(x))))
 
 

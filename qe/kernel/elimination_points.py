@@ -8,14 +8,13 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms, conjuncts, disjuncts
-from qe.kernel.cubic_root import SOME, asks_one, existence
 from qe.kernel.turning_points import vanishing
 from qe.kernel.virtual_substitution import TestPoint, put
 from qe.proof.entry import Entry, formula_from_json
 
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
 
-BRANCHES = {0: (0,), 2: (0,), 3: (-1, 1), 4: (0, 1, 2, 3, SOME)}
+BRANCHES = {0: (0,), 2: (0,), 3: (-1, 1)}
 """The roots that are told apart, by the number of coefficients."""
 
 
@@ -68,8 +67,6 @@ def _tried(entry: Entry, body: Formula, x: int, ring: Ring) -> Tried:
     _check_implication(found, body, x, formula)
     if where is not None and not is_real(where, conj((condition, *conjuncts(kept)))):
         raise guard.fail("the point may be none here")
-    if where is not None and _is_any(where) and not asks_one(kept, x, where.coefficients):
-        raise formula.fail("asks more than one thing of a root that may be any of three")
     strict = all(isinstance(s, Atom) and s.relation.is_strict and s in conjuncts(kept) for s in found.settled)
     if found.settled and (not strict or where is None or not where.coefficients or not where.shift):
         raise settled.fail("expected strict conjuncts of the formula, for a point next to a root")
@@ -80,18 +77,14 @@ def _point(entry: Entry, x: int, ring: Ring) -> TestPoint:
     coefficients, branch, shift = entry.fields("coefficients", "branch", "shift")
     parts = tuple(c.polynomial(ring) for c in coefficients.items())
     b, s = branch.integer(-1), shift.integer(-1)
-    if len(parts) not in (0, 2, 3, 4) or any(p.degree(x) for p in parts):
-        raise coefficients.fail("expected two to four polynomials in the other variables, or none")
+    if len(parts) not in BRANCHES or any(p.degree(x) for p in parts):
+        raise coefficients.fail("expected two or three polynomials in the other variables, or none")
     if b not in BRANCHES[len(parts)]:
-        raise branch.fail("expected 1 or -1 for a root of a quadratic, 0 to 4 for one of a cubic, 0 otherwise")
+        raise branch.fail("expected 1 or -1 for a root of a quadratic, 0 otherwise")
     point = TestPoint(parts, b, s)
-    if s > 1 or (not parts and not s) or (s and _is_any(point)):
-        raise shift.fail("expected -1, 0 or 1, not 0 for infinity, and 0 for any root of a cubic")
+    if s > 1 or (not parts and not s):
+        raise shift.fail("expected -1, 0 or 1, not 0 for infinity")
     return point
-
-
-def _is_any(point: TestPoint) -> bool:
-    return len(point.coefficients) == 4 and point.branch == SOME
 
 
 def is_free_of(formula: Formula, x: int) -> bool:
@@ -109,11 +102,8 @@ def is_real(point: TestPoint, known: Formula) -> bool:
         return False
     if len(point.coefficients) == 2:
         return True
-    if len(point.coefficients) == 4:
-        real = existence(point.coefficients, point.branch)
-    else:
-        c, b, a = point.coefficients
-        real = atom(b * b - 4 * (a * c), GE)
+    c, b, a = point.coefficients
+    real = atom(b * b - 4 * (a * c), GE)
     return real == TRUE or real in members
 
 

@@ -5,7 +5,7 @@ in their order, each with ``point``, ``guard``, ``formula`` (null: the whole), `
 the steps from (exists the other variables. guard and formula at the point) on. The claim is that exists x, ... F is
 equivalent to the disjunction of the formulas to which these steps lead.
 
-THEOREM. Let F be an and/or combination of atoms with factors of degree at most 3 in x. The disjunction implies exists
+THEOREM. Let F be an and/or combination of atoms with factors of degree at most 2 in x. The disjunction implies exists
 x. F, because every guard makes its point real, every formula implies F, and strict atoms that hold at a root hold
 next to it (``settled``). It is implied by exists x. F, if for s = 1 (for s = -1 in the mirror)
 * -oo is a point, with a guard that holds where F can hold there, and

@@ -1,25 +1,48 @@
-"""Rule "open block": where the solutions form an open set, equations that hold nowhere inside it are left out.
+"""Primitive "open": polynomials that vanish nowhere inside an open set. Steps are called "open block", and "inequations
+that remove no interior".
 
-THEOREM. Let every atom of F with a variable of v or x be <, > or /=, in an and/or combination. Then T = {v: ex x F}
-is open for all values of the parameters. Let T be the union of the sets of F1, ..., Fk, and Fi' be Fi with "p
-vanishes identically in v" for p = 0, and that or p < 0 for p <= 0, in and/or combinations. Then ex v, x F iff ex v
-F1' or ... or ex v Fk'. Proof. Fi' implies Fi. A point of T outside all Fi' lies on the zeros of a polynomial that
-does not vanish identically; finitely many such sets contain no nonempty open set. (Some Fi may be left as they are.)
+THEOREM. A nonempty open set does not lie in the zeros of finitely many polynomials that are not the zero polynomial.
+Let every comparison of f that has variables of a block v be <, > or /=, under conjunctions and disjunctions only: its
+solutions are an open set T, for all values of the parameters, and so is the set of those v for which ex x f.
+(Inequations.) ex v (f and p_1 /= 0 and ...) iff ex v (f and, for each i, some coefficient of p_i in v is not 0).
+(Open block.) Let ex x f iff F1 or ... or Fk, and let Fi' be Fi with "p vanishes identically in v" for p = 0, and that
+or p < 0 for p <= 0, in and/or combinations. Then ex v, x f iff ex v F1' or ... or ex v Fk'. Proof. Fi' implies Fi. A
+point of T outside all Fi' lies on the zeros of a polynomial that does not vanish identically. (Some Fi may be left as
+they are.)
 
-Evidence: ``variable`` x, ``steps`` from ex x F to F1 or ... or Fk, ``pieces`` F1, ..., Fk, and ``parts``: for each
-the steps from ex v Fi' on. The claim is the disjunction of what they lead to.
+Evidence of an open block: ``variable`` x, ``steps`` from ex x F to F1 or ... or Fk, ``pieces`` F1, ..., Fk, and
+``parts``: for each the steps from ex v Fi' on. The claim is the disjunction of what they lead to.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
-from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import And, Atom, Atomic, Constant, Formula, Or, Relation
-from qe.formula.traverse import map_atoms
+from qe.formula.build import atom, conj, disj, exists
+from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, Formula, Or, Relation
+from qe.formula.traverse import conjuncts, map_atoms
 from qe.kernel.elimination_set import block_of, check_parts
 from qe.kernel.step import Claim, Context, Limits, only, outside
 from qe.proof.entry import formula_from_json
+
+
+def check_inequations(claim: Claim, context: Context, limits: Limits) -> None:
+    """The conditions on coefficients take the place of the inequations."""
+    only(claim)
+    block = claim.block()
+    if not shows_open(block.body, block.variables):
+        raise claim.fail("the solutions need not form an open set")
+    if claim.after != exists(block.variables, generic(block)):
+        raise claim.fail("not what the theorem gives")
+
+
+def generic(block: Exists) -> Formula:
+    """The body with conditions on coefficients, behind the others, for the inequations with the block's variables."""
+    names, parts = set(block.variables), conjuncts(block.body)
+    removed = [p for p in parts if isinstance(p, Atom) and p.relation is Relation.NE and names & set(p.free)]
+    indices = frozenset(i for p in removed for i in p.poly.variables if p.poly.ring.names[i] in names)
+    conditions = [disj(atom(c, Relation.NE) for c in p.poly.coefficients_in(indices)) for p in removed]
+    return conj((*(p for p in parts if p not in removed), *conditions))
 
 
 def check_open_block(claim: Claim, context: Context, limits: Limits) -> None:
@@ -39,7 +62,7 @@ def check_open_block(claim: Claim, context: Context, limits: Limits) -> None:
 def shows_open(formula: Formula, names: Collection[str]) -> bool:
     """Whether the syntax shows that the solutions in these variables form an open set."""
     if not set(names) & set(formula.free):
-        return formula.is_quantifier_free
+        return True
     match formula:
         case Atom(_, relation):
             return relation.is_strict

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 
 from qe.kernel.block import check_block
 from qe.kernel.elimination_set import check_elimination_set
-from qe.kernel.inequations import check_inequations, check_only_nonzero
 from qe.kernel.linear_equation import check_guarded_linear, check_linear
 from qe.kernel.nested import check_converse, check_no_exception, check_steps
-from qe.kernel.open_block import check_open_block
+from qe.kernel.open_block import check_inequations, check_open_block
 from qe.kernel.quantifiers import check_quantifiers
 from qe.kernel.root import check_root
 from qe.kernel.sentence import check_sentence
@@ -53,6 +52,4 @@ PRIMITIVES: Mapping[str, Check] = {
     "open block": check_open_block,
     # theorems
     "theorem": check_theorem,
-    # nothing makes this any more; older certificates have it
-    "only asked to be no root": check_only_nonzero,
 }

@@ -12,7 +12,7 @@ from qe.formula.traverse import disjuncts
 from qe.kernel.elimination_points import Tried, implies, is_free_of
 from qe.kernel.step import Limits
 from qe.kernel.turning_points import Turn, inside, turns, vanishing
-from qe.kernel.virtual_substitution import TestPoint, whichever
+from qe.kernel.virtual_substitution import TestPoint
 
 Around = tuple[Formula, ...]
 NONE: frozenset[Poly] = frozenset()
@@ -55,8 +55,7 @@ class Cover:
 
     def there(self, point: TestPoint | None) -> list[int]:
         """The numbers of the points at a place (None: where all x stay quantified)."""
-        any_root = None if point is None else whichever(point)
-        return self._by_point.get(point, []) + (self._by_point.get(any_root, []) if any_root else [])
+        return self._by_point.get(point, [])
 
     def kept(self, under: Around) -> list[Met] | None:
         """Where these conditions hold, the problem itself is kept as one of the points."""

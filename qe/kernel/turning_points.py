@@ -3,13 +3,11 @@
 THEOREM. Fix the parameters, and let p*rel*0 be true at a place of the line (a point, or the points just right of one)
 and false just before it. Then p is not identically 0 and the place is at a root e of p: the root itself for =, <=, >=
 (which hold where p = 0), the points just right of it for <, >, /= (which do not). For p = q*f^m with q free of x, m
-odd, f of degree 1 to 3 in x: if e is a simple root of f, then p changes its sign there, so it rises (p > 0, p >= 0)
+odd, f of degree 1 or 2 in x: if e is a simple root of f, then p changes its sign there, so it rises (p > 0, p >= 0)
 or falls (p < 0, p <= 0) at e; f = a*x + b rises iff a > 0, and f = a*x^2 + b*x + c, a /= 0, rises at the root with
 branch 1 and falls at the one with branch -1. If e is a double root, both branches are e. So the conditions on the
-sign of q below keep a point for e in each case. A cubic f with a > 0 and one real root rises there; with the roots x1
-<= x2 <= x3 it is negative before x1, not between x1 and x2, not positive between x2 and x3, and positive after x3. So
-it can turn from < 0 to >= 0, and from <= 0 to > 0, at x1 and x3 only, from > 0 to <= 0, and from >= 0 to < 0, at x2
-only. For a < 0 take -f. Going left, rising and falling change places. (Loos & Weispfenning 1993.)
+sign of q below keep a point for e in each case. Going left, rising and falling change places. (Loos & Weispfenning
+1993.)
 """
 
 from __future__ import annotations
@@ -21,7 +19,6 @@ from qe.errors import CertificateRejected
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, Atom, Formula, Relation
-from qe.kernel.cubic_root import existence
 from qe.kernel.virtual_substitution import TestPoint
 
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
@@ -58,9 +55,9 @@ def inside(p: Poly, x: int) -> list[tuple[Poly, int]]:
 
 
 def turns(given: Atom, x: int, side: int) -> list[Turn] | None:
-    """Where the atom can turn true, going right (``side`` 1) or left (-1); None if a factor's degree exceeds 3."""
+    """Where the atom can turn true, going right (``side`` 1) or left (-1); None if a factor's degree exceeds 2."""
     parts = inside(given.poly, x)
-    if any(f.degree(x) > 3 for f, _ in parts):
+    if any(f.degree(x) > 2 for f, _ in parts):
         return None
     relation = given.relation
     shift = side if relation.is_strict else 0
@@ -74,20 +71,10 @@ def turns(given: Atom, x: int, side: int) -> list[Turn] | None:
 def _of_factor(f: Poly, x: int, shift: int, content: Poly | None, rising: int) -> Iterator[Turn]:
     """By the degree that is left where the coefficients above it vanish."""
     coefficients = f.coefficients(x)
-    for degree, of_degree in ((3, _cubic), (2, _quadratic), (1, _linear)):
+    for degree, of_degree in ((2, _quadratic), (1, _linear)):
         if degree < len(coefficients) and coefficients[degree]:
             flat = tuple(atom(c, EQ) for c in coefficients[degree + 1 :])
             yield from of_degree(coefficients[: degree + 1], shift, content, rising, flat)
-
-
-def _cubic(
-    coefficients: tuple[Poly, ...], shift: int, content: Poly | None, rising: int, given: tuple[Formula, ...]
-) -> Iterator[Turn]:
-    a = coefficients[3]
-    for index in range(4):
-        at = -rising if index == 2 else rising
-        there = atom(a, NE) if content is None else atom(content * a, GT if at > 0 else LT)
-        yield from _if_possible(TestPoint(coefficients, index, shift), (*given, there, existence(coefficients, index)))
 
 
 def _quadratic(

@@ -10,7 +10,6 @@ have degree n in x. Then ``f relation 0`` at t is equivalent to the formula made
   is that of A; if N < 0, that of B; if N = 0, |A| = |B|*r, and the sum is 0 or 2*A.)
 * Next to t (on the side e = 1 or -1) a polynomial that is not identically 0 is not 0: f = 0 iff all coefficients are
   0; f < 0 iff f(t) < 0, or f(t) = 0 and e*f' < 0 there. Near infinity the first coefficient decides that is not 0.
-* Roots of cubics: see ``cubic_root``.
 Loos & Weispfenning 1993; Weispfenning 1997.
 """
 
@@ -23,7 +22,6 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Atom, Atomic, Formula, Relation
 from qe.formula.traverse import map_atoms
-from qe.kernel.cubic_root import SOME, at_root
 from qe.kernel.limits import check_power
 
 EQ, NE, LT, LE, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.LE, Relation.GT, Relation.GE
@@ -33,8 +31,6 @@ EQ, NE, LT, LE, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.LE, Rel
 class TestPoint:
     """``coefficients`` from degree 0 up: one of its own (infinity: none), ``branch`` 1 or -1 for a quadratic.
 
-    For a cubic ``branch`` is the number of the root (0: the only one; 4: whichever of three).
-
     ``shift``: 0 for the root itself, 1 or -1 for a point right or left of it; for infinity its sign.
     """
 
@@ -43,13 +39,6 @@ class TestPoint:
     coefficients: tuple[Poly, ...]
     branch: int
     shift: int
-
-
-def whichever(point: TestPoint) -> TestPoint | None:
-    """The point that stands for any of the three roots of a cubic, if the point is one of these."""
-    if len(point.coefficients) < 4 or point.branch in (0, SOME) or point.shift:
-        return None
-    return TestPoint(point.coefficients, SOME, 0)
 
 
 def put(formula: Formula, x: int, point: TestPoint, settled: Collection[Formula] = ()) -> Formula:
@@ -103,8 +92,6 @@ def _at(f: Poly, relation: Relation, x: int, point: TestPoint) -> Formula:
         return atom(f, relation)
     if len(point.coefficients) == 2:
         return _at_quotient(f.coefficients(x), relation, point)
-    if len(point.coefficients) == 4:
-        return at_root(f, relation, x, point.coefficients, point.branch)
     return _at_quadratic(list(f.coefficients(x)), relation, point)
 
 

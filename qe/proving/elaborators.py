@@ -24,6 +24,7 @@ from qe.kernel.boolean import Goal, equivalence
 from qe.kernel.derivation import replaced
 from qe.kernel.linear_equation import term
 from qe.kernel.negation import normal
+from qe.kernel.open_block import generic
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.terms import Quotient, at_terms, terms_goals
@@ -32,6 +33,7 @@ from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.along import constant_along
 from qe.proving.apart import alternatives, independent_parts
+from qe.proving.counted_roots import roots_counted
 from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
@@ -39,7 +41,7 @@ from qe.proving.lemmas import refuting
 from qe.proving.made import FRESH, Made, solved
 from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
-from qe.proving.shifts import elimination_set, lower, shifted
+from qe.proving.shifts import OPEN, elimination_set, lower, shifted
 from qe.proving.simplified import Simplified
 from qe.proving.thin import degenerate_truth_set
 from qe.rules.closed_forms import matches
@@ -412,6 +414,21 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [simplified(claim.before, claim.after, (), claim, limits)]
 
 
+def only_nonzero(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A block of which nothing is asked but that polynomials are not 0: what is left says nothing of its variables."""
+    only(claim, optional=("theory",))
+    before, after = existential(claim)
+    if not isinstance(before, Exists):
+        raise claim.fail("expected a block")
+    made, conditions = Made(claim, limits, before, context), generic(before)
+    if set(before.variables) & set(conditions.free):
+        raise claim.fail("more is asked of the variables of the block than that polynomials do not vanish")
+    made.step(OPEN, before, exists(before.variables, conditions), {})
+    made.moved(made.current, conditions)
+    made.simplified(conditions, after)
+    return made.finished(after)
+
+
 NAMING = frozenset(
     ("degree shift", "elimination set", "homogeneous scaling", "sphere seen along a form", "two variables exchanged")
 )
@@ -429,6 +446,8 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "value that is taken": value_taken,
     "redundant part": redundant,
     "constant": constant,
+    "roots counted": roots_counted,
+    "only asked to be no root": only_nonzero,
     "witness in the parameters": witness,
     "degenerate truth set": degenerate_truth_set,
     "degree shift": shifted,

@@ -8,18 +8,18 @@ from dataclasses import dataclass
 from qe.elimination.vs.points import CubicRoot, Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
 from qe.elimination.vs.radical_free import convex_family, lone_quadratic
 from qe.elimination.vs.trace import Attempt, Substituted, Trace
+from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.cubic_root import SOME, existence
 from qe.kernel.elimination_points import Tried, implies, is_real
 from qe.kernel.elimination_set import require_cover
 from qe.kernel.step import Limits
 from qe.kernel.turning_cover import Around, Cover, Met
 from qe.kernel.turning_points import Turn
-from qe.kernel.virtual_substitution import TestPoint, whichever
+from qe.kernel.virtual_substitution import TestPoint
 from qe.proof.derivation import moved
 from qe.proof.entry import Json, formula_to_json, poly_to_text
 from qe.proving.shifts import low
@@ -167,12 +167,9 @@ class _Needs(Cover):
         self._facts = [m for m in conjuncts(original) if name not in m.free]
 
     def meets(self, turn: Turn, formula: Formula, before: int | None = None) -> list[Met] | None:
-        any_root = whichever(turn.point)
         there = [
             k
-            for point in (turn.point, any_root)
-            if point is not None
-            for k in self._places.get(_one_sign(point), ())
+            for k in self._places.get(_one_sign(turn.point), ())
             if (before is None or k < before) and implies(formula, self.tried[k].formula)
         ]
         chosen = next((k for k in there if self._follows(turn, formula, k)), None)
@@ -185,7 +182,7 @@ class _Needs(Cover):
             chosen = next((k for k, under in with_guards if not self.is_impossible(under)), None)
             if chosen is None:
                 return None
-        self.points[chosen] = any_root if any_root and _is_any(self.tried[chosen].point) else turn.point
+        self.points[chosen] = turn.point
         return [(chosen, conj(turn.conditions))]
 
     def _follows(self, turn: Turn, formula: Formula, k: int) -> bool:
@@ -221,20 +218,15 @@ def _as_checked(point: SymbolicPoint, ring: Ring) -> TestPoint:
             return TestPoint((b.convert(ring), a.convert(ring)), 0, epsilon)
         case QuadraticRoot(a, b, c, branch, epsilon):
             return TestPoint((c.convert(ring), b.convert(ring), a.convert(ring)), branch, epsilon)
-        case CubicRoot(coefficients, index, epsilon):
-            return TestPoint(tuple(c.convert(ring) for c in coefficients), index, epsilon)
+        case CubicRoot():
+            raise CertificateRejected("points", "the kernel has no test points at roots of cubics")
 
 
 def _one_sign(point: TestPoint) -> TestPoint:
     """The same point by a polynomial with a positive leading coefficient."""
     if not point.coefficients or point.coefficients[-1].normal()[0] > 0:
         return point
-    branch = point.branch if len(point.coefficients) == 4 else -point.branch
-    return TestPoint(tuple(-c for c in point.coefficients), branch, point.shift)
-
-
-def _is_any(point: TestPoint | None) -> bool:
-    return point is not None and len(point.coefficients) == 4 and point.branch == SOME
+    return TestPoint(tuple(-c for c in point.coefficients), -point.branch, point.shift)
 
 
 def _real(point: TestPoint) -> list[Formula]:
@@ -245,6 +237,4 @@ def _real(point: TestPoint) -> list[Formula]:
     if len(point.coefficients) == 3:
         c, b, a = point.coefficients
         found.append(atom(b * b - 4 * (a * c), Relation.GE))
-    if len(point.coefficients) == 4:
-        found.append(existence(point.coefficients, point.branch))
     return found

@@ -27,6 +27,7 @@ from qe.proving.made import FRESH
 from qe.proving.older_coverings import covering
 from qe.proving.primitive_names import BY_SIGNS, SIGNS
 from qe.proving.search import former_search
+from qe.proving.shifts import has_roots_of_cubics
 
 FORMER = {**ELABORATORS, "covering": covering}
 
@@ -80,7 +81,9 @@ def _without_cases(data: Json) -> Iterator[dict[str, Json]]:
 def _is_former_step(step: dict[str, Json]) -> bool:
     """Whether the evidence is not what the rule has today."""
     evidence, entry = step.get("evidence"), CHANGED.get(str(step.get("rule")))
-    return entry is None or (isinstance(evidence, dict) and entry in evidence)
+    if entry is None or not isinstance(evidence, dict):
+        return entry is None
+    return entry in evidence or (step.get("rule") == "elimination set" and has_roots_of_cubics(evidence))
 
 
 CHANGED = {"elimination set": "exponent", "covering": "line"}

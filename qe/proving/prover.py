@@ -61,6 +61,7 @@ ELABORATED = (
     "degree shift",
     "infinity first",
     "linear form named",
+    "roots counted",
     "ranges that exclude each other",
     "mirror images of a convex set",
     "disjuncts with equations apart",

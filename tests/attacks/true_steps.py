@@ -181,7 +181,9 @@ def former_step(rng: random.Random, rule: str) -> TrueStep:
 
 
 def _of_parts(rule: str, after: Formula) -> Json:
-    """The evidence that a block falls into those after, with no steps of theirs."""
+    """The evidence that a block falls into those after, with no steps of theirs; nothing for another rule."""
+    if rule not in ("alternatives", "independent parts"):
+        return {}
     blocks = [f.body for f in (*conjuncts(after), *disjuncts(after)) if isinstance(f, Exists)]
     bodies: list[Json] = [formula_to_json(body, quantified=True) for body in blocks]
     if rule == "alternatives":

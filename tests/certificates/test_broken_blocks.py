@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -127,8 +128,8 @@ def never_zero(m: pytest.MonkeyPatch) -> None:
 
 def one_root_fewer(m: pytest.MonkeyPatch) -> None:
     """Too few roots are counted."""
-    counted = counting._counted
-    m.setattr(counting, "_counted", lambda found, names: counted(found, names[:1]))
+    counted = counting.counted_roots
+    m.setattr(counting, "counted_roots", lambda found, names: counted(replace(found, k=1), names))
 
 
 def no_exception(m: pytest.MonkeyPatch) -> None:

@@ -204,7 +204,6 @@ def test_a_coefficient_that_conjuncts_with_the_variable_keep_from_zero() -> None
 @pytest.mark.parametrize(
     ("rule", "before", "right", "wrong"),
     [
-        ("only asked to be no root", "ex x. a*x + b /= 0 and x /= c", "a /= 0 or b /= 0", "a /= 0"),
         (
             "vanishing sum of squares split",
             "ex x, y. x^2 + (x - y)^2 = 0 and x + y > a",

@@ -83,7 +83,6 @@ ELSEWHERE = {
     "critical values of a universal block": "certificates/test_critical_universal",
     "covering": "certificates/test_covering",
     "comprehensive Gröbner system": "certificates/test_counted_solutions",
-    "mirror images of a convex set": "unit/expert/test_mirror",
     "point or multipliers": "certificates/test_derivation_rejected",
 }
 """Rules whose evidence is altered in a file of its own."""
@@ -91,12 +90,9 @@ ELSEWHERE = {
 OTHERWISE = {"cells", "convex", "critical values", "shorter", "steps", "virtual substitution"}
 """Rules whose evidence has tests of its own."""
 
-FORMER = {"only asked to be no root"}
-"""Rules of older certificates, which nothing makes any more: see ``test_broken_producers``."""
-
 
 def test_every_rule_is_in_a_case_that_is_altered() -> None:
-    assert {rule for text in CASES.values() for rule in rules(text)} | set(ELSEWHERE) | FORMER == set(RULES)
+    assert {rule for text in CASES.values() for rule in rules(text)} | set(ELSEWHERE) == set(RULES)
     for name in ELSEWHERE.values():
         assert (Path(__file__).parents[1] / f"{name}.py").exists()
 

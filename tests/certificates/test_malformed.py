@@ -29,7 +29,7 @@ from tests.certificates.altered_derivations import steps
 from tests.certificates.derivations import CASES, data
 from tests.certificates.false_claims import Data, text_of
 from tests.unit.certify import test_parts
-from tests.unit.certify.claims import RING, step
+from tests.unit.certify.claims import step
 
 Path = tuple[str | int, ...]
 
@@ -53,12 +53,6 @@ OTHERS = [
     ("ex y, z. y^2 + z^2 <= 0 and y*z - x = 0", "auto"),
 ]
 """Questions for rules that those of ``derivations`` do not need, with the method."""
-
-BY_HAND = [
-    step("mirror images of a convex set", "ex x. x < a and -x < a", "0 < a", {"mirror": [["x", "x", -1]]}),
-    step("only asked to be no root", "ex x. a*x + b /= 0", "a /= 0 or b /= 0"),
-]
-
 
 # --- certificates ------------------------------------------------------------------------------------------
 def of_kinds() -> Iterator[Data]:
@@ -84,7 +78,7 @@ def by_rule() -> dict[str, list[tuple[list[str], Data]]]:
         certificate = qe.eliminate(text, method=method, check=True, process=False).certificate
         assert certificate is not None, text
         whole.append(json.loads(certificate.to_json()))
-    listed = [(list(RING.names), made) for made in BY_HAND]
+    listed: list[tuple[list[str], Data]] = []
     listed += [(one["payload"]["order"], made) for one in whole for made in steps(one["payload"])]
     for order, made in listed:
         if len(json.dumps(made)) < 12_000:

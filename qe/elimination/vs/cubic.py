@@ -17,8 +17,8 @@ same rule says when one of them is negative, from their symmetric values S1, S2,
 Each condition in a line implies that g(xk) is at most the value of that rank, and for one of the lines it is this
 value; so g(xk) < 0 iff some line holds whose value is < 0, and so with <=.
 
-Weispfenning 1994 and Kosta 2016 tell the real types of f apart and have formulas for each; here two cases suffice. The
-checker has a form of its own (``qe.kernel.cubic_root``), and tests prove both by decomposition.
+Weispfenning 1994 and Kosta 2016 tell the real types of f apart and have formulas for each; here two cases suffice.
+Tests prove the table by decomposition.
 """
 
 from __future__ import annotations

@@ -47,7 +47,7 @@ def cases(before: str, after: str) -> dict[str, Any]:
         ("x > y and (x = a or y > 1)", False),
         ("a >= 0 and b = 0", True),  # nothing is said of x and y
         ("not (x > root(1, x^2 - a))", False),
-        ("a > 0 and (ex z. z^2 = b)", False),
+        ("a > 0 and (ex z. z^2 = b)", True),
         ("ex z. z^2 = x", False),
         ("x > root(1, x^2 - a)", False),
     ],

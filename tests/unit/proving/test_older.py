@@ -67,3 +67,18 @@ def test_its_conflicts_are_refuted_in_the_language_of_today() -> None:
     squares = {"rule": "signs", "at": [], "before": written("ex x. x > 0 and x < 0"), "after": False, "context": []}
     both = {"atoms": [written("x > 0"), written("x < 0")], "steps": [{**squares, "evidence": BARE}]}
     assert verdict("Boolean search", "ex x. x > 0 and x < 0", "false", {"refuted": [both], "learnt": []}).accepted
+
+
+def root(*coefficients: str) -> Any:
+    point = {"coefficients": [*coefficients], "branch": 1, "shift": 0}
+    return {"point": point, "guard": True, "formula": None, "settled": []}
+
+
+@pytest.mark.parametrize("more", [{}, {"exponent": 1}])
+def test_test_points_at_roots_of_cubics_become_a_decomposition(more: dict[str, Any]) -> None:
+    """The kernel knew a table of what holds at such roots; of the old evidence only that it has them is looked at."""
+    points = [root("b", "a", "0", "1")]
+    evidence = {"variable": "x", "side": 1, "quadratics": [], "points": points, "parts": [[]], **more}
+    block = "ex x. x^3 + a*x + b = 0 and x > 0"
+    assert verdict("elimination set", block, "b < 0 or a < 0 and 4*a^3 + 27*b^2 <= 0", evidence).accepted
+    assert not verdict("elimination set", block, "b < 0 or a < 0 and 4*a^3 + 27*b^2 < 0", evidence).accepted

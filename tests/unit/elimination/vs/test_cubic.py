@@ -1,9 +1,9 @@
-"""Sign conditions at roots of cubics against the roots themselves, for the engine's table and for the checker's."""
+"""Sign conditions at roots of cubics against the roots themselves."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product
 
@@ -22,29 +22,17 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import atoms
 from qe.io.text import read
-from qe.kernel.cubic_root import asks_one as checker_asks_one
-from qe.kernel.cubic_root import at_root
-from qe.kernel.cubic_root import discriminant as checker_discriminant
 from qe.options import Budget
 from qe.simplify.simplify import simplify
 from tests.unit.elimination.vs.line import satisfiable, specialise
 
 RING = Ring.of(("q", "u", "v", "w", "x"))
 X = RING.gen(4)
-Table = Callable[[Poly, Relation, Poly, int], Formula]  # g, its relation to 0, the cubic, which root
 
 
-def by_engine(g: Poly, relation: Relation, f: Poly, index: int) -> Formula:
+def table(g: Poly, relation: Relation, f: Poly, index: int) -> Formula:
     x = g.ring.index["x"]
     return at_cubic(g, x, relation, CubicRoot(f.coefficients(x), index), None, atom)  # type: ignore[arg-type]
-
-
-def by_checker(g: Poly, relation: Relation, f: Poly, index: int) -> Formula:
-    x = g.ring.index["x"]
-    return at_root(g, relation, x, f.coefficients(x), index)
-
-
-TABLES = pytest.mark.parametrize("table", [by_engine, by_checker])
 
 
 def polynomial(*coefficients: int) -> Poly:
@@ -70,9 +58,8 @@ def sign(number: int) -> int:
     return (number > 0) - (number < 0)
 
 
-@TABLES
 @pytest.mark.parametrize("roots", ROOTS)
-def test_three_real_roots(table: Table, roots: tuple[int, int, int]) -> None:
+def test_three_real_roots(roots: tuple[int, int, int]) -> None:
     for lead in (1, -2):
         f = lead * (X - roots[0]) * (X - roots[1]) * (X - roots[2])
         slope = slope_of(f)
@@ -88,9 +75,8 @@ def slope_of(f: Poly) -> tuple[int, ...]:
     return tuple(int(c.constant_value()) for c in f.derivative(4).coefficients(4))
 
 
-@TABLES
 @pytest.mark.parametrize("roots", ROOTS)
-def test_factors_that_may_vanish(table: Table, roots: tuple[int, int, int]) -> None:
+def test_factors_that_may_vanish(roots: tuple[int, int, int]) -> None:
     """A multiple q*f' of the derivative was said not to be 0 at a simple root, for q = 0, too."""
     q, lead = RING.gen(0), RING.gen(1)
     f = (X - roots[0]) * (X - roots[1]) * (X - roots[2])
@@ -103,9 +89,8 @@ def test_factors_that_may_vanish(table: Table, roots: tuple[int, int, int]) -> N
                 assert found is (any(at) if index == SOME else at[index - 1]), (g, relation, index, here, a)
 
 
-@TABLES
 @pytest.mark.parametrize("lead", [1, -3])
-def test_one_real_root(table: Table, lead: int) -> None:
+def test_one_real_root(lead: int) -> None:
     for real, middle, square in ((-1, 0, 1), (0, 1, 2), (2, 2, 1), (1, -1, 1)):
         quadratic = (X - middle) ** 2 + square
         f = lead * (X - real) * quadratic
@@ -119,10 +104,9 @@ def test_one_real_root(table: Table, lead: int) -> None:
 LETTERS = Ring.of(("a", "b", "c", "d", "u", "v", "w", "x"))
 
 
-@TABLES
 @pytest.mark.parametrize("text", ["u*x^2 + v*x + w = 0", "v*x^4 - x + u*w = 0", "u*(3*a*x^2 + 2*b*x + c) = 0"])
 @pytest.mark.parametrize("relation", Relation)
-def test_all_coefficients_as_letters(table: Table, text: str, relation: Relation) -> None:
+def test_all_coefficients_as_letters(text: str, relation: Relation) -> None:
     """The formulas with letters, at numbers for them, against the value at the root."""
     f, g = (convert(read(t), LETTERS).poly for t in ("a*x^3 + b*x^2 + c*x + d = 0", text))  # type: ignore[union-attr]
     formulas = [table(g, relation, f, index) for index in range(5)]
@@ -153,9 +137,8 @@ CASES = [
 any g is one of these (or f = x^3) up to a translation, positive factors of x and g, and the mirror (x3 becomes x1)."""
 
 
-@TABLES
 @pytest.mark.parametrize(("square", "p", "q", "relation"), CASES)
-def test_decomposition_proves_the_table(table: Table, square: int | None, p: int, q: Poly, relation: Relation) -> None:
+def test_decomposition_proves_the_table(square: int | None, p: int, q: Poly, relation: Relation) -> None:
     """There are no cubic and no quadratic polynomial for which the formula and the value at the root differ."""
     u = RING.gen(1) if square is None else RING.constant(square)
     v, w = RING.gen(2), RING.gen(3)
@@ -165,11 +148,6 @@ def test_decomposition_proves_the_table(table: Table, square: int | None, p: int
         differ = disj((conj((formula, nnf(neg(truth)))), conj((truth, nnf(neg(formula))))))
         question = exists(("q", "u", "v", "w"), conj((atom(q, Relation.GE), differ)))
         assert qe.decide(question, without="cubic") is False
-
-
-def test_the_two_discriminants_are_one() -> None:
-    c = tuple(RING.gen(k) for k in range(4))
-    assert CubicRoot(c, 0).discriminant == checker_discriminant(c)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -190,7 +168,6 @@ def test_what_asks_one_thing_of_a_root(text: str, expected: bool) -> None:
     f = X**3 - RING.gen(2) * X - RING.gen(3)
     for part in (conj(body),):
         assert asks_one(part, 4, CubicRoot(f.coefficients(4), SOME)) is expected  # type: ignore[arg-type]
-        assert checker_asks_one(part, 4, f.coefficients(4)) is expected
 
 
 BLOCKS = [
