@@ -212,7 +212,7 @@ def test_every_entry_may_be_anything() -> None:
     kinds = {name.lower() for name in Kind.__annotations__ if name.isupper()} - {"derivation"}
     brought = {point.name for point in entry_points(group=GROUP)}
     assert set(offered) - brought == {*RULES, *kinds}
-    assert said["rejected"] > 200 and said["accepted"]
+    assert said["rejected"] > 180 and said["accepted"]
 
 
 @pytest.mark.deep
