@@ -123,16 +123,12 @@ def root_atom(variable: str, relation: Relation, poly: Poly, k: int) -> Formula:
 def map_children(formula: Formula, change: Callable[[Formula], Formula]) -> Formula:
     """The formula with every direct subformula changed; what has none stays the node."""
     match formula:
-        case And(args):
-            return conj(map(change, args))
-        case Or(args):
-            return disj(map(change, args))
+        case And(args) | Or(args):
+            return (conj if isinstance(formula, And) else disj)(map(change, args))
         case Not(arg):
             return neg(change(arg))
-        case Exists(variables, body):
-            return exists(variables, change(body))
-        case ForAll(variables, body):
-            return forall(variables, change(body))
+        case Exists(variables, body) | ForAll(variables, body):
+            return (exists if isinstance(formula, Exists) else forall)(variables, change(body))
         case Constant() | Atom() | RootAtom():
             return formula
         case _:
@@ -141,13 +137,9 @@ def map_children(formula: Formula, change: Callable[[Formula], Formula]) -> Form
 
 def with_polynomial(atomic: Atomic, poly: Poly) -> Formula:
     """The atom with another polynomial, normalised."""
-    match atomic:
-        case Atom(_, relation):
-            return atom(poly, relation)
-        case RootAtom(variable, relation, _, k):
-            return root_atom(variable, relation, poly, k)
-        case _:
-            assert_never(atomic)
+    if isinstance(atomic, Atom):
+        return atom(poly, atomic.relation)
+    return root_atom(atomic.variable, atomic.relation, poly, atomic.k)
 
 
 def convert(formula: Formula, ring: Ring) -> Formula:

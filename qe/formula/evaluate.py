@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from typing import assert_never
 
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly
 from qe.formula.build import atom
-from qe.formula.syntax import And, Atom, Atomic, Constant, Formula, Not, Or, RootAtom
+from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
 from qe.formula.traverse import map_atoms, ring_of
 from qe.truth import Truth, conjunction, disjunction, negation
 
@@ -75,7 +76,10 @@ def truth_under(formula: Formula, sign: SignOracle, root: RootOracle | None = No
             return negation(truth_under(arg, sign, root))
         case Constant(value):
             return value
-    return None
+        case Exists() | ForAll():
+            return None
+        case _:
+            assert_never(formula)
 
 
 def _root_holds(atom: RootAtom, values: Sequence[Fraction]) -> bool:

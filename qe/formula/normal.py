@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from enum import StrEnum
+from typing import assert_never
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, map_children, neg, root_atom
@@ -124,8 +125,11 @@ class _Renaming:
                 quantify = exists if isinstance(formula, Exists) else forall
                 inner = self.apply(body, names, {**scope, **{old: new for old, new in bound if new}})
                 return quantify([new for _, new in bound if new], inner)
-        parts = [self.apply(part, names, scope) for part in children(formula)][::-1]  # all, as each takes its names
-        return map_children(formula, lambda part: parts.pop())
+            case And() | Or() | Not() | Constant():
+                parts = [self.apply(part, names, scope) for part in children(formula)][::-1]  # each takes its names
+                return map_children(formula, lambda part: parts.pop())
+            case _:
+                assert_never(formula)
 
     def _poly(self, poly: Poly, scope: Mapping[str, str]) -> Poly:
         present = tuple(scope.get(self.ring.names[i], self.ring.names[i]) for i in poly.variables)

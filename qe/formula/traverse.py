@@ -94,7 +94,7 @@ def atoms(formula: Formula) -> Iterator[Atomic]:
 
 def has_root_atoms(formula: Formula) -> bool:
     """Whether a root atom occurs."""
-    return any(isinstance(a, RootAtom) for a in atoms(formula))
+    return not all(isinstance(a, Atom) for a in atoms(formula))
 
 
 def map_atoms(formula: Formula, change: Callable[[Atomic], Formula]) -> Formula:

@@ -53,6 +53,12 @@ def test_nothing_is_unfinished() -> None:
     assert not [shown(p) for p in CODE if UNFINISHED.search(p.read_text())]
 
 
+def test_few_files_know_root_atoms() -> None:
+    """A new kind of atom concerns few files; all others speak of ``Atomic``, and look for ``Atom`` alone."""
+    knowing = [shown(p) for p in CODE if p.parts[len(ROOT.parts)] in ("qe", "bezier") and "RootAtom" in p.read_text()]
+    assert len(knowing) <= 12, knowing
+
+
 def test_no_exception_handler_is_broad() -> None:
     """But the one by which no answer is lost for its proof, which tests make raise (``tests/conftest.py``), and the one
     by which a worker sends home whatever error a question ends with."""

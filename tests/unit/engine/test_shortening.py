@@ -10,8 +10,11 @@ import qe
 from qe.certify.verify import verify
 from qe.elimination.protocol import Context
 from qe.engine import shortening
+from qe.engine.constant import Start
 from qe.engine.shortening import shortened
+from qe.errors import Unable
 from qe.formula.features import length
+from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
@@ -66,6 +69,32 @@ def test_ellipses_in_a_circle(question: str, expected: str, most: int) -> None:
         for b in ("1/3", "9/10"):
             values = f"a = {a} and b = {b}"
             assert qe.decide(f"all a, b, c. {values} -> (({answer.formula}) <-> ({expected}))", process=False)
+
+
+def test_a_rule_that_gives_up_leaves_no_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The derivation would go on from what was not reached."""
+
+    def half_done(formula: Formula, context: Context, start: object) -> Formula:
+        context.log.step("half", formula, read("b > 0"))
+        raise Unable("too much work")
+
+    monkeypatch.setattr(shortening, "RULES", (shortening.Rule("half", half_done),))
+    given_ = context()
+    assert str(shortened(read("a > 0 and b > 0"), given_)) == "a > 0 and b > 0"
+    assert rules(given_) == []
+
+
+def test_rules_for_whole_answers_are_not_tried_between(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried: list[object] = []
+
+    def noted(formula: Formula, context: Context, start: object) -> Formula:
+        tried.append(start)
+        return formula
+
+    monkeypatch.setattr(shortening, "RULES", (shortening.Rule("noted", noted, last=True),))
+    formula, start = read("a > 0"), Start(read("ex x. x < a and x > 0"), 0)
+    assert shortened(formula, context()) == shortened(formula, context(), start) == formula
+    assert tried == [start]
 
 
 ATOMS = ("a - b", "a^2 - b^2", "a*b - 1", "a^2 + b - 2", "b", "a^3 - a", "a + b - 1")
