@@ -10,11 +10,11 @@ from qe.exact.algebraic import real_roots
 from qe.exact.digits import digits
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
-from qe.kernel.boolean import Goal, Theory
+from qe.kernel.boolean import Goal
 from qe.kernel.signs import Identity, Lemma, read_lemma, read_polynomials, sign_bit
 from qe.kernel.step import Limits
 from qe.proof.entry import Entry, Json, poly_to_text
-from qe.proving.refutation import cases
+from qe.proving.refutation import NODES, Refutation
 
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
@@ -62,19 +62,17 @@ class Lemmas:
         self.lemmas.append({"line": [self.number(p) for p in polys], "samples": [str(s) for s in samples]})
         self.facts.append(read_lemma(Entry(self.lemmas[-1], "lemma"), tuple(self.numbers), self.ring))
 
-    def theory(self, limits: Limits) -> Theory:
-        """The lemmas as they are meant; what is used of them is read as a checker reads it (``only``)."""
-        return Theory(tuple(self.numbers), tuple(self.facts), limits)
-
-    def only(self, used: Iterable[int]) -> Json:
-        """The evidence with these lemmas alone, which are multiplied out. Raises ``CertificateRejected``."""
+    def only(self, used: Iterable[int], searches: Sequence[Refutation] = ()) -> Json:
+        """The evidence with these lemmas alone, which are multiplied out, and the cases of refutations that need no
+        others. Raises ``CertificateRejected``."""
         chosen = [self.lemmas[k] for k in sorted(used)]
         polys = list(self.numbers)
         numbers = {i: k for k, i in enumerate(dict.fromkeys(i for lemma in chosen for i in _mentioned(lemma)))}
         listed: list[Json] = [poly_to_text(polys[i]) for i in numbers]
         for lemma in chosen:
             read_lemma(Entry(lemma, "lemma"), polys, self.ring)
-        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen], "cases": []}
+        cases = _cases(searches, [polys[i] for i in numbers])
+        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen], "cases": cases}
 
 
 def with_cases(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
@@ -82,8 +80,19 @@ def with_cases(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits
     assert isinstance(evidence, dict)
     names, lemmas = Entry(evidence, "theory").fields("polynomials", "lemmas", optional=("cases",))[:2]
     polys = read_polynomials(names, ring)
-    found = cases(Theory(polys, tuple(read_lemma(e, polys, ring) for e in lemmas.items()), limits), goals)
-    return None if found is None else {**evidence, "cases": found}
+    known = [read_lemma(e, polys, ring) for e in lemmas.items()]
+    searches = [Refutation(goal, limits) for goal in goals]
+    for search in searches:
+        search.learn(polys, known)
+        if not search.go_on(NODES, NODES):
+            return None
+    return {**evidence, "cases": _cases(searches, polys)}
+
+
+def _cases(searches: Sequence[Refutation], polys: Sequence[Poly]) -> list[Json]:
+    """The clauses of each of the refutations, with its number, where these are the polynomials of the lemmas."""
+    numbers = {poly: k for k, poly in enumerate(polys)}
+    return [[k, clause] for k, search in enumerate(searches) for clause in search.cases(numbers)]
 
 
 def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:

@@ -6,7 +6,6 @@ What is found here is checked where it is read: nothing depends on its being rig
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import lcm, prod
@@ -14,23 +13,22 @@ from operator import ge
 
 from qe.elimination.search.linear_forms import is_square
 from qe.elimination.search.monomial_bounds import MonomialBounds
-from qe.errors import BudgetExceeded, Unable
 from qe.exact.groebner import Basis, groebner_basis
 from qe.exact.groebner import Limits as BasisLimits
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import FALSE, Atom, Or, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.boolean import Goal, Theory
+from qe.kernel.boolean import Goal
 from qe.kernel.negation import normal
 from qe.kernel.step import Limits
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors
 from qe.proving.expansions import as_squares, ranges, shifted
-from qe.proving.goals import alternatives, is_hopeless, polynomials_outside
-from qe.proving.lemma_list import Lemmas, Term, content_of, with_cases
-from qe.proving.refutation import NODES, refutation
+from qe.proving.goals import is_hopeless, polynomials_outside
+from qe.proving.lemma_list import Lemmas, Term, content_of
+from qe.proving.refutation import NODES, Refutation
 from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
 
@@ -38,8 +36,7 @@ MOST_POLYNOMIALS, MOST_PAIRS, MOST_TRIED, MOST_TARGETS, MOST_CHAINED, MOST_BOUND
 MOST_REDUCED = 40
 BRIEF_BASIS = BasisLimits(elements=80, terms=300, bits=600)
 FEW_CASES, FEW_SPLITS = 300, 8
-"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this, and no
-more of them by the sign of a polynomial."""
+"""A search with some of the lemmas has no more cases than this, and no more of them by the sign of a polynomial."""
 
 
 def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
@@ -64,47 +61,21 @@ def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
         lambda: _combinations(found, goals, limits.budget),
         lambda: _modulo(found, goals, limits.budget),
     ]
-    pending, used = [case for goal in goals for case in alternatives(goal)], set[int]()
+    searches = [Refutation(goal, limits) for goal in goals]
     for stage, search in enumerate(stages):
         count = len(found.lemmas)
         limits.budget.check("prove")
         search()
         if stage and count == len(found.lemmas):
             continue
-        theory = found.theory(limits)
-        lemmas = [_used(theory, [case], FEW_CASES) for case in pending]
-        used = used.union(*(some for some in lemmas if some is not None))
-        pending = [case for case, some in zip(pending, lemmas, strict=True) if some is None]
-        if not pending:
-            return with_cases(found.only(_needed(theory, goals, used)), goals, ring, limits)
-    rest = _used(found.theory(limits), pending, NODES)
-    return None if rest is None else with_cases(found.only(used | rest), goals, ring, limits)
-
-
-def _needed(theory: Theory, goals: Sequence[Goal], used: set[int]) -> list[int]:
-    """Those of the lemmas without which the refutation fails, as far as it is cheap to find out."""
-    kept = sorted(used)
-    for k in kept if len(kept) <= MOST_TRIED else ():
-        left = [i for i in kept if i != k]
-        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals, FEW_CASES) is not None:
-            kept = left
-    return kept
-
-
-def _used(theory: Theory, goals: Sequence[Goal], most: int) -> set[int] | None:
-    """The lemmas by which all goals are refuted; None where they are not, or not in so many cases."""
-    used: set[int] = set()
-    for goal in goals:
-        try:
-            found = refutation(theory, goal, most, FEW_SPLITS if most == FEW_CASES else most)
-        except BudgetExceeded:
-            raise
-        except Unable:  # too many cases; further lemmas may settle most of them at once
-            return None
-        if found is None:
-            return None
-        used |= found.used
-    return used
+        for refutation in searches:
+            refutation.learn(tuple(found.numbers), found.facts)
+            refutation.go_on(FEW_CASES, FEW_SPLITS)
+        if not any(refutation.pending for refutation in searches):
+            break
+    if not all(refutation.go_on(NODES, NODES) for refutation in searches):
+        return None
+    return found.only({k for refutation in searches for k in refutation.lemmas}, searches)
 
 
 def _bounds(found: Lemmas, goals: Sequence[Goal], limits: Limits) -> None:
