@@ -39,27 +39,24 @@ FEW_CASES, FEW_SPLITS = 300, 8
 """A search with some of the lemmas has no more cases than this, and no more of them by the sign of a polynomial."""
 
 
-def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
+def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits, ideal: bool = False) -> Json | None:
     """Evidence with which each of the lists of formulas is refuted, or None where none is found.
 
-    Raises ``BudgetExceeded``.
+    ``ideal``: whether equations were replaced by others that generate the same ideal. Raises ``BudgetExceeded``.
     """
     polys = polynomials_outside(f for goal in goals for f in goal)
     if len(polys) > MOST_POLYNOMIALS or any(map(is_hopeless, goals)):
         return None
     found = Lemmas(ring)
+    modulo = [lambda: _remainders(found, polys), lambda: _ideals(found, goals, limits.budget)]
     stages: list[Callable[[], None]] = [
         lambda: None,
+        *(modulo if ideal else ()),
+        lambda: _algebra(found, goals, polys),
+        lambda: _expanded(found, polys),
         lambda: _bounds(found, goals, limits),
-        lambda: _values(found, goals, polys),
-        lambda: _algebra(found, polys),
-        lambda: _lines(found, polys),
-        lambda: ranges(found, polys),
-        lambda: shifted(found, polys),
         lambda: _chained(found, polys),
-        lambda: _remainders(found, polys),
-        lambda: _combinations(found, goals, limits.budget),
-        lambda: _modulo(found, goals, limits.budget),
+        *(() if ideal else modulo),
     ]
     searches = [Refutation(goal, limits) for goal in goals]
     for stage, search in enumerate(stages):
@@ -70,8 +67,7 @@ def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
             continue
         for refutation in searches:
             refutation.learn(tuple(found.numbers), found.facts)
-            refutation.go_on(FEW_CASES, FEW_SPLITS)
-        if not any(refutation.pending for refutation in searches):
+        if all(refutation.go_on(FEW_CASES, FEW_SPLITS) for refutation in searches):
             break
     if not all(refutation.go_on(NODES, NODES) for refutation in searches):
         return None
@@ -118,8 +114,10 @@ def _combined_bounds(found: Lemmas, polys: Sequence[Poly], squares: bool) -> Non
     found.identity([*terms, (-int(total), ())] if total else terms)
 
 
-def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
-    """Factors, equations put into the others, differences that are constant, squares."""
+def _algebra(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
+    """Values put into polynomials, factors, equations put into the others, differences that are constant, squares, and
+    lines."""
+    _values(found, goals, polys)
     pool: dict[Poly, None] = dict.fromkeys(polys)
     for poly in polys:
         pool.update(dict.fromkeys(_factored(found, poly)))
@@ -131,6 +129,13 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
     _differences(found, pool)
     for poly in pool:
         as_squares(found, poly)
+    _lines(found, polys)
+
+
+def _expanded(found: Lemmas, polys: dict[Poly, bool]) -> None:
+    """Sums of monomials, and of products of distances from bounds."""
+    ranges(found, polys)
+    shifted(found, polys)
 
 
 def _values(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
@@ -272,6 +277,12 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
                 found.identity([*terms, (-1, ((quotient, 1), (equation, 1)))])
 
 
+def _ideals(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
+    """What follows from ideals that equations generate."""
+    _combinations(found, goals, budget)
+    _modulo(found, goals, budget)
+
+
 def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     """What stands on one side of an equivalence as a combination of the equations on the other, up to a multiple of an
     inequality there. Where these have a Gröbner basis, it says at once what is none."""
@@ -286,18 +297,17 @@ def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
         basis = groebner_basis(generators, variables=range(found.ring.size), limits=BRIEF_BASIS)
         known = {a.poly for a in side if isinstance(a, Atom)}
         wanted = [a for a in other if isinstance(a, Atom) and a.poly not in known]
+        targets = list[tuple[Poly, ...]]()
         if list(other) == [FALSE] and (basis is None or basis.is_unit):
-            _combined(found, [generators[0].ring.constant(1)], generators, budget)
+            targets.append((generators[0].ring.constant(1),))
         for target in wanted[: MOST_REDUCED if basis else MOST_TARGETS]:
-            budget.check("prove")
             rest = _remainder(target.poly, basis)
             if target.relation is Relation.EQ or (rest is not None and not rest):
-                if not rest:
-                    _combined(found, [target.poly], generators, budget)
-                continue
-            for a in side:
-                if isinstance(a, Atom) and a.relation is not Relation.EQ and rest == _remainder(a.poly, basis):
-                    _combined(found, [target.poly, a.poly], generators, budget, basis)
+                targets += [] if rest else [(target.poly,)]
+            elif rest is not None:
+                pairs = (a for a in side if isinstance(a, Atom) and a.relation is not Relation.EQ)
+                targets += [(target.poly, a.poly) for a in pairs if rest == _remainder(a.poly, basis)]
+        _combined(found, targets, generators, budget, basis)
 
 
 def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
@@ -317,39 +327,40 @@ def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     for system in dict.fromkeys(systems):
         basis = groebner_basis(system, variables=range(found.ring.size)) if len(system) > 1 else None
         alike: dict[Poly, list[Poly]] = {}
-        for p in inside:
+        for p in inside if basis else ():
             rest = _remainder(p, basis)
             if rest is not None:
                 alike.setdefault(rest, []).append(p)
-        for key, members in alike.items():
-            for targets in pairwise(members) if key else ((p,) for p in members):
-                _combined(found, targets, system, budget, basis)
+        vanishing = [(p,) for key, members in alike.items() if not key for p in members]
+        pairs = [pair for key, members in alike.items() if key for pair in pairwise(members)]
+        _combined(found, [*vanishing, *pairs], system, budget, basis)
 
 
 def _combined(
-    found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget, basis: Basis | None = None
+    found: Lemmas,
+    targets: Sequence[tuple[Poly, ...]],
+    generators: Sequence[Poly],
+    budget: Budget,
+    basis: Basis | None,
 ) -> None:
-    """A sum of multiples of the targets as a combination; with a basis, by which two have proportional remainders, the
-    one that vanishes modulo it."""
-    weights = _weights(targets, basis)
-    wanted = [targets[0] * weights[0] + targets[1] * weights[1]] if weights else targets
-    solved = cofactors(wanted, generators, budget)
-    if solved is None:
-        return
-    numbers, factors = solved
-    numbers = [numbers[0] * w for w in weights] if weights else numbers
-    terms: list[Term] = [(n, ((t, 1),)) for n, t in zip(numbers, targets, strict=True) if n]
-    found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
+    """Polynomials as combinations of generators; of two with proportional remainders modulo the basis, the sum of
+    multiples that vanishes modulo it."""
+    weights = [_weights(of, basis) for of in targets]
+    sums = [sum((p * w for p, w in zip(of, by)), of[0].ring.constant(0)) for of, by in zip(targets, weights)]
+    solved = cofactors(sums, generators, budget, basis is not None) if targets else []
+    for of, by, solution in zip(targets, weights, solved, strict=True):
+        if solution is not None:
+            number, factors = solution
+            terms: list[Term] = [(number * w, ((p, 1),)) for p, w in zip(of, by, strict=True)]
+            found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
 
 
-def _weights(targets: Sequence[Poly], basis: Basis | None) -> list[int]:
-    """Integers with which two polynomials, whose remainders are proportional, add up to one that vanishes modulo the
-    basis; none without one, or for a single polynomial."""
+def _weights(targets: tuple[Poly, ...], basis: Basis | None) -> list[int]:
+    """1 for a single polynomial; integers with which two, whose remainders are proportional, add up to one that
+    vanishes modulo the basis."""
     if basis is None or len(targets) != 2:
-        return []
+        return [1] * len(targets)
     (s, p), (t, q) = (basis.reduce(target) for target in targets)
-    if not p or not q:
-        return []
     return [s * content_of(q)[0], -t * content_of(p)[0]]
 
 

@@ -171,21 +171,19 @@ class Refutation:
     def go_on(self, nodes: int, splits: int) -> bool:
         """Whether all alternatives are excluded by now, with so many case distinctions for one of them, and so many
         by the sign of a polynomial."""
-        kept = []
-        for case in self.pending:
+        while self.pending:
             self._nodes, self._splits = nodes, splits
             try:
-                conflict = self._excluded([(literal, self._bit(None)) for literal in case])
+                conflict = self._excluded([(literal, self._bit(None)) for literal in self.pending[0]])
             except BudgetExceeded:
                 raise
             except Unable:
-                conflict = None
+                return False
             if conflict is None:
-                kept.append(case)
-            else:
-                self._needed |= conflict
-        self.pending = kept
-        return not kept
+                return False
+            self._needed |= conflict
+            del self.pending[0]
+        return True
 
     @property
     def lemmas(self) -> list[int]:
