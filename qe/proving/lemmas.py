@@ -52,7 +52,8 @@ def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits, ideal: bool = Fa
     stages: list[Callable[[], None]] = [
         lambda: None,
         *(modulo if ideal else ()),
-        lambda: _algebra(found, goals, polys),
+        lambda: _values(found, goals, polys),
+        lambda: _algebra(found, polys),
         lambda: _expanded(found, polys),
         lambda: _bounds(found, goals, limits),
         lambda: _chained(found, polys),
@@ -114,10 +115,8 @@ def _combined_bounds(found: Lemmas, polys: Sequence[Poly], squares: bool) -> Non
     found.identity([*terms, (-int(total), ())] if total else terms)
 
 
-def _algebra(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
-    """Values put into polynomials, factors, equations put into the others, differences that are constant, squares, and
-    lines."""
-    _values(found, goals, polys)
+def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
+    """Factors, equations put into the others, differences that are constant, squares, and lines."""
     pool: dict[Poly, None] = dict.fromkeys(polys)
     for poly in polys:
         pool.update(dict.fromkeys(_factored(found, poly)))
