@@ -32,7 +32,7 @@ from qe.proving.refutation import NODES, Refutation
 from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
 
-MOST_POLYNOMIALS, MOST_PAIRS, MOST_TRIED, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 16, 8, 12, 400
+MOST_POLYNOMIALS, MOST_PAIRS, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 8, 12, 400
 MOST_REDUCED = 40
 BRIEF_BASIS = BasisLimits(elements=80, terms=300, bits=600)
 FEW_CASES, FEW_SPLITS = 300, 8
