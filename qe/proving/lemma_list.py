@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from operator import itemgetter
 
 from qe.exact.algebraic import real_roots
 from qe.exact.digits import digits
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
 from qe.kernel.boolean import Goal
-from qe.kernel.signs import Identity, Lemma, read_lemma, read_polynomials, sign_bit
+from qe.kernel.signs import NEGATIVE, POSITIVE, ZERO, Identity, Lemma, Line, read_lemma, read_polynomials, sign_bit
 from qe.kernel.step import Limits
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.refutation import NODES, Refutation
@@ -45,7 +46,7 @@ class Lemmas:
                 if poly.is_constant:
                     coefficient *= poly.constant_value() ** exponent
                     continue
-                content, primitive = content_of(poly)
+                content, primitive = poly.normal()
                 coefficient *= content**exponent
                 found[primitive] = found.get(primitive, 0) + exponent
             numbered = [(self.number(p), e) for p, e in found.items()]
@@ -56,11 +57,17 @@ class Lemmas:
 
     def line(self, polys: Sequence[Poly], x: int) -> None:
         """The sign vectors of irreducible polynomials in one variable."""
-        roots = sorted(r for p in polys for r in real_roots(p.to_univariate(x)))
-        ends = [None, *roots, None]
-        samples = [rational_between(a, b) for a, b in pairwise(ends)]
+        roots = ((r, k) for k, p in enumerate(polys) for r in real_roots(p.to_univariate(x)))
+        placed = sorted(roots, key=itemgetter(0))
+        samples = [rational_between(a, b) for a, b in pairwise([None, *(r for r, _ in placed), None])]
         self.lemmas.append({"line": [self.number(p) for p in polys], "samples": [str(s) for s in samples]})
-        self.facts.append(read_lemma(Entry(self.lemmas[-1], "lemma"), tuple(self.numbers), self.ring))
+        row = [sign_bit((-1) ** p.degree(x) * p.leading(x).constant_value()) for p in polys]  # far to the left
+        cells = [tuple(row)]
+        for _, k in placed:  # a simple root of this one alone
+            for sign in (ZERO, NEGATIVE + POSITIVE - row[k]):
+                row[k] = sign
+                cells.append(tuple(row))
+        self.facts.append(Line(tuple(map(self.number, polys)), tuple(dict.fromkeys(cells))))
 
     def only(self, used: Iterable[int], searches: Sequence[Refutation] = ()) -> Json:
         """The evidence with these lemmas alone, which are multiplied out, and the cases of refutations that need no
@@ -101,13 +108,6 @@ def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:
     for terms in listed:
         found.identity([(c, tuple((p.convert(ring), e) for p, e in powers)) for c, powers in terms])
     return found.only(range(len(found.lemmas)))
-
-
-def content_of(poly: Poly) -> tuple[int, Poly]:
-    """(c, q) with poly = c * q, q primitive with positive leading coefficient."""
-    primitive = poly.normal()[1]
-    exponents, coefficient = primitive.terms()[0]
-    return next(c for e, c in poly.terms() if e == exponents) // coefficient, primitive
 
 
 def _mentioned(lemma: Json) -> list[int]:

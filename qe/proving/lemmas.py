@@ -27,7 +27,7 @@ from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors
 from qe.proving.expansions import as_squares, ranges, shifted
 from qe.proving.goals import is_hopeless, polynomials_outside
-from qe.proving.lemma_list import Lemmas, Term, content_of
+from qe.proving.lemma_list import Lemmas, Term
 from qe.proving.refutation import NODES, Refutation
 from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
@@ -194,7 +194,7 @@ def _factored(found: Lemmas, poly: Poly) -> list[Poly]:
     parts = [(f, e) for f, e in factor_list(poly) if not f.is_constant]
     if sum(e for _, e in parts) < 2:
         return [poly]
-    content, primitive = content_of(prod((f**e for f, e in parts), start=poly.ring.constant(1)))
+    content, primitive = prod((f**e for f, e in parts), start=poly.ring.constant(1)).normal()
     if primitive == poly:
         found.identity([(content, ((poly, 1),)), (-1, tuple(parts))])
     return [f for f, _ in parts]
@@ -264,7 +264,7 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
                 continue
             reducible = any(all(map(ge, e, lead)) for e, _ in p.terms())
             scale, rest = basis.reduce(p) if reducible else (1, p)
-            unit, key = content_of(rest) if rest else (scale, rest)
+            unit, key = rest.normal() if rest else (scale, rest)
             alike.setdefault(key, []).append((Fraction(unit, scale), p))
         for key, members in alike.items():
             for _, p in () if key else members:
@@ -314,7 +314,7 @@ def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
     if basis is None:
         return None
     rest = basis.reduce(poly)[1]
-    return content_of(rest)[1] if rest else rest
+    return rest.normal()[1] if rest else rest
 
 
 def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
@@ -360,7 +360,7 @@ def _weights(targets: tuple[Poly, ...], basis: Basis | None) -> list[int]:
     if basis is None or len(targets) != 2:
         return [1] * len(targets)
     (s, p), (t, q) = (basis.reduce(target) for target in targets)
-    return [s * content_of(q)[0], -t * content_of(p)[0]]
+    return [s * q.normal()[0], -t * p.normal()[0]]
 
 
 def _squarefree(found: Lemmas, poly: Poly) -> Poly:

@@ -16,11 +16,13 @@ from qe.formula.syntax import TRUE, Atom, Formula, Relation
 from qe.io.text import read
 from qe.kernel.boolean import ByLemmas
 from qe.kernel.derivation import limits_of
+from qe.kernel.signs import Line, read_lemma
 from qe.kernel.step import Claim
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 from qe.proving.lemma_list import Lemmas
 from qe.proving.refutation import NODES, Refutation
+from qe.simplify.facts import factor_list
 
 RING = Ring.of(("x", "y", "z"))
 LIMITS = limits_of(Budget(), RULES, check_certificate)
@@ -78,3 +80,15 @@ def test_too_few_cases_are_no_refutation() -> None:
     search = Refutation((*rest, TRUE), LIMITS)
     assert search.go_on(NODES, NODES)
     check((*rest, TRUE), Lemmas(RING), search)
+
+
+@given(st.lists(st.lists(st.integers(-9, 9), min_size=2, max_size=5), min_size=1, max_size=3))
+def test_a_line_is_meant_as_the_kernel_reads_it(rows: list[list[int]]) -> None:
+    polys = [RING.from_terms({(0, k, 0): c for k, c in enumerate(row) if c}) for row in rows]
+    factors = list(dict.fromkeys(f for p in polys if p for f, _ in factor_list(p) if not f.is_constant))
+    found = Lemmas(RING)
+    if factors:
+        found.line(factors, 1)
+        meant, checked = found.facts[0], read_lemma(Entry(found.lemmas[0], "lemma"), tuple(found.numbers), RING)
+        assert isinstance(meant, Line) and isinstance(checked, Line)
+        assert (meant.polynomials, meant.cells) == (checked.polynomials, checked.cells)
