@@ -33,7 +33,7 @@ def refutes(known: Theory, formulas: Iterable[Formula], nodes: int = NODES) -> b
     assert is_refuted or not search.is_refuted
     for case in found.cases({p: k for k, p in enumerate(known.polynomials)}) if is_refuted else ():
         assert isinstance(case, list)
-        clause = [divmod(literal, 8) for literal in case]  # type: ignore[operator,arg-type]
+        clause = [divmod(literal, 8) for literal in case]  # type: ignore[operator]
         assert search.clauses.implies(clause)
         search.clauses.add(clause)
     assert search.is_refuted is is_refuted
