@@ -5,13 +5,14 @@ Everything here is generic in the number type: ``Fraction`` and ``qe.exact.field
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
+from math import gcd
 from typing import Any
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq, fmpq_mat, fmpz_mat
 
 from qe.exact.ring import Poly
 
@@ -202,6 +203,39 @@ def solve_linear(rows: Matrix, rhs: Vector, width: int) -> Solution | None:
             vector[column] = -work[r][c]
         kernel.append(tuple(vector))
     return Solution(tuple(particular), tuple(kernel), free)
+
+
+def integer_combinations(
+    columns: Sequence[Mapping[Any, int]], targets: Sequence[Mapping[Any, int]]
+) -> list[tuple[int, list[int]] | None]:
+    """For each target (n, c) with n > 0 and n times it the sum of the c times the columns, or None where it is none.
+
+    Columns and targets give the entries that are not 0, by row.
+    """
+    rows = {row: k for k, row in enumerate(dict.fromkeys(row for column in columns for row in column))}
+    inside = [target for target in targets if rows.keys() >= target.keys()]
+    width = len(columns)
+    matrix = fmpz_mat(len(rows), width + len(inside))
+    for c, column in enumerate((*columns, *inside)):
+        for row, value in column.items():
+            matrix[rows[row], c] = value
+    reduced, scale, rank = matrix.rref() if rows else (matrix, 1, 0)
+    pivots, column_of = list[int](), 0
+    for r in range(rank):
+        column_of = next(c for c in range(column_of, width + len(inside)) if reduced[r, c])
+        pivots.append(column_of)
+    sign = 1 if scale > 0 else -1
+    solved = list[tuple[int, list[int]] | None]()
+    for target in targets:
+        solution: tuple[int, list[int]] | None = None
+        if rows.keys() >= target.keys():
+            c = width + inside.index(target)
+            entries = {pivot: int(reduced[r, c]) for r, pivot in enumerate(pivots) if reduced[r, c]}
+            if all(pivot < width for pivot in entries):
+                common = gcd(int(scale), *entries.values())
+                solution = sign * int(scale) // common, [sign * entries.get(k, 0) // common for k in range(width)]
+        solved.append(solution)
+    return solved
 
 
 def independent_rows(rows: Matrix) -> tuple[int, ...]:

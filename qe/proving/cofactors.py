@@ -8,11 +8,9 @@ of linear equations, one for each monomial of degree at most D. What is found is
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from itertools import combinations_with_replacement
-from math import lcm
 
-from qe.exact.quadratic_form import echelon
+from qe.exact.quadratic_form import integer_combinations
 from qe.exact.ring import Poly
 from qe.options import Budget
 from qe.proving.elimination_chain import member
@@ -23,66 +21,49 @@ MOST_UNKNOWNS, SLACK = 300, 2
 Powers = tuple[int, ...]
 
 Column = tuple[int, Powers, dict[Powers, int]]
-"""An unknown coefficient: of which cofactor or further target, of which monomial, and what it is multiplied with."""
+"""An unknown coefficient: of which cofactor, of which monomial, and what it is multiplied with."""
 
 
 def cofactors(
-    targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget
-) -> tuple[list[int], list[Poly]] | None:
-    """(numbers, cofactors) with targets[0]*n_0 + targets[1]*n_1 + ... = sum of cofactors times generators, n_0 /= 0.
+    targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget, members: bool = True
+) -> list[tuple[int, list[Poly]] | None]:
+    """For each target (n, c) with n > 0 and n times it the sum of the c times the generators; None where none is found.
 
-    The number of the first target is positive; None where nothing is found.
+    One system of equations serves all targets of a degree. ``members``: whether the targets are known to be in the
+    ideal; where they are not, Buchberger's algorithm, which may take long to find nothing, is left out.
     """
-    ring = targets[0].ring
+    least = [max(t.total_degree, min(e.total_degree for e in generators)) for t in targets]
     variables = sorted({i for p in (*targets, *generators) for i in p.variables})
-    least = max(targets[0].total_degree, min(e.total_degree for e in generators))
-    for degree in range(least, least + SLACK + 1):
+    found: list[tuple[int, list[Poly]] | None] = [None] * len(targets)
+    for degree in range(min(least, default=0), max(least, default=-1) + SLACK + 1):
+        wanted = [k for k, low in enumerate(least) if found[k] is None and low <= degree <= low + SLACK]
         budget.check("prove")
-        columns: list[Column] = []
-        for k, generator in enumerate(generators):
-            for powers in _monomials(variables, degree - generator.total_degree, ring.size):
-                columns.append((k, powers, {_times(powers, e): c for e, c in generator.terms()}))
-        for k, target in enumerate(targets[1:], start=len(generators)):
-            columns.append((k, (0,) * ring.size, {e: -c for e, c in target.terms()}))
+        columns = list(_columns(generators, variables, degree)) if wanted else []
         if len(columns) > MOST_UNKNOWNS:
             break
-        found = _solved(columns, dict(targets[0].terms()))
-        if found is not None:
-            return _cleared(columns, found, targets, generators)
-    solved = member(targets[0], generators, budget) if len(targets) == 1 else None
-    return None if solved is None else ([solved[0]], solved[1])
+        solved = integer_combinations([terms for _, _, terms in columns], [dict(targets[k].terms()) for k in wanted])
+        for k, solution in zip(wanted, solved, strict=True):
+            if solution is not None:
+                found[k] = solution[0], _cofactors(columns, solution[1], generators)
+    if not members:
+        return found
+    return [known or member(t, generators, budget) for known, t in zip(found, targets, strict=True)]
 
 
-def _solved(columns: Sequence[Column], wanted: dict[Powers, int]) -> list[Fraction] | None:
-    monomials = dict.fromkeys(e for _, _, terms in columns for e in terms)
-    if not monomials.keys() >= wanted.keys():
-        return None
-    listed = [*(terms for _, _, terms in columns), wanted]
-    work, pivots = echelon([[Fraction(terms.get(e, 0)) for terms in listed] for e in monomials])
-    if len(columns) in pivots:
-        return None
-    values = [Fraction(0)] * len(columns)
-    for row, pivot in zip(work, pivots, strict=True):
-        values[pivot] = Fraction(row[-1])
-    return values
+def _columns(generators: Sequence[Poly], variables: Sequence[int], degree: int) -> Iterator[Column]:
+    """The multiples of the generators by monomials up to a degree."""
+    for k, generator in enumerate(generators):
+        terms = generator.terms()
+        for powers in _monomials(variables, degree - generator.total_degree, generator.ring.size):
+            yield k, powers, {_times(powers, e): c for e, c in terms}
 
 
-def _cleared(
-    columns: Sequence[Column],
-    values: Sequence[Fraction],
-    targets: Sequence[Poly],
-    generators: Sequence[Poly],
-) -> tuple[list[int], list[Poly]]:
-    """Integers in place of rational numbers."""
-    ring = targets[0].ring
-    scale = lcm(*(v.denominator for v in values))
-    numbers, found = [scale] + [0] * (len(targets) - 1), [ring.constant(0) for _ in generators]
+def _cofactors(columns: Sequence[Column], values: Sequence[int], generators: Sequence[Poly]) -> list[Poly]:
+    ring, terms = generators[0].ring, [dict[Powers, int]() for _ in generators]
     for (k, powers, _), value in zip(columns, values, strict=True):
-        if k < len(generators):
-            found[k] = found[k] + ring.from_terms({powers: int(value * scale)})
-        else:
-            numbers[k - len(generators) + 1] = int(value * scale)
-    return numbers, found
+        if value:
+            terms[k][powers] = value
+    return [ring.from_terms(of) for of in terms]
 
 
 def _times(left: Powers, right: Powers) -> Powers:

@@ -1,13 +1,12 @@
-"""What has to be refuted, before a search: its polynomials, its alternatives, and whether there is any hope."""
+"""What has to be refuted, before a search: its polynomials, and whether there is any hope."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
 from qe.exact.ring import Poly
-from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import children, disjuncts
-from qe.kernel.boolean import Goal
 from qe.kernel.negation import negation, normal
 from qe.kernel.renaming import shape
 from qe.proof.entry import poly_to_text
@@ -24,12 +23,6 @@ def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
         elif not isinstance(formula, Exists | ForAll):
             pending += children(formula)
     return dict(sorted(found.items(), key=lambda entry: poly_to_text(entry[0])))
-
-
-def alternatives(goal: Goal) -> list[Goal]:
-    """The goal with what may be wrong one alternative at a time: one that is refuted need not be so again."""
-    *known, last = [normal(f) for f in goal] or [TRUE]
-    return [(*known, case) for case in disjuncts(last)] if isinstance(last, Or) else [goal]
 
 
 def is_hopeless(goal: Sequence[Formula]) -> bool:

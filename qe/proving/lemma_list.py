@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from operator import itemgetter
 
 from qe.exact.algebraic import real_roots
 from qe.exact.digits import digits
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
-from qe.kernel.boolean import Goal, Theory
-from qe.kernel.signs import Identity, Lemma, read_lemma, read_polynomials, sign_bit
+from qe.kernel.boolean import Goal
+from qe.kernel.signs import NEGATIVE, POSITIVE, ZERO, Identity, Lemma, Line, read_lemma, read_polynomials, sign_bit
 from qe.kernel.step import Limits
 from qe.proof.entry import Entry, Json, poly_to_text
-from qe.proving.refutation import cases
+from qe.proving.refutation import NODES, Refutation
 
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
@@ -45,7 +46,7 @@ class Lemmas:
                 if poly.is_constant:
                     coefficient *= poly.constant_value() ** exponent
                     continue
-                content, primitive = content_of(poly)
+                content, primitive = poly.normal()
                 coefficient *= content**exponent
                 found[primitive] = found.get(primitive, 0) + exponent
             numbered = [(self.number(p), e) for p, e in found.items()]
@@ -56,25 +57,29 @@ class Lemmas:
 
     def line(self, polys: Sequence[Poly], x: int) -> None:
         """The sign vectors of irreducible polynomials in one variable."""
-        roots = sorted(r for p in polys for r in real_roots(p.to_univariate(x)))
-        ends = [None, *roots, None]
-        samples = [rational_between(a, b) for a, b in pairwise(ends)]
+        roots = ((r, k) for k, p in enumerate(polys) for r in real_roots(p.to_univariate(x)))
+        placed = sorted(roots, key=itemgetter(0))
+        samples = [rational_between(a, b) for a, b in pairwise([None, *(r for r, _ in placed), None])]
         self.lemmas.append({"line": [self.number(p) for p in polys], "samples": [str(s) for s in samples]})
-        self.facts.append(read_lemma(Entry(self.lemmas[-1], "lemma"), tuple(self.numbers), self.ring))
+        row = [sign_bit((-1) ** p.degree(x) * p.leading(x).constant_value()) for p in polys]  # far to the left
+        cells = [tuple(row)]
+        for _, k in placed:  # a simple root of this one alone
+            for sign in (ZERO, NEGATIVE + POSITIVE - row[k]):
+                row[k] = sign
+                cells.append(tuple(row))
+        self.facts.append(Line(tuple(map(self.number, polys)), tuple(dict.fromkeys(cells))))
 
-    def theory(self, limits: Limits) -> Theory:
-        """The lemmas as they are meant; what is used of them is read as a checker reads it (``only``)."""
-        return Theory(tuple(self.numbers), tuple(self.facts), limits)
-
-    def only(self, used: Iterable[int]) -> Json:
-        """The evidence with these lemmas alone, which are multiplied out. Raises ``CertificateRejected``."""
+    def only(self, used: Iterable[int], searches: Sequence[Refutation] = ()) -> Json:
+        """The evidence with these lemmas alone, which are multiplied out, and the cases of refutations that need no
+        others. Raises ``CertificateRejected``."""
         chosen = [self.lemmas[k] for k in sorted(used)]
         polys = list(self.numbers)
         numbers = {i: k for k, i in enumerate(dict.fromkeys(i for lemma in chosen for i in _mentioned(lemma)))}
         listed: list[Json] = [poly_to_text(polys[i]) for i in numbers]
         for lemma in chosen:
             read_lemma(Entry(lemma, "lemma"), polys, self.ring)
-        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen], "cases": []}
+        cases = _cases(searches, [polys[i] for i in numbers])
+        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen], "cases": cases}
 
 
 def with_cases(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
@@ -82,8 +87,19 @@ def with_cases(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits
     assert isinstance(evidence, dict)
     names, lemmas = Entry(evidence, "theory").fields("polynomials", "lemmas", optional=("cases",))[:2]
     polys = read_polynomials(names, ring)
-    found = cases(Theory(polys, tuple(read_lemma(e, polys, ring) for e in lemmas.items()), limits), goals)
-    return None if found is None else {**evidence, "cases": found}
+    known = [read_lemma(e, polys, ring) for e in lemmas.items()]
+    searches = [Refutation(goal, limits) for goal in goals]
+    for search in searches:
+        search.learn(polys, known)
+        if not search.go_on(NODES, NODES):
+            return None
+    return {**evidence, "cases": _cases(searches, polys)}
+
+
+def _cases(searches: Sequence[Refutation], polys: Sequence[Poly]) -> list[Json]:
+    """The clauses of each of the refutations, with its number, where these are the polynomials of the lemmas."""
+    numbers = {poly: k for k, poly in enumerate(polys)}
+    return [[k, clause] for k, search in enumerate(searches) for clause in search.cases(numbers)]
 
 
 def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:
@@ -92,13 +108,6 @@ def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:
     for terms in listed:
         found.identity([(c, tuple((p.convert(ring), e) for p, e in powers)) for c, powers in terms])
     return found.only(range(len(found.lemmas)))
-
-
-def content_of(poly: Poly) -> tuple[int, Poly]:
-    """(c, q) with poly = c * q, q primitive with positive leading coefficient."""
-    primitive = poly.normal()[1]
-    exponents, coefficient = primitive.terms()[0]
-    return next(c for e, c in poly.terms() if e == exponents) // coefficient, primitive
 
 
 def _mentioned(lemma: Json) -> list[int]:

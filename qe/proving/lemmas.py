@@ -6,7 +6,6 @@ What is found here is checked where it is read: nothing depends on its being rig
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import lcm, prod
@@ -14,97 +13,66 @@ from operator import ge
 
 from qe.elimination.search.linear_forms import is_square
 from qe.elimination.search.monomial_bounds import MonomialBounds
-from qe.errors import BudgetExceeded, Unable
 from qe.exact.groebner import Basis, groebner_basis
 from qe.exact.groebner import Limits as BasisLimits
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import FALSE, Atom, Or, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.boolean import Goal, Theory
+from qe.kernel.boolean import Goal
 from qe.kernel.negation import normal
 from qe.kernel.step import Limits
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors
 from qe.proving.expansions import as_squares, ranges, shifted
-from qe.proving.goals import alternatives, is_hopeless, polynomials_outside
-from qe.proving.lemma_list import Lemmas, Term, content_of, with_cases
-from qe.proving.refutation import NODES, refutation
+from qe.proving.goals import is_hopeless, polynomials_outside
+from qe.proving.lemma_list import Lemmas, Term
+from qe.proving.refutation import NODES, Refutation
 from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
 
-MOST_POLYNOMIALS, MOST_PAIRS, MOST_TRIED, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 16, 8, 12, 400
+MOST_POLYNOMIALS, MOST_PAIRS, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 8, 12, 400
 MOST_REDUCED = 40
 BRIEF_BASIS = BasisLimits(elements=80, terms=300, bits=600)
 FEW_CASES, FEW_SPLITS = 300, 8
-"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this, and no
-more of them by the sign of a polynomial."""
+"""A search with some of the lemmas has no more cases than this, and no more of them by the sign of a polynomial."""
 
 
-def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json | None:
+def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits, ideal: bool = False) -> Json | None:
     """Evidence with which each of the lists of formulas is refuted, or None where none is found.
 
-    Raises ``BudgetExceeded``.
+    ``ideal``: whether equations were replaced by others that generate the same ideal. Raises ``BudgetExceeded``.
     """
     polys = polynomials_outside(f for goal in goals for f in goal)
     if len(polys) > MOST_POLYNOMIALS or any(map(is_hopeless, goals)):
         return None
     found = Lemmas(ring)
+    modulo = [lambda: _remainders(found, polys), lambda: _ideals(found, goals, limits.budget)]
     stages: list[Callable[[], None]] = [
         lambda: None,
-        lambda: _bounds(found, goals, limits),
+        *(modulo if ideal else ()),
         lambda: _values(found, goals, polys),
         lambda: _algebra(found, polys),
-        lambda: _lines(found, polys),
-        lambda: ranges(found, polys),
-        lambda: shifted(found, polys),
+        lambda: _expanded(found, polys),
+        lambda: _bounds(found, goals, limits),
         lambda: _chained(found, polys),
-        lambda: _remainders(found, polys),
-        lambda: _combinations(found, goals, limits.budget),
-        lambda: _modulo(found, goals, limits.budget),
+        *(() if ideal else modulo),
     ]
-    pending, used = [case for goal in goals for case in alternatives(goal)], set[int]()
+    searches = [Refutation(goal, limits) for goal in goals]
     for stage, search in enumerate(stages):
         count = len(found.lemmas)
         limits.budget.check("prove")
         search()
         if stage and count == len(found.lemmas):
             continue
-        theory = found.theory(limits)
-        lemmas = [_used(theory, [case], FEW_CASES) for case in pending]
-        used = used.union(*(some for some in lemmas if some is not None))
-        pending = [case for case, some in zip(pending, lemmas, strict=True) if some is None]
-        if not pending:
-            return with_cases(found.only(_needed(theory, goals, used)), goals, ring, limits)
-    rest = _used(found.theory(limits), pending, NODES)
-    return None if rest is None else with_cases(found.only(used | rest), goals, ring, limits)
-
-
-def _needed(theory: Theory, goals: Sequence[Goal], used: set[int]) -> list[int]:
-    """Those of the lemmas without which the refutation fails, as far as it is cheap to find out."""
-    kept = sorted(used)
-    for k in kept if len(kept) <= MOST_TRIED else ():
-        left = [i for i in kept if i != k]
-        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals, FEW_CASES) is not None:
-            kept = left
-    return kept
-
-
-def _used(theory: Theory, goals: Sequence[Goal], most: int) -> set[int] | None:
-    """The lemmas by which all goals are refuted; None where they are not, or not in so many cases."""
-    used: set[int] = set()
-    for goal in goals:
-        try:
-            found = refutation(theory, goal, most, FEW_SPLITS if most == FEW_CASES else most)
-        except BudgetExceeded:
-            raise
-        except Unable:  # too many cases; further lemmas may settle most of them at once
-            return None
-        if found is None:
-            return None
-        used |= found.used
-    return used
+        for refutation in searches:
+            refutation.learn(tuple(found.numbers), found.facts)
+        if all(refutation.go_on(FEW_CASES, FEW_SPLITS) for refutation in searches):
+            break
+    if not all(refutation.go_on(NODES, NODES) for refutation in searches):
+        return None
+    return found.only({k for refutation in searches for k in refutation.lemmas}, searches)
 
 
 def _bounds(found: Lemmas, goals: Sequence[Goal], limits: Limits) -> None:
@@ -148,7 +116,7 @@ def _combined_bounds(found: Lemmas, polys: Sequence[Poly], squares: bool) -> Non
 
 
 def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
-    """Factors, equations put into the others, differences that are constant, squares."""
+    """Factors, equations put into the others, differences that are constant, squares, and lines."""
     pool: dict[Poly, None] = dict.fromkeys(polys)
     for poly in polys:
         pool.update(dict.fromkeys(_factored(found, poly)))
@@ -160,6 +128,13 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
     _differences(found, pool)
     for poly in pool:
         as_squares(found, poly)
+    _lines(found, polys)
+
+
+def _expanded(found: Lemmas, polys: dict[Poly, bool]) -> None:
+    """Sums of monomials, and of products of distances from bounds."""
+    ranges(found, polys)
+    shifted(found, polys)
 
 
 def _values(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
@@ -219,7 +194,7 @@ def _factored(found: Lemmas, poly: Poly) -> list[Poly]:
     parts = [(f, e) for f, e in factor_list(poly) if not f.is_constant]
     if sum(e for _, e in parts) < 2:
         return [poly]
-    content, primitive = content_of(prod((f**e for f, e in parts), start=poly.ring.constant(1)))
+    content, primitive = prod((f**e for f, e in parts), start=poly.ring.constant(1)).normal()
     if primitive == poly:
         found.identity([(content, ((poly, 1),)), (-1, tuple(parts))])
     return [f for f, _ in parts]
@@ -289,7 +264,7 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
                 continue
             reducible = any(all(map(ge, e, lead)) for e, _ in p.terms())
             scale, rest = basis.reduce(p) if reducible else (1, p)
-            unit, key = content_of(rest) if rest else (scale, rest)
+            unit, key = rest.normal() if rest else (scale, rest)
             alike.setdefault(key, []).append((Fraction(unit, scale), p))
         for key, members in alike.items():
             for _, p in () if key else members:
@@ -299,6 +274,12 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
                 quotient = (p * ratio.numerator - q * ratio.denominator).exact_divide(equation)
                 terms: list[Term] = [(ratio.numerator, ((p, 1),)), (-ratio.denominator, ((q, 1),))]
                 found.identity([*terms, (-1, ((quotient, 1), (equation, 1)))])
+
+
+def _ideals(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
+    """What follows from ideals that equations generate."""
+    _combinations(found, goals, budget)
+    _modulo(found, goals, budget)
 
 
 def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
@@ -315,18 +296,17 @@ def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
         basis = groebner_basis(generators, variables=range(found.ring.size), limits=BRIEF_BASIS)
         known = {a.poly for a in side if isinstance(a, Atom)}
         wanted = [a for a in other if isinstance(a, Atom) and a.poly not in known]
+        targets = list[tuple[Poly, ...]]()
         if list(other) == [FALSE] and (basis is None or basis.is_unit):
-            _combined(found, [generators[0].ring.constant(1)], generators, budget)
+            targets.append((generators[0].ring.constant(1),))
         for target in wanted[: MOST_REDUCED if basis else MOST_TARGETS]:
-            budget.check("prove")
             rest = _remainder(target.poly, basis)
             if target.relation is Relation.EQ or (rest is not None and not rest):
-                if not rest:
-                    _combined(found, [target.poly], generators, budget)
-                continue
-            for a in side:
-                if isinstance(a, Atom) and a.relation is not Relation.EQ and rest == _remainder(a.poly, basis):
-                    _combined(found, [target.poly, a.poly], generators, budget, basis)
+                targets += [] if rest else [(target.poly,)]
+            elif rest is not None:
+                pairs = (a for a in side if isinstance(a, Atom) and a.relation is not Relation.EQ)
+                targets += [(target.poly, a.poly) for a in pairs if rest == _remainder(a.poly, basis)]
+        _combined(found, targets, generators, budget, basis)
 
 
 def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
@@ -334,7 +314,7 @@ def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
     if basis is None:
         return None
     rest = basis.reduce(poly)[1]
-    return content_of(rest)[1] if rest else rest
+    return rest.normal()[1] if rest else rest
 
 
 def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
@@ -346,40 +326,41 @@ def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     for system in dict.fromkeys(systems):
         basis = groebner_basis(system, variables=range(found.ring.size)) if len(system) > 1 else None
         alike: dict[Poly, list[Poly]] = {}
-        for p in inside:
+        for p in inside if basis else ():
             rest = _remainder(p, basis)
             if rest is not None:
                 alike.setdefault(rest, []).append(p)
-        for key, members in alike.items():
-            for targets in pairwise(members) if key else ((p,) for p in members):
-                _combined(found, targets, system, budget, basis)
+        vanishing = [(p,) for key, members in alike.items() if not key for p in members]
+        pairs = [pair for key, members in alike.items() if key for pair in pairwise(members)]
+        _combined(found, [*vanishing, *pairs], system, budget, basis)
 
 
 def _combined(
-    found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget, basis: Basis | None = None
+    found: Lemmas,
+    targets: Sequence[tuple[Poly, ...]],
+    generators: Sequence[Poly],
+    budget: Budget,
+    basis: Basis | None,
 ) -> None:
-    """A sum of multiples of the targets as a combination; with a basis, by which two have proportional remainders, the
-    one that vanishes modulo it."""
-    weights = _weights(targets, basis)
-    wanted = [targets[0] * weights[0] + targets[1] * weights[1]] if weights else targets
-    solved = cofactors(wanted, generators, budget)
-    if solved is None:
-        return
-    numbers, factors = solved
-    numbers = [numbers[0] * w for w in weights] if weights else numbers
-    terms: list[Term] = [(n, ((t, 1),)) for n, t in zip(numbers, targets, strict=True) if n]
-    found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
+    """Polynomials as combinations of generators; of two with proportional remainders modulo the basis, the sum of
+    multiples that vanishes modulo it."""
+    weights = [_weights(of, basis) for of in targets]
+    sums = [sum((p * w for p, w in zip(of, by)), of[0].ring.constant(0)) for of, by in zip(targets, weights)]
+    solved = cofactors(sums, generators, budget, basis is not None) if targets else []
+    for of, by, solution in zip(targets, weights, solved, strict=True):
+        if solution is not None:
+            number, factors = solution
+            terms: list[Term] = [(number * w, ((p, 1),)) for p, w in zip(of, by, strict=True)]
+            found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
 
 
-def _weights(targets: Sequence[Poly], basis: Basis | None) -> list[int]:
-    """Integers with which two polynomials, whose remainders are proportional, add up to one that vanishes modulo the
-    basis; none without one, or for a single polynomial."""
+def _weights(targets: tuple[Poly, ...], basis: Basis | None) -> list[int]:
+    """1 for a single polynomial; integers with which two, whose remainders are proportional, add up to one that
+    vanishes modulo the basis."""
     if basis is None or len(targets) != 2:
-        return []
+        return [1] * len(targets)
     (s, p), (t, q) = (basis.reduce(target) for target in targets)
-    if not p or not q:
-        return []
-    return [s * content_of(q)[0], -t * content_of(p)[0]]
+    return [s * q.normal()[0], -t * p.normal()[0]]
 
 
 def _squarefree(found: Lemmas, poly: Poly) -> Poly:

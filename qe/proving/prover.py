@@ -43,10 +43,12 @@ from qe.proving.substitution_steps import steps
 TABLE_WORK, TABLE_SHARE = 3_000, 0.25
 """Units of work for a decomposition that proves a single step, and the share of the time left that it may take."""
 
+IDEAL = "Groebner basis of the equations"
+
 SIMPLIFYING = (
     "simplification",
     "standard simplification",
-    "Groebner basis of the equations",
+    IDEAL,
     "multiple of an equation subtracted",
 )
 """Rules whose steps go on under quantifiers."""
@@ -263,7 +265,8 @@ class Prover:
             if isinstance(checker, ByLemmas):
                 evidence = {**evidence, "theory": EMPTY}
                 goals = checker.obligations(self._claim(rule, step, evidence), context)
-                theory = refuting(goals, self.ring, self.limits) if goals else EMPTY
+                ideal = step.rule == IDEAL
+                theory = refuting(goals, self.ring, self.limits, ideal) if goals else EMPTY
                 return None if theory is None else {**evidence, "theory": theory}
             self._check(self._claim(rule, step, evidence), context)
         except CertificateRejected:

@@ -1,109 +1,238 @@
-"""Refutations over signs: which lemmas they need, and the cases that the kernel is handed. Nothing here is trusted."""
+"""Refutations over signs: which lemmas they need, and the cases that the kernel is handed. Nothing here is trusted.
+
+Whatever is derived knows its sources: the lemmas, the clauses and the assumptions on which it rests. So a contradiction
+says which of the assumptions exclude each other, and which lemmas are needed (conflict-driven learning: Marques-Silva,
+Sakallah 1999).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
-from qe.errors import Unable
-from qe.formula.syntax import And, Formula, Or
+from qe.errors import BudgetExceeded, Unable
+from qe.exact.ring import Poly
+from qe.formula.syntax import And, Atom, Formula, Or, Relation
 from qe.kernel.boolean import Goal, Search, Theory
-from qe.kernel.clauses import Literal
-from qe.kernel.signs import ANY, NEGATIVE, POSITIVE, ZERO, Domains, Lemma
+from qe.kernel.clauses import Clauses, Literal
+from qe.kernel.signs import ANY, NEGATIVE, POSITIVE, ZERO, Domains, Identity, Lemma, Line
+from qe.kernel.step import Limits
 from qe.proof.entry import Json
 
 NODES = 2_000
 """Case distinctions for one alternative of what may be wrong, at most."""
 
+Sources = int
+"""A set of lemmas, clauses and assumptions: a bit for each."""
+
+
+class Explained(Clauses):
+    """Clauses whose variables know the sources of the signs that are left to them."""
+
+    def __init__(self, tick: Callable[[], None]) -> None:
+        super().__init__(tick)
+        self.reasons: list[Sources] = []
+        self._conflict: Sources | None = None
+        self._listed: list[list[tuple[list[Literal], Sources]]] = []
+        self._about: list[list[Lemma]] = []
+        self._sources: dict[Lemma, Sources] = {}
+
+    def new(self, signs: int) -> int:
+        """As ``Clauses.new``."""
+        self.domains.append(signs)
+        self.reasons.append(0)
+        self._listed.append([])
+        self._about.append([])
+        return len(self.domains) - 1
+
+    def taught(self, lemma: Lemma, source: Sources) -> None:
+        """As ``learn``, with the lemma's own bit."""
+        self._sources[lemma] = source
+        self._due[lemma] = None
+        for i in lemma.polynomials:
+            self._about[i].append(lemma)
+
+    def add(self, literals: Iterable[Literal], sources: Sources = 0) -> None:
+        """As ``Clauses.add``, with the sources of the clause."""
+        joined: dict[int, int] = {}
+        for i, signs in literals:
+            joined[i] = joined.get(i, 0) | signs
+        for i, signs in joined.items():
+            sources |= 0 if self.domains[i] & signs else self.reasons[i]
+        clause = [(i, signs) for i, signs in joined.items() if self.domains[i] & signs]
+        if not clause:
+            self._conflict = sources
+        for i, signs in clause if len(clause) == 1 else ():
+            if self.domains[i] & ~signs:
+                self.domains[i] &= signs
+                self.reasons[i] |= sources
+                self._changed[i] = None
+        for i, _ in clause[:2] if len(clause) > 1 else ():
+            self._listed[i].append((clause, sources))
+
+    def conflict(self, assumed: Iterable[tuple[Literal, Sources]]) -> tuple[Domains, Sources | None]:
+        """The signs that propagation leaves under assumptions, and the sources of a contradiction, if there is one."""
+        if self._conflict is None and (self._changed or self._due):
+            changed, due, self._changed, self._due = self._changed, self._due, {}, {}
+            self._conflict = self._contradiction(self.domains, self.reasons, changed, due)
+        if self._conflict is not None:
+            return self.domains, self._conflict
+        domains, reasons, changed = self.domains.copy(), self.reasons.copy(), {}
+        for (i, signs), source in assumed:
+            if domains[i] & ~signs:
+                domains[i] &= signs
+                reasons[i] |= source
+                changed[i] = None
+        return domains, self._contradiction(domains, reasons, changed, {})
+
+    def _contradiction(
+        self, domains: Domains, reasons: list[Sources], changed: dict[int, None], due: dict[Lemma, None]
+    ) -> Sources | None:
+        while changed or due:
+            self._tick()
+            if changed:
+                i = changed.popitem()[0]
+                if not domains[i]:
+                    return reasons[i]
+                due |= dict.fromkeys(self._about[i])
+                changed |= dict.fromkeys(self._made(i, domains, reasons))
+                continue
+            lemma = due.popitem()[0]
+            cut = lemma.cut(domains)
+            if cut:
+                sources = self._sources[lemma]
+                for j in (*lemma.polynomials, *cut):
+                    sources |= reasons[j]
+                for j in cut:
+                    reasons[j] = sources
+                changed |= dict.fromkeys(cut)
+        return None
+
+    def _made(self, i: int, domains: Domains, reasons: list[Sources]) -> Sequence[int]:
+        """The variables whose signs follow from clauses that watch variable i."""
+        watching, self._listed[i] = self._listed[i], []
+        forced = []
+        for watched in watching:
+            clause, sources = watched
+            k = 0 if clause[0][0] == i else 1
+            if not domains[i] & clause[k][1]:
+                clause[0], clause[1] = clause[1 - k], clause[k]
+                other = next((n for n in range(2, len(clause)) if domains[clause[n][0]] & clause[n][1]), None)
+                if other is not None:
+                    clause[1], clause[other] = clause[other], clause[1]
+                    self._listed[clause[1][0]].append(watched)
+                    continue
+                j, signs = clause[0]
+                if domains[j] & ~signs:
+                    domains[j] &= signs
+                    for n, _ in clause:
+                        sources |= reasons[n]
+                    reasons[j] = sources
+                    forced.append(j)
+            self._listed[i].append(watched)
+        return forced
+
 
 @dataclass(frozen=True, slots=True)
+class _Case:
+    """A clause by which the kernel goes on."""
+
+    literals: tuple[Literal, ...]
+
+
 class Refutation:
-    """Clauses that lead to a contradiction, each by those before it, and the lemmas that took part."""
+    """A goal, what is known about its polynomials so far, and the alternatives of its last formula that are not yet
+    excluded."""
 
-    cases: list[list[Literal]]
-    used: frozenset[int]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Noted:
-    """A lemma that notes when it takes signs away."""
-
-    lemma: Lemma
-    number: int
-    used: set[int]
-    polynomials: tuple[int, ...]
-
-    def cut(self, domains: Domains) -> list[int]:
-        changed = self.lemma.cut(domains)
-        if changed:
-            self.used.add(self.number)
-        return changed
-
-
-def refutation(
-    theory: Theory, goal: Iterable[Formula], nodes: int = NODES, splits: int = NODES
-) -> Refutation | None:
-    """A refutation of the goal, or None where there is none. ``Unable`` past so many case distinctions, and past so
-    many by the sign of a polynomial."""
-    used = set[int]()
-    noted = tuple(_Noted(lemma, k, used, lemma.polynomials) for k, lemma in enumerate(theory.lemmas))
-    search = Search(Theory(theory.polynomials, noted, theory.limits, theory.refuted), goal)  # type: ignore[arg-type]
-    split = list(dict.fromkeys(i for lemma in noted for i in lemma.polynomials))
-    tree = _Tree(search, split, nodes, splits)
-    return Refutation(tree.cases, frozenset(used)) if tree.is_refuted() else None
-
-
-def cases(theory: Theory, goals: Sequence[Goal]) -> Json | None:
-    """The clauses by which all goals are refuted, as evidence; None where one is not, or not in so many cases."""
-    listed: list[Json] = []
-    for k, goal in enumerate(goals):
-        found = refutation(theory, goal)
-        if found is None:
-            return None
-        listed += [[k, [8 * i + signs for i, signs in clause]] for clause in found.cases]
-    return listed
-
-
-@dataclass(slots=True)
-class _Tree:
-    """Case distinctions over the alternatives of disjunctions, and over the signs on which lemmas depend."""
-
-    search: Search
-    about: Sequence[int]
-    most: int
-    splits: int
-    cases: list[list[Literal]] = field(default_factory=list)
-    nodes: int = 0
-
-    def is_refuted(self) -> bool:
-        if self.search.clauses.settled() is None:
-            return True
+    def __init__(self, goal: Goal, limits: Limits) -> None:
+        self.clauses = Explained(limits.tick)
+        self.search = Search(Theory((), (), limits), goal, self.clauses)
+        self._outside = len(self.clauses.domains)
+        self._sources: list[int | _Case | None] = []
+        self._polys: list[int] = []  # the variable of each of the polynomials of the lemmas
+        self._split: dict[int, None] = {}
         last = self.search.goal[-1:]
+        self.pending: list[list[Literal]] = [[]]
         if last and isinstance(last[0], Or):
-            for case in last[0].args:
-                self.nodes = 0
-                if not self.excluded([self.search.literal(case)]):
-                    return False
-            return True
-        return self.excluded([])
+            self.pending = [[self.search.literal(case)] for case in last[0].args]
+        self._needed: Sources = 0
+        self._nodes = self._splits = 0
 
-    def excluded(self, assumed: list[Literal]) -> bool:
-        """Whether the literals cannot hold together: at once, or after clauses that say so of each of the cases."""
-        domains = self.search.clauses.settled(assumed)
-        if domains is None:
-            return True
-        self.nodes += 1
-        if self.nodes > self.most:
-            raise Unable(f"more than {self.most} cases of signs")
-        for literal in self._alternatives(domains):
-            if not self.excluded([*assumed, literal]):
+    def learn(self, polys: Sequence[Poly], lemmas: Sequence[Lemma]) -> None:
+        """Lemmas beyond those learned before, about listed polynomials, of which there may be more than before."""
+        for poly in polys[len(self._polys) :]:
+            self._polys.append(self.search.literal(Atom(poly, Relation.EQ))[0])
+        start = sum(isinstance(source, int) for source in self._sources)
+        for k, lemma in enumerate(lemmas[start:], start=start):
+            renumbered = _renumbered(lemma, self._polys)
+            self._split.update(dict.fromkeys(renumbered.polynomials))
+            self.clauses.taught(renumbered, self._bit(k))
+
+    def go_on(self, nodes: int, splits: int) -> bool:
+        """Whether all alternatives are excluded by now, with so many case distinctions for one of them, and so many
+        by the sign of a polynomial."""
+        while self.pending:
+            self._nodes, self._splits = nodes, splits
+            try:
+                conflict = self._excluded([(literal, self._bit(None)) for literal in self.pending[0]])
+            except BudgetExceeded:
+                raise
+            except Unable:
                 return False
-            clause = [(i, ANY & ~signs) for i, signs in (*assumed, literal)]
-            self.search.clauses.add(clause)
-            self.cases.append(clause)
-            if self.search.clauses.settled(assumed) is None:
-                return True
-        return False
+            if conflict is None:
+                return False
+            self._needed |= conflict
+            del self.pending[0]
+        return True
+
+    @property
+    def lemmas(self) -> list[int]:
+        """The numbers of the lemmas that took part."""
+        return [source for source in self._used() if isinstance(source, int)]
+
+    def cases(self, numbers: Mapping[Poly, int]) -> list[Json]:
+        """The clauses, as evidence in which the polynomials of lemmas have these numbers."""
+        places, count = dict[int, int](), len(numbers)
+        listed = {self.search.literal(Atom(poly, Relation.EQ))[0]: k for poly, k in numbers.items()}
+        for i in range(self._outside):
+            if i not in listed:
+                places[i], count = count, count + 1
+        places |= listed
+        used = [source for source in self._used() if isinstance(source, _Case)]
+        return [[8 * places[i] + signs for i, signs in case.literals] for case in used]
+
+    def _used(self) -> Iterator[int | _Case | None]:
+        return (source for k, source in enumerate(self._sources) if self._needed >> k & 1)
+
+    def _bit(self, source: int | _Case | None) -> Sources:
+        self._sources.append(source)
+        return 1 << len(self._sources) - 1
+
+    def _excluded(self, assumed: list[tuple[Literal, Sources]]) -> Sources | None:
+        """The sources of a contradiction, at once or after clauses that say so of each of the cases."""
+        domains, conflict = self.clauses.conflict(assumed)
+        if conflict is not None:
+            return conflict
+        self._nodes -= 1
+        if self._nodes < 0:
+            raise Unable("too many cases of signs")
+        for literal in self._alternatives(domains):
+            further = [*assumed, (literal, self._bit(None))]
+            conflict = self._excluded(further)
+            if conflict is None or not conflict & further[-1][1]:
+                return conflict
+            self._learned(further, conflict)
+            conflict = self.clauses.conflict(assumed)[1]
+            if conflict is not None:
+                return conflict
+        return None
+
+    def _learned(self, assumed: Iterable[tuple[Literal, Sources]], conflict: Sources) -> None:
+        """That not all of the assumptions hold that take part in the contradiction."""
+        taken = [(literal, bit) for literal, bit in assumed if conflict & bit]
+        clause = tuple((i, ANY & ~signs) for (i, signs), _ in taken)
+        rest = conflict & ~sum(bit for _, bit in taken)
+        self.clauses.add(clause, rest | self._bit(_Case(clause)))
 
     def _alternatives(self, domains: Domains) -> list[Literal]:
         """Literals of which one holds; none where there is nothing to decide."""
@@ -116,10 +245,10 @@ class _Tree:
                 break
         if chosen:
             return chosen
-        for i in self.about:
+        for i in self._split:
             if domains[i] not in (NEGATIVE, ZERO, POSITIVE):
-                self.splits -= 1
-                if self.splits < 0:
+                self._splits -= 1
+                if self._splits < 0:
                     raise Unable("too many cases of signs")
                 return [(i, s) for s in (NEGATIVE, ZERO, POSITIVE) if domains[i] & s]
         return []
@@ -147,3 +276,10 @@ class _Tree:
         if isinstance(formula, And | Or):
             return (all if isinstance(formula, And) else any)(self._holds(part, domains) for part in formula.args)
         return self._is_fixed(formula, domains)
+
+
+def _renumbered(lemma: Lemma, numbers: Sequence[int]) -> Lemma:
+    """The lemma with the variables of its polynomials."""
+    if isinstance(lemma, Line):
+        return Line(tuple(numbers[i] for i in lemma.polynomials), lemma.cells)
+    return Identity(tuple((unit, tuple((numbers[i], odd) for i, odd in powers)) for unit, powers in lemma.terms))

@@ -120,3 +120,16 @@ def test_a_missing_certificate_always_has_a_reason_and_no_answer_has_no_guarante
                 assert (answer.guarantee is qe.Guarantee.NONE) == none == (answer.status is qe.Status.UNABLE)
     limited = qe.eliminate("ex x, y, z. x^7 + a*y^5 + b*z^3 + x*y*z < c and x^3*y > b", timeout=0.05)
     assert limited.formula is None and limited.guarantee is qe.Guarantee.NONE
+
+
+def test_where_no_lemmas_are_found_the_reason_names_the_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Answers of simplification, equations taken apart and Gröbner bases without a proof had no reason."""
+    monkeypatch.setattr("qe.proving.prover.refuting", lambda *found: None)
+    monkeypatch.setattr("qe.elimination.cad.certificate_for", lambda *found: None)
+    monkeypatch.setattr("qe.proving.prover.certificate_for", lambda *found: None)
+    questions = ("ex x. x > a and x > b and x < a*b - 1", "ex x, y. x^2 + y^2 = 1 and x*y = a and x^2 - y^2 = b", CUBIC)
+    unproved = [qe.eliminate(text, check=True, process=False) for text in questions]
+    assert any(answer.certificate is None for answer in unproved)
+    for answer in unproved:
+        named = all(rule in answer.reason for rule in answer.unchecked_steps)
+        assert answer.certificate is not None or (answer.reason and answer.unchecked_steps and named)

@@ -10,14 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from qe.errors import Unable
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
 from qe.kernel.boolean import ByLemmas, Search, Theory, equivalence
 from qe.kernel.signs import read_lemma
 from qe.proof.entry import Entry
-from qe.proving.refutation import NODES, refutation
+from qe.proving.refutation import NODES, Refutation
 from tests.unit.certify.claims import NO_LEMMAS, RING, formula, limits, objection, poly
 
 
@@ -28,15 +27,24 @@ def theory(polys: tuple[str, ...] = (), *lemmas: Any) -> Theory:
 
 def refutes(known: Theory, formulas: Iterable[Formula], nodes: int = NODES) -> bool:
     """Whether a refutation is found; if so, each of its clauses follows for the kernel, and with them it is refuted."""
-    goal = list(formulas)
-    found = refutation(known, goal, nodes)
-    search = Search(known, goal)
-    assert found is not None or not search.is_refuted
-    for clause in found.cases if found else ():
+    goal = tuple(formulas)
+    found, search = refutation(known, goal), Search(known, goal)
+    is_refuted = found.go_on(nodes, nodes)
+    assert is_refuted or not search.is_refuted
+    for case in found.cases({p: k for k, p in enumerate(known.polynomials)}) if is_refuted else ():
+        assert isinstance(case, list)
+        clause = [divmod(literal, 8) for literal in case]  # type: ignore[operator]
         assert search.clauses.implies(clause)
         search.clauses.add(clause)
-    assert search.is_refuted is (found is not None)
-    return found is not None
+    assert search.is_refuted is is_refuted
+    return is_refuted
+
+
+def refutation(known: Theory, goal: tuple[Formula, ...]) -> Refutation:
+    """A search that knows the lemmas of the theory."""
+    found = Refutation(goal, limits())
+    found.learn(known.polynomials, known.lemmas)
+    return found
 
 
 SQUARE = {"identity": [["1", [[0, 1]]], ["-1", [[1, 2]]], ["-1", []]]}
@@ -72,9 +80,9 @@ def test_without_lemmas(texts: tuple[str, ...], refuted: bool) -> None:
 def test_lemmas_that_took_part() -> None:
     known = theory(("a^2 + 1", "a", "b"), SQUARE, {"line": [2], "samples": ["-1", "1"]})
     for text, used in (("a^2 + 1 <= 0", frozenset((0,))), ("a < 0 and a > 0", frozenset())):
-        found = refutation(known, [formula(text)])
-        assert found is not None and found.used == used
-    assert refutation(known, [formula("a^2 + 1 > 0")]) is None
+        found = refutation(known, (formula(text),))
+        assert found.go_on(NODES, NODES) and frozenset(found.lemmas) == used
+    assert not refutation(known, (formula("a^2 + 1 > 0"),)).go_on(NODES, NODES)
 
 
 def test_cases_of_signs_that_lemmas_need() -> None:
@@ -90,8 +98,9 @@ def test_cases_of_signs_that_lemmas_need() -> None:
 def test_the_search_is_limited() -> None:
     hard = [formula(f"a > {k} or b > {k}") for k in range(12)] + [formula("c > 0 and c < 1 or c = 7")]
     assert not refutes(theory(), hard)
-    with pytest.raises(Unable, match="more than 3 cases"):
-        refutes(theory(), hard, 3)
+    false = [formula(f"a {x} 0 or b {y} 0 or c {z} 0") for x in "<>=" for y in "<>=" for z in "<>="]
+    assert not refutation(theory(), (*false, formula("true"))).go_on(1, 1)
+    assert refutes(theory(), (*false, formula("true")))
 
 
 def test_one_of_many_claims_is_refuted_without_cases_of_what_stands_beside_it() -> None:
