@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from qe.decomposition.implicant import Signs, implicant
-from qe.decomposition.line import Cover, Found, Interval, Line
+from qe.decomposition.line import Cover, CoverInterval, Line, SampleTruth
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.projection import EFFORT_OF_A_CELL, FactorSet, effort, project
 from qe.errors import InternalError
@@ -76,53 +76,53 @@ class Search:
             self.samples += 1
             self.budget.spend(1 + len(line.isolation.sections))
             self.budget.check("cover", self.samples)
-            found = self._at(line, position, signs)
-            ends = bool(kind) and found.truth is (kind == "E")
+            here = self._at(line, position, signs)
+            ends = bool(kind) and here.truth is (kind == "E")
             if ends and self.is_leading(level):
-                return Cover(point, found.truth, (Interval(None, None, False, (), (), found, is_bare=True),))
-            interval = line.add(found, self._used(found))
+                return Cover(point, here.truth, (CoverInterval(None, None, False, (), (), here, is_bare=True),))
+            interval = line.add(here, self._used(here))
             if ends:
-                return Cover(point, found.truth, (interval,))
+                return Cover(point, here.truth, (interval,))
         intervals = line.chosen()
         if level == 0 and not kind:
             intervals = line.with_all_signs(intervals)
-        truths = {interval.found.truth for interval in intervals}
+        truths = {interval.known.truth for interval in intervals}
         return Cover(point, truths.pop() if len(truths) == 1 else None, intervals)
 
-    def _at(self, line: Line, position: int, signs: Signs) -> Found:
+    def _at(self, line: Line, position: int, signs: Signs) -> SampleTruth:
         """What is known at a position of a line."""
         sample = line.isolation.sample(position)
         known = {**signs, **line.signs(position)}
         truth = truth_under(self.formula, known.get)
         if truth is not None:
-            return line.found(position, sample, truth, implicant(self.formula, known, truth))
+            return line.known(position, sample, truth, implicant(self.formula, known, truth))
         above = self._over(sample, known)
-        return line.found(position, sample, above.truth, above)
+        return line.known(position, sample, above.truth, above)
 
     def is_leading(self, level: int) -> bool:
         """Whether all variables so far have one quantifier, so that nobody asks what holds beside a sample that
         decides."""
         return len({*self.quantifiers[: level + 1]}) == 1
 
-    def _used(self, found: Found) -> FactorSet:
+    def _used(self, known: SampleTruth) -> FactorSet:
         """The polynomials on whose signs it depends what is known at a sample."""
-        if not isinstance(found.reason, Cover):
-            return FactorSet(a.poly for a in found.reason)
+        if not isinstance(known.reason, Cover):
+            return FactorSet(a.poly for a in known.reason)
         if self.budget.is_limited:
-            level = found.sample.depth
-            self.budget.spend(sum(effort(i.own, level) for i in found.reason.intervals) // EFFORT_OF_A_CELL)
-        return characterization(found.reason)
+            level = known.sample.depth
+            self.budget.spend(sum(effort(i.own, level) for i in known.reason.intervals) // EFFORT_OF_A_CELL)
+        return characterization(known.reason)
 
 
 def characterization(cover: Cover) -> FactorSet:
     """The factors, in the variables below the line, on whose signs a covering depends: see the theorem above."""
-    level, found = cover.point.depth, FactorSet()
+    level, factors = cover.point.depth, FactorSet()
     for interval in cover.intervals:
-        found.add(interval.below)
-        found.add(project(interval.own, level, BROWN_MCCALLUM))
+        factors.add(interval.below)
+        factors.add(project(interval.own, level, BROWN_MCCALLUM))
     for left, right in pairwise(cover.intervals):
         if left.upper is None or right.lower is None:
             raise InternalError("an interval in the middle of a covering is unbounded")
         if left.upper.poly != right.lower.poly:
-            found.add((left.upper.poly.resultant(right.lower.poly, level),))
-    return found
+            factors.add((left.upper.poly.resultant(right.lower.poly, level),))
+    return factors

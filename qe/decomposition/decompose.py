@@ -22,7 +22,7 @@ from qe.proof.cells import CellTable
 
 
 @dataclass(frozen=True, slots=True)
-class Decomposition:
+class Decomposed:
     """The table and what it cost. ``operator``: of its projection; ``nullified``: it had to take over from another."""
 
     table: CellTable
@@ -71,7 +71,7 @@ def decompose(
     thom_levels: frozenset[int] = frozenset(),
     tactics: Tactics = Tactics(),
     extra: tuple[Poly, ...] = (),
-) -> Decomposition:
+) -> Decomposed:
     """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
 
     Where the operator meets a nullified factor that its theorem does not allow, the work is redone with the one that
@@ -89,7 +89,7 @@ def decompose(
     sectors_from = sector_levels(matrix, quantifiers) if tactics.open_only else size
     way = direction(matrix, free - 1) if tactics.monotone and 0 < free < size else 0
 
-    def attempt(used: Operator, added: tuple[Poly, ...]) -> Decomposition:
+    def attempt(used: Operator, added: tuple[Poly, ...]) -> Decomposed:
         """``added``: polynomials in the factor lists besides those of the matrix."""
         constraints = restricting if used.restricted else Constraints()
         listed = [*polynomials(matrix), *added]
@@ -110,6 +110,6 @@ def decompose(
             return attempt(used, (*added, *lifter.lacking))
         restricted = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()
         table = CellTable(order, quantifiers, matrix, used.proof, levels, root, restricted)
-        return Decomposition(table, used, lifter.cells, lifter.stacks, sum(map(len, levels)), used != operator)
+        return Decomposed(table, used, lifter.cells, lifter.stacks, sum(map(len, levels)), used != operator)
 
     return operator.applied(lambda used: attempt(used, extra))

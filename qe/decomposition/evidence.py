@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.decomposition.line import Cover, Interval
+from qe.decomposition.line import Cover, CoverInterval
 from qe.decomposition.projection import FactorSet
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
@@ -31,7 +31,7 @@ def tree(cover: Cover, quantifiers: Sequence[str], matrix: Formula) -> CellTable
 def _collect(cover: Cover, levels: list[dict[Poly, int]]) -> None:
     """Every polynomial of the covering, and those whose roots are samples."""
     for interval in cover.intervals:
-        at, reason = interval.found.at, interval.found.reason
+        at, reason = interval.known.at, interval.known.reason
         for f in (*interval.own, *interval.below, *interval.zero, *(() if at is None else (at.poly,))):
             levels[f.level].setdefault(f, len(levels[f.level]))
         if isinstance(reason, Cover):
@@ -46,7 +46,7 @@ class _Writer:
         """One line: its factors with their roots, and the intervals in their order."""
         level = cover.point.depth
         places = self.levels[level]
-        at = {interval.found.at.poly for interval in cover.intervals if interval.found.at is not None}
+        at = {interval.known.at.poly for interval in cover.intervals if interval.known.at is not None}
         each = (f for i in cover.intervals for f in (*i.own, *i.zero, *FactorSet(a.poly for a in _atoms(i)).at(level)))
         used = sorted({*at, *each}, key=places.__getitem__)
         cuts = _Cuts(isolate_over(cover.point, tuple(used)), cover)
@@ -58,18 +58,18 @@ class _Writer:
             cells=tuple(self._interval(interval, cuts) for interval in cover.intervals),
         )
 
-    def _interval(self, interval: Interval, cuts: _Cuts) -> Cell:
+    def _interval(self, interval: CoverInterval, cuts: _Cuts) -> Cell:
         first, last = (cuts.moved(p) for p in interval.reach(cuts.stack))
         places = self.levels[cuts.stack.point.depth]
         own = None if interval.is_bare else tuple(sorted(places[f] for f in interval.own))
-        reason = interval.found.reason
+        reason = interval.known.reason
         above = self.line(reason) if isinstance(reason, Cover) else None
         return Cell("", None, above, (first[0], last[1], cuts.sample(interval)), own)
 
 
-def _atoms(interval: Interval) -> Iterator[Atom]:
+def _atoms(interval: CoverInterval) -> Iterator[Atom]:
     """The atoms that decide on an interval, or on lines over it."""
-    reason = interval.found.reason
+    reason = interval.known.reason
     if not isinstance(reason, Cover):
         yield from reason
     else:
@@ -84,9 +84,9 @@ class _Cuts:
         self.stack = stack
         within: list[set[Fraction]] = [set() for _ in stack.samples]
         for interval in cover.intervals:
-            position = interval.found.position(stack)
+            position = interval.known.position(stack)
             if not position % 2:
-                within[position // 2].add(interval.found.value)
+                within[position // 2].add(interval.known.value)
         self.sectors: list[Fraction] = []
         self.between: list[int | None] = []
         """Between two sectors the section of the stack, or None for a cut."""
@@ -106,7 +106,7 @@ class _Cuts:
         end = self._starts[half + 1] if half + 1 < len(self._starts) else len(self.sectors)
         return 2 * self._starts[half], 2 * (end - 1)
 
-    def sample(self, interval: Interval) -> int:
+    def sample(self, interval: CoverInterval) -> int:
         """The position of the sample of an interval."""
-        position = interval.found.position(self.stack)
-        return self.moved(position)[0] if position % 2 else 2 * self.sectors.index(interval.found.value)
+        position = interval.known.position(self.stack)
+        return self.moved(position)[0] if position % 2 else 2 * self.sectors.index(interval.known.value)

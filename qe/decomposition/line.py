@@ -34,7 +34,7 @@ class Bound:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class SampleTruth:
     """What is known at a ``sample`` of a line, a root of a polynomial (``at``) or rational, and why.
 
     ``reason``: the atoms that give the formula its truth value there, or the line over the sample.
@@ -61,9 +61,9 @@ class Found:
 
 
 @dataclass(frozen=True, slots=True)
-class Interval:
+class CoverInterval:
     """An open interval between two bounds (None: it is unbounded), or the one point ``lower`` = ``upper`` where
-    ``is_point``, on which the formula is as at the sample of ``found``.
+    ``is_point``, on which the formula is as at the sample of ``known``.
 
     ``own``: the polynomials in the variable of the line that were used, ``below``: those of lower level. ``zero``:
     polynomials used that are zero on the whole line. ``pinned``: this holds over the sample of the line only.
@@ -75,7 +75,7 @@ class Interval:
     is_point: bool
     own: tuple[Poly, ...]
     below: tuple[Poly, ...]
-    found: Found
+    known: SampleTruth
     zero: tuple[Poly, ...] = ()
     pinned: bool = False
     is_bare: bool = False
@@ -98,7 +98,7 @@ class Cover:
 
     point: Point
     truth: Truth
-    intervals: tuple[Interval, ...]
+    intervals: tuple[CoverInterval, ...]
 
     @property
     def is_pinned(self) -> bool:
@@ -116,7 +116,7 @@ class Line:
         """``polys``: those of the formula, of any level."""
         level = point.depth
         self.point, self.whole, self.thom = point, whole, thom
-        self.intervals: list[Interval] = []
+        self.intervals: list[CoverInterval] = []
         self._polys = [f for f in polys if f.level == level]
         self.isolation = isolate_over(point, tuple(FactorSet(self._polys).at(level)))
 
@@ -140,12 +140,12 @@ class Line:
         return {f: sign_by_factors(f, sign) for f in self._polys}
 
     # --- intervals ----------------------------------------------------------------------------------
-    def found(self, position: int, sample: Point, truth: Truth, reason: frozenset[Atom] | Cover) -> Found:
+    def known(self, position: int, sample: Point, truth: Truth, reason: frozenset[Atom] | Cover) -> SampleTruth:
         """What is known at a position, with the root that it is."""
         at = self._bound(position // 2, {*self.isolation.sections[position // 2].members}) if position % 2 else None
-        return Found(sample, at, truth, reason)
+        return SampleTruth(sample, at, truth, reason)
 
-    def add(self, found: Found, used: FactorSet) -> Interval:
+    def add(self, known: SampleTruth, used: FactorSet) -> CoverInterval:
         """The interval around a sample on which the polynomials used keep their signs.
 
         Raises ``NotWellOriented`` where what is known there holds at the sample only, and no interval is that.
@@ -156,7 +156,7 @@ class Line:
         zero = tuple(f for f in own if self._is_zero(f))
         for f in zero:  # where its coefficients vanish, it does
             below.add(f.coefficients(level))
-        pinned = bool(zero) and isinstance(found.reason, Cover)
+        pinned = bool(zero) and isinstance(known.reason, Cover)
         if pinned:  # its order is needed, too
             more = FactorSet(_delineating(self.point, f) for f in zero)
             own += more.at(level)
@@ -165,8 +165,9 @@ class Line:
         if self.whole:
             own = self._common(own)
         self._include(own)
-        above = isinstance(found.reason, Cover) and found.reason.is_pinned
-        interval = self._around(Interval(None, None, False, tuple(own), tuple(below), found, zero, pinned or above))
+        above = isinstance(known.reason, Cover) and known.reason.is_pinned
+        pinned = pinned or above
+        interval = self._around(CoverInterval(None, None, False, tuple(own), tuple(below), known, zero, pinned))
         if above and not interval.is_point:
             raise NotWellOriented(f"{self.point.ring.names[level]}: a polynomial is zero on a line over a sample")
         if self.whole:
@@ -187,20 +188,20 @@ class Line:
     def _common(self, own: Iterable[Poly]) -> list[Poly]:
         """The polynomials of all intervals; with ``thom`` closed under derivation."""
         level = self.point.depth
-        found = FactorSet(own)
+        factors = FactorSet(own)
         for interval in self.intervals:
-            found.add(interval.own)
+            factors.add(interval.own)
         if self.thom:
-            for f in (listed := found.at(level)):
+            for f in (listed := factors.at(level)):
                 new = FactorSet(f.derivative(level) for _ in range(f.degree(level) > 1)).at(level)
                 listed += [g for g in new if g not in listed]
-            found.add(listed)
-        self._include(found)
-        return [f for f in found if not self._is_zero(f)]
+            factors.add(listed)
+        self._include(factors)
+        return [f for f in factors if not self._is_zero(f)]
 
-    def _around(self, interval: Interval) -> Interval:
+    def _around(self, interval: CoverInterval) -> CoverInterval:
         """The same with its ends: the next roots of its own polynomials on both sides of its sample."""
-        position = interval.found.position(self.isolation)
+        position = interval.known.position(self.isolation)
         sections = self.isolation.sections
         mine = {self.isolation.polys.index(f) for f in interval.own}
         half = position // 2
@@ -221,7 +222,7 @@ class Line:
         number = sum(chosen in s.members for s in self.isolation.sections[: section + 1])
         return Bound(polys[chosen], number)
 
-    def chosen(self) -> tuple[Interval, ...]:
+    def chosen(self) -> tuple[CoverInterval, ...]:
         """As few of the intervals as cover the line, ascending."""
         ranges = [(*interval.reach(self.isolation), k) for k, interval in enumerate(self.intervals)]
         kept, reached, end = [], 0, 2 * len(self.isolation.sections)
@@ -233,18 +234,18 @@ class Line:
             reached = last + 1
         return tuple(kept)
 
-    def with_all_signs(self, intervals: tuple[Interval, ...]) -> tuple[Interval, ...]:
+    def with_all_signs(self, intervals: tuple[CoverInterval, ...]) -> tuple[CoverInterval, ...]:
         """The intervals with all polynomials that keep their sign there: on the first line nothing is projected, and
         the more signs are known, the shorter is an answer."""
         sections = [{self.isolation.polys[j] for j in s.members} for s in self.isolation.sections]
         polys = dict.fromkeys(f for interval in intervals for f in interval.own)
-        found = []
+        widened = []
         for interval in intervals:
             first, last = interval.reach(self.isolation)
             inside = set() if interval.is_point else set[Poly]().union(*sections[first // 2 : (last + 1) // 2])
             own = (*interval.own, *(f for f in polys if f not in interval.own and f not in inside))
-            found.append(replace(interval, own=own))
-        return tuple(found)
+            widened.append(replace(interval, own=own))
+        return tuple(widened)
 
 
 def _delineating(point: Point, poly: Poly) -> Poly:

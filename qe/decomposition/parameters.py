@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from qe.decomposition.line import Cover, Interval
+from qe.decomposition.line import Cover, CoverInterval
 from qe.exact.ring import Poly
 from qe.proof.cells import CHARACTER_OF, FreeCell
 
@@ -36,17 +36,17 @@ def _cells(
     places = levels[cover.point.depth]
     for k, interval in enumerate(cover.intervals):
         known = {places.setdefault(f, len(places)): s for f, s in _signs(interval).items()}
-        here, reason = ((*path, k), (*signs, known)), interval.found.reason
+        here, reason = ((*path, k), (*signs, known)), interval.known.reason
         if isinstance(reason, Cover) and reason.point.depth < len(levels):
             yield from _cells(reason, *here, levels)
         else:
-            assert interval.found.truth is not None
-            yield *here, interval.found.truth
+            assert interval.known.truth is not None
+            yield *here, interval.known.truth
 
 
-def _signs(interval: Interval) -> dict[Poly, int]:
+def _signs(interval: CoverInterval) -> dict[Poly, int]:
     """The signs of its own polynomials at its sample."""
-    at, sample = interval.found.at, interval.found.sample
+    at, sample = interval.known.at, interval.known.sample
     return {f: 0 if at is not None and at.poly == f else sample.sign(f) for f in interval.own}
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
-from qe.decomposition.decompose import Decomposition as Table
-from qe.decomposition.decompose import Tactics, decompose
+from qe.decomposition.decompose import Decomposed, Tactics, decompose
 from qe.decomposition.follows import follows
 from qe.decomposition.formulas import construct
 from qe.decomposition.operators.table import OPERATORS
@@ -113,7 +112,7 @@ class _Question:
         *,
         whole_free: bool = False,
         extra: tuple[Poly, ...] = (),
-    ) -> Table:
+    ) -> Decomposed:
         """Its decomposition by the tactics that the options allow; see ``Tactics`` for ``whole_free``.
 
         With ``extra`` the signs of these polynomials in the free variables are wanted on every free cell.
@@ -136,7 +135,7 @@ class _Question:
             extra=extra,
         )
 
-    def answer(self, found: Table, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
+    def answer(self, found: Decomposed, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
         """The formula that a decomposition gives, and the table (refined if need be) that proves it."""
 
         def refined(levels: frozenset[int]) -> CellTable:
@@ -150,7 +149,7 @@ class _Question:
         simple = simplify(convert(answer, Ring.of(self.free)), watch=budget.check)
         return simple, proof
 
-    def shortest(self, first: Table, budget: Budget) -> tuple[Formula, CellTable]:
+    def shortest(self, first: Decomposed, budget: Budget) -> tuple[Formula, CellTable]:
         """The answer; a small one is compared with that of the whole space of the free variables, for which formula
         construction knows the signs of all factors everywhere."""
         answer, proof = self.answer(first, budget)
@@ -182,7 +181,7 @@ def claims(certificate: Certificate, question: Formula, answer: Formula) -> bool
     )
 
 
-def _figures(found: Table, seconds: float) -> dict[str, object]:
+def _figures(found: Decomposed, seconds: float) -> dict[str, object]:
     return {
         "projection": found.operator.name.value,
         "factors": found.factors,

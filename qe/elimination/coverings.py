@@ -44,19 +44,19 @@ class Coverings:
         if isinstance(matrix, Constant):
             return Outcome(matrix, {} if matrix.value is not problem.universal else None)
         free, ring = len(problem.free), Ring.of(question.order)
-        found = _answered(Search(convert(matrix, ring), ring, quantifiers, context.budget), free)
-        figures = {**question.figures, "samples": found.samples, "cells": found.cells}
+        answered = _answered(Search(convert(matrix, ring), ring, quantifiers, context.budget), free)
+        figures = {**question.figures, "samples": answered.samples, "cells": answered.cells}
         context.log.work("coverings", figures)
         values = None
-        if not free and found.cover.truth is (quantifiers[0] == "E"):
-            values = _values(found.cover, quantifiers)
+        if not free and answered.cover.truth is (quantifiers[0] == "E"):
+            values = _values(answered.cover, quantifiers)
         proof: dict[str, object] = {}
         if values is None or not problem.is_flat:  # values prove the answer otherwise
             wanted = context.options.certify
             again = OnDemand(Repeated(covered, problem.formula, context.options))
-            proof["proof"] = _evidence(found, quantifiers, convert(matrix, ring)) if wanted else again
-        given = problem.formula.ring
-        answer = found.formula if given is None else convert(found.formula, given)
+            proof["proof"] = _evidence(answered, quantifiers, convert(matrix, ring)) if wanted else again
+        before = problem.formula.ring
+        answer = answered.formula if before is None else convert(answered.formula, before)
         context.log.step("covering", problem.formula, answer, evidence=proof)
         return Outcome(context.log.step("simplification", answer, simplify(answer, watch=context.budget.check)), values)
 
@@ -78,10 +78,10 @@ class _Answered:
     cells: int = 0
 
 
-def _evidence(found: _Answered, quantifiers: Sequence[str], matrix: Formula) -> dict[str, object]:
+def _evidence(answered: _Answered, quantifiers: Sequence[str], matrix: Formula) -> dict[str, object]:
     """The covering as a certificate."""
-    answer = convert(found.formula, found.cover.point.ring)
-    return {"certificate": Certificate.cells(tree(found.cover, quantifiers, matrix), answer).to_data()}
+    answer = convert(answered.formula, answered.cover.point.ring)
+    return {"certificate": Certificate.cells(tree(answered.cover, quantifiers, matrix), answer).to_data()}
 
 
 def _answered(search: Search, free: int) -> _Answered:
@@ -114,8 +114,8 @@ def _finer(search: Search, level: int) -> Search:
 
 def _values(cover: Cover, quantifiers: Sequence[str]) -> Values:
     """The values of the first block that decide a sentence."""
-    found = cover.intervals[0].found
-    while isinstance(above := found.reason, Cover) and quantifiers[above.point.depth] == quantifiers[0]:
-        found = above.intervals[0].found
-    sample = found.sample
+    known = cover.intervals[0].known
+    while isinstance(above := known.reason, Cover) and quantifiers[above.point.depth] == quantifiers[0]:
+        known = above.intervals[0].known
+    sample = known.sample
     return {name: sample.number(i) for i, name in enumerate(sample.ring.names[: sample.depth])}

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.decomposition.evidence import tree
-from qe.decomposition.line import Bound, Cover, Found, Interval
+from qe.decomposition.line import Bound, Cover, CoverInterval, SampleTruth
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
@@ -60,7 +60,7 @@ class _Reader:
         def bound(poly: Poly, section: int) -> Bound:
             return Bound(poly, sum(poly in members for members in listed[: section + 1]))
 
-        def interval(part: Entry) -> Interval:
+        def interval(part: Entry) -> CoverInterval:
             names = ("first", "last", "at", "own", "lower", "upper")
             low, high, at, own, lower, upper, *reasons = part.fields(*names, optional=("atoms", "false", "line"))
             first, last, (half, odd) = low.integer(), high.integer(), divmod(at.integer(), 2)
@@ -74,7 +74,8 @@ class _Reader:
             bare = own.value is None
             kept = () if bare else tuple(factors[i.integer()] for i in own.items())
             zero = tuple(stack.polys[j] for j in stack.nullified)
-            return Interval(start, end, is_point, kept, (), Found(sample, root, None, reason), zero, is_bare=bare)
+            known = SampleTruth(sample, root, None, reason)
+            return CoverInterval(start, end, is_point, kept, (), known, zero, is_bare=bare)
 
         return Cover(point, None, tuple(map(interval, intervals.items())))
 

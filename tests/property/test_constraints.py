@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from qe import Guarantee, eliminate, reference
 from qe.certify.verify import verify
-from qe.decomposition.decompose import Decomposition, Tactics, decompose
+from qe.decomposition.decompose import Decomposed, Tactics, decompose
 from qe.decomposition.formulas import construct
 from qe.decomposition.operators.table import OPERATORS
 from qe.errors import BudgetExceeded
@@ -70,7 +70,7 @@ def nested(draw: st.DrawFn) -> Formula:
     return found
 
 
-def _decomposed(matrix: Formula, quantifiers: tuple[str, ...], tactics: Tactics = Tactics()) -> Decomposition | None:
+def _decomposed(matrix: Formula, quantifiers: tuple[str, ...], tactics: Tactics = Tactics()) -> Decomposed | None:
     """None at the time limit."""
     try:
         return decompose(matrix, NAMES[: len(quantifiers)], quantifiers, budget=Budget(2), tactics=tactics)

@@ -8,7 +8,7 @@ from enum import Enum
 
 from qe.decomposition.operators.operator import Operator
 from qe.decomposition.projection import Levels
-from qe.exact.fibre_stack import isolate_over
+from qe.decomposition.stack import stack_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.options import Budget
@@ -65,23 +65,23 @@ class TableBuilder:
             self.budget.check("cells", self.cells)
             return Cell(signs, self._truth(point, vanishing, dimension, neighbours))
         factors = self.levels[level]
-        isolation = isolate_over(point, factors, lazard=self.operator.evaluates)
-        if isolation.nullified:
+        used = tuple(range(len(factors)))
+        stack = stack_over(point, factors, used, lazard=self.operator.evaluates)
+        if stack.nullified:
             self.operator.check_nullified(level, dimension)
-        texts = isolation.sign_texts()
+        texts = stack.texts
         cells: dict[int, Cell] = {}
         for position in (*range(0, len(texts), 2), *range(1, len(texts), 2)):
             zero = frozenset(f for f, c in zip(factors, texts[position], strict=True) if c == "0") & self.boundary
             cells[position] = self._cell(
-                isolation.sample(position),
+                stack.sample(position),
                 texts[position],
                 vanishing | zero,
                 dimension + (position % 2 == 0),
                 (cells[position - 1], cells[position + 1]) if position % 2 else None,
             )
-        sections = tuple(tuple(sorted(s.members)) for s in isolation.sections)
         complete = tuple(cells[position] for position in range(len(texts)))
-        return Cell(signs, None, Stack(tuple(range(len(factors))), isolation.samples, sections, complete))
+        return Cell(signs, None, Stack(used, stack.sectors, stack.sections, complete))
 
     def _truth(
         self, point: Point, vanishing: frozenset[Poly], dimension: int, neighbours: tuple[Cell, Cell] | None

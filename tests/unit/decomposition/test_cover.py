@@ -84,7 +84,7 @@ def test_the_intervals_cover_the_line_and_none_is_superfluous() -> None:
     first, last = found.intervals[0], found.intervals[-1]
     assert first.lower is None and last.upper is None
     assert all(left.upper is not None and right.lower is not None for left, right in pairwise(found.intervals))
-    reasons = [i.found.reason for i in found.intervals]
+    reasons = [i.known.reason for i in found.intervals]
     assert all(isinstance(reason, frozenset) or reason.point.depth == 1 for reason in reasons)
 
 
@@ -111,13 +111,13 @@ def test_one_interval_is_known_where_one_value_decides() -> None:
     found = search("y^2 < x or x <= 0", "xy", "AE").run()
     assert found.truth is True
     for interval in found.intervals:
-        reason = interval.found.reason
+        reason = interval.known.reason
         assert isinstance(reason, frozenset) or (reason.truth is True and len(reason.intervals) == 1)
 
 
 def test_nobody_asks_what_holds_beside_values_of_the_first_block() -> None:
     (first,) = search("x < y^2", "xy", "EA").run().intervals
-    assert first.is_bare and isinstance(first.found.reason, Cover) and not first.own
+    assert first.is_bare and isinstance(first.known.reason, Cover) and not first.own
 
 
 def test_cells_of_parameters() -> None:
@@ -137,9 +137,9 @@ def test_signs_of_derivatives_tell_cells_apart() -> None:
     )
     counts = [len(parameter_cells(s.run(), 2)[1]) for s in (plain, whole, thom)]
     assert counts[0] <= counts[1] <= counts[2]
-    over = next(i for i in thom.run().intervals if isinstance(i.found.reason, Cover)).found.reason
+    over = next(i for i in thom.run().intervals if isinstance(i.known.reason, Cover)).known.reason
     assert isinstance(over, Cover)
-    signs = [tuple(i.found.sample.sign(f) for f in i.own) for i in over.intervals]
+    signs = [tuple(i.known.sample.sign(f) for f in i.own) for i in over.intervals]
     assert len({i.own for i in over.intervals}) == 1 and len(set(signs)) == len(signs)
 
 

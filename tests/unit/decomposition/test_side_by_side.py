@@ -15,7 +15,7 @@ import pytest
 import qe
 from qe import arguments
 from qe.decomposition import lifting
-from qe.decomposition.decompose import Decomposition, decompose
+from qe.decomposition.decompose import Decomposed, decompose
 from qe.errors import BudgetExceeded
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Ring
@@ -69,7 +69,7 @@ class Eager:
             return False, pickle.loads(pickle.dumps(error))
 
 
-def table(text: str, helpers: Helpers | None, work: int | None = None) -> Decomposition:
+def table(text: str, helpers: Helpers | None, work: int | None = None) -> Decomposed:
     prefix, matrix = prenex(formats.read(text, "text"))
     free = formats.read(text, "text").free
     order = (*free, *(v for _, names in prefix for v in names))
