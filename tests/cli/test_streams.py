@@ -23,7 +23,8 @@ from tests.waiting import ending
 FOLDER = Path(sys.executable).parent
 EXAMPLES = Path(__file__).parents[2] / "examples"
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
-ELIMINATE = f"{FOLDER / 'qe'} eliminate 'ex x. x^2 = b'"
+QE = FOLDER / "qe"
+ELIMINATE = f"{QE} eliminate 'ex x. x^2 = b'"
 
 
 def shell(line: str) -> tuple[int, str]:
@@ -34,44 +35,32 @@ def shell(line: str) -> tuple[int, str]:
     return done.returncode, done.stderr
 
 
-@pytest.mark.parametrize("command", [ELIMINATE, f"{FOLDER / 'qe'} --help"])
-def test_a_reader_that_leaves_early(command: str) -> None:
-    assert shell(f"{command} | head -0") == (0, "")
+@each(
+    f"{ELIMINATE} | head -0",
+    f"{QE} --help | head -0",
+    f"PYTHONIOENCODING=ascii {QE} eliminate 'ä > 0'",
+    f"{QE} eliminate 'ex `a b`. `a b`*y + z > 0' --order '`a b`, y' --plain",
+)
+def test_readers_that_leave_early_and_odd_letters_are_no_reason_for_a_word(line: str) -> None:
+    assert shell(line) == (0, "")
 
 
-@needs_full
-@pytest.mark.parametrize("command", [ELIMINATE, f"{FOLDER / 'bezier'} --help"])
-def test_a_full_disc(command: str) -> None:
-    status, message = shell(f"{command} > /dev/full")
-    assert status == 3
-    assert message.count("\n") == 1 and "No space left" in message and "report" not in message
+FULL = "No space left"
 
 
 @each(
+    pytest.param(f"{ELIMINATE} > /dev/full", 3, FULL, marks=needs_full),
+    pytest.param(f"{FOLDER / 'bezier'} --help > /dev/full", 3, FULL, marks=needs_full),
+    pytest.param(f"{QE} eliminate 'x <' 2> /dev/full", 2, "", marks=needs_full),
     (f"{ELIMINATE} >&-", 3, "cannot be written"),
     (f"{ELIMINATE} >&- 2>&-", 3, ""),
-    (f"{FOLDER / 'qe'} eliminate - <&-", 2, "empty"),
-    (f"{FOLDER / 'qe'} eliminate 'x <' >&- 2>&- <&-", 2, ""),
+    (f"{QE} eliminate - <&-", 2, "empty"),
+    (f"{QE} eliminate 'x <' >&- 2>&- <&-", 2, ""),
 )
-def test_closed_streams(line: str, status: int, words: str) -> None:
+def test_full_discs_and_closed_streams(line: str, status: int, words: str) -> None:
     found, message = shell(line)
     assert found == status
     assert message.count("\n") == bool(words) and words in message and "report" not in message
-
-
-@needs_full
-def test_messages_that_nobody_can_read() -> None:
-    assert shell(f"{FOLDER / 'qe'} eliminate 'x <' 2> /dev/full") == (2, "")
-
-
-def test_letters_that_the_terminal_lacks() -> None:
-    line = f"PYTHONIOENCODING=ascii {FOLDER / 'qe'} eliminate 'ä > 0'"
-    assert shell(line) == (0, "")
-
-
-def test_an_order_with_names_in_backquotes() -> None:
-    line = f"{FOLDER / 'qe'} eliminate 'ex `a b`. `a b`*y + z > 0' --order '`a b`, y' --plain"
-    assert shell(line) == (0, "")
 
 
 DRAWING = """

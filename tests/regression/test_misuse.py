@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 import sys
 from collections.abc import Callable
@@ -97,6 +98,15 @@ QE = Path(sys.executable).with_name("qe")
     ("∄x: x² = a", "a < 0"),
     ("Inequality[0, Less, x, LessEqual, 1]", "0 < x <= 1"),
     ("Power[x, 2] < Times[2, y, z] + Plus[x, Rational[1, 2]]", "2*x^2 < 4*y*z + 2*x + 1"),
+    ("all x. |x| >= 0", "true"),
+    ("ex x. |x| < 0", "false"),
+    ("|x - 1| < 2", "-1 < x < 3"),
+    ("x > 0 | y > 0", "x > 0 or y > 0"),
+    ("||x| - 1| > 0", "x /= 1 and x /= -1"),
+    ("Element[a | b, Reals] && a > 0", "a > 0"),
+    ("Element[{x, y}, {1, 2}]", "(x = 1 or x = 2) and (y = 1 or y = 2)"),
+    ("Element[|x| | y, [0, 1]]", "|x| <= 1 and 0 <= y <= 1"),
+    ("Element[x, Reals] | y > 0 && x/x = 1", "true"),
 )
 def test_the_answer_that_was_meant(typed: str, meant: str) -> None:
     assert qe.equivalent(typed, meant)
@@ -173,6 +183,18 @@ def test_a_list_holds_together() -> None:
     (lambda: qe.equivalent("x > 1", "x > 1", cluster="here"), "cluster: "),
     (lambda: qe.region("x > 0").contains({"y": 1}), "x"),
     (lambda: qe.variables("x") ** 2 == Fraction(1), "x.equals"),
+    (lambda: qe.verify("abc"), "a Certificate expected"),
+    (lambda: qe.eliminate("x > 0", timeout="10"), "timeout"),
+    (lambda: qe.eliminate("x > 0", timeout=math.nan), "timeout"),
+    (lambda: qe.decide("true", timeout=-1), "timeout"),
+    (lambda: qe.decide("true", memory=math.inf), "memory"),
+    (lambda: qe.region("x > 0", timeout=math.inf), "timeout"),
+    (lambda: qe.region("x > 0").contains({"x": math.inf}), "exact number"),
+    (lambda: qe.region("x > 0").contains(5), ""),
+    (lambda: qe.eliminate("x^2 + y^2 < 1", order=(X, 5)), "order"),
+    (lambda: qe.Certificate.from_json(5), ""),
+    (lambda: qe.parametric_witnesses("true"), ""),
+    (lambda: qe.RealAlgebraic.from_root([-2.5, 1], 0, 5), ""),
 )
 def test_one_line_that_helps(misuse: Callable[[], object], hint: str) -> None:
     with pytest.raises(qe.InputError) as caught:

@@ -21,34 +21,30 @@ SQRT3 = RealAlgebraic.from_root((-3, 0, 1), 1, 2)
 
 
 @each(
-    ("x", "x >= 0 and y > 0 and y < 1/4", 0),
-    ("0*x", "x > 0 and x < 1/4", 0),
-    ("x", "x >= 0 and y > 0 and y < 1/10^40", 0),
-    ("x + y", "x + y >= 1 and x > 0 and y > 0", 1),
-    ("x^2", "y > x and y < x + 1/1000 and z^2 <= y", 0),
+    # the strict conditions leave variables free that the objective does not have
+    ("x", "x >= 0 and y > 0 and y < 1/4", "0", True),
+    ("0*x", "x > 0 and x < 1/4", "0", True),
+    ("x", "x >= 0 and y > 0 and y < 1/10^40", "0", True),
+    ("x + y", "x + y >= 1 and x > 0 and y > 0", "1", True),
+    ("x^2", "y > x and y < x + 1/1000 and z^2 <= y", "0", True),
+    # on the rim of a strict condition
+    ("x", "x > 0 and y > 0 and y < 1/4", "0", False),
+    ("x", "x >= 0 and x >= y^2 and y > 0", "0", False),
+    ("x + y", "x >= 0 and y >= 0 and x + y > 0", "0", False),
+    ("x", "x >= y^2 and x >= z^2 and y > z", "0", False),
+    ("y", "x^2 + y^2 <= 1 and (x - 1)^2 + y^2 <= 2 and x > 10^20*y + 10^20", "-1", False),
+    # small sets, and sets far from the origin, ended in "unable"
+    ("10^20*x", "(10^20*x - 1)^2 + y^2 <= 2 and y > x", "1 - sqrt(2)", True),
+    ("x - 10^20", "(x - 10^20)^2 <= 2 and y > x", "-sqrt(2)", True),
+    ("10^20*(x - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", True),
+    ("10^20*(y - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", False),
 )
-def test_a_minimum_in_variables_that_the_strict_conditions_leave_free_is_attained(
-    objective: str, constraints: str, value: int
-) -> None:
+def test_whether_an_infimum_is_attained(objective: str, constraints: str, value: str, attained: bool) -> None:
     found = qe.minimize(objective, constraints)
-    assert found.value == value and found.attained is True and qe.verify(found.certificate).accepted
-    names = ", ".join(found.point)
-    at = " and ".join(f"{name} = {number}" for name, number in found.point.items())
-    assert qe.decide(f"ex {names}. {at} and {constraints}")
-
-
-@each(
-    ("x", "x > 0 and y > 0 and y < 1/4", 0),
-    ("x", "x >= 0 and x >= y^2 and y > 0", 0),
-    ("x + y", "x >= 0 and y >= 0 and x + y > 0", 0),
-    ("x", "x >= y^2 and x >= z^2 and y > z", 0),
-    ("y", "x^2 + y^2 <= 1 and (x - 1)^2 + y^2 <= 2 and x > 10^20*y + 10^20", -1),
-)
-def test_an_infimum_on_the_rim_of_a_strict_condition_is_not_attained(
-    objective: str, constraints: str, value: int
-) -> None:
-    found = qe.minimize(objective, constraints)
-    assert found.value == value and found.attained is False and qe.verify(found.certificate).accepted
+    assert (str(found.value), found.attained) == (value, attained) and qe.verify(found.certificate).accepted
+    if attained and "sqrt" not in value:
+        at = " and ".join(f"{name} = {number}" for name, number in found.point.items())
+        assert qe.decide(f"ex {', '.join(found.point)}. {at} and {constraints}")
 
 
 @each(
@@ -69,19 +65,6 @@ def test_linear_problems_with_huge_numbers_do_not_end_in_unable() -> None:
     assert found.value == (10**20 - F(1, 10**40)) / (10**40 + 1) and found.attained
     with pytest.raises(Unable):  # and numbers beyond floats raise nothing else
         qe.minimize("x", f"10^400*x^2 + {10**399}*x*y + 10^400*y^2 <= 3 and 10^500*x >= y")
-
-
-@each(
-    ("10^20*x", "(10^20*x - 1)^2 + y^2 <= 2 and y > x", "1 - sqrt(2)", True),
-    ("x - 10^20", "(x - 10^20)^2 <= 2 and y > x", "-sqrt(2)", True),
-    ("10^20*(x - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", True),
-    ("10^20*(y - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", False),
-)
-def test_sets_that_are_small_or_far_from_the_origin_do_not_end_in_unable(
-    objective: str, constraints: str, value: str, attained: bool
-) -> None:
-    found = qe.minimize(objective, constraints)
-    assert (str(found.value), found.attained) == (value, attained) and qe.verify(found.certificate).accepted
 
 
 def _claim(objective: str, constraints: str, **changes: Any) -> Any:

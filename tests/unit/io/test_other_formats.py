@@ -18,7 +18,6 @@ from qe.formula.traverse import polynomials, ring_of
 from qe.io import formats, latex, mathml, qepcad, redlog
 from qe.io.json import decode, encode
 from qe.io.text import read
-from qe.io.text import read as text
 from qe.spelling import quoted
 from tests.strategies import formulas
 from tests.tables import each
@@ -266,7 +265,7 @@ def test_redlog_mistakes(given: str, part: str) -> None:
 
 
 def test_redlog_writing() -> None:
-    assert redlog.write(text("(ex x, y. x /= y) and A > 0")) == "ex({x,y}, x - y <> 0) and !A > 0"
+    assert redlog.write(read("(ex x, y. x /= y) and A > 0")) == "ex({x,y}, x - y <> 0) and !A > 0"
 
 
 @each("e", "i", "pi", "and", "x'", "a b", "ä", "Ex")
@@ -279,7 +278,7 @@ def test_reserved_names_are_renamed_injectively(format_name: str, name: str) -> 
 
 
 def test_json_is_readable_and_checked() -> None:
-    formula = text("ex x. x^2 - y >= 0 and not (x < root(1, x^2 - y))")
+    formula = read("ex x. x^2 - y >= 0 and not (x < root(1, x^2 - y))")
     data = encode(formula)
     assert data["ring"] == ["y", "x"]
     assert decode(json.loads(json.dumps(data))) == formula
@@ -305,7 +304,7 @@ def test_json_is_readable_and_checked() -> None:
     {"formula": {"root": [["1", [1, 0]]], "relation": "=", "variable": "x", "k": 0}},
 )
 def test_json_that_is_no_formula_is_refused(change: dict[str, object]) -> None:
-    data = {**encode(text("x^2 + y > 0")), **change}
+    data = {**encode(read("x^2 + y > 0")), **change}
     with pytest.raises(InputError):
         formats.read(json.dumps(data), "json")
 
@@ -317,15 +316,15 @@ def test_json_texts_that_are_no_json(given: str) -> None:
 
 
 def test_latex() -> None:
-    assert formats.write(text("ex x1. a*x1^2 /= alpha or x1 < 0"), "latex") == (
+    assert formats.write(read("ex x1. a*x1^2 /= alpha or x1 < 0"), "latex") == (
         r"\exists x_{1}\colon a\,x_{1}^{2} - \alpha \neq 0 \lor x_{1} < 0"
     )
-    long = formats.write(text(" and ".join(f"(x - {k})^2 + y^2 + {k}*z <= 27" for k in range(1, 5))), "latex")
+    long = formats.write(read(" and ".join(f"(x - {k})^2 + y^2 + {k}*z <= 27" for k in range(1, 5))), "latex")
     assert long.count(r"\\") == 3 and r"\begin{array}" in long
 
 
 def test_mathml() -> None:
-    written = formats.write(text("ex x1. a*x1^2 < 2 or y > 0"), "mathml")
+    written = formats.write(read("ex x1. a*x1^2 < 2 or y > 0"), "mathml")
     assert written.startswith("<math") and "<mo>∃</mo>" in written and "&lt;" in written
     assert "<msubsup><mi>x</mi><mn>1</mn><mn>2</mn></msubsup>" in written
 
@@ -336,4 +335,4 @@ def test_the_door() -> None:
     with pytest.raises(InputError, match="only be written"):
         formats.read("x", "mathml")
     with pytest.raises(InputError, match="unknown format"):
-        formats.write(text("x > 0"), "word")
+        formats.write(read("x > 0"), "word")
