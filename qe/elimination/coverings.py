@@ -86,7 +86,7 @@ class _Answered:
 def _evidence(found: _Answered, quantifiers: Sequence[str], matrix: Formula) -> dict[str, object]:
     """The covering as a certificate."""
     answer = convert(found.formula, found.cover.point.ring)
-    return {"certificate": Certificate.cells(tree(found.cover, quantifiers, matrix), answer).to_data()}
+    return {"certificate": Certificate.cells(tree(found.cover, quantifiers, matrix), answer)}
 
 
 def _answered(search: Search, free: int) -> _Answered:

@@ -4,21 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from qe.expert.classification import check_classification
 from qe.expert.counted_solutions import check_counted_solutions
 from qe.expert.critical_universal import check_critical_universal
 from qe.expert.critical_values import check_critical_values
 from qe.expert.mirror import check_mirror
+from qe.expert.optimum import check_multipliers
 from qe.expert.roots_by_signs import check_roots_by_signs
 from qe.expert.roots_counted import check_roots_counted
 from qe.expert.rotation import check_rotation
+from qe.expert.sentences import stated
+from qe.expert.solutions import check_solutions
 from qe.kernel.step import Check
 
 EXPERT: Mapping[str, Check] = {
+    "classification": stated(check_classification),
     "comprehensive Gröbner system": check_counted_solutions,
     "critical values": check_critical_values,
     "critical values of a universal block": check_critical_universal,
     "mirror images of a convex set": check_mirror,  # of those that no elaborator makes of the kernel's steps
+    "multipliers": check_multipliers,
     "roots by signs": check_roots_by_signs,
     "roots counted": check_roots_counted,
     "rotation of the axes": check_rotation,
+    "solutions": stated(check_solutions),
 }

@@ -6,10 +6,10 @@ from fractions import Fraction as F
 
 import pytest
 
+from qe.certify.verify import verify
 from qe.convex.optimum import NotConvex, Optimum, OptimumStatus, maximize, minimize
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.ring import Ring
-from qe.expert.optimum import check_optimum
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.options import Budget
@@ -26,7 +26,7 @@ def _all(*pairs) -> Formula:
 def _solved(objective, constraints: Formula, **options) -> Optimum:
     """The optimum, with its certificate checked."""
     found = minimize(objective, constraints, **options)
-    check_optimum(found.certificate.payload)
+    assert verify(found.certificate).accepted
     return found
 
 
