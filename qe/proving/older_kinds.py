@@ -35,6 +35,8 @@ def recent(certificate: Certificate) -> Certificate:
     try:
         new: Any = _renewed(payload)
         found = Certificate(certificate.kind, new) if made is None else made(Entry(new, "payload"))
+    except CertificateRejected:
+        raise
     except CRASHES as error:
         raise CertificateRejected("payload", f"not a certificate of kind {certificate.kind.value}: {error}") from None
     return replace(found, digests=certificate.digests)

@@ -252,6 +252,8 @@ class Prover:
         """The one step of a certificate that a method made of this very step."""
         rule, evidence = str(made.single_step["rule"]), made.single_step["evidence"]
         assert isinstance(evidence, dict)
+        if RULES.get(step.rule) is RULES[rule]:
+            rule = step.rule  # which says more
         own = self._tried(rule, step, context, evidence)
         return None if own is None else (rule, own)
 

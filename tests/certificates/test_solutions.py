@@ -19,7 +19,7 @@ from qe.formula.build import convert
 from qe.formula.syntax import FALSE, Or, Relation
 from qe.groebner.evidence import solutions_certificate
 from qe.proof.certificate import written
-from tests.certificates.mutation import replaced, without
+from tests.certificates.mutation import EVIDENCE, PLACE, replaced, without
 
 RING = Ring.of(("w", "y", "x"))
 w, y, x = (RING.gen(i) for i in range(3))
@@ -28,7 +28,6 @@ CERTIFICATE = solutions_certificate(
     [x**2 + y**2 - w - 3, x * y - 1, x + y - w], [(x, Relation.GT)], constants={0: ROOT_2}
 )
 CIRCLE = solutions_certificate([x**2 + y**2 - 4, x * y - 1], [(x - 1, Relation.NE), (y + 2, Relation.GE)])
-EVIDENCE, PLACE = ("payload", "steps", 0, "evidence"), "payload.steps[0].evidence"
 DATA: dict[str, Any] = json.loads(CIRCLE.to_json())
 
 
