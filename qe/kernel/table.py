@@ -32,8 +32,6 @@ def check_table(claim: Claim, context: Context, limits: Limits) -> None:
     table, before = cells_from_json(entry), normal(claim.before)
     if not {*before.free, *claim.after.free} <= set(table.order) <= set(claim.ring.names):
         raise entry.fail("the table is about other variables")
-    if not is_prenex_form(before, table):
-        raise entry.fail("the table is about another formula")
     same = claim.before == claim.after
     ring = Ring.of(table.order)
     known = [fact for fact in context if set(fact.free) <= set(table.order)]
@@ -43,6 +41,8 @@ def check_table(claim: Claim, context: Context, limits: Limits) -> None:
     except CertificateRejected as error:
         at = f"{claim.path}.after" if error.step == "answer" else f"{entry.path}.{error.step.removeprefix('payload.')}"
         raise CertificateRejected(at, error.reason) from None
+    if not is_prenex_form(before, table):
+        raise entry.fail("the table is about another formula")
 
 
 def _moved(formula: Formula, ring: Ring) -> Formula:

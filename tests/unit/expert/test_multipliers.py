@@ -28,6 +28,15 @@ def multipliers(text: str, names: str = "x y") -> Any:
     return optimum(text, names=names).evidence_for("multipliers")
 
 
+def with_constant(evidence: Any, value: str) -> Any:
+    """The evidence with a further constraint without variables, which it does not use."""
+    problem, zero = evidence["problem"], ["0"]
+    constraints = [*problem["constraints"], {"terms": [[value, [0, 0]]], "relation": "<="}]
+    faces = [{**face, "weights": [*face["weights"], "0"]} for face in evidence["faces"]]
+    more = {"multipliers": [*evidence["multipliers"], zero], "values": [*evidence["values"], [value]], "faces": faces}
+    return {**evidence, **more, "problem": {**problem, "constraints": constraints}}
+
+
 EMPTY = "x^2 + y^2 <= 1 and x > 1"
 
 
@@ -37,6 +46,8 @@ EMPTY = "x^2 + y^2 <= 1 and x > 1"
         (f"ex x, y. {EMPTY}", "false", multipliers(EMPTY), ""),
         (f"ex x, y. {EMPTY} and x^3 < y", "false", multipliers(EMPTY), ""),  # more conjuncts
         ("all x, y. x^2 + y^2 > 1 or x <= 1", "true", multipliers(EMPTY), ""),
+        (f"ex x, y. {EMPTY}", "false", with_constant(multipliers(EMPTY), "-1"), ""),  # which holds: no conjunct
+        (f"ex x, y. {EMPTY}", "false", with_constant(multipliers(EMPTY), "1"), "not a conjunct"),
         (f"ex x, y. {EMPTY}", "true", multipliers(EMPTY), "a sentence of one block"),
         (f"ex x. {EMPTY}", "false", multipliers(EMPTY), "a sentence of one block"),
         ("ex x, y. x^2 + y^2 <= 1 and x >= 1", "false", multipliers(EMPTY), "not a conjunct"),
