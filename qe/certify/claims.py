@@ -38,10 +38,10 @@ def claim_of(certificate: Certificate) -> Claim:
         order, start, steps, answer = entry.fields("order", "start", "steps", "answer")
         ring = Ring.of(order.names())
         question, found = (formula_from_json(e, ring, quantified=True) for e in (start, answer))
-        words = _equivalence(question, found)
+        said = _equivalence(question, found)
         if question == found and certificate.evidence_for("cells") is not None:
-            words = words[0], "has one truth value on each cell of a decomposition"
-        return Claim((*words, _rules(steps)), (question, found))
+            said = said[0], "has one truth value on each cell of a decomposition"
+        return Claim((*said, _rules(steps)), (question, found))
     brought = brought_kind(certificate.kind.value)
     return Claim((f"{certificate.kind.value}: {brought.words(entry) if brought else 'nothing that is known here'}",))
 

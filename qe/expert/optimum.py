@@ -51,6 +51,7 @@ from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.kernel.block import existential
+from qe.kernel.limits import check_variables
 from qe.kernel.step import Claim, Context, Limits
 from qe.options import Budget
 from qe.proof.entry import Entry
@@ -125,6 +126,7 @@ def sentence(entry: Entry, budget: Budget) -> Sentence:
     assert isinstance(entry.value, dict)
     status, parts = entry.value["status"], {k: Entry(v, f"{entry.path}.{k}") for k, v in entry.value.items()}
     names = parts["problem"].fields(*PROBLEM)[0].names()
+    check_variables(len(names))
     value, below, *others, root = renamed(("value", "below", *names, "root"), names)
     ring = Ring.of((value, *names, *others, below, root))
     if status == "infeasible":

@@ -40,9 +40,6 @@ class Kind:
 
     value: str
 
-    OPTIMUM: ClassVar[Kind]
-    SOLUTIONS: ClassVar[Kind]
-    CLASSIFICATION: ClassVar[Kind]
     DERIVATION: ClassVar[Kind]
     BUNDLE: ClassVar[Kind]
 

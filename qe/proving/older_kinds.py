@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
-from qe.errors import CertificateRejected
+from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.expert import classification, optimum, solutions
 from qe.formula.build import exists
@@ -35,7 +35,7 @@ def recent(certificate: Certificate) -> Certificate:
     try:
         new: Any = _renewed(payload)
         found = Certificate(certificate.kind, new) if made is None else made(Entry(new, "payload"))
-    except CertificateRejected:
+    except (CertificateRejected, Unable):
         raise
     except CRASHES as error:
         raise CertificateRejected("payload", f"not a certificate of kind {certificate.kind.value}: {error}") from None
