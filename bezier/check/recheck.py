@@ -36,6 +36,7 @@ from qe.kernel.verdict import Verdict
 from qe.processes.channel import Channel
 from qe.progress import Event
 from qe.proof.certificate import Certificate
+from qe.proving.older_kinds import recent
 
 CERTIFICATE, PATH = "certificate.json", "path.json"
 T = TypeVar("T")
@@ -125,7 +126,7 @@ def _check_presence(folder: FilePath) -> None:
 def _certificate(folder: FilePath) -> Certificate:
     text = stored.text(folder / CERTIFICATE)
     try:
-        return Certificate.from_json(text)
+        return recent(Certificate.from_json(text))
     except CertificateRejected as error:
         raise CertificateRejected(f"{CERTIFICATE}: {error.step}", error.reason) from None
     except InputError as error:

@@ -11,13 +11,13 @@ from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.exact.univariate import from_univariate
-from qe.expert.classification import read_question
+from qe.expert.classification import read_question, sentence
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.groebner.counting import RealRootClassification
 from qe.groebner.question import ParametricSystem
 from qe.options import Budget, Method, Options
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 
 
@@ -29,21 +29,22 @@ def certified(asked: ParametricSystem, found: RealRootClassification, budget: Bu
     payload = _question(asked, found)
     question, classes, _ = read_question(Entry(payload, "payload"))
     sentences = question.sentences(classes, lambda: budget.check("certificate"))
-    proofs: list[Json] = [_proof(s, budget).to_data() for s in sentences if s != TRUE]
-    certificate = Certificate(Kind.CLASSIFICATION, {**payload, "proofs": proofs})
+    evidence: dict[str, Json] = {**payload, "proofs": [_proof(s, budget) for s in sentences if s != TRUE]}
+    certificate = Certificate.step("classification", (), *sentence(Entry(evidence, "evidence")), evidence)
     verdict = verify(certificate, budget)
     if not verdict.accepted:
         raise Unable(f"no certificate of the classification: {verdict.reason}")
     return replace(found, certificate=certificate)
 
 
-def _proof(sentence: Formula, budget: Budget) -> Certificate:
+def _proof(case: Formula, budget: Budget) -> Json:
     for method in (Method.AUTO, Method.CAD):
-        answer = solve(sentence, Options(method=method, certify=True), budget)
+        answer = solve(case, Options(method=method, certify=True), budget)
         if answer.formula == FALSE:
             raise InternalError("a classification contradicts the cases of its checker")
         if answer.formula == TRUE and answer.certificate is not None and not answer.unchecked:
-            return answer.certificate
+            assert isinstance(answer.certificate.payload, dict)
+            return answer.certificate.payload
     raise Unable("no certificate of the classification: a case is decided without one")
 
 

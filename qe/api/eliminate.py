@@ -18,7 +18,7 @@ from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
 
@@ -111,12 +111,9 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
     if not options.certify:
         return found
     from qe.api.verify import judged
-    from qe.certify.parts import claims_what_is_proved
 
     if found.proved_true == found.proved_false == FALSE:
         return replace(found, certificate=None, reason="nothing is decided")
-    if found.certificate is not None and not claims_what_is_proved(found.certificate, budget):
-        return replace(found, certificate=None, reason="the proofs of the parts do not give the parts as they stand")
     guarantee, reason = judged(found.certificate, budget)
     return replace(found, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
 
@@ -157,7 +154,7 @@ def _answer(formula: Formula, options: Options, check: bool, cluster: Cluster | 
         log.work("limits", {"work": budget.used})
         return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
     answer, certificate = answer_to(formula, found), found.certificate
-    if certificate is not None and (check or certificate.kind == Kind.WITNESS or found.witness is not None):
+    if certificate is not None and (check or certificate.evidence_for("instance") or found.witness is not None):
         from qe.api.verify import with_verdict
 
         return with_verdict(answer, budget, checked=found.checked)

@@ -19,7 +19,6 @@ from qe.options import VERIFY_SECONDS, Budget, Options
 from qe.processes.execution import perform, run
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee
-from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Labelled
 from qe.proving.certificates import without_loss
 
@@ -33,7 +32,7 @@ SHARE = 0.8
 """The part of the time left after an answer that its verification may take: the answer has to get home too."""
 
 GRACE = 0.05
-SMALL_DEGREE, SMALL_POLYNOMIALS, SMALL_TEXT = 8, 40, 20_000
+SMALL_DEGREE, SMALL_TEXT = 8, 20_000
 """A certificate of this size needs no process of its own: no single step of its verification takes long."""
 
 
@@ -57,7 +56,11 @@ def verify(
     if not isinstance(certificate, Certificate):
         return checked(certificate)  # which says what was expected
     verdict = _limited(certificate, timeout, core=core)
-    return verdict if formula is None or not verdict.accepted else of_question(certificate, formula)
+    if formula is None or not verdict.accepted:
+        return verdict
+    from qe.proving import older_kinds
+
+    return of_question(older_kinds.recent(certificate), formula)
 
 
 def checked(certificate: Certificate, budget: Budget | None = None, *, core: bool = False) -> Verdict:
@@ -218,18 +221,11 @@ def _is_small(certificate: Certificate) -> bool:
     payload = certificate.payload
     if isinstance(payload, tuple):
         return all(isinstance(m, Labelled) and _is_small(m.certificate) for m in payload)
-    if isinstance(payload, CellEvidence):
-        return _has_small_factors(payload)
     return _is_short(payload)
 
 
-def _has_small_factors(evidence: CellEvidence) -> bool:
-    factors = [f for level in evidence.table.factors for f in level]
-    return len(factors) <= SMALL_POLYNOMIALS and all(f.total_degree <= SMALL_DEGREE for f in factors)
-
-
 def _is_short(payload: Json) -> bool:
-    """Whether the text in the data is short and has no large exponents or long lists."""
+    """Whether the text in the data, that of cells aside, is short and has no large exponents or long lists."""
     size = 0
     for text in _texts(payload):
         size += len(text) + 1
@@ -250,6 +246,6 @@ def _texts(data: Json) -> Iterator[str]:
         if isinstance(node, str):
             yield node
         elif isinstance(node, dict | list):
-            below: Iterable[Json] = node.values() if isinstance(node, dict) else node
+            below: Iterable[Json] = node if isinstance(node, list) else [v for k, v in node.items() if k != "root"]
             pending += below
             yield " "

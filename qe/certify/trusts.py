@@ -13,7 +13,7 @@ from qe.kernel.statements import rows
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Json
 
-CORE_KINDS = frozenset({"derivation", "cells", "witness", "substitution", "parts", "bundle"})
+CORE_KINDS = frozenset({"derivation", "bundle"})
 """Kinds of certificates that need nothing of the second ring."""
 
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from qe.arguments import shown
 from qe.certify.kinds import Checker, brought_kind
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.kernel.verdict import CRASHES, Verdict
 from qe.options import Budget
-from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind, Labelled
 
 CRASHED = "its checker ends in an internal error here, please report"
@@ -68,11 +65,7 @@ def check_certificate(certificate: Certificate, budget: Budget, *, core: bool = 
     payload = certificate.payload
     if not isinstance(certificate.kind, Kind):
         raise CertificateRejected("kind", "unknown kind of certificate")
-    if isinstance(payload, CellEvidence) and certificate.kind == Kind.CELLS:
-        from qe.kernel.cells import check_cells
-
-        check_cells(payload, budget)
-    elif isinstance(payload, dict) and (checker := _checker(certificate.kind, core)) is not None:
+    if isinstance(payload, dict) and (checker := _checker(certificate.kind, core)) is not None:
         checker(payload, budget)
     elif isinstance(payload, tuple) and certificate.kind == Kind.BUNDLE:
         if not payload:
@@ -91,40 +84,14 @@ def check_certificate(certificate: Certificate, budget: Budget, *, core: bool = 
 
 def _checker(kind: Kind, core: bool) -> Checker | None:
     """The checker of a kind of objects; each is loaded where it is needed, as most questions need one."""
-    leaf = partial(check_certificate, core=core)
-    match kind:
-        case Kind.DERIVATION:
-            from qe.kernel.derivation import check_derivation
-            from qe.kernel.primitives import PRIMITIVES as rules
+    if kind == Kind.DERIVATION:
+        from qe.kernel.derivation import check_derivation
+        from qe.kernel.primitives import PRIMITIVES as rules
 
-            if not core:
-                from qe.certify.registry import RULES as rules
-            return lambda payload, budget: check_derivation(payload, budget, rules, leaf)
-        case Kind.PARTS:
-            from qe.certify.parts import check_parts
-
-            return lambda payload, budget: check_parts(payload, budget, leaf)
-        case Kind.WITNESS:
-            from qe.kernel.witness import check_witness
-
-            return check_witness
-        case Kind.SUBSTITUTION:
-            from qe.kernel.gauss import check_substitution
-
-            return check_substitution
-        case _ if core:
-            return None
-        case Kind.CLASSIFICATION:
-            from qe.expert.classification import check_classification
-
-            return lambda payload, budget: check_classification(payload, budget, check_certificate)
-        case Kind.OPTIMUM:
-            from qe.expert.optimum import check_optimum
-
-            return check_optimum
-        case Kind.SOLUTIONS:
-            from qe.expert.solutions import check_solutions
-
-            return check_solutions
+        if not core:
+            from qe.certify.registry import RULES as rules
+        return lambda payload, budget: check_derivation(payload, budget, rules)
+    if core:
+        return None
     brought = brought_kind(kind.value)
     return None if brought is None else brought.check

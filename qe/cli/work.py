@@ -171,10 +171,11 @@ def check(
     from qe.api.verify import of_question, read_plainly, recent
     from qe.certify.claims import claim_of, is_about, parts_of
     from qe.proof.certificate import Certificate
+    from qe.proving.older_kinds import recent as of_today
 
     start = time.perf_counter()
     formula = None if asked is None else read_formula(channel, asked)
-    certificate = Certificate.from_json(text)
+    certificate = of_today(Certificate.from_json(text))
     budget = Budget(seconds, listener=channel.event)
     verdict = read_plainly(text, seconds) if plainly else verify(certificate, budget, core=core)
     if verdict.accepted and formula is not None:
@@ -204,8 +205,9 @@ def export_proof(channel: Channel, text: str, seconds: float) -> Reply:
     from qe.api.verify import checked as verify
     from qe.coq.export import to_coq
     from qe.proof.certificate import Certificate
+    from qe.proving.older_kinds import recent as of_today
 
-    certificate = Certificate.from_json(text)
+    certificate = of_today(Certificate.from_json(text))
     verdict = verify(certificate, Budget(seconds, listener=channel.event))
     if not verdict.decided:
         raise Unable(f"not decided: {verdict.reason}")

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from qe.convex.evidence import optimum_certificate
 from qe.convex.feasible import proved
 from qe.convex.kkt import sign
 from qe.convex.minimise import rational_numbers
@@ -24,7 +25,7 @@ from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.options import Budget
 from qe.proof.answer import Guarantee
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 from qe.proof.multipliers import (
     FaceLink,
     FormRelation,
@@ -32,7 +33,6 @@ from qe.proof.multipliers import (
     OptimumEvidence,
     OptimumStatus,
     derived_equations,
-    to_payload,
 )
 
 Exact = Fraction | RealAlgebraic
@@ -219,7 +219,6 @@ def _answer(constraints: Sequence[Atom], evidence: OptimumEvidence) -> Optimum:
     unique = evidence.unique if optimal else None
     proved = replace(evidence, unique=unique is True and _provably_unique(evidence))
     near = evidence.status is OptimumStatus.NEAR_OPTIMAL
-    payload = to_payload(evidence.contradiction() if near else proved)
     return Optimum(
         status=evidence.status,
         value=evidence.objective.value(evidence.point) if optimal else None,
@@ -232,7 +231,7 @@ def _answer(constraints: Sequence[Atom], evidence: OptimumEvidence) -> Optimum:
         direction=dict(zip(evidence.names, evidence.direction, strict=False)),
         field=evidence.field,
         evidence=proved,
-        certificate=Certificate(Kind.OPTIMUM, payload),  # type: ignore[arg-type]
+        certificate=optimum_certificate(evidence.contradiction() if near else proved),
     )
 
 

@@ -8,7 +8,6 @@ and one for which no proof was found, is an axiom with the name of its rule that
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -379,13 +378,11 @@ class _Steps:
 
     def point(self, claim: Claim, context: Context) -> str:
         before, after = existential(claim)
-        data: Any = claim.evidence.fields("certificate")[0].value
-        if after != TRUE or not isinstance(before, Exists) or data["kind"] != "witness":
+        order, numbers = claim.evidence.fields("order", "values")
+        is_rational = all(isinstance(number.value, str) for number in numbers.items())
+        if after != TRUE or not isinstance(before, Exists) or not is_rational:
             raise Unable("no rational point")
-        payload = data["payload"]
-        if not all(isinstance(v, str) for v in payload["values"]):
-            raise Unable("no rational point")
-        values = {v: Fraction(text) for v, text in zip(payload["order"], payload["values"], strict=True)}
+        values = {v: n.rational() for v, n in zip(order.names(), numbers.items(), strict=True)}
         proof, data = "", self.text.formula(before.body)
         given, blocks = self.text.formulas(context), list[str]()
         for k, name in enumerate(before.variables):
@@ -459,7 +456,7 @@ _RULES: Mapping[str, Callable[[_Steps, Claim, Context], str]] = {
     **dict.fromkeys(("steps", "virtual substitution", "equations taken apart"), _Steps.steps),
     "converse": _Steps.converse,
     "no exception": _Steps.no_exception,
-    **dict.fromkeys(("instance", "convex", "point or multipliers"), _Steps.point),
+    "instance": _Steps.point,
     "signs": _Steps.block,
     **dict.fromkeys(
         (

@@ -18,13 +18,10 @@ from typing import Any
 from qe.coq.derivation import derivation
 from qe.coq.squares import Form, read_form, squares
 from qe.errors import Unable
-from qe.exact.ring import Poly, Ring
-from qe.formula.normal import nnf
+from qe.exact.ring import Poly
 from qe.formula.relation import Relation
 from qe.formula.syntax import And, Atom, Constant, Formula, Or
-from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Certificate, Kind
-from qe.proof.entry import Entry, formula_from_json, parse_poly
 
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9]*", re.ASCII)
 _RELATION = {
@@ -58,8 +55,10 @@ def _lemmas(certificate: Certificate, name: str) -> Iterator[str]:
             raise Unable("an empty bundle: there is nothing to prove")
         for k, member in enumerate(payload):
             yield from _lemmas(member.certificate, f"{name}_{k + 1}")
-    elif isinstance(payload, dict) and certificate.kind in _WRITERS:
-        yield from _WRITERS[certificate.kind](payload, name)
+    elif (optimum := certificate.evidence_for("multipliers")) is not None:
+        yield from _optimum(optimum, name)
+    elif isinstance(payload, dict) and certificate.kind == Kind.DERIVATION:
+        yield from derivation(payload, name)
     else:
         raise Unable(f"certificates of kind {certificate.kind.value} cannot be written for Coq")
 
@@ -111,95 +110,6 @@ def _lemma(name: str, statement: str, *proof: str) -> str:
     return f"Lemma {name} :\n  {statement}.\nProof.\n{lines}\nQed.\n"
 
 
-# --- witnesses -----------------------------------------------------------------------------------------------
-
-
-def _witness(payload: dict[str, Any], name: str) -> Iterator[str]:
-    names = payload["order"]
-    body = nnf(formula_from_json(Entry(payload["matrix"], "payload.matrix"), Ring.of(names)))
-    if not all(isinstance(value, str) for value in payload["values"]):
-        raise Unable("an irrational witness cannot be written for Coq")
-    values = [Fraction(value) for value in payload["values"]]
-    bound = _identifiers(names)
-    statement = f"exists {' '.join(bound)} : R, {_formula(body, bound)}" if bound else _formula(body, bound)
-    yield _lemma(name, statement, *(f"exists {_number(v)}." for v in values), *_holds(body, values))
-
-
-def _holds(formula: Formula, values: Sequence[Fraction]) -> list[str]:
-    """The proof of a formula at rational numbers: a true disjunct is chosen at each disjunction."""
-    match formula:
-        case And(args):
-            return [line for k, a in enumerate(args) for line in (*_split(k, len(args)), *_holds(a, values))]
-        case Or(args):
-            k = next(k for k, a in enumerate(args) if _is_true(a, values))
-            return [*["right."] * k, *(["left."] if k < len(args) - 1 else []), *_holds(args[k], values)]
-        case Atom(poly, Relation.NE):
-            order = "Rlt" if poly.evaluate(values) < 0 else "Rgt"
-            return [f"apply {order}_not_eq; lra."]
-    return ["close."]
-
-
-def _split(k: int, count: int) -> list[str]:
-    """Before member k of a conjunction, which is bracketed to the right."""
-    return ["split."] if k < count - 1 else []
-
-
-def _is_true(formula: Formula, values: Sequence[Fraction]) -> bool:
-    match formula:
-        case And(args):
-            return all(_is_true(a, values) for a in args)
-        case Or(args):
-            return any(_is_true(a, values) for a in args)
-        case Atom(poly, relation):
-            value = poly.evaluate(values)
-            return relation.holds((value > 0) - (value < 0))
-    return formula == Constant(True)
-
-
-# --- linear substitutions ------------------------------------------------------------------------------------
-
-
-def _substitution(payload: dict[str, Any], name: str) -> Iterator[str]:
-    names, block = payload["order"], payload["variables"]
-    ring = Ring.of(names)
-    words = dict(zip(names, _identifiers(names), strict=True))
-    every = [words[n] for n in names]
-    matrix, answer = (nnf(formula_from_json(Entry(payload[k], f"payload.{k}"), ring)) for k in ("matrix", "answer"))
-    free = [words[n] for n in names if n not in block]
-    bound = [words[n] for n in block]
-    values = [_value(ring, variable, text, every) for variable, text in payload["solved"]]
-    left = f"exists {' '.join(bound)} : R, {_formula(matrix, every)}" if bound else _formula(matrix, every)
-    posed = [f"pose ({w} := {value})." for w, value in reversed(list(zip(bound, values, strict=True)))]
-    equations = [f"assert ({w} = {value}) by lra." for w, value in zip(bound, values, strict=True)]
-    yield _lemma(
-        name,
-        f"{_all(free)}({left}) <-> ({_formula(answer, every)})",
-        f"intros{''.join(' ' + f for f in free)}; split.",
-        f"- intros [{' ['.join(bound)} h{']' * len(bound)}." if bound else "- intros h.",
-        f"  {_pattern(matrix)}",
-        *(f"  {line}" for line in equations),
-        *(f"  subst {w}." for w in bound),
-        "  intuition close.",
-        "- intros h.",
-        *(f"  {line}" for line in posed),
-        *(f"  exists {w}." for w in bound),
-        *(f"  subst {w}." for w in bound),
-        "  intuition close.",
-    )
-
-
-def _pattern(matrix: Formula) -> str:
-    """The conjuncts as hypotheses."""
-    count = len(conjuncts(matrix))
-    return f"destruct h as ({' & '.join(f'h{k}' for k in range(count))})." if count > 1 else "idtac."
-
-
-def _value(ring: Ring, variable: str, text: str, names: Sequence[str]) -> str:
-    rest, lead = parse_poly(text, ring).coefficients(ring.index[variable])
-    constant = lead.constant_value()
-    return _terms([(e, Fraction(-c, constant)) for e, c in rest.terms()], names)
-
-
 # --- convex problems -----------------------------------------------------------------------------------------
 
 
@@ -245,11 +155,3 @@ def _positive(parts: Sequence[tuple[Fraction, Form]], point: Sequence[Fraction],
         lines.append(f"assert (s{k} : 0 <= {_number(factor)} * ({shifted}) ^ 2).")
         lines.append("{ apply Rmult_le_pos; [lra | apply pow2_ge_0]. }")
     return lines
-
-
-_WRITERS = {
-    Kind.WITNESS: _witness,
-    Kind.SUBSTITUTION: _substitution,
-    Kind.OPTIMUM: _optimum,
-    Kind.DERIVATION: derivation,
-}

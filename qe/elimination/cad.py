@@ -18,12 +18,10 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
 from qe.formula.build import convert
 from qe.formula.features import is_small, length
-from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.formula.traverse import polynomials
 from qe.options import Budget, Options, Stage
 from qe.proof.cells import CellTable
-from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
 from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
@@ -65,7 +63,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
         if truth is (proof.quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
     log.work("cad", question.prenex.figures | _figures(first, time.perf_counter() - start))
-    certificate = Certificate.cells(proof, convert(answer, Ring.of(proof.order))) if follows(answer, proof) else None
+    certificate = Certificate.cells(proof, answer, formula) if follows(answer, proof) else None
     log.step("cells", formula, answer, evidence=kept(formula, certificate, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = formula.ring
@@ -94,7 +92,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     proof = question.table(budget, whole_free=True, extra=tuple(polynomials(claim))).table
     if not formula.free and answer != (TRUE if proof.root.truth else FALSE):
         raise Contradiction(f"a decomposition says {proof.root.truth} where the answer is {answer}")
-    return Certificate.cells(proof, claim)
+    return Certificate.cells(proof, claim, formula)
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,23 +160,6 @@ class _Question:
         except BudgetExceeded:
             return answer, proof
         return (other, table) if length(other) < length(answer) else (answer, proof)
-
-
-def claims(certificate: Certificate, question: Formula, answer: Formula) -> bool:
-    """Whether a certificate by cells is about this very question and answer; others are made for the question only."""
-    evidence = certificate.payload
-    if not isinstance(evidence, CellEvidence) or evidence.answer is None:
-        return True
-    table, ring = evidence.table, Ring.of(evidence.table.order)
-    prefix, matrix = prenex(question)
-    if not set(matrix.free).issubset(ring.names):
-        return False
-    bound = {name: kind.value for kind, names in prefix for name in names}
-    return (
-        evidence.answer == convert(answer, ring)
-        and table.matrix == convert(nnf(matrix), ring)
-        and table.quantifiers == tuple(bound.get(name, "") for name in table.order)
-    )
 
 
 def _figures(found: Decomposed, seconds: float) -> dict[str, object]:

@@ -76,7 +76,7 @@ class ComprehensiveGroebner:
             elif (witness := part.witness(zeros)) is not None:
                 # whatever does not occur in this conjunction may be 0
                 return _outcome(problem, context, TRUE, {v: witness.get(v, Fraction(0)) for v in problem.variables})
-        refuted = OnDemand(_Conjunctions(tuple(read)).certificates) if listed else None
+        refuted = OnDemand(_Conjunctions(tuple(read)).refuted) if listed else None
         return _outcome(problem, context, simplify(disj(answers), watch=context.budget.check), None, refuted)
 
 
@@ -264,10 +264,10 @@ def _upward(given: Atom) -> Condition:
 class _Conjunctions:
     parts: tuple[_Conjunction, ...]
 
-    def certificates(self, budget: Budget) -> dict[str, object]:
-        """Of the solutions of each."""
+    def refuted(self, budget: Budget) -> dict[str, object]:
+        """That none of them has a solution."""
         listed = []
         for part in self.parts:
             budget.check("prove")
-            listed.append(part.certificate())
-        return {"certificates": listed}
+            listed.append(part.certificate().evidence_for("solutions"))
+        return {"systems": listed}

@@ -81,7 +81,7 @@ class _Answered:
 def _evidence(answered: _Answered, quantifiers: Sequence[str], matrix: Formula) -> dict[str, object]:
     """The covering as a certificate."""
     answer = convert(answered.formula, answered.cover.point.ring)
-    return {"certificate": Certificate.cells(tree(answered.cover, quantifiers, matrix), answer).to_data()}
+    return {"certificate": Certificate.cells(tree(answered.cover, quantifiers, matrix), answer)}
 
 
 def _answered(search: Search, free: int) -> _Answered:

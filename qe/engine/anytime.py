@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TypeVar
+from typing import TypeVar, cast
 
 from qe.decomposition.decompose import Tactics, decompose
 from qe.decomposition.extended_tarski import extended_formula
@@ -32,8 +32,10 @@ from qe.options import Budget, Options
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.proof.cells import Cell, CellTable
+from qe.proof.cells_json import cells_to_json
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import moved
+from qe.proof.entry import Json
 from qe.proof.partial import Partial
 from qe.simplify.simplify import simplify
 
@@ -122,7 +124,8 @@ class _Search:
         clear = without_clashes(question)
         order = Ring.of(dict.fromkeys(n for f in (clear, true, false) for n in names_in(f)))
         start, true, false = (moved(f, order) for f in (clear, true, false))
-        return Certificate.parts(order.names, start, true, false, proofs)
+        evidence: dict[str, Json] = {"proofs": [cast(Json, part.payload) for proof in proofs for part in proof.parts]}
+        return Certificate.decided(start, true, false, "parts", evidence)
 
     def of_parts(self, parts: list[Formula], budget: Budget) -> Partial:
         """A disjunction; each part may take its share of what is left."""
@@ -171,7 +174,10 @@ def _decided_cells(formula: Formula, options: Options, budget: Budget) -> Partia
         free = free_part(table)
         known = Partial(extended_formula(_where(free, True)), extended_formula(_where(free, False)))
     true, false = (convert(part, Ring.of(order)) for part in (known.proved_true, known.proved_false))
-    return replace(known, certificate=Certificate.decided(table, true, false)) if options.certify else known
+    if not options.certify:
+        return known
+    whole, evidence = moved(formula, Ring.of(order)), {"cells": cells_to_json(table)}
+    return replace(known, certificate=Certificate.decided(whole, true, false, "cells", evidence))
 
 
 def _where(table: CellTable, truth: bool) -> CellTable:

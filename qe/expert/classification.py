@@ -1,6 +1,6 @@
-"""Checker for certificates of kind "classification": parameter space by the number of real solutions.
+"""Rule "classification": parameter space by the number of real solutions.
 
-Payload: ``variables``, ``parameters``, ``constants`` ([name, minimal polynomial, low, high]: a parameter that is its
+Evidence: ``variables``, ``parameters``, ``constants`` ([name, minimal polynomial, low, high]: a parameter that is its
 only root in between), ``polynomials``, ``positive``, ``equal`` and ``nonzero`` (polynomials in the parameters),
 ``classes`` ([count or null, condition]) and ``proofs``.
 
@@ -8,11 +8,12 @@ It says: for all real values of the parameters at which ``equal`` vanish and not
 polynomials = 0 has exactly ``count`` different real solutions with all of ``positive`` positive iff the condition
 holds, and infinitely many complex solutions iff that of ``null`` does; no other count occurs.
 
-The checker divides parameter space into cases with a Gröbner basis each (``arithmetic.parametric``). Over a case with
-finitely many complex solutions the count is a combination of signatures of Hermite's trace forms (Ben-Or, Kozen, Reif
-1986), and a signature is read off the signs of the coefficients of the characteristic polynomial: all its roots are
-real, so by Descartes' rule it is the number of sign variations minus that of the polynomial with x replaced by -x. So
-every case is one sentence about the parameters; ``proofs`` are certificates that these are true, in the same order.
+THEOREM. The checker divides parameter space into cases with a Gröbner basis each (``arithmetic.parametric``). Over a
+case with finitely many complex solutions the count is a combination of signatures of Hermite's trace forms (Ben-Or,
+Kozen, Reif 1986), and a signature is read off the signs of the coefficients of the characteristic polynomial: all its
+roots are real, so by Descartes' rule it is the number of sign variations minus that of the polynomial with x replaced
+by -x. So every case is one sentence about the parameters; ``proofs`` are derivations of these, in the same order.
+First-order logic has no word for infinitely many complex solutions: the sentence is about the other parameters.
 """
 
 from __future__ import annotations
@@ -20,19 +21,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import combinations
 from itertools import product as choices
 
-from qe.certify.claims import is_about
-from qe.errors import CertificateRejected, Unable
+from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.expert.arithmetic.parametric import Case, Conditions, Terms, cases
 from qe.expert.arithmetic.parametric_forms import ParametricForms
-from qe.formula.build import atom, conj, disj, forall, iff, implies, neg
+from qe.expert.sentences import Sentence, renamed
+from qe.formula.build import atom, conj, convert, disj, exists, forall, iff, implies, neg
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.kernel.arithmetic.sturm import count_roots_between
-from qe.options import Budget
-from qe.proof.certificate import Certificate, Kind, certificate_from
-from qe.proof.entry import Entry, Json, formula_from_json
+from qe.kernel.nested import is_true
+from qe.kernel.step import Limits
+from qe.proof.entry import Entry, formula_from_json
 
 MOST_SOLUTIONS, MOST_POSITIVE = 8, 2
 """Complex solutions of a case, and conditions, of which formulas are made."""
@@ -65,35 +67,72 @@ class Question:
             yield forall(self.ring.names, implies(conj(here), conj([*claims, *map(neg, counts.values())])))
 
 
-def check_classification(
-    payload: dict[str, Json], budget: Budget, check_leaf: Callable[[Certificate, Budget], None]
-) -> None:
-    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails. Raises ``Unable``."""
-    question, classes, proofs = read_question(Entry(payload, "payload"))
+def check_classification(evidence: Entry, limits: Limits) -> Sentence:
+    """What the evidence proves; or raise ``CertificateRejected`` naming the entry that fails. Raises ``Unable``."""
+    question, classes, proofs = read_question(evidence)
     listed = iter(list(proofs.items()))
-    for sentence in question.sentences(classes, lambda: budget.check("verify")):
-        if sentence == TRUE:
+    for case in question.sentences(classes, limits.tick):
+        if case == TRUE:
             continue
         entry = next(listed, None)
         if entry is None:
             raise proofs.fail("a case is left without a proof")
-        certificate = certificate_from(entry)
-        if certificate.kind == Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
+        if not is_true(case, entry, limits):
             raise entry.fail("not a proof of the sentence of this case")
-        try:
-            check_leaf(certificate, budget)
-        except CertificateRejected as error:
-            raise CertificateRejected(f"{entry.path}.{error.step}", error.reason) from None
     if (entry := next(listed, None)) is not None:
         raise entry.fail("there are not so many cases")
+    return sentence(evidence)
+
+
+def sentence(evidence: Entry) -> Sentence:
+    """That ``count`` is the number of solutions iff it is that of the class whose condition holds, where those on the
+    parameters do: "exactly k" is "k different ones, and no k + 1"."""
+    names, _, _, *groups, _, _ = evidence.fields(*_MEMBERS)
+    question, classes, _ = read_question(evidence)
+    most = max((count for count, _ in classes if count is not None), default=0)
+    variables, own = names.names(), question.ring.names
+    count, *copies = renamed(("count", *(v for _ in range(most + 1) for v in variables)), own)
+    ring = Ring.of((*own, count, *copies))
+    points = [tuple(copies[k : k + len(variables)]) for k in range(0, len(copies), len(variables))]
+    given = [*question.constants, *(atom(p, Relation.EQ) for p in question.equal)]
+    given += [atom(p, Relation.NE) for p in question.nonzero]
+    given += [neg(condition) for number, condition in classes if number is None]
+    where = convert(conj(given), ring)
+
+    def solutions(k: int) -> Formula:
+        """That there are k different ones."""
+        parts = [disj(_differ(ring, x, y) for x, y in zip(*pair, strict=True)) for pair in combinations(points[:k], 2)]
+        for point in points[:k]:
+            place = Ring.of((*own, *point))
+            for group, relation in zip(groups[:2], (Relation.EQ, Relation.GT), strict=True):
+                read = [_renamed(e, Ring.of((*own, *variables)), place) for e in group.items()]
+                parts += [atom(p.convert(ring), relation) for p in read]
+        return exists([v for point in points[:k] for v in point], conj(parts))
+
+    def is_number(k: int) -> Formula:
+        return atom(ring.gen(ring.index[count]) - k, Relation.EQ)
+
+    exactly = [conj((is_number(k), solutions(k), neg(solutions(k + 1)))) for k in range(most + 1)]
+    before = disj((*exactly, conj((is_number(most + 1), solutions(most + 1)))))
+    after = disj(conj((is_number(k), convert(f, ring))) for k, f in classes if k is not None)
+    return conj((where, before)), conj((where, after))
+
+
+def _differ(ring: Ring, one: str, other: str) -> Formula:
+    return atom(ring.gen(ring.index[one]) - ring.gen(ring.index[other]), Relation.NE)
+
+
+def _renamed(entry: Entry, there: Ring, here: Ring) -> Poly:
+    """A polynomial with other names of its variables."""
+    return here.from_terms(dict(entry.polynomial(there).terms()))
+
+
+_MEMBERS = ("variables", "parameters", "constants", "polynomials", "positive", "equal", "nonzero", "classes", "proofs")
 
 
 def read_question(payload: Entry) -> tuple[Question, Classes, Entry]:
     """What is claimed, and the entry with the proofs. Raises ``CertificateRejected`` for malformed entries."""
-    entries = payload.fields(
-        *("variables", "parameters", "constants", "polynomials", "positive", "equal", "nonzero", "classes", "proofs")
-    )
-    variables_entry, parameters_entry, constants_entry, *lists, classes_entry, proofs = entries
+    variables_entry, parameters_entry, constants_entry, *lists, classes_entry, proofs = payload.fields(*_MEMBERS)
     variables, parameters = (entry.names() for entry in (variables_entry, parameters_entry))
     fixed = [list(e.items()) for e in constants_entry.items()]
     if any(len(parts) != 4 for parts in fixed):

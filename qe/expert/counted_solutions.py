@@ -21,7 +21,6 @@ from dataclasses import dataclass, replace
 from itertools import combinations, product
 from math import prod
 
-from qe.certify.claims import is_about
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.expert.arithmetic.parametric import Case, Conditions, Exponents, Terms, cases
@@ -32,8 +31,8 @@ from qe.formula.build import atom, conj, convert, disj, exists, forall, implies,
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
 from qe.kernel.block import check_block, existential
 from qe.kernel.negation import normal
+from qe.kernel.nested import is_true
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.proof.certificate import Kind
 from qe.proof.entry import Entry
 
 MOST_SOLUTIONS, MOST_COMBINATIONS = 16, 3000
@@ -50,7 +49,7 @@ _WEIGHTS = {
 
 def check_counted_solutions(claim: Claim, context: Context, limits: Limits) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the case that fails. Raises ``Unable`` at a limit."""
-    if isinstance(claim.evidence.value, dict) and "certificates" in claim.evidence.value:
+    if isinstance(claim.evidence.value, dict) and "systems" in claim.evidence.value:
         return check_no_solutions(claim, context, limits)
     entry = only(claim, "proofs")[0]
     listed = iter(list(entry.items()))
@@ -61,8 +60,7 @@ def check_counted_solutions(claim: Claim, context: Context, limits: Limits) -> N
         if isinstance(proof.value, dict) and "theory" in proof.value:
             check_block(by_lemmas(sentence, claim.ring, proof), (), limits)
             continue
-        certificate = limits.leaf(proof)
-        if certificate.kind == Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
+        if not is_true(sentence, proof, limits):
             raise proof.fail("not a proof of the sentence of this case")
     if (proof := next(listed, None)) is not None:
         raise proof.fail("there are not so many cases")

@@ -53,10 +53,11 @@ from qe.formula.syntax import Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.kernel.arithmetic.products import FactorLists, check_lists
 from qe.kernel.block import existential
+from qe.kernel.cells import check_cells
 from qe.kernel.negation import negation, normal
 from qe.kernel.projection import Projected
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.proof.cells_json import CellEvidence
+from qe.proof.cells_json import cells_from_json
 from qe.proof.entry import Entry
 
 Row = Sequence[Fraction]
@@ -223,12 +224,15 @@ def _check_bound(conditions: Sequence[Quadratic], free: int, entry: Entry) -> No
 
 def check_shape(entry: Entry, holds: Formula, limits: Limits) -> None:
     """The table is one of this formula, and shows that it describes the closure of its interior."""
-    evidence = limits.leaf(entry).payload
-    if not isinstance(evidence, CellEvidence) or evidence.parts is not None or any(evidence.table.quantifiers):
+    table, names = cells_from_json(entry), () if holds.ring is None else holds.ring.names
+    if any(table.quantifiers):
         raise entry.fail("expected a cell table without quantifiers")
-    table, names = evidence.table, () if holds.ring is None else holds.ring.names
     if set(table.order) != set(names) or normal(convert(table.matrix, Ring.of(names))) != normal(holds):
         raise entry.fail("the table is about another formula")
+    try:
+        check_cells(table, None, (), limits.budget)
+    except CertificateRejected as error:
+        raise CertificateRejected(f"{entry.path}.{error.step.removeprefix('payload.')}", error.reason) from None
     check_regular(table, limits, entry.path)
 
 

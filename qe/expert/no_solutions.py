@@ -3,7 +3,7 @@
 THEOREM. ex v. f is false if f is a disjunction of conjunctions each of which has, among its members, equations and
 conditions that no real point satisfies. all v. f is the negation of ex v. not f.
 
-Evidence: ``certificates``, each of kind "solutions" with no solution.
+Evidence: ``systems``, each as for the rule "solutions", with no solution.
 """
 
 from __future__ import annotations
@@ -12,21 +12,21 @@ from collections.abc import Iterator
 from itertools import product
 
 from qe.errors import Unable
-from qe.expert.solutions import system_of
+from qe.expert.solutions import check_solutions
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, And, Constant, Formula, Or
+from qe.formula.traverse import conjuncts
 from qe.kernel.block import refuted_block
 from qe.kernel.negation import normal
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.proof.certificate import Kind
 from qe.proof.entry import Entry
 
 MOST_CONJUNCTIONS = 200
 
 
 def check_no_solutions(claim: Claim, context: Context, limits: Limits) -> None:
-    """The certificates are checked, and every conjunction has the system of one of them among its members."""
-    entry = only(claim, "certificates")[0]
+    """The systems are checked, and every conjunction has the system of one of them among its members."""
+    entry = only(claim, "systems")[0]
     before = refuted_block(claim)
     refuted = [_system(part, claim, limits) for part in entry.items()]
     for members in conjunctions(normal(before.body)):
@@ -36,16 +36,13 @@ def check_no_solutions(claim: Claim, context: Context, limits: Limits) -> None:
 
 
 def _system(entry: Entry, claim: Claim, limits: Limits) -> frozenset[Formula]:
-    """The equations and conditions that a certificate refutes."""
-    certificate = limits.leaf(entry)
-    if certificate.kind != Kind.SOLUTIONS or not isinstance(certificate.payload, dict):
-        raise entry.fail("expected a certificate of kind solutions")
-    ring, parts, solutions = system_of(Entry(certificate.payload, f"{entry.path}.payload"))
-    if solutions.value != []:
-        raise solutions.fail("expected no solution")
-    if not set(ring.names) <= set(claim.ring.names):
+    """The equations and conditions that evidence refutes."""
+    system, solutions = check_solutions(entry, limits)
+    if solutions != FALSE:
+        raise entry.fail("expected no solution")
+    if not set(system.free) <= set(claim.ring.names):
         raise entry.fail("other variables than those of the sentence")
-    return frozenset(convert(part, claim.ring) for part in parts)
+    return frozenset(conjuncts(convert(system, claim.ring)))
 
 
 def conjunctions(formula: Formula) -> Iterator[frozenset[Formula]]:

@@ -1,4 +1,9 @@
-"""Checker for certificates of kind "optimum": global optimality, infeasibility or unboundedness of convex problems.
+"""Rule "multipliers": the optimum of a convex problem, or that there is none.
+
+Evidence: ``problem``, ``status``, ``field``, ``faces``, ``point``, and by status what docs/certificates.md lists. The
+step says (``sentence``): that the constraints contradict each other (they may be some of the conjuncts of the block
+before); that the objective is below every number somewhere; or which number is the least value or the infimum, and
+which point alone takes it.
 
 THEOREMS. Let f and the inequality forms p_i be convex quadratic polynomials and the equations linear.
 (face) Weights w >= 0 on inequalities, any on equations, and a point y with grad L(y) = 0 and L(y) >= 0 for
@@ -21,6 +26,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from qe.errors import CertificateRejected
+from qe.exact.ring import Ring
 from qe.expert.arithmetic.convexity import Row, rank
 from qe.expert.arithmetic.numbers import read_field, read_number
 from qe.expert.arithmetic.residue import Residue, RootField, add, scale
@@ -40,8 +46,19 @@ from qe.expert.convex_problem import (
     value_at,
     weighted_value,
 )
+from qe.expert.sentences import Sentence, is_point, read_terms, renamed, stated
+from qe.formula.build import atom, conj, disj, exists, forall, neg
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
+from qe.formula.traverse import conjuncts
+from qe.kernel.block import existential
+from qe.kernel.limits import check_variables
+from qe.kernel.step import Claim, Context, Limits
 from qe.options import Budget
-from qe.proof.entry import Entry, Json
+from qe.proof.entry import Entry
+
+PROBLEM = ("variables", "minimise", "constraints")
+RELATIONS = {"<=": Relation.LE, "<": Relation.LT, "=": Relation.EQ}
+"""The relations of constraints."""
 
 _KEYS = {
     "optimal": ("multipliers", "derived", "values", "value", "attained", "unique"),
@@ -51,17 +68,33 @@ _KEYS = {
 _Q = RootField([0, 1], Fraction(0), Fraction(0), "rationals")
 
 
-def check_optimum(payload: dict[str, Json], budget: Budget | None = None) -> None:
-    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    entry = Entry(payload, "payload")
+def check_multipliers(claim: Claim, context: Context, limits: Limits) -> None:
+    """The evidence is accepted, and the step says what it proves."""
+    entry = claim.evidence
+    if not isinstance(entry.value, dict) or entry.value.get("status") != "infeasible":
+        check_stated(claim, context, limits)
+        return
+    check_optimum(entry, limits)
+    before, after = existential(claim)
+    variables, _, constraints = Entry(entry.value["problem"], f"{entry.path}.problem").fields(*PROBLEM)
+    if before.free or after != FALSE or not {*variables.names()} <= {*claim.ring.names}:
+        raise claim.fail("expected a sentence of one block, which is false")
+    known = set(conjuncts(before.body if isinstance(before, Exists) else before))
+    for constraint, condition in zip(constraints.items(), conditions(entry, claim.ring), strict=True):
+        if before != FALSE and condition != TRUE and condition not in known:
+            raise constraint.fail("not a conjunct of the sentence")
+
+
+def check_optimum(entry: Entry, limits: Limits) -> Sentence:
+    """What the evidence proves; or raise ``CertificateRejected`` naming the entry that fails."""
     status = entry.value.get("status") if isinstance(entry.value, dict) else None
     if not isinstance(status, str) or status not in _KEYS:
-        raise CertificateRejected("payload.status", "expected optimal, infeasible or unbounded")
+        raise CertificateRejected(f"{entry.path}.status", "expected optimal, infeasible or unbounded")
     names = ("problem", "status", "field", "faces", "point", *_KEYS[status])
     optional = ("inner", "links")
     parts = dict(zip((*names, *optional), entry.fields(*names, optional=optional), strict=True))
     problem = read_problem(parts["problem"])
-    field = read_field(parts["field"], budget)
+    field = read_field(parts["field"], limits.budget)
     derived = _check_faces(parts["faces"], problem)
     point = read_numbers(parts["point"], field, problem.size)
     if status != "optimal":
@@ -70,11 +103,11 @@ def check_optimum(payload: dict[str, Json], budget: Budget | None = None) -> Non
         _absent(parts["links"])
         _check_feasible(problem, field, point, parts["point"])
         _check_direction(problem, parts["direction"])
-        return
+        return sentence(entry, limits.budget)
     values = _check_values(problem, field, point, parts["values"])
     multipliers = read_numbers(parts["multipliers"], field, len(problem.forms))
-    check_signs(problem, field, multipliers, "payload.multipliers", "multiplier")
-    place = _Place(problem, field, point, values)
+    check_signs(problem, field, multipliers, parts["multipliers"].path, "multiplier")
+    place = _Place(problem, field, point, values, entry.path)
     if status == "infeasible":
         known = place.follow(parts["links"], derived)[0]
         total = Weighting(multipliers, known, read_numbers(parts["derived"], field, len(known)))
@@ -82,6 +115,55 @@ def check_optimum(payload: dict[str, Json], budget: Budget | None = None) -> Non
     else:
         total = Weighting(multipliers, derived, read_numbers(parts["derived"], field, len(derived)))
         place.check_optimal(total, parts)
+    return sentence(entry, limits.budget)
+
+
+check_stated = stated(check_optimum)
+
+
+def sentence(entry: Entry, budget: Budget) -> Sentence:
+    """What evidence that is accepted says."""
+    assert isinstance(entry.value, dict)
+    status, parts = entry.value["status"], {k: Entry(v, f"{entry.path}.{k}") for k, v in entry.value.items()}
+    names = parts["problem"].fields(*PROBLEM)[0].names()
+    check_variables(len(names))
+    value, below, *others, root = renamed(("value", "below", *names, "root"), names)
+    ring = Ring.of((value, *names, *others, below, root))
+    if status == "infeasible":
+        return exists(names, conj(conditions(entry, ring))), FALSE
+    if status == "unbounded":
+        lower = conj((*conditions(entry, ring), _compared(entry, ring, below, "<")))
+        return forall((below,), exists(names, lower)), TRUE
+    field = read_field(parts["field"], budget)
+    numbers = [read_number(parts["value"], field), *read_numbers(parts["point"], field, len(names))]
+    if parts["attained"].value is not True:
+        above = disj((*map(neg, conditions(entry, ring)), _compared(entry, ring, value, ">")))
+        near = exists(names, conj((*conditions(entry, ring), _compared(entry, ring, below, "<"))))
+        larger = atom(ring.gen(ring.index[below]) - ring.gen(0), Relation.GT)
+        infimum = conj((forall(names, above), forall((below,), disj((neg(larger), near)))))
+        return infimum, is_point((value,), numbers[:1], field, ring)
+    taken = conj((*conditions(entry, ring), _compared(entry, ring, value, "=")))
+    least = disj((*map(neg, conditions(entry, ring, others)), _compared(entry, ring, value, ">=", others)))
+    if parts["unique"].value is True:
+        return conj((taken, forall(others, least))), is_point((value, *names), numbers, field, ring)
+    return conj((exists(names, taken), forall(others, least))), is_point((value,), numbers[:1], field, ring)
+
+
+def conditions(entry: Entry, ring: Ring, names: Sequence[str] = ()) -> list[Formula]:
+    """The constraints of the evidence in these variables, or in its own."""
+    assert isinstance(entry.value, dict)
+    variables, _, constraints = Entry(entry.value["problem"], f"{entry.path}.problem").fields(*PROBLEM)
+    read = [constraint.fields("terms", "relation") for constraint in constraints.items()]
+    names = names or variables.names()
+    return [atom(read_terms(terms, names, ring)[0], RELATIONS[relation.text()]) for terms, relation in read]
+
+
+def _compared(entry: Entry, ring: Ring, bound: str, relation: str, names: Sequence[str] = ()) -> Formula:
+    """The objective compared with a variable."""
+    assert isinstance(entry.value, dict)
+    variables, objective, _ = Entry(entry.value["problem"], f"{entry.path}.problem").fields(*PROBLEM)
+    poly, scale = read_terms(objective, names or variables.names(), ring)
+    return atom(poly - scale * ring.gen(ring.index[bound]), Relation(relation))
 
 
 # --- faces over Q ----------------------------------------------------------------------------------------------
@@ -124,27 +206,30 @@ def _check_values(problem: Problem, field: RootField, point: list[Residue], entr
 class _Place:
     """A problem at one point, with the values of its forms there."""
 
-    def __init__(self, problem: Problem, field: RootField, point: list[Residue], values: list[Residue]) -> None:
-        self.problem, self.field, self.point, self.values = problem, field, point, values
+    def __init__(
+        self, problem: Problem, field: RootField, point: list[Residue], values: list[Residue], path: str
+    ) -> None:
+        self.problem, self.field, self.point, self.values, self.path = problem, field, point, values, path
 
     def check_contradiction(self, total: Weighting) -> None:
         """The theorem (infeasible)."""
-        check_stationary(self.problem, self.field, self.point, total, "payload.multipliers")
+        check_stationary(self.problem, self.field, self.point, total, f"{self.path}.multipliers")
         least = self.field.sign(weighted_value(self.field, self.point, self.values, total))
         if least < 0 or (least == 0 and not self._on_strict(total.weights)):
-            raise CertificateRejected("payload.multipliers", "the weighted sum does not contradict the constraints")
+            reason = "the weighted sum does not contradict the constraints"
+            raise CertificateRejected(f"{self.path}.multipliers", reason)
 
     def check_optimal(self, total: Weighting, parts: dict[str, Entry]) -> None:
         """The theorem (optimal), and what is claimed beyond it."""
         problem, field = self.problem, self.field
-        check_stationary(problem, field, self.point, total, "payload.multipliers", with_objective=True)
+        check_stationary(problem, field, self.point, total, f"{self.path}.multipliers", with_objective=True)
         attained = True
         for i, (value, relation) in enumerate(zip(self.values, problem.relations, strict=True)):
             sign = field.sign(value)
             if sign > 0 or (sign and relation == "="):
-                raise CertificateRejected(f"payload.values[{i}]", "the point violates the constraint")
+                raise CertificateRejected(f"{self.path}.values[{i}]", "the point violates the constraint")
             attained = attained and not (relation == "<" and sign == 0)
-        self._check_complementary(total.weights, "payload.multipliers", "multiplier")
+        self._check_complementary(total.weights, f"{self.path}.multipliers", "multiplier")
         stated = read_number(parts["value"], field)
         if not add(value_at(problem.objective, self.point, field), scale(stated, Fraction(-1))).is_zero:
             raise parts["value"].fail("not the value of the objective at the point")

@@ -1,14 +1,15 @@
-"""Checker for certificates of kind "solutions": the real solutions of a system, all of them.
+"""Rule "solutions": the real solutions of a system, all of them. The step turns the system into their list.
 
-Payload: ``order`` (variables), ``equations`` and ``conditions`` ([polynomial g, one of ">", ">=", "/="]: g compared
+Evidence: ``order`` (variables), ``equations`` and ``conditions`` ([polynomial g, one of ">", ">=", "/="]: g compared
 with 0), ``weights`` (of the variables, for the monomial order in which the checker works), ``form`` (an integer for
 each variable) and ``solutions``. A solution has a ``field`` (its minimal polynomial and an interval of its generator
 theta) and ``values``, a number of the field for each variable.
 
-There are at least as many solutions as are listed: every one of them satisfies the equations and the conditions,
-exactly, and they are different, since the linear form takes the value theta at each, and the intervals are disjoint.
-There are no more: signatures of trace forms for products of powers of the g count the solutions (Hermite 1853; Ben-Or,
-Kozen, Reif 1986), and a Gröbner basis, the quotient and the signatures are worked out from the equations alone.
+THEOREM. There are at least as many solutions as are listed: every one of them satisfies the equations and the
+conditions, exactly, and they are different, since the linear form takes the value theta at each, and the intervals are
+disjoint. There are no more: signatures of trace forms for products of powers of the g count the solutions (Hermite
+1853; Ben-Or, Kozen, Reif 1986), and a Gröbner basis, the quotient and the signatures are worked out from the equations
+alone.
 """
 
 from __future__ import annotations
@@ -23,10 +24,12 @@ from qe.exact.ring import Poly, Ring
 from qe.expert.arithmetic.ideal import Ideal, TraceForms, product, terms_of
 from qe.expert.arithmetic.numbers import read_field, read_number
 from qe.expert.arithmetic.residue import Residue, RootField, add, of_rationals, scale
-from qe.formula.build import atom
-from qe.formula.syntax import Formula, Relation
+from qe.expert.sentences import Sentence, is_point, renamed
+from qe.formula.build import atom, conj, disj
+from qe.formula.syntax import Relation
+from qe.kernel.step import Limits
 from qe.options import Budget
-from qe.proof.entry import Entry, Json
+from qe.proof.entry import Entry
 
 INDICATORS: dict[str, tuple[Fraction, Fraction, Fraction]] = {
     ">": (Fraction(0), Fraction(1, 2), Fraction(1, 2)),
@@ -40,11 +43,9 @@ MOST_WEIGHT = 10_000
 """Weights are small, so that degrees are."""
 
 
-def check_solutions(payload: dict[str, Json], budget: Budget | None = None) -> None:
-    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    order, equations_entry, conditions_entry, weights_entry, form_entry, listed = Entry(payload, "payload").fields(
-        "order", "equations", "conditions", "weights", "form", "solutions"
-    )
+def check_solutions(evidence: Entry, limits: Limits) -> Sentence:
+    """What the evidence proves; or raise ``CertificateRejected`` naming the entry that fails."""
+    order, equations_entry, conditions_entry, weights_entry, form_entry, listed = evidence.fields(*_MEMBERS)
     names = order.names()
     if not names:
         raise order.fail("expected different variables, at least one")
@@ -56,28 +57,31 @@ def check_solutions(payload: dict[str, Json], budget: Budget | None = None) -> N
     for entry, numbers in ((weights_entry, weights), (form_entry, form)):
         if len(numbers) != len(names):
             raise entry.fail(f"expected {len(names)} integers, one for each variable")
-    checked = budget or Budget()
-    points = [_Solution(e, len(names), checked) for e in listed.items()]
+    points = [_Solution(e, len(names), limits.budget) for e in listed.items()]
     for point in points:
         point.check(equations, conditions, form)
     for i, one in enumerate(points):
         for other in points[:i]:
             if one.low <= other.high and other.low <= one.high:
                 raise one.entry.fail("the interval of theta meets that of another solution")
-    found = _count(equations, conditions, weights, equations_entry, checked)
+    found = _count(equations, conditions, weights, equations_entry, limits.budget)
     if found != len(points):
         raise listed.fail(f"there are {found} solutions, and {len(points)} are listed")
+    return sentence(evidence, limits.budget)
 
 
-def system_of(payload: Entry) -> tuple[Ring, tuple[Formula, ...], Entry]:
-    """The ring of such a certificate, its equations and conditions as comparisons with 0, and its list of solutions."""
-    order, equations, conditions, _, _, solutions = payload.fields(
-        "order", "equations", "conditions", "weights", "form", "solutions"
-    )
-    ring = Ring.of(order.names())
-    listed = [_condition(e, ring) for e in conditions.items()]
+_MEMBERS = ("order", "equations", "conditions", "weights", "form", "solutions")
+
+
+def sentence(evidence: Entry, budget: Budget) -> Sentence:
+    """That the equations and the conditions hold at the points that are listed, and nowhere else."""
+    order, equations, conditions, _, _, listed = evidence.fields(*_MEMBERS)
+    names = order.names()
+    ring, whole = Ring.of(names), Ring.of((*names, *renamed(("root",), names)))
     parts = [atom(e.polynomial(ring), Relation.EQ) for e in equations.items()]
-    return ring, (*parts, *(atom(p, Relation(relation)) for p, relation in listed)), solutions
+    parts += [atom(p, Relation(relation)) for p, relation in (_condition(e, ring) for e in conditions.items())]
+    points = [_Solution(e, len(names), budget) for e in listed.items()]
+    return conj(parts), disj(is_point(names, point.values, point.field, whole) for point in points)
 
 
 def _condition(entry: Entry, ring: Ring) -> tuple[Poly, str]:

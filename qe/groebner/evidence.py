@@ -1,4 +1,4 @@
-"""Certificates of kind "solutions": that a system has these real solutions and no others (docs/certificates.md)."""
+"""Certificates that a system has these real solutions and no others (docs/certificates.md)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,11 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.polynomial_system import solutions, system_basis
 from qe.exact.ring import Poly, Ring
 from qe.exact.zeros import Zero, linear_forms
+from qe.expert.solutions import sentence
 from qe.formula.syntax import Relation
-from qe.proof.certificate import Certificate, Kind
-from qe.proof.entry import Json, poly_to_text
+from qe.options import Budget
+from qe.proof.certificate import Certificate
+from qe.proof.entry import Entry, Json, poly_to_text
 
 Condition = tuple[Poly, Relation]
 
@@ -59,7 +61,7 @@ def solutions_certificate(
         "form": list(_separating(found, names)),
         "solutions": [_solution(z, names, ends) for z, ends in zip(found, intervals, strict=True)],
     }
-    return Certificate(Kind.SOLUTIONS, payload)
+    return Certificate.step("solutions", names, *sentence(Entry(payload, "evidence"), Budget()), payload)
 
 
 def _minimal_polynomial(ring: Ring, i: int, number: RealAlgebraic) -> Poly:

@@ -24,13 +24,14 @@ Where an equational constraint restricts a level, the other factors are invarian
 The truth value of a sector then has to follow from the signs of the constraint's factors: that the matrix implies the
 constraint is thus proved where it is used.
 
-Each of these statements is about one cell, its line and the cells below it. So where parts are claimed, other cells
-over the free variables may be open: nothing follows from them, and the parts must be false there.
+Each of these statements is about one cell, its line and the cells below it. So cells over the free variables on which
+what is given is false may be open, without truth value: nothing follows from them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -47,18 +48,17 @@ from qe.kernel.open_block import shows_open
 from qe.kernel.projection import Projected
 from qe.options import Budget, Projection
 from qe.proof.cells import CHARACTER_OF, Cell, CellTable, Stack
-from qe.proof.cells_json import CellEvidence
 from qe.truth import Truth
 
 Path = tuple["Path", str] | str
 
 
-def check_cells(evidence: CellEvidence, budget: Budget) -> None:
-    """``CertificateRejected`` naming the first entry that fails; returns if the tree proves what it says.
+def check_cells(table: CellTable, answer: Formula | None, given: Sequence[Formula], budget: Budget) -> None:
+    """``CertificateRejected`` naming the first entry that fails; returns if the tree is right and the answer has its
+    truth values wherever what is ``given`` holds, as far as that is about products of listed factors.
 
     Raises ``Unable`` where that is not decided within the budget and the limits of size.
     """
-    table = evidence.table
     ring = Ring.of(table.order)
     free = _check_header(table)
     check_lists(ring, table.factors)
@@ -66,11 +66,12 @@ def check_cells(evidence: CellEvidence, budget: Budget) -> None:
     constraints = _constraints(table)
     projection = Projected(lists, budget, evaluates=table.projection is Projection.LAZARD)
     matrix = strengthened(table.matrix, lists, constraints, "payload.matrix")
-    answer = None if evidence.answer is None else compiled(evidence.answer, lists, "payload.answer")
-    if answer is not None and evidence.parts is not None:
-        raise CertificateRejected("payload.parts", "an answer has no parts")
-    parts = [compiled(part, lists, f"payload.parts[{k}]") for k, part in enumerate(evidence.parts or ())]
-    walk = _Walk(table, free, constraints, projection, matrix, answer, parts, budget)
+    after = None if answer is None else compiled(answer, lists, "answer")
+    facts = []
+    for fact in given:
+        with suppress(CertificateRejected):
+            facts.append(compiled(fact, lists, "context"))
+    walk = _Walk(table, free, constraints, projection, matrix, after, facts, budget)
     if table.root.signs:
         raise CertificateRejected("payload.root.signs", "the whole space has no signs")
     sample = Sample(lists, Point(budget=budget), {}, [], (0,))
@@ -117,7 +118,7 @@ class _Walk:
     projection: Projected
     matrix: Test
     answer: Test | None
-    parts: Sequence[Test]
+    facts: Sequence[Test]
     budget: Budget
 
     def cell(
@@ -141,19 +142,13 @@ class _Walk:
         return value
 
     def _check_free(self, truth: Truth, situation: Situation, path: Path) -> None:
-        """Cells over free variables have a truth value, and the answer agrees with it.
-
-        Where parts are claimed a cell may be open; a part is false by the signs on every cell of another truth value.
-        """
-        if self.parts:
-            for k, (part, value) in enumerate(zip(self.parts, (True, False), strict=True)):
-                if truth is not value and part(situation) is not False:
-                    raise CertificateRejected(f"payload.parts[{k}]", f"not excluded on {_text(path)}: {truth}")
+        """Cells over free variables have a truth value, and the answer agrees with it, unless a fact is false there."""
+        if any(fact(situation) is False for fact in self.facts):
             return
         if truth is None:
             raise CertificateRejected(_text((path, ".truth")), "no truth value for a cell over the free variables")
         if self.answer is not None and self.answer(situation) is not truth:
-            raise CertificateRejected("payload.answer", f"differs from the truth value {truth} of {_text(path)}")
+            raise CertificateRejected("answer", f"differs from the truth value {truth} of {_text(path)}")
 
     def _decomposed(self, stack: Stack, sample: Sample, situation: Situation, here: Path) -> Truth:
         def fail(entry: str, reason: str) -> CertificateRejected:

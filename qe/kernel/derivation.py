@@ -16,52 +16,39 @@ A place may also be a conjunction (disjunction) of which ``before`` is a part: i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
-from qe.errors import CertificateRejected, Unable
+from qe.errors import Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj, exists, forall, neg
 from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import clashes
 from qe.kernel.negation import negation
+from qe.kernel.nested import proved
 from qe.kernel.step import Check, Claim, Context, Limits, check_names, outside
 from qe.kernel.verdict import CRASHES
 from qe.options import Budget
-from qe.proof.certificate import Certificate, certificate_from
 from qe.proof.entry import Entry, Json, formula_from_json
 
-LeafChecker = Callable[[Certificate, Budget], None]
 
-
-def check_derivation(
-    payload: dict[str, Json],
-    budget: Budget,
-    rules: Mapping[str, Check],
-    check_leaf: LeafChecker,
-) -> None:
+def check_derivation(payload: dict[str, Json], budget: Budget, rules: Mapping[str, Check]) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the step that fails.
 
     Raises ``Unable`` for a rule without a checker: what it claims is not wrong for that, but nothing is proved.
     """
-    order, start, steps, answer = Entry(payload, "payload").fields("order", "start", "steps", "answer")
-    names = order.names()
-    ring = Ring.of(names)
-    found = _Replay(budget, rules, check_leaf).run(steps, formula_from_json(start, ring, quantified=True), (), ring)
-    if found != formula_from_json(answer, ring, quantified=True):
-        raise answer.fail("not the formula to which the steps lead")
+    proved(Entry(payload, "payload"), limits_of(budget, rules))
 
 
-def limits_of(budget: Budget, rules: Mapping[str, Check], check_leaf: LeafChecker) -> Limits:
+def limits_of(budget: Budget, rules: Mapping[str, Check]) -> Limits:
     """What the checkers of single steps are given."""
-    return _Replay(budget, rules, check_leaf).limits
+    return _Replay(budget, rules).limits
 
 
 class _Replay:
     """The steps of one derivation, and of those nested in its evidence, under one budget."""
 
-    def __init__(self, budget: Budget, rules: Mapping[str, Check], check_leaf: LeafChecker) -> None:
-        self.rules, self.check_leaf = rules, check_leaf
-        self.limits = Limits(budget, self.run, self.leaf)
+    def __init__(self, budget: Budget, rules: Mapping[str, Check]) -> None:
+        self.rules, self.limits = rules, Limits(budget, self.run)
 
     def run(self, steps: Entry, current: Formula, context: Context, ring: Ring) -> Formula:
         """The formula after the steps, each of them checked."""
@@ -93,15 +80,6 @@ class _Replay:
             error.add_note(entry.path)  # for one that is no verdict: it names no entry
             raise
         return changed
-
-    def leaf(self, entry: Entry) -> Certificate:
-        """A certificate of an older kind inside a step's evidence, checked."""
-        certificate = certificate_from(entry)
-        try:
-            self.check_leaf(certificate, self.limits.budget)
-        except CertificateRejected as error:
-            raise CertificateRejected(f"{entry.path}.{error.step}", error.reason) from None
-        return certificate
 
 
 def check_seen(entry: Entry, formula: Formula, context: Context) -> None:

@@ -12,11 +12,14 @@ sentences that is not false as it stands.
 
 from __future__ import annotations
 
+from qe.exact.ring import Ring
 from qe.formula.build import conj, exists
-from qe.formula.syntax import FALSE
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.kernel.block import existential
 from qe.kernel.negation import negation, normal
+from qe.kernel.renaming import is_same
 from qe.kernel.step import Claim, Context, Limits, only
+from qe.proof.entry import Entry, formula_from_json
 
 
 def check_steps(claim: Claim, context: Context, limits: Limits) -> None:
@@ -45,3 +48,19 @@ def check_no_exception(claim: Claim, context: Context, limits: Limits) -> None:
     for steps, sentence in zip(listed, sentences, strict=True):
         if limits.replay(steps, sentence, (), claim.ring) != FALSE:
             raise steps.fail("not shown that there is no exception")
+
+
+def is_true(sentence: Formula, entry: Entry, limits: Limits) -> bool:
+    """Whether a derivation on its own, which is checked, turns the sentence into TRUE."""
+    start, answer = proved(entry, limits)
+    return is_same(start, sentence) and answer == TRUE
+
+
+def proved(entry: Entry, limits: Limits) -> tuple[Formula, Formula]:
+    """The two formulas of a derivation on its own, which is checked: they are equivalent wherever it stands."""
+    order, start, steps, answer = entry.fields("order", "start", "steps", "answer")
+    ring = Ring.of(order.names())
+    before, after = (formula_from_json(e, ring, quantified=True) for e in (start, answer))
+    if limits.replay(steps, before, (), ring) != after:
+        raise answer.fail("not the formula to which the steps lead")
+    return before, after

@@ -9,13 +9,14 @@ from qe.kernel.elimination_set import check_elimination_set
 from qe.kernel.linear_equation import check_guarded_linear, check_linear
 from qe.kernel.nested import check_converse, check_no_exception, check_steps
 from qe.kernel.open_block import check_inequations, check_open_block
+from qe.kernel.parts import check_parts
 from qe.kernel.quantifiers import check_quantifiers
 from qe.kernel.root import check_root
-from qe.kernel.sentence import check_sentence
 from qe.kernel.step import Check
 from qe.kernel.table import check_table
 from qe.kernel.terms import check_terms
 from qe.kernel.theorem import check_theorem
+from qe.kernel.witness import check_instance
 
 PRIMITIVES: Mapping[str, Check] = {
     # frame
@@ -24,9 +25,8 @@ PRIMITIVES: Mapping[str, Check] = {
     "equations taken apart": check_steps,
     "converse": check_converse,
     "no exception": check_no_exception,
-    "instance": check_sentence,
-    "convex": check_sentence,
-    "point or multipliers": check_sentence,
+    "parts": check_parts,
+    "instance": check_instance,
     # signs
     "signs": check_block,
     # quantifiers

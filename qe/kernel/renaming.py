@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 
 from qe.exact.ring import Poly
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+from qe.kernel.negation import normal
 
 Binding = Mapping[str, int]
 
@@ -23,6 +24,11 @@ def shape(formula: Formula) -> object:
 def arranged(formula: Formula) -> object:
     """As ``shape``, and the same for formulas whose conjunctions and disjunctions have the same parts in any order."""
     return _shape(formula, {}, 0, lambda parts: tuple(sorted(set(parts), key=repr)))
+
+
+def is_same(one: Formula, other: Formula) -> bool:
+    """Whether formulas are the same up to names of bound variables, order, and where negations stand."""
+    return arranged(normal(one)) == arranged(normal(other))
 
 
 def _shape(

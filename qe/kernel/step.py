@@ -15,7 +15,6 @@ from qe.exact.ring import Ring
 from qe.formula.syntax import Exists, Formula
 from qe.formula.traverse import clashes, has_root_atoms
 from qe.options import Budget
-from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry
 
 Context = tuple[Formula, ...]
@@ -59,12 +58,11 @@ class Claim:
 @dataclass(frozen=True, slots=True)
 class Limits:
     """``budget``: looked at between pieces of work (``tick``). ``replay``: the formula to which nested steps (a list
-    entry) lead from one under a context, each step checked. ``leaf``: a nested certificate of an older kind, checked.
+    entry) lead from one under a context, each step checked.
     """
 
     budget: Budget
     replay: Callable[[Entry, Formula, Context, Ring], Formula]
-    leaf: Callable[[Entry], Certificate]
 
     def tick(self) -> None:
         """Raise ``BudgetExceeded`` where a limit is reached."""

@@ -1,40 +1,46 @@
-"""Rules "cells", "shorter" and "constant": a cell table, as a certificate of its own, about this very step.
+"""Rules "cells", "shorter" and "covering": a cell table of a prenex form of what stands before.
 
 THEOREM (prenex form). Let no variable be bound twice, or both bound and free. Then quantifiers may move outwards past
 conjunctions and disjunctions, as R is not empty, in any order in which those that stand inside each other keep theirs,
 but for neighbours of one kind. So a formula is equivalent to a prefix of that order before its negation normal form
 without quantifiers; variables that do not occur may be quantified anyhow.
 
-Evidence: ``certificate``, of kind "cells", with the truth of ``after`` on every cell of the free variables.
+Evidence: ``cells``, a table by which ``after`` has the truth of ``before`` on every cell of the free variables on which
+the facts of the step hold (``kernel.cells``). A step from a formula to itself says that the table is right.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj
 from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Or
 from qe.formula.traverse import subformulas
+from qe.kernel.cells import check_cells
 from qe.kernel.negation import normal
 from qe.kernel.renaming import arranged
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.proof.cells import CellTable
-from qe.proof.cells_json import CellEvidence
+from qe.proof.cells_json import cells_from_json
 
 
 def check_table(claim: Claim, context: Context, limits: Limits) -> None:
-    """The certificate is checked, and is about the formulas of the step."""
-    entry = only(claim, "certificate")[0]
-    evidence = limits.leaf(entry).payload
-    if not isinstance(evidence, CellEvidence) or evidence.answer is None:
-        raise entry.fail("expected a certificate by cells, with an answer")
-    table, before = evidence.table, normal(claim.before)
-    free = set(before.free) | set(claim.after.free)
-    if not free <= set(table.order) <= set(claim.ring.names):
+    """The table is checked, and is about the formulas of the step."""
+    entry = only(claim, "cells")[0]
+    table, before = cells_from_json(entry), normal(claim.before)
+    if not {*before.free, *claim.after.free} <= set(table.order) <= set(claim.ring.names):
         raise entry.fail("the table is about other variables")
-    if normal(_moved(evidence.answer, claim.ring)) != normal(claim.after):
-        raise entry.fail("the table is about another answer")
+    same = claim.before == claim.after
+    ring = Ring.of(table.order)
+    known = [fact for fact in context if set(fact.free) <= set(table.order)]
+    answer, *given = (convert(normal(formula), ring) for formula in (claim.after, *known))
+    try:
+        check_cells(table, None if same else answer, given, limits.budget)
+    except CertificateRejected as error:
+        at = f"{claim.path}.after" if error.step == "answer" else f"{entry.path}.{error.step.removeprefix('payload.')}"
+        raise CertificateRejected(at, error.reason) from None
     if not is_prenex_form(before, table):
         raise entry.fail("the table is about another formula")
 

@@ -1,7 +1,9 @@
-"""Checker for certificates of kind "witness": real numbers that satisfy a quantifier-free formula.
+"""Rule "instance": a block of one kind decided by a point.
 
-Payload: ``order`` (variable names), ``matrix`` (the formula), ``values`` (one per variable: a rational number, or
-``{"polynomial": text in that variable, "interval": [low, high]}`` for its only root there). Signs of the formula's
+THEOREM. ex v. f is true if f holds at real numbers for v. all v. f is the negation of ex v. not f.
+
+Evidence: ``order`` and ``values``: variables, and a number for each. A number is rational, or
+``{"polynomial": text in that variable, "interval": [low, high]}`` for the only root there. Signs of the formula's
 polynomials at the point are decided exactly by ``qe.kernel.arithmetic.triangular``.
 """
 
@@ -10,33 +12,39 @@ from __future__ import annotations
 from fractions import Fraction
 
 from qe.exact.ring import Ring
-from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
+from qe.formula.build import convert
+from qe.formula.syntax import TRUE, And, Atom, Constant, Exists, Formula, Not, Or
 from qe.kernel.arithmetic.fibre import RationalFibre, fibre, values
 from qe.kernel.arithmetic.products import FactorLists
 from qe.kernel.arithmetic.triangular import Coordinate, Point
+from qe.kernel.block import existential
 from qe.kernel.limits import check_value
 from qe.kernel.line import Sample
+from qe.kernel.step import Claim, Context, Limits, only
 from qe.options import Budget
-from qe.proof.entry import Entry, Json, formula_from_json
+from qe.proof.entry import Entry
 
 
-def check_witness(payload: dict[str, Json], budget: Budget | None = None) -> None:
-    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    order, matrix, numbers = Entry(payload, "payload").fields("order", "matrix", "values")
+def check_instance(claim: Claim, context: Context, limits: Limits) -> None:
+    """The body holds at the point."""
+    order, numbers = only(claim, "order", "values")
+    before, after = existential(claim)
+    if not isinstance(before, Exists) or before.free or after != TRUE:
+        raise claim.fail("expected a sentence of one block, and that a point decides it")
     names = order.names()
-    ring = Ring.of(names)
-    formula = formula_from_json(matrix, ring)
-    listed = list(numbers.items())
+    if not set(before.body.free) <= set(names) <= set(claim.ring.names):
+        raise order.fail("other variables than those of the sentence")
+    ring, listed = Ring.of(names), list(numbers.items())
     if len(listed) != len(names):
         raise numbers.fail(f"expected {len(names)} values")
-    sample = Sample(FactorLists(ring, ()), Point(budget=budget), {}, [], (0,))
+    sample = Sample(FactorLists(ring, ()), Point(budget=limits.budget), {}, [], (0,))
     for i, entry in enumerate(listed):
-        sample = sample.extended(_number(entry, ring, i, budget), [], alone=True)
-    if not _holds(formula, sample, matrix):
-        raise matrix.fail("the values do not satisfy the formula")
+        sample = sample.extended(_number(entry, ring, i, limits.budget), [], alone=True)
+    if not _holds(convert(claim.plain(before.body), ring), sample):
+        raise numbers.fail("the values do not satisfy the formula")
 
 
-def _number(entry: Entry, ring: Ring, i: int, budget: Budget | None) -> Fraction | Coordinate:
+def _number(entry: Entry, ring: Ring, i: int, budget: Budget) -> Fraction | Coordinate:
     if isinstance(entry.value, str):
         return entry.rational()
     polynomial, interval = entry.fields("polynomial", "interval")
@@ -58,16 +66,16 @@ def _number(entry: Entry, ring: Ring, i: int, budget: Budget | None) -> Fraction
     return found
 
 
-def _holds(formula: Formula, sample: Sample, entry: Entry) -> bool:
+def _holds(formula: Formula, sample: Sample) -> bool:
     match formula:
         case Constant(value):
             return value
         case Atom(poly, relation):
             return relation.holds(sample.sign(poly))
         case Not(arg):
-            return not _holds(arg, sample, entry)
+            return not _holds(arg, sample)
         case And(args):
-            return all(_holds(a, sample, entry) for a in args)
+            return all(_holds(a, sample) for a in args)
         case Or(args):
-            return any(_holds(a, sample, entry) for a in args)
-    raise entry.fail("expected a quantifier-free formula without root atoms")
+            return any(_holds(a, sample) for a in args)
+    raise AssertionError(f"no quantifiers and root atoms are let in: {formula}")

@@ -17,11 +17,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, NoReturn
 
-import qe.certify.parts
-import qe.kernel.cells
-import qe.kernel.derivation
-import qe.kernel.gauss
-import qe.kernel.witness  # noqa: F401
+import qe.kernel.derivation  # noqa: F401
 from qe.certify.claims import claim_of
 from qe.certify.trusts import trusts
 from qe.certify.verify import verify_json

@@ -8,40 +8,18 @@ already; the reader checks them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from qe.exact.ring import Ring
-from qe.formula.syntax import Formula
 from qe.options import Projection
 from qe.proof.cells import Cell, CellTable, Stack
 from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json, poly_to_text
 
 
-@dataclass(frozen=True, slots=True)
-class CellEvidence:
-    """A cell table, and the quantifier-free formula over its free variables that it is claimed to prove (or None).
-
-    ``parts``, in place of an answer: (true, false), of which the first is claimed to imply the table's formula and the
-    second its negation. Only such a table may have cells over the free variables that are open, without truth value.
-    """
-
-    table: CellTable
-    answer: Formula | None = None
-    parts: tuple[Formula, Formula] | None = None
-
-
-def cells_to_json(evidence: CellEvidence) -> Json:
-    """The evidence as JSON data; ``cells_from_json`` reads it back."""
-    table = evidence.table
-    parts: dict[str, Json] = {}
-    if evidence.parts is not None:
-        parts["parts"] = [formula_to_json(part) for part in evidence.parts]
+def cells_to_json(table: CellTable) -> Json:
+    """The table as JSON data; ``cells_from_json`` reads it back."""
     return {
-        **parts,
         "order": list(table.order),
         "quantifiers": list(table.quantifiers),
         "matrix": formula_to_json(table.matrix),
-        "answer": None if evidence.answer is None else formula_to_json(evidence.answer),
         "projection": table.projection.value,
         "factors": [[poly_to_text(f) for f in level] for level in table.factors],
         "constraints": [list(level) for level in table.constraints],
@@ -72,11 +50,10 @@ def _cell_to_json(cell: Cell) -> Json:
     return out
 
 
-def cells_from_json(entry: Entry) -> CellEvidence:
-    """The evidence; ``CertificateRejected`` names the first malformed entry."""
-    members = ("order", "quantifiers", "matrix", "answer", "projection", "factors", "constraints", "root")
-    order, quantifiers, matrix, answer, projection, factors, constraints, root, parts = entry.fields(
-        *members, optional=("parts",)
+def cells_from_json(entry: Entry) -> CellTable:
+    """The table; ``CertificateRejected`` names the first malformed entry."""
+    order, quantifiers, matrix, projection, factors, constraints, root = entry.fields(
+        "order", "quantifiers", "matrix", "projection", "factors", "constraints", "root"
     )
     names = order.names()
     ring = Ring.of(names)
@@ -85,7 +62,7 @@ def cells_from_json(entry: Entry) -> CellEvidence:
         operator = Projection(projection.text())
     except ValueError:
         raise projection.fail("unknown projection operator") from None
-    table = CellTable(
+    return CellTable(
         order=names,
         quantifiers=tuple(e.text() for e in quantifiers.items()),
         matrix=formula_from_json(matrix, ring),
@@ -94,11 +71,6 @@ def cells_from_json(entry: Entry) -> CellEvidence:
         root=_cell_from_json(root, len(names)),
         constraints=tuple(tuple(e.integer() for e in level.items()) for level in constraints.items()),
     )
-    found = None if answer.value is None else formula_from_json(answer, ring)
-    if parts.value is None:
-        return CellEvidence(table, found)
-    true, false = parts.row("true", "false")
-    return CellEvidence(table, found, (formula_from_json(true, ring), formula_from_json(false, ring)))
 
 
 def _cell_from_json(entry: Entry, depth: int) -> Cell:

@@ -11,46 +11,36 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from qe.arguments import whole as whole_number
 from qe.errors import CertificateRejected, InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import Formula
+from qe.formula.build import conj, convert, exists, forall
+from qe.formula.syntax import FALSE, TRUE, And, Formula
+from qe.formula.traverse import conjuncts
 from qe.proof.cells import CellTable
-from qe.proof.cells_json import CellEvidence, cells_from_json, cells_to_json
+from qe.proof.cells_json import cells_from_json, cells_to_json
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text, read_json
 from qe.services import Service, service
 
 FORMAT = "bezier-qe certificate"
-VERSIONS = (1, 2)
-"""The versions that are read. Written is the lowest that can say it: 2 where a derivation is inside, else 1."""
+VERSION, VERSIONS = 3, (1, 2, 3)
+"""The version that is written, and those that are read (``qe.proving.older`` says what is made of the former ones)."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """What a certificate proves, by the name under which files have it. These are the engine's; other packages bring
-    more, each with its checker (``qe.certify.verify.checkers``).
+    """What a certificate is, by the name under which files have it.
 
-    CELLS: truth values on the cells of a (partial) cylindrical algebraic decomposition, and the formula that
-    follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
-    satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
-    DERIVATION: that a formula is equivalent to another, step by step. SOLUTIONS: that a system has these real
-    solutions, and no others. CLASSIFICATION: where a parametric system has how many. PARTS: where a formula is true
-    and where false, the rest being open. BUNDLE: several certificates with labels.
+    DERIVATION: that a formula is equivalent to another, by steps. BUNDLE: several certificates with labels. What else
+    there is other packages bring, each with its checker (``qe.certify.kinds``), or comes from a former release.
     """
 
     value: str
 
-    CELLS: ClassVar[Kind]
-    OPTIMUM: ClassVar[Kind]
-    WITNESS: ClassVar[Kind]
-    SUBSTITUTION: ClassVar[Kind]
     DERIVATION: ClassVar[Kind]
-    SOLUTIONS: ClassVar[Kind]
-    CLASSIFICATION: ClassVar[Kind]
-    PARTS: ClassVar[Kind]
     BUNDLE: ClassVar[Kind]
 
 
@@ -82,12 +72,13 @@ class Root:
         return value.as_fraction() if value.is_rational else Root(value.minimal_polynomial, *value.interval())
 
 
-Payload = CellEvidence | tuple[Labelled, ...] | dict[str, Json]
+Evidence = dict[str, Json]
+Payload = tuple[Labelled, ...] | dict[str, Json]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Certificate:
-    """Payload by kind: CELLS: ``CellEvidence``; BUNDLE: a tuple of ``Labelled``; the others: plain JSON data.
+    """Payload by kind: BUNDLE: a tuple of ``Labelled``; the others: plain JSON data.
 
     ``digests`` is set for certificates read from text: the digest stated there and the one of what was read.
     """
@@ -101,57 +92,9 @@ class Certificate:
         return f"Certificate({self.kind.value}{members})"
 
     @staticmethod
-    def cells(table: CellTable, answer: Formula | None = None) -> Certificate:
-        """That ``table`` is a correct cell table and (if given) that ``answer`` is equivalent to its formula."""
-        return Certificate(Kind.CELLS, CellEvidence(table, answer))
-
-    @staticmethod
-    def decided(table: CellTable, true: Formula, false: Formula) -> Certificate:
-        """That ``true`` implies the formula of a table with open cells, and ``false`` its negation."""
-        return Certificate(Kind.CELLS, CellEvidence(table, None, (true, false)))
-
-    @staticmethod
-    def parts(
-        order: Sequence[str], question: Formula, true: Formula, false: Formula, proofs: Iterable[Certificate]
-    ) -> Certificate:
-        """That ``true`` implies ``question`` and ``false`` its negation, by what is proved of its parts."""
-        payload: dict[str, Json] = {
-            "order": list(order),
-            "question": formula_to_json(question, quantified=True),
-            "true": formula_to_json(true),
-            "false": formula_to_json(false),
-            "proofs": [proof.to_data() for proof in proofs],
-        }
-        return Certificate(Kind.PARTS, payload)
-
-    @staticmethod
     def bundle(members: Iterable[tuple[str, Certificate]]) -> Certificate:
         """Several certificates, each with a label."""
         return Certificate(Kind.BUNDLE, tuple(Labelled(label, c) for label, c in members))
-
-    @staticmethod
-    def witness(matrix: Formula, order: Sequence[str], values: Sequence[Root | Fraction]) -> Certificate:
-        """That the quantifier-free ``matrix`` (over the ring of ``order``) holds where the variables have ``values``.
-
-        A value is a rational number or a ``Root``.
-        """
-        numbers: list[Json] = [_value_to_json(v, name) for v, name in zip(values, order, strict=True)]
-        payload: dict[str, Json] = {"order": list(order), "matrix": formula_to_json(matrix), "values": numbers}
-        return Certificate(Kind.WITNESS, payload)
-
-    @staticmethod
-    def substitution(
-        matrix: Formula, order: Sequence[str], solved: Sequence[tuple[str, Poly]], answer: Formula
-    ) -> Certificate:
-        """That the existential variables ``solved`` (with their equations, in order of use) give ``answer``."""
-        payload: dict[str, Json] = {
-            "order": list(order),
-            "variables": [name for name, _ in solved],
-            "matrix": formula_to_json(matrix),
-            "solved": [[name, poly_to_text(equation)] for name, equation in solved],
-            "answer": formula_to_json(answer),
-        }
-        return Certificate(Kind.SUBSTITUTION, payload)
 
     @staticmethod
     def derivation(order: Sequence[str], start: Formula, steps: Iterable[Json], answer: Formula) -> Certificate:
@@ -164,25 +107,93 @@ class Certificate:
         }
         return Certificate(Kind.DERIVATION, payload)
 
+    @staticmethod
+    def step(rule: str, order: Sequence[str], before: Formula, after: Formula, evidence: Evidence) -> Certificate:
+        """That ``before`` <-> ``after``, by one step; in the derivation's order these names are the first."""
+        used = {name for formula in (before, after) for name in (*formula.free, *formula.bound)}
+        known = [name for formula in (before, after) if formula.ring for name in formula.ring.names if name in used]
+        ring = Ring.of(dict.fromkeys((*order, *known, *sorted(used))))
+        start, answer = convert(before, ring), convert(after, ring)
+        return Certificate.derivation(ring.names, start, [written(rule, (), start, answer, (), evidence)], answer)
+
+    @staticmethod
+    def cells(table: CellTable, answer: Formula | None = None, start: Formula | None = None) -> Certificate:
+        """That ``answer``, without quantifiers, is equivalent to the formula of the table, or to ``start``, of which
+        this is a prenex form; without an answer: that the table is right."""
+        question = prenex_form(table) if start is None else start
+        if answer is None and not question.free and table.root.truth is not None:
+            answer = TRUE if table.root.truth else FALSE
+        after = question if answer is None else answer
+        return Certificate.step("cells", table.order, question, after, {"cells": cells_to_json(table)})
+
+    @staticmethod
+    def decided(question: Formula, true: Formula, false: Formula, rule: str, evidence: Evidence) -> Certificate:
+        """That the question holds where ``true`` does, and not where ``false`` does, by one step for each."""
+        members = []
+        for label, where, truth in (("true", true, TRUE), ("false", false, FALSE)):
+            if where != FALSE:
+                both, answer = conj((where, question)), conj((where, truth))
+                place = (both.args.index(question),) if isinstance(both, And) and not isinstance(question, And) else ()
+                known = () if where == TRUE else conjuncts(where)
+                steps = [written(rule, place, question, truth, known, evidence)] if both != answer else []
+                order = both.ring.names if both.ring else ()
+                members.append((label, Certificate.derivation(order, both, steps, answer)))
+        return Certificate.bundle(members)
+
+    @staticmethod
+    def witness(matrix: Formula, order: Sequence[str], values: Sequence[Root | Fraction]) -> Certificate:
+        """That the quantifier-free ``matrix`` (over the ring of ``order``) holds where the variables have ``values``.
+
+        A value is a rational number or a ``Root``.
+        """
+        numbers: list[Json] = [_value_to_json(v, name) for v, name in zip(values, order, strict=True)]
+        return Certificate.step(
+            "instance", order, exists(order, matrix), TRUE, {"order": list(order), "values": numbers}
+        )
+
+    @staticmethod
+    def substitution(
+        matrix: Formula, order: Sequence[str], solved: Sequence[tuple[str, Poly]], answer: Formula
+    ) -> Certificate:
+        """That the existential variables ``solved`` (with their equations, in order of use) give ``answer``; in these
+        their coefficients are numbers."""
+        ring = Ring.of(order)
+        listed: list[Json] = []
+        for name, equation in solved:
+            normal = equation.convert(ring).normal()[1]
+            lead = normal.leading(ring.index[name]).constant_value()
+            listed.append([name, poly_to_text(normal), 1 if lead > 0 else -1])
+        theory: dict[str, Json] = {"polynomials": [], "lemmas": [], "cases": []}
+        evidence: Evidence = {"solved": listed, "theory": theory}
+        question = exists([name for name, _ in solved], matrix)
+        return Certificate.step("linear equation solved", order, question, answer, evidence)
+
+    @property
+    def parts(self) -> tuple[Certificate, ...]:
+        """The members of a bundle and of those in it; of any other certificate itself alone."""
+        if not isinstance(self.payload, tuple):
+            return (self,)
+        return tuple(part for member in self.payload for part in member.certificate.parts)
+
+    @property
+    def single_step(self) -> dict[str, Json]:
+        """The step of a derivation that has one; nothing for others."""
+        steps = self.payload.get("steps") if isinstance(self.payload, dict) else None
+        step = steps[0] if isinstance(steps, list) and len(steps) == 1 else None
+        return step if isinstance(step, dict) else {}
+
+    def evidence_for(self, rule: str) -> Any:
+        """The evidence of a derivation by one step of this rule; None for others."""
+        return self.single_step.get("evidence") if self.single_step.get("rule") == rule else None
+
     @property
     def trusts(self) -> tuple[str, ...]:
         """The theorems without proof, by name, that it needs beside the primitives of the kernel (``qe.theorems``)."""
         names: tuple[str, ...] = service(Service.TRUSTS)(self)
         return names
 
-    @property
-    def version(self) -> int:
-        """The version of the format in which it is written."""
-        if isinstance(self.payload, tuple):
-            return max((m.certificate.version for m in self.payload), default=1)
-        if isinstance(self.payload, CellEvidence):
-            return 1 if self.payload.parts is None else 2
-        return 2 if self.kind in (Kind.DERIVATION, Kind.PARTS) else 1
-
     def to_data(self) -> dict[str, Json]:
         """Kind and payload as JSON data."""
-        if isinstance(self.payload, CellEvidence):
-            return {"kind": self.kind.value, "payload": cells_to_json(self.payload)}
         if isinstance(self.payload, tuple):
             members: list[Json] = [{"label": m.label, **m.certificate.to_data()} for m in self.payload]
             return {"kind": self.kind.value, "certificates": members}
@@ -192,7 +203,7 @@ class Certificate:
         """The certificate as text, with version and digest; equal certificates give equal text."""
         if indent is not None:
             whole_number(indent, "indent", 80)
-        whole: dict[str, Json] = {"format": FORMAT, "version": self.version, **self.to_data()}
+        whole: dict[str, Json] = {"format": FORMAT, "version": VERSION, **self.to_data()}
         whole["digest"] = digest(whole)
         separators = (",", ":") if indent is None else None
         return json.dumps(whole, ensure_ascii=False, indent=indent, separators=separators)
@@ -222,9 +233,24 @@ class Certificate:
             read = certificate_from(Entry(content, ""))
         except RecursionError:
             raise InputError("certificate nested too deeply") from None
-        if read.version != version:
-            raise InputError(f"certificate version {version}: what it holds is written in version {read.version}")
         return Certificate(read.kind, read.payload, (stated, digest(whole)))
+
+
+def table_of(certificate: Certificate) -> CellTable | None:
+    """The table in a certificate that says no more than that it is one of its formula, which has no quantifiers."""
+    evidence, payload = certificate.evidence_for("cells"), certificate.payload
+    if not isinstance(evidence, dict) or not isinstance(payload, dict) or payload["start"] != payload["answer"]:
+        return None
+    table = cells_from_json(Entry(evidence.get("cells"), "payload.steps[0].evidence.cells"))
+    return None if any(table.quantifiers) else table
+
+
+def prenex_form(table: CellTable) -> Formula:
+    """The formula of a table."""
+    formula = table.matrix
+    for name, kind in reversed(list(zip(table.order, table.quantifiers, strict=True))):
+        formula = formula if not kind else (exists if kind == "E" else forall)((name,), formula)
+    return formula
 
 
 def written(
@@ -278,8 +304,6 @@ def certificate_from(entry: Entry, labelled: bool = False) -> Certificate:
         members = entry.fields("kind", "certificates", *extra)[1]
         return Certificate(kind, tuple(_member(m) for m in members.items()))
     payload = entry.fields("kind", "payload", *extra)[1]
-    if kind == Kind.CELLS:
-        return Certificate(kind, cells_from_json(payload))
     if not isinstance(payload.value, dict):
         raise payload.fail("expected an object")
     return Certificate(kind, payload.value)

@@ -6,16 +6,17 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
+from qe.certify.claims import is_about
 from qe.elimination.protocol import Outcome, witness_of
 from qe.errors import Contradiction, Unable
 from qe.formula.block import Block
 from qe.formula.normal import without_clashes
 from qe.formula.syntax import Formula
+from qe.kernel.renaming import is_same
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED
-from qe.proof.certificate import Certificate, Kind, Proof, written
+from qe.proof.certificate import Certificate, Proof
 from qe.proof.derivation import put_together
-from qe.proof.entry import Json
 from qe.proof.run_log import RunLog
 from qe.proving.linear import substitution_certificate
 
@@ -43,14 +44,14 @@ def certificate_of(
 
     ``asked``: the formula of the caller; ``question``: the same with its root atoms counted and its variables renamed.
     """
-    problem = Block.of(question)
-    if found.certificate is not None:
-        from qe.elimination.cad import claims
-
-        if claims(found.certificate, question, found.formula):
-            return Proof(_as_asked(found.certificate, problem, found.formula))
-    if found.witness is not None and problem is not None and problem.is_flat and not problem.free:
-        return Proof(_as_asked(witness_of(problem, found.witness), problem, found.formula))
+    problem, made = Block.of(question), found.certificate
+    if made is None and found.witness is not None and problem is not None and problem.is_flat and not problem.free:
+        made = witness_of(problem, found.witness)
+    said = None if made is None else is_about(made, question)
+    if made is not None and said is not None and is_same(said, found.formula):
+        step = made.single_step
+        assert isinstance(step["evidence"], dict)
+        return Proof(Certificate.step(str(step["rule"]), (), question, found.formula, step["evidence"]))
     linear = substitution_certificate(question, found.formula)
     if linear is not None or not options.certify:
         return Proof(linear, reason="" if linear is not None else NOT_WANTED)
@@ -117,14 +118,3 @@ def _table(question: Formula, answer: Formula, log: RunLog, options: Options, bu
         return certificate_for(question, answer, options, budget.share(CERTIFY_SHARE).part(CERTIFY_WORK))
 
     return without_loss(made, lambda reason: log.switch("no certificate", reason))
-
-
-def _as_asked(certificate: Certificate, problem: Block | None, answer: Formula) -> Certificate:
-    """A certificate about a universal sentence itself, where a method made one about its negation."""
-    if problem is None or not problem.universal or certificate.kind not in (Kind.WITNESS, Kind.OPTIMUM):
-        return certificate
-    ring = problem.body.ring
-    assert ring is not None
-    evidence: dict[str, Json] = {"certificate": certificate.to_data()}
-    step = written("point or multipliers", (), problem.formula, answer, (), evidence)
-    return Certificate.derivation(ring.names, problem.formula, [step], answer)

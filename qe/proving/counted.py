@@ -32,7 +32,8 @@ def case_proofs(claim: Claim, options: Options, limits: Limits) -> Json:
             proof = certificate_for(rename_apart(sentence), TRUE, options, limits.budget.part(CASE_WORK))
             if proof is None:
                 return None
-            found.append(proof.to_data())
+            assert isinstance(proof.payload, dict)
+            found.append(proof.payload)
     except CertificateRejected:
         return None
     except Unable:

@@ -163,7 +163,8 @@ def _table(after: Formula, outer: Ring, strict: bool, claim: Claim, options: Opt
         table = certificate_for(closed, closed, options, budget)
         if table is None:
             raise claim.fail("no table of the answer") from None
-        return table.to_data()
+        cells: Json = table.evidence_for("cells")["cells"]
+        return cells
     return None
 
 

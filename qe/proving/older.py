@@ -11,7 +11,6 @@ from collections.abc import Container, Iterator
 from dataclasses import replace
 
 from qe.certify.registry import RULES
-from qe.certify.verify import check_certificate
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.kernel.boolean import ByLemmas
@@ -21,10 +20,12 @@ from qe.kernel.verdict import CRASHES
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Labelled
 from qe.proof.entry import Entry, Json, formula_from_json
+from qe.proving import older_kinds
 from qe.proving.elaborators import ELABORATORS, NAMING, Elaborator
 from qe.proving.lemma_list import with_cases
 from qe.proving.made import FRESH
 from qe.proving.older_coverings import covering
+from qe.proving.older_kinds import objects
 from qe.proving.primitive_names import BY_SIGNS, SIGNS
 from qe.proving.search import former_search
 from qe.proving.shifts import has_roots_of_cubics
@@ -37,6 +38,7 @@ def recent(certificate: Certificate, budget: Budget) -> Certificate:
 
     Raises ``CertificateRejected`` naming a step that cannot be, and ``Unable`` at a limit.
     """
+    certificate = older_kinds.recent(certificate)
     payload = certificate.payload
     if isinstance(payload, tuple):
         members = tuple(Labelled(m.label, recent(m.certificate, budget)) for m in payload)
@@ -50,21 +52,9 @@ def recent(certificate: Certificate, budget: Budget) -> Certificate:
     return replace(certificate, payload=found)
 
 
-def _objects(data: Json) -> Iterator[dict[str, Json]]:
-    """All objects in the data."""
-    pending: list[Json] = [data]
-    while pending:
-        node = pending.pop()
-        if isinstance(node, dict):
-            yield node
-            pending += node.values()
-        elif isinstance(node, list):
-            pending += node
-
-
 def _mentions(data: Json, rules: Container[str]) -> bool:
     """Whether a step of one of these rules is in the data."""
-    return any(node.get("rule") in rules and _is_former_step(node) for node in _objects(data))
+    return any(node.get("rule") in rules and _is_former_step(node) for node in objects(data))
 
 
 def _is_former(data: Json) -> bool:
@@ -74,7 +64,7 @@ def _is_former(data: Json) -> bool:
 
 def _without_cases(data: Json) -> Iterator[dict[str, Json]]:
     """Lemmas of a former release."""
-    theories = (node.get("theory") for node in _objects(data))
+    theories = (node.get("theory") for node in objects(data))
     yield from (theory for theory in theories if isinstance(theory, dict) and "cases" not in theory)
 
 
@@ -94,7 +84,7 @@ class _Conversion:
     """Steps of one certificate, with those inside their evidence, under one budget."""
 
     def __init__(self, budget: Budget) -> None:
-        self.limits = limits_of(budget, RULES, check_certificate)
+        self.limits = limits_of(budget, RULES)
         self.ring = Ring.of(())
 
     def data(self, value: Json, path: str) -> Json:

@@ -21,7 +21,8 @@ from qe.formula.syntax import TRUE, Atom, ForAll
 from qe.kernel.block import existential, refuted_block
 from qe.kernel.negation import negation
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.proof.certificate import Certificate, written
+from qe.proof.cells_json import cells_to_json
+from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, formula_from_json
 
 
@@ -40,7 +41,7 @@ def covering(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     cover = _Reader(claim.ring, ring, factors).line(line, Point(ring))
     truth = None if kinds.count("") else after == TRUE
     table = tree(replace(cover, truth=truth), kinds, convert(body, ring))
-    evidence: Json = {"certificate": Certificate.cells(table, convert(after, ring)).to_data()}
+    evidence: Json = {"cells": cells_to_json(table)}
     return [written("cells", (), before, after, context, evidence)]
 
 

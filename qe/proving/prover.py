@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.certify.registry import RULES
-from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
 from qe.errors import CertificateRejected, InternalError, Unable
@@ -96,7 +95,7 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
     certificate = Certificate.derivation(prover.ring.names, start, prover.steps, goal)
     assert isinstance(certificate.payload, dict)
     try:
-        check_derivation(certificate.payload, budget, remembering(RULES, prover.accepted), check_certificate)
+        check_derivation(certificate.payload, budget, remembering(RULES, prover.accepted))
     except CertificateRejected as error:
         raise InternalError(f"the certificate of an answer was rejected at {error.step}: {error.reason}") from error
     return Proof(certificate, checked=True)
@@ -128,7 +127,7 @@ class Prover:
     limits: Limits = field(init=False)
 
     def __post_init__(self) -> None:
-        self.limits = limits_of(self.budget, remembering(RULES, self.accepted), check_certificate)
+        self.limits = limits_of(self.budget, remembering(RULES, self.accepted))
 
     # --- steps ---------------------------------------------------------------------------------
     def whole(self, derivation: Derivation, start: Formula, goal: Formula) -> None:
@@ -232,6 +231,8 @@ class Prover:
             inner = self._replayed(step, trace)
             return None if inner is None else (step.rule, inner)
         given = step.evidence.get("proof")
+        if isinstance(given, Mapping) and isinstance(made := given.get("certificate"), Certificate):
+            return self._by_method(step, context, made)
         if step.rule == SQUARES:
             return self._positive(step, given, context)
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
@@ -248,6 +249,15 @@ class Prover:
             if moved_only is not None:
                 return QUANTIFIERS, moved_only
         rule = PRIMITIVE_OF.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
+        own = self._tried(rule, step, context, evidence)
+        return None if own is None else (rule, own)
+
+    def _by_method(self, step: Step, context: Context, made: Certificate) -> tuple[str, Json] | None:
+        """The one step of a certificate that a method made of this very step."""
+        rule, evidence = str(made.single_step["rule"]), made.single_step["evidence"]
+        assert isinstance(evidence, dict)
+        if RULES.get(step.rule) is RULES[rule]:
+            rule = step.rule  # which says more
         own = self._tried(rule, step, context, evidence)
         return None if own is None else (rule, own)
 
@@ -386,8 +396,7 @@ class Prover:
             return None
         if certificate is None:
             return None
-        leaf = self._tried("cells", step, (), {"certificate": certificate.to_data()})
-        return None if leaf is None else ("cells", leaf)
+        return self._by_method(step, (), certificate)
 
     def _plain(self, value: Mapping[str, object]) -> dict[str, Json]:
         return {name: self._json(part) for name, part in value.items()}
@@ -406,8 +415,6 @@ class Prover:
                 return [self._json(v) for v in value]
             case Mapping():
                 return self._plain(value)
-            case Certificate():
-                return value.to_data()
             case Nested():
                 return value  # type: ignore[return-value]  # becomes a list of steps when they are proved
             case _ if isinstance(value, Formula):

@@ -92,7 +92,7 @@ class _Steps:
                 return self.simplified(before, FALSE)
             case Decided(value) if value is not None and isinstance(before, Exists):
                 witness = Certificate.witness(body, body.free, [Root.of(value)])
-                return self.step("instance", before, TRUE, {"certificate": witness.to_data()})
+                return self.step("instance", before, TRUE, witness.evidence_for("instance"))
             case Alternatives(disjuncts, parts):
                 return self.alternatives(before, names, [self.moved(d) for d in disjuncts], parts)
             case Split(_, simple, parts):

@@ -33,8 +33,8 @@ from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
-from qe.proof.cells_json import CellEvidence
-from qe.proof.certificate import Certificate
+from qe.proof.certificate import Certificate, table_of
+from qe.proving.older_kinds import recent
 from qe.regions.operators import SetOperations
 from qe.regions.volume import enclose
 
@@ -303,9 +303,8 @@ class Region(SetOperations):
     @staticmethod
     def from_json(text: str) -> Region:
         """The region of a JSON text. Nothing is verified; use ``qe.verify`` on ``certificate`` for that."""
-        payload = Certificate.from_json(text).payload
-        table = payload.table if isinstance(payload, CellEvidence) and payload.parts is None else None
-        if table is None or any(table.quantifiers) or not table.is_decomposition:
+        table = table_of(recent(Certificate.from_json(text)))
+        if table is None or not table.is_decomposition:
             raise InputError("a region in JSON expected")
         return Region(table.matrix, table, table.order)
 

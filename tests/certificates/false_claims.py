@@ -22,10 +22,12 @@ from qe.elimination.cad import certificate_for
 from qe.engine.run import solve
 from qe.errors import InputError, QEError, Unable
 from qe.exact.ring import Poly, Ring
+from qe.expert.optimum import RELATIONS, sentence
+from qe.expert.sentences import read_terms
 from qe.formula.build import atom, conj, exists, forall
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import TRUE, Constant, Formula, Relation
-from qe.kernel.sentence import RELATIONS, read_polynomial
+from qe.kernel.renaming import is_same
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Kind, digest
 from qe.proof.entry import Entry, formula_from_json, formula_to_json, poly_to_text
@@ -153,27 +155,32 @@ def clearance(rng: random.Random) -> Certificate | None:
 def not_equivalent(rng: random.Random, data: Data) -> bool:
     """Whether question and answer are seen to differ at some point."""
     claim = claim_of(Certificate.from_json(text_of(data)))
-    if claim.question is None or claim.answer is None or not claim.answer.is_quantifier_free:
+    if claim.equivalence is None or not claim.equivalence[1].is_quantifier_free:
         return False
-    truth = eliminated(claim.question)
-    return truth is not None and differs(rng, truth, claim.answer, TRUE)
+    truth = eliminated(claim.equivalence[0])
+    return truth is not None and differs(rng, truth, claim.equivalence[1], TRUE)
 
 
 def _not_a_solution(rng: random.Random, data: Data) -> bool:
-    payload = data["payload"]
-    matrix = formula_from_json(Entry(payload["matrix"], "matrix"), Ring.of(payload["order"]))
-    values = {name: Fraction(value) for name, value in zip(payload["order"], payload["values"], strict=True)}
+    payload, point = data["payload"], data["payload"]["steps"][0]["evidence"]
+    matrix = formula_from_json(Entry(payload["start"][2], "start"), Ring.of(payload["order"]))
+    values = {name: Fraction(value) for name, value in zip(point["order"], point["values"], strict=True)}
     return substituted(matrix, {name: values[name] for name in matrix.free}) != TRUE
 
 
 def _not_the_optimum(rng: random.Random, data: Data) -> bool:
-    payload = data["payload"]
+    """Whether what the evidence says of the optimum is false, or the certificate claims another sentence."""
+    payload = data["payload"]["steps"][0]["evidence"]
+    claim = claim_of(Certificate.from_json(text_of(data))).equivalence
+    said = sentence(Entry(payload, "evidence"), Budget())
+    if claim is None or not all(is_same(one, other) for one, other in zip(claim, said, strict=True)):
+        return True
     problem = payload["problem"]
     ring = Ring.of(problem["variables"])
-    objective, scale = read_polynomial(Entry(problem["minimise"], "minimise"), ring.names, ring)
+    objective, scale = read_terms(Entry(problem["minimise"], "minimise"), ring.names, ring)
     conditions = []
     for constraint in problem["constraints"]:
-        poly, _ = read_polynomial(Entry(constraint["terms"], "terms"), ring.names, ring)
+        poly, _ = read_terms(Entry(constraint["terms"], "terms"), ring.names, ring)
         conditions.append(atom(poly, RELATIONS[constraint["relation"]]))
     try:
         true = minimize(objective, conj(conditions), scale=Fraction(1, scale), budget=Budget(SECONDS))

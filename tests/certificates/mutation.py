@@ -12,6 +12,14 @@ from qe.proof.certificate import digest
 
 Path = tuple[str | int, ...]
 
+EVIDENCE, PLACE = ("payload", "steps", 0, "evidence"), "payload.steps[0].evidence"
+"""Where the evidence of a derivation by one step is, as a path and as a verdict names it."""
+
+
+def evidence_in(whole: Any) -> Any:
+    """The evidence of a derivation by one step."""
+    return whole["payload"]["steps"][0]["evidence"]
+
 
 def leaves(node: Any, path: Path = ()) -> Iterator[tuple[Path, Any]]:
     """Every string, number, truth value or null with its path."""

@@ -10,9 +10,8 @@ from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Projection
-from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
-from tests.certificates.producing import cell_table
+from tests.certificates.producing import cell_table, table_in
 
 THREE_BALLS = (
     "x^2 + y^2 + z^2 <= {r} and (x - {a})^2 + (y - {b})^2 + (z - {c})^2 <= {r} "
@@ -66,8 +65,7 @@ def test_quantified_tables(name: str, projection: Projection) -> None:
     certificate = cell_table(text, order, quantifiers, projection)
     assert str(checker.verify(certificate)) == "accepted"
     assert checker.verify_json(certificate.to_json()).accepted
-    assert isinstance(certificate.payload, CellEvidence)
-    assert certificate.payload.table.root.truth is truth
+    assert table_in(certificate).root.truth is truth
 
 
 @pytest.mark.parametrize("numbers", [(-1, 3, 3, 1, 3, 3, 27), (0, 3, 1, 2, 2, 3, 22), (-1, 1, 0, 1, 1, 0, 2)])
@@ -77,26 +75,23 @@ def test_three_balls(numbers: tuple[int, ...]) -> None:
 
 
 def test_the_answer_is_compared_on_every_cell() -> None:
-    table = cell_table("x^2 + b*x + c = 0", "b c x", "..E").payload
-    assert isinstance(table, CellEvidence)
+    table = table_in(cell_table("x^2 + b*x + c = 0", "b c x", "..E"))
     for text, accepted in [("b^2 - 4*c >= 0", True), ("b^2 - 4*c > 0", False), ("true", False), ("b >= 0", False)]:
         answer = _over(text, ("b", "c", "x"))
-        verdict = checker.verify(Certificate.cells(table.table, answer))
+        verdict = checker.verify(Certificate.cells(table, answer))
         assert verdict.accepted is accepted
-        assert accepted or verdict.step == "payload.answer"
+        assert accepted or verdict.step == "payload.steps[0].after"
 
 
 def test_an_answer_with_roots() -> None:
-    table = cell_table("x^2 + y^2 <= 4 and y >= 0", "x y").payload
-    assert isinstance(table, CellEvidence)
+    table = table_in(cell_table("x^2 + y^2 <= 4 and y >= 0", "x y"))
     for k, relation, accepted in [(-1, "<=", True), (1, "<=", False), (2, "<=", False), (-1, "<", False)]:
         answer = _over(f"y >= 0 and y {relation} root({k}, x^2 + y^2 - 4, y)", ("x", "y"))
-        assert checker.verify(Certificate.cells(table.table, answer)).accepted is accepted
-    table = cell_table("x^2 + y^2 < 4 and y > 0", "x y").payload
-    assert isinstance(table, CellEvidence)
+        assert checker.verify(Certificate.cells(table, answer)).accepted is accepted
+    table = table_in(cell_table("x^2 + y^2 < 4 and y > 0", "x y"))
     for k, relation, accepted in [(2, "<", True), (1, "<", False), (2, "<=", False), (3, "<", False)]:
         answer = _over(f"y > 0 and y {relation} root({k}, x^2 + y^2 - 4, y)", ("x", "y"))
-        assert checker.verify(Certificate.cells(table.table, answer)).accepted is accepted
+        assert checker.verify(Certificate.cells(table, answer)).accepted is accepted
 
 
 def _over(text: str, names: tuple[str, ...]) -> Formula:
@@ -105,11 +100,10 @@ def _over(text: str, names: tuple[str, ...]) -> Formula:
 
 def test_a_bundle_names_the_member_that_fails() -> None:
     good = cell_table("x^2 <= 2", "x")
-    table = cell_table("x^2 <= 3", "x").payload
-    assert isinstance(table, CellEvidence)
-    bad = Certificate.cells(table.table, _over("x^2 - 3 < 0", ("x",)))
+    table = table_in(cell_table("x^2 <= 3", "x"))
+    bad = Certificate.cells(table, _over("x^2 - 3 < 0", ("x",)))
     assert checker.verify(Certificate.bundle([("one", good), ("two", good)])).accepted
     verdict = checker.verify_json(Certificate.bundle([("one", good), ("two", bad)]).to_json())
     assert not verdict.accepted
-    assert verdict.step == "certificates[1].payload.answer"
+    assert verdict.step == "certificates[1].payload.steps[0].after"
     assert verdict.reason.startswith("two: ")

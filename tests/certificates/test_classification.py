@@ -1,9 +1,11 @@
-"""Certificates of kind "classification": accepted for right partitions, rejected in every entry that is altered."""
+"""Derivations by the rule "classification": accepted for right partitions, rejected in every entry that is altered."""
 
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import pytest
@@ -11,11 +13,13 @@ import pytest
 import qe
 from qe.certify.claims import claim_of
 from qe.certify.verify import verify, verify_json
-from qe.errors import CertificateRejected, Unable
-from qe.expert.classification import read_question
+from qe.errors import CertificateRejected, InternalError, QEError, Unable
+from qe.expert.classification import read_question, sentence
+from qe.formula.build import conj
 from qe.groebner.counting import RealRootClassification
+from qe.io.text import read
 from qe.proof.entry import Entry
-from tests.certificates.mutation import replaced, without
+from tests.certificates.mutation import EVIDENCE, PLACE, evidence_in, replaced, without
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
@@ -56,26 +60,42 @@ def test_accepted(polys: list[str], variables: str, more: dict[str, Any]) -> Non
 
 def test_the_claim_in_words() -> None:
     for found, wanted in (
-        (CUBIC, "has exactly 3 real solutions iff  p < 0 and 4*p^3 + 27*q^2 < 0"),
-        (QUADRATIC, "has infinitely many complex solutions iff  c = 0 and b = 0 and a = 0"),
-        (POSITIVE, "the system  x^2 - a = 0 and x - 1 > 0  in x"),
-        (IRRATIONAL, "for all real values of a, where w is the root of w^2 - 2 in [-3, 0]"),
+        (CUBIC, "count - 3 = 0 and p < 0 and 4*p^3 + 27*q^2 < 0"),
+        (QUADRATIC, "not (c = 0 and b = 0 and a = 0) and "),  # else there are infinitely many complex solutions
+        (POSITIVE, "count - 1 = 0 and a - 1 > 0"),
+        (IRRATIONAL, "w^2 - 2 = 0 and w + 3 >= 0 and w <= 0"),
     ):
         assert found.certificate is not None
-        assert wanted in claim_of(found.certificate).words
+        before, after, rules = claim_of(found.certificate).words
+        assert before.startswith("the formula  ") and wanted in after and rules.startswith("by classification")
 
 
-def wrong(content: dict[str, Any], **payload: Any) -> None:
-    """The content with other entries is no proof any more."""
-    changed = {**content, "payload": {**content["payload"], **payload}}
-    verdict = verify_json(replaced(changed, ("kind",), "classification"))
+def test_the_sentence_is_true() -> None:
+    """At points: the number of solutions is the one that the condition says."""
+    assert POSITIVE.certificate is not None
+    claim = claim_of(POSITIVE.certificate).equivalence
+    assert claim is not None
+    for a, count in product((-1, 0, 1, 2), range(4)):
+        place = conj((read(f"a = {a}"), read(f"count = {count}")))
+        one, other = (qe.decide(f"ex a, count. ({place}) and ({part})", process=False) for part in claim)
+        assert one is other is (a != 1 and count == (a > 1)), (a, count)
+
+
+def wrong(content: dict[str, Any], **other: Any) -> None:
+    """The content with other entries is no proof any more, nor where it claims what they say."""
+    evidence = {**evidence_in(content), **other}
+    verdict = verify_json(replaced(content, EVIDENCE, evidence))
     assert not verdict.accepted and verdict.step != "digest"
+    with suppress(QEError, ValueError, TypeError, AssertionError, InternalError):
+        made = qe.Certificate.step("classification", (), *sentence(Entry(evidence, "evidence")), evidence)
+        verdict = verify_json(made.to_json())
+        assert not verdict.accepted and verdict.step.startswith(PLACE), "accepted"
 
 
 @pytest.mark.parametrize("found", [CUBIC, QUADRATIC, POSITIVE, IRRATIONAL])
 def test_classes_cannot_be_changed(found: RealRootClassification) -> None:
     content = data(found)
-    classes = content["payload"]["classes"]
+    classes = evidence_in(content)["classes"]
     for k, (count, condition) in enumerate(classes):
         others = classes[:k] + classes[k + 1 :]
         wrong(content, classes=others)
@@ -91,12 +111,12 @@ def test_classes_cannot_be_changed(found: RealRootClassification) -> None:
 @pytest.mark.parametrize("found", [CUBIC, QUADRATIC, POSITIVE, IRRATIONAL])
 def test_proofs_belong_to_their_cases(found: RealRootClassification) -> None:
     content = data(found)
-    proofs = content["payload"]["proofs"]
+    proofs = evidence_in(content)["proofs"]
     assert proofs
     for k, proof in enumerate(proofs):
         wrong(content, proofs=proofs[:k] + proofs[k + 1 :])
         wrong(content, proofs=[*proofs[:k], proof, *proofs[k:]])
-        bundle = {"kind": "bundle", "certificates": [{"label": "a", **proof}]}
+        bundle = {"kind": "bundle", "certificates": [{"label": "a", "kind": "derivation", "payload": proof}]}
         wrong(content, proofs=[*proofs[:k], bundle, *proofs[k + 1 :]])
     if len(proofs) > 1:
         wrong(content, proofs=proofs[::-1])
@@ -143,13 +163,13 @@ def test_the_question_cannot_be_changed(found: RealRootClassification, changed: 
     ],
 )
 def test_constants_are_single_numbers(minimal: str, low: str, high: str) -> None:
-    payload = {**data(IRRATIONAL)["payload"], "constants": [["w", minimal, low, high]]}
+    payload = {**evidence_in(data(IRRATIONAL)), "constants": [["w", minimal, low, high]]}
     with pytest.raises(CertificateRejected, match="one root in the interval"):
         read_question(Entry(payload, "payload"))
 
 
 def test_a_class_too_few_is_a_false_sentence() -> None:
-    question, classes, _ = read_question(Entry(data(CUBIC)["payload"], "payload"))
+    question, classes, _ = read_question(Entry(evidence_in(data(CUBIC)), "evidence"))
     for k in range(len(classes)):
         sentences = question.sentences([*classes[:k], *classes[k + 1 :]], lambda: None)
         assert not all(qe.decide(s, process=False) for s in sentences)
@@ -157,8 +177,8 @@ def test_a_class_too_few_is_a_false_sentence() -> None:
 
 def test_missing_entries_and_digests() -> None:
     content = data(QUADRATIC)
-    for name in content["payload"]:
-        assert not verify_json(without(content, ("payload",), name)).accepted
+    for name in evidence_in(content):
+        assert not verify_json(without(content, EVIDENCE, name)).accepted
     text = qe.Certificate.from_json(json.dumps({**content, "digest": "0" * 64}))
     assert verify(text).step == "digest"
 

@@ -17,7 +17,7 @@ from qe.convex.optimum import Optimum, minimize
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Relation
-from tests.certificates.mutation import leaves, replaced, without
+from tests.certificates.mutation import EVIDENCE, evidence_in, leaves, replaced, without
 from tests.optimum_problems import at_most_zero, cubic, quadratic
 
 RING = Ring.of(("x", "y", "z", "v"))
@@ -81,9 +81,9 @@ def test_accepted_after_a_round_trip(whole: Any) -> None:
 
 
 def test_every_altered_leaf_is_rejected(whole: Any) -> None:
-    for path, value in leaves(whole["payload"]):
+    for path, value in leaves(evidence_in(whole)):
         for other in _alterations(value)[:2]:
-            verdict = verify_json(replaced(whole, ("payload", *path), other, signed=False))
+            verdict = verify_json(replaced(whole, (*EVIDENCE, *path), other, signed=False))
             assert not verdict.accepted, (path, value, other)
             assert verdict.step
 
@@ -100,27 +100,27 @@ def test_every_altered_meaning_is_rejected_whatever_the_digest_says(whole: Any) 
 
 def _accepted_only_if_true(whole: Any, ways: int) -> None:
     survivors = 0
-    for place, (path, value) in enumerate(leaves(whole["payload"])):
+    for place, (path, value) in enumerate(leaves(evidence_in(whole))):
         others = _alterations(value)
         first = place % len(others)
         for other in (others[first:] + others[:first])[:ways]:
-            text = replaced(whole, ("payload", *path), other)
+            text = replaced(whole, (*EVIDENCE, *path), other)
             if verify_json(text).accepted:
                 survivors += 1
-                assert _still_true(path, json.loads(text)["payload"]), (path, value, other)
+                assert _still_true(path, evidence_in(json.loads(text))), (path, value, other)
     assert survivors < 60
 
 
 def test_every_entry_left_out_is_rejected(whole: Any) -> None:
-    payload = whole["payload"]
+    payload = evidence_in(whole)
     for name in list(payload):
         altered = {**payload, name: None}
-        assert not verify_json(replaced(whole, ("payload",), altered)).accepted, name
+        assert not verify_json(replaced(whole, EVIDENCE, altered)).accepted, name
         del altered[name]
-        assert not verify_json(replaced(whole, ("payload",), altered)).accepted, name
+        assert not verify_json(replaced(whole, EVIDENCE, altered)).accepted, name
     for name in ("point", "multipliers", "values", "derived"):
         for i in range(len(payload.get(name, []))):
-            assert not verify_json(without(whole, ("payload", name), i)).accepted, (name, i)
+            assert not verify_json(without(whole, (*EVIDENCE, name), i)).accepted, (name, i)
 
 
 def _still_true(path: tuple[Any, ...], payload: Any) -> bool:
@@ -194,4 +194,4 @@ def test_digest_of_a_certificate_in_memory_is_not_needed() -> None:
 def test_field_of_a_certificate(p: list[str], interval: list[str], accepted: bool) -> None:
     whole = json.loads(minimize(X * X - 2 * X, conj((atom(X, Relation.GE),))).certificate.to_json())
     field = {"minimal_polynomial": p, "interval": interval}
-    assert verify_json(replaced(whole, ("payload", "field"), field)).accepted is accepted
+    assert verify_json(replaced(whole, (*EVIDENCE, "field"), field)).accepted is accepted

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 import qe
 from qe.certify.registry import RULES
-from qe.certify.verify import check_certificate
 from qe.elimination.rootsigns import forms, method, question, theory
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
@@ -44,7 +43,7 @@ def claimed(before: Formula, after: Formula) -> bool:
     ring = Ring.of(names)
     claim = Claim("roots by signs", convert(before, ring), convert(after, ring), ring, Entry({}, "step"), "step")
     try:
-        RULES["roots by signs"](claim, (), limits_of(Budget(20), RULES, check_certificate))
+        RULES["roots by signs"](claim, (), limits_of(Budget(20), RULES))
     except CertificateRejected:
         return False
     return True

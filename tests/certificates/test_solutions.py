@@ -16,10 +16,10 @@ from qe.errors import Unable
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
-from qe.formula.syntax import FALSE, Relation
+from qe.formula.syntax import FALSE, Or, Relation
 from qe.groebner.evidence import solutions_certificate
 from qe.proof.certificate import written
-from tests.certificates.mutation import replaced, without
+from tests.certificates.mutation import EVIDENCE, PLACE, replaced, without
 
 RING = Ring.of(("w", "y", "x"))
 w, y, x = (RING.gen(i) for i in range(3))
@@ -36,8 +36,7 @@ def verdict(text: str) -> Any:
 
 
 def count(certificate: qe.Certificate) -> int:
-    assert isinstance(certificate.payload, dict) and isinstance(certificate.payload["solutions"], list)
-    return len(certificate.payload["solutions"])
+    return len(certificate.evidence_for("solutions")["solutions"])
 
 
 @pytest.mark.parametrize(
@@ -68,14 +67,15 @@ def test_constants_are_told_from_their_conjugates() -> None:
 def test_the_claim_in_words() -> None:
     from qe.certify.claims import claim_of
 
-    words = claim_of(CIRCLE).words
-    assert words[1] == "has exactly 4 real solutions" and "x^2 + y^2 - 4 = 0" in words[0]
-    assert claim_of(CERTIFICATE).words[1] == "has no real solution"
+    words, found = claim_of(CIRCLE).words, claim_of(CIRCLE).equivalence
+    assert words[0].startswith("the formula  ") and "x^2 + y^2 - 4 = 0" in words[0]
+    assert found is not None and isinstance(found[1], Or) and len(found[1].args) == 4 and words[2] == "by solutions"
+    assert claim_of(CERTIFICATE).words[1].startswith("is equivalent to  false")
 
 
 def altered() -> list[tuple[tuple[str | int, ...], Any]]:
     """Paths and other values that make the certificate wrong."""
-    base = ("payload",)
+    base = EVIDENCE
     found: list[tuple[tuple[str | int, ...], Any]] = [
         ((*base, "order"), ["y", "x"]),
         ((*base, "order", 0), "z"),
@@ -96,10 +96,10 @@ def altered() -> list[tuple[tuple[str | int, ...], Any]]:
         ((*base, "form"), [0, 0]),
         ((*base, "form"), [0, "1"]),
         ((*base, "solutions"), []),
-        ((*base, "solutions"), DATA["payload"]["solutions"] * 2),
+        ((*base, "solutions"), DATA["payload"]["steps"][0]["evidence"]["solutions"] * 2),
         ((*base, "kind"), 3),
     ]
-    for k, solution in enumerate(DATA["payload"]["solutions"]):
+    for k, solution in enumerate(DATA["payload"]["steps"][0]["evidence"]["solutions"]):
         place = (*base, "solutions", k)
         polynomial, interval = solution["field"]["minimal_polynomial"], solution["field"]["interval"]
         for i, c in enumerate(polynomial):
@@ -107,7 +107,7 @@ def altered() -> list[tuple[tuple[str | int, ...], Any]]:
         found.append(((*place, "field", "interval"), interval[::-1]))
         found.append(((*place, "field", "interval"), ["-9", "9"]))
         found.append(((*place, "field", "interval"), ["7", "8"]))
-        other = DATA["payload"]["solutions"][k - 1]
+        other = DATA["payload"]["steps"][0]["evidence"]["solutions"][k - 1]
         found.append(((*place, "field"), other["field"]))
         found.append((place, other))
         for j, numbers in enumerate(solution["values"]):
@@ -128,20 +128,20 @@ def test_every_altered_entry_is_rejected(path: tuple[str | int, ...], value: Any
 def test_nothing_can_be_left_out(name: str) -> None:
     strict = solutions_certificate([x**2 + y**2 - 4, x * y - 1], [(x, Relation.GT)])
     data = json.loads(strict.to_json())
-    for k in range(len(data["payload"][name])):
-        assert not verdict(without(data, ("payload", name), k)).accepted
+    for k in range(len(data["payload"]["steps"][0]["evidence"][name])):
+        assert not verdict(without(data, (*EVIDENCE, name), k)).accepted
 
 
 def test_a_solution_that_is_none_is_not_listed() -> None:
     # x = 0 satisfies the equation, not the condition: a certificate that lists it is rejected where it stands
     data = json.loads(solutions_certificate([x * (x - 1)]).to_json())
-    assert verdict(replaced(data, ("payload", "conditions"), [["x", "/="]])).step.startswith("payload.solutions[0]")
+    assert verdict(replaced(data, (*EVIDENCE, "conditions"), [["x", "/="]])).step.startswith(f"{PLACE}.solutions[0]")
 
 
 def test_infinitely_many_solutions_have_no_certificate() -> None:
     with pytest.raises(PositiveDimensional):
         solutions_certificate([x * y - 1])
-    assert not verdict(replaced(DATA, ("payload", "equations"), ["x*y - 1"])).accepted
+    assert not verdict(replaced(DATA, (*EVIDENCE, "equations"), ["x*y - 1"])).accepted
 
 
 def test_numbers_of_solutions_at_points_have_certificates() -> None:
@@ -189,16 +189,14 @@ def test_false_sentences_of_the_method_cgs_are_proved_by_counts(text: str) -> No
     data = json.loads(answer.certificate.to_json())
     (step,) = data["payload"]["steps"]
     assert step["rule"] == "comprehensive Gröbner system"
-    certificates = step["evidence"]["certificates"]
-    path = ("payload", "steps", 0, "evidence", "certificates")
-    assert not verdict(replaced(data, path, certificates[1:])).accepted
+    systems = step["evidence"]["systems"]
+    path = (*EVIDENCE, "systems")
+    assert not verdict(replaced(data, path, systems[1:])).accepted
     # one that proves something else
-    other = json.loads(solutions_certificate([x**2 + 1]).to_json())
-    foreign = {"kind": other["kind"], "payload": other["payload"]}
-    assert not verdict(replaced(data, path, [foreign] * len(certificates))).accepted
+    foreign = solutions_certificate([x**2 + 1]).evidence_for("solutions")
+    assert not verdict(replaced(data, path, [foreign] * len(systems))).accepted
     # one with a solution, which refutes nothing
-    other = json.loads(solutions_certificate([x**2 - 1]).to_json())
-    foreign = {"kind": other["kind"], "payload": other["payload"]}
+    foreign = solutions_certificate([x**2 - 1]).evidence_for("solutions")
     assert not verdict(replaced(data, path, [foreign])).accepted
     assert not verdict(replaced(data, ("payload", "answer"), True)).accepted
 
@@ -216,13 +214,29 @@ def test_false_sentences_of_the_method_cgs_are_proved_by_counts(text: str) -> No
 )
 def test_what_refutes_a_sentence(text: str, refuted: list[Poly], accepted: bool) -> None:
     formula = convert(read_formula(text), Ring.of(("x", "y")))
-    evidence: Any = {"certificates": [solutions_certificate(refuted).to_data()]}
+    evidence: Any = {"systems": [solutions_certificate(refuted).evidence_for("solutions")]}
     step = written("comprehensive Gröbner system", (), formula, FALSE, (), evidence)
     assert verify(qe.Certificate.derivation(("x", "y"), formula, [step], FALSE)).accepted == accepted
 
 
 @pytest.mark.parametrize("relation", [[], [">"], {}, None, True, 1, "", "<", "="])
 def test_an_unknown_relation_is_refused_and_breaks_nothing(relation: Any) -> None:
-    path = ("payload", "conditions", 0, 1)
+    path = (*EVIDENCE, "conditions", 0, 1)
     found = verdict(replaced(DATA, path, relation))
-    assert not found.accepted and found.decided and found.step.startswith("payload.conditions[0]")
+    assert not found.accepted and found.decided and found.step.startswith(f"{PLACE}.conditions[0]")
+
+
+def test_the_list_that_is_claimed_is_the_list_that_is_checked() -> None:
+    """Each other list, in the answer and in the step, with the evidence of the right one."""
+    start, answer = DATA["payload"]["start"], DATA["payload"]["answer"]
+    others = [answer[:-1], [*answer, ["atom", "x", "="]], ["or", *answer[1:3]], True, False, start]
+    for other in others:
+        whole = json.loads(json.dumps(DATA))
+        whole["payload"]["answer"] = whole["payload"]["steps"][0]["after"] = other
+        found = verdict(replaced(whole, ("version",), 3))
+        assert found.decided and found.step == "payload.steps[0].after", found
+    for other in (start[:-1], ["and", *start[1:], ["atom", "x", ">"]], True):
+        whole = json.loads(json.dumps(DATA))
+        whole["payload"]["start"] = whole["payload"]["steps"][0]["before"] = other
+        found = verdict(replaced(whole, ("version",), 3))
+        assert found.decided and found.step == "payload.steps[0].before", found

@@ -104,8 +104,11 @@ def test_what_is_no_certificate(text: str, reader: Path, tmp_path: Path) -> None
 
 
 def formula_text(matrix: object) -> str:
-    payload: dict[str, Any] = {"order": ["x", "y"], "matrix": matrix, "values": ["2", "1"]}
-    return text_of({"format": "bezier-qe certificate", "version": 1, "kind": "witness", "payload": payload})
+    question = ["exists", ["x", "y"], matrix]
+    point = {"order": ["x", "y"], "values": ["2", "1"]}
+    step = {"rule": "instance", "at": [], "context": [], "before": question, "after": True, "evidence": point}
+    payload: dict[str, Any] = {"order": ["x", "y"], "start": question, "steps": [step], "answer": True}
+    return text_of({"format": "bezier-qe certificate", "version": 3, "kind": "derivation", "payload": payload})
 
 
 def test_formulas_have_one_spelling(reader: Path, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.io.text import read
 from qe.proof.certificate import Certificate, Root
-from tests.certificates.mutation import leaves, lists, replaced, without
+from tests.certificates.mutation import PLACE, leaves, lists, replaced, without
 
 NAMES = ("x", "y", "z")
 ROOT2 = Root((-2, 0, 1), Fraction(1), Fraction(2))
@@ -42,7 +42,7 @@ def test_signs_at_the_point_decide(text: str, accepted: bool) -> None:
 def test_an_interval_must_isolate() -> None:
     for low, high in [(-2, 2), (2, 3), (3, 2)]:
         wide = _witness("x^2 = 2", Root((-2, 0, 1), Fraction(low), Fraction(high)), ROOT8, Fraction(1))
-        assert verify(wide).step == "payload.values[0].interval"
+        assert verify(wide).step == f"{PLACE}.values[0].interval"
 
 
 def test_every_altered_entry_is_rejected() -> None:

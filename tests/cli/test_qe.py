@@ -256,8 +256,8 @@ def test_check_says_what_is_claimed(tmp_path: Path) -> None:
     lines = run("check", str(path)).stdout.splitlines()
     assert lines[0].startswith("accepted")
     assert lines[1].startswith("the sentence  all x, y, z, u, v.")
-    rests = "rests on: optimum, a kind of certificate of the expert ring"
-    assert lines[2:] == ["is true", "by point or multipliers", rests]
+    rests = "rests on: multipliers, a rule of the expert ring"
+    assert lines[2:] == ["is true", "by multipliers", rests]
     asked = run("check", str(path), "--formula", question.replace("x^2 + y^2", "y^2 + x^2"))
     assert asked.stdout.splitlines()[-1] == "so the question that was given has the answer  true"
     refused(run("check", str(path), "--formula", "all x. x^2 > -1"), 4, "claim", "something else")
@@ -278,7 +278,7 @@ def test_check_in_plain_python(tmp_path: Path) -> None:
     path.write_text("{}")
     refused(run("check", str(path), "--plain"), 2, "not a certificate")
     run("eliminate", "all x, y, z, u, v. x^2 + y^2 + z^2 + u^2 + v^2 > -1", "--certificate", str(path))
-    refused(run("check", str(path), "--plain"), 4, "core", "optimum")
+    refused(run("check", str(path), "--plain"), 4, "core", "multipliers")
 
 
 def test_check_of_an_empty_bundle(tmp_path: Path) -> None:
@@ -294,8 +294,8 @@ def test_export_proof(tmp_path: Path) -> None:
     run("eliminate", "ex x. x + y = 1 and x > 2", "--certificate", str(path))
     printed = run("export-proof", str(path), "--to", "coq").stdout
     assert printed.startswith("From Coq Require Import")
-    assert printed.endswith("Qed.\n")
+    assert printed.endswith("Print Assumptions main.\n")
     path.write_text(path.read_text().replace('"y + 1"', '"y + 2"'))
-    refused(run("export-proof", str(path)), 4, "answer")
+    refused(run("export-proof", str(path)), 4, "payload")
     run("eliminate", "ex x. x^2 = 2", "--certificate", str(path))
-    refused(run("export-proof", str(path)), 3, "irrational")
+    assert "Axiom" in run("export-proof", str(path)).stdout  # an irrational point

@@ -15,8 +15,9 @@ from sympy.abc import b, x, y
 import qe
 from qe.exact.field import NumberField
 from qe.exact.ring import Ring
+from qe.formula.build import atom
+from qe.formula.syntax import Relation
 from qe.io import formats, text
-from qe.proof.certificate import Kind
 from qe.proof.entry import parse_poly, poly_to_text
 from tests.tables import each
 
@@ -150,8 +151,9 @@ def test_certificates_of_plain_names_are_as_they_were() -> None:
     ring = Ring.of(("and", "e", "x²", "y'", "_1"))
     for written in ("and^2 - 3*e", "x²^2*y' + 7", "-and*e*_1 + x² - 1", "0", "-5"):
         assert poly_to_text(parse_poly(written, ring)) == written
-    old = {"order": ["pi"], "matrix": ["atom", "pi^2 - 2", "="], "values": ["1"]}
-    assert qe.verify(qe.Certificate(Kind.WITNESS, old)).step == "payload.matrix"
+    named = atom(Ring.of(("pi",)).gen(0) ** 2 - 2, Relation.EQ)
+    old = qe.Certificate.witness(named, ["pi"], [Fraction(1)])
+    assert qe.verify(old).step == "payload.steps[0].evidence.values"
 
 
 def test_line_breaks_keep_symbols_apart() -> None:

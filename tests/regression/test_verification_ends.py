@@ -39,7 +39,7 @@ def _witness(polynomial: str, values: list[Any], names: str = "x") -> str:
 
 def _cells(rising: str) -> str:
     """A table that is right at its samples: a polynomial that rises with y in place of another one."""
-    payload = json.loads(cell_table("y > x^3", "x y").to_json())["payload"]
+    payload = cell_table("y > x^3", "x y").evidence_for("cells")["cells"]
     return _text("cells", {**payload, "factors": [[], [rising]], "matrix": ["atom", rising, ">"], "answer": None})
 
 

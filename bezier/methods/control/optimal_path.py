@@ -31,10 +31,10 @@ from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, Atom, Exists, Formula
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 
 ELIMINATION, OPTIMUM = "elimination", "optimum"
-NEAR, NEAR_KINDS = (f"{OPTIMUM}: {BOUND}", f"{OPTIMUM}: {POINT}"), (Kind.OPTIMUM, Kind.WITNESS)
+NEAR, RULES_NEAR = (f"{OPTIMUM}: {BOUND}", f"{OPTIMUM}: {POINT}"), ("multipliers", "instance")
 """The labels of the certificates that every method with a system of control points has."""
 Members = list[tuple[str, Certificate]]
 """Certificates with their labels."""
@@ -76,12 +76,11 @@ class Certified:
     @staticmethod
     def of(system: System, certificate: qe.Certificate) -> Certified:
         """Read the certificate. Raises ``CertificateRejected`` when its point violates a condition of the system."""
-        whole: Any = certificate.payload
-        payload = proof_of(certificate)
+        payload, (_, *near) = proof_of(certificate), certificate.parts
         multipliers = numbers(payload["multipliers"], payload["field"], "optimum.multipliers")
-        if payload is whole:
+        if not near:
             return Certified(certificate, optimal_points(system, payload), multipliers)
-        points, bound = near_points(system, payload, whole[1].certificate.payload)
+        points, bound = near_points(system, payload, near[0].evidence_for("instance"))
         return Certified(certificate, points, multipliers[:-1], bound)
 
 
@@ -96,21 +95,18 @@ def certified_optimum(system: System, certificate: qe.Certificate) -> Certified:
 def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
     """The optimum in the certificates of a folder. Raises ``CertificateRejected`` when it is not this system's."""
     if has_member(certificate, NEAR[0]):
-        payloads = [member(certificate, label, kind) for label, kind in zip(NEAR, NEAR_KINDS, strict=True)]
-        check_bound_of(system, payloads[0], NEAR[0])
-        parts = [qe.Certificate(kind, payload) for kind, payload in zip(NEAR_KINDS, payloads, strict=True)]
+        parts = [member(certificate, label, rule) for label, rule in zip(NEAR, RULES_NEAR, strict=True)]
+        check_bound_of(system, parts[0].evidence_for("multipliers"), NEAR[0])
         return Certified.of(system, qe.Certificate.bundle(zip((BOUND, POINT), parts, strict=True)))
-    payload = member(certificate, OPTIMUM, Kind.OPTIMUM)
-    check_optimum_of(system, payload, OPTIMUM)
-    return Certified.of(system, qe.Certificate(Kind.OPTIMUM, payload))
+    optimum = member(certificate, OPTIMUM, "multipliers")
+    check_optimum_of(system, optimum.evidence_for("multipliers"), OPTIMUM)
+    return Certified.of(system, optimum)
 
 
 def optimum_members(certificate: qe.Certificate) -> Members:
     """The certificate of an optimum under its label, or both parts of that of a point near it."""
-    if certificate.kind == Kind.OPTIMUM:
-        return [(OPTIMUM, certificate)]
-    payload: Any = certificate.payload
-    return [(label, part.certificate) for label, part in zip(NEAR, payload, strict=True)]
+    parts = certificate.parts
+    return list(zip((OPTIMUM,) if len(parts) == 1 else NEAR, parts, strict=True))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)

@@ -18,7 +18,7 @@ from bezier.input.stored import DIMENSION, numbers
 from bezier.methods.control.system import OnPoint, System
 from qe.convex.near_optimum import GAP
 from qe.errors import CertificateRejected, InternalError
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 
 
 def terms_of(listed: Sequence[Any]) -> Terms:
@@ -101,8 +101,7 @@ def reduced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
 
 def proof_of(certificate: Certificate) -> Any:
     """What an optimum, or a bound near one, holds of multipliers."""
-    payload: Any = certificate.payload
-    return payload[0].certificate.payload if isinstance(payload, tuple) else payload
+    return certificate.parts[0].evidence_for("multipliers")
 
 
 def named_multipliers(system: System, optimum: Any) -> list[tuple[str, Any]]:
@@ -124,13 +123,13 @@ def named_multipliers(system: System, optimum: Any) -> list[tuple[str, Any]]:
     return result
 
 
-def member(certificate: Certificate, label: str, kind: Kind) -> Any:
-    """The payload of the member with this label and kind."""
+def member(certificate: Certificate, label: str, rule: str) -> Certificate:
+    """The member with this label, which has to be a derivation by one step of this rule."""
     if isinstance(certificate.payload, tuple):
         for item in certificate.payload:
-            if item.label == label and item.certificate.kind == kind:
-                return item.certificate.payload
-    raise CertificateRejected("certificate.json", f"no certificate of kind {kind.value} with the label {label!r}")
+            if item.label == label and item.certificate.evidence_for(rule) is not None:
+                return item.certificate
+    raise CertificateRejected("certificate.json", f"no derivation by {rule} with the label {label!r}")
 
 
 def optimal_points(system: System, payload: Mapping[str, Any]) -> dict[str, Vector] | None:

@@ -39,13 +39,11 @@ from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
 from bezier.plans import Begun, Clock
 from bezier.problem import Problem
+from qe.certify.claims import is_about
 from qe.errors import CertificateRejected, InternalError, Unable
-from qe.exact.ring import Ring
-from qe.formula.build import conj
-from qe.formula.syntax import FALSE, And, Atom, Formula, Relation
-from qe.proof.cells_json import CellEvidence
-from qe.proof.certificate import Certificate, Kind
-from qe.proof.entry import Entry, formula_from_json
+from qe.formula.build import exists
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Relation
+from qe.proof.certificate import Certificate, table_of
 
 REGION, BELOW = "region", "below the table"
 """Labels of certificates."""
@@ -205,9 +203,8 @@ def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
 
 def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:
     """The region of Q1: the cell table is about the conditions of this system."""
-    payload = member(certificate, REGION, Kind.CELLS)
-    table = payload.table if isinstance(payload, CellEvidence) and payload.table.is_decomposition else None
-    if table is None or table.order != quadratic.FREE or any(table.quantifiers) or payload.answer is not None:
+    table = table_of(member(certificate, REGION, "cells"))
+    if table is None or table.order != quadratic.FREE or not table.is_decomposition:
         raise CertificateRejected(REGION, f"expected the table of a region of {', '.join(quadratic.FREE)}")
     region = qe.Region(table.matrix, table, table.order)
     if region.is_empty != infeasible:
@@ -280,30 +277,23 @@ def _restored_gap(problem: Problem, certificate: Certificate, path: Path | None)
     chosen = prove(path.curves, (floor,)) if path else ()
     labels = [item.label for item in certificate.payload] if isinstance(certificate.payload, tuple) else []
     if BELOW in labels:
-        payload: Any = member(certificate, BELOW, Kind.WITNESS)
-        _check_example(problem, payload)
-        return Gap({}, None, chosen, ((BELOW, Certificate(Kind.WITNESS, payload)),))
+        example = member(certificate, BELOW, "instance")
+        _check_example(problem, example)
+        return Gap({}, None, chosen, ((BELOW, example),))
     printed, result = quadratic.printed(problem), []
     for point in quadratic.SHAPE.inner:
         label = above_label(point)
-        payload = member(certificate, label, Kind.OPTIMUM)
+        highest = member(certificate, label, "multipliers")
+        payload = highest.evidence_for("multipliers")
         check_optimum_of(printed, payload, label, coordinate_terms(printed, point, 2))
         if payload["status"] == "optimal" and sign(numbers([payload["value"]], payload["field"], label)[0]) < 0:
             raise CertificateRejected(f"{label}: value", "the control point can lie below the table")
-        result.append((label, Certificate(Kind.OPTIMUM, payload)))
+        result.append((label, highest))
     return Gap(None, None, chosen, tuple(result))
 
 
-def _check_example(problem: Problem, payload: dict[str, Any]) -> None:
+def _check_example(problem: Problem, example: Certificate) -> None:
     """The witness is about the question of this problem."""
     order = quadratic.FREE + quadratic.QUANTIFIED
-    if tuple(payload["order"]) != order:
-        raise CertificateRejected(f"{BELOW}: order", f"expected {', '.join(order)}")
-    stated = formula_from_json(Entry(payload["matrix"], f"{BELOW}: matrix"), Ring.of(order))
-    if _parts(stated) != _parts(body_of(quadratic.leaving(problem), order)):
-        raise CertificateRejected(f"{BELOW}: matrix", "not the question of this problem")
-
-
-def _parts(formula: Formula) -> frozenset[Formula]:
-    whole = conj([formula])
-    return frozenset(whole.args if isinstance(whole, And) else (whole,))
+    if is_about(example, exists(order, body_of(quadratic.leaving(problem), order))) != TRUE:
+        raise CertificateRejected(BELOW, "not the question of this problem")

@@ -44,7 +44,7 @@ from bezier.paths.path import prove
 from bezier.plans import Outcome, Stated
 from bezier.problem import Problem
 from qe.errors import CertificateRejected
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +95,7 @@ def _chosen(given: Task, axis: Axis, label: str, evidence: Certificate) -> Chose
 
 def _outcome(base: LinearProgram, cost: Values, label: str, evidence: Certificate) -> LinearOptimum | Contradiction:
     """The outcome in the certificate with this label, which has to be about this program."""
-    payload: Any = member(evidence, label, Kind.OPTIMUM)
+    payload: Any = member(evidence, label, "multipliers").evidence_for("multipliers")
     status = payload["status"]
     if status not in ("optimal", "infeasible"):
         raise CertificateRejected(f"{label}: status", "expected an optimum or a contradiction")
@@ -108,7 +108,7 @@ def _outcome(base: LinearProgram, cost: Values, label: str, evidence: Certificat
             raise CertificateRejected(f"{label}: point", f"expected {len(cost)} numbers")
         value = sum((c * x for c, x in zip(cost, point, strict=True)), Fraction(0))
         outcome = LinearOptimum(value, point, duals, unique=False)
-    expected: Any = certificate(base, cost, outcome).payload
+    expected: Any = certificate(base, cost, outcome).evidence_for("multipliers")
     for key in expected:
         if payload.get(key) != expected[key]:
             raise CertificateRejected(f"{label}: {key}", "not the one of this problem")

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
+from qe.convex.evidence import optimum_certificate
 from qe.errors import InternalError, Unable
 from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Quadratic
-from qe.proof.certificate import Certificate, Kind
-from qe.proof.multipliers import FormRelation, OptimumEvidence, OptimumStatus, to_payload
+from qe.proof.certificate import Certificate
+from qe.proof.multipliers import FormRelation, OptimumEvidence, OptimumStatus
 
 Numbers = tuple[Fraction, ...]
 Check = Callable[[], object]
@@ -279,7 +280,7 @@ def certificate(program: LinearProgram, objective: Sequence[Fraction], outcome: 
         attained=True if optimal else None,
         unique=False if optimal else None,
     )
-    return Certificate(Kind.OPTIMUM, to_payload(evidence))  # type: ignore[arg-type]
+    return optimum_certificate(evidence)
 
 
 def _linear(gradient: Numbers, constant: Fraction) -> Quadratic:

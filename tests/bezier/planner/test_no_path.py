@@ -159,7 +159,7 @@ def members(plan):
 
 
 def test_only_who_asks_gets_them(plain):
-    assert not plain.derivations and Kind.DERIVATION not in {c.kind for c in members(plain).values()}
+    assert not plain.derivations and not any(label.startswith(derivations.PREFIX) for label in members(plain))
     assert set(plain.eliminations) == {"formula (8)", "the question of the table"}
 
 
@@ -171,7 +171,7 @@ def test_each_is_accepted_and_about_its_question(plain, plan):
             assert certificate.kind == Kind.DERIVATION
             assert qe.verify(certificate, formula=question).accepted
     assert members(plain).items() <= members(plan).items()
-    assert qe.verify(plan.certificate).accepted and plan.certificate.version == 2
+    assert qe.verify(plan.certificate).accepted
 
 
 def test_nothing_is_eliminated_a_second_time(plain, plan, monkeypatch):

@@ -2,40 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Any
+from fractions import Fraction
 
 import pytest
 
 from qe.certify.claims import claim_of, is_about
 from qe.exact.ring import Ring
 from qe.formula.build import convert
-from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.groebner.evidence import solutions_certificate
 from qe.io.text import read
-from qe.proof.certificate import Certificate, Kind
-from qe.proof.entry import formula_to_json
+from qe.kernel.parts import true_where
+from qe.kernel.renaming import is_same
+from qe.proof.certificate import Certificate
 from tests.certificates.producing import cell_table
 
 
 def witness(text: str, *values: str) -> Certificate:
     names = ("x", "y")
-    matrix: Any = formula_to_json(convert(read(text), Ring.of(names)))
-    return Certificate(Kind.WITNESS, {"order": list(names), "matrix": matrix, "values": list(values)})
+    return Certificate.witness(convert(read(text), Ring.of(names)), names, [Fraction(v) for v in values])
 
 
 def substitution() -> Certificate:
     ring = Ring.of(("a", "x"))
-    body, answer = (formula_to_json(convert(read(t), ring)) for t in ("x = a and x > 1", "a > 1"))
-    return Certificate(
-        Kind.SUBSTITUTION,
-        {"order": ["a", "x"], "variables": ["x"], "matrix": body, "solved": [["x", "-a + x"]], "answer": answer},
-    )
+    body, answer = (convert(read(t), ring) for t in ("x = a and x > 1", "a > 1"))
+    return Certificate.substitution(body, ring.names, [("x", ring.gen(1) - ring.gen(0))], answer)
 
 
 def test_a_witness_claims_a_true_sentence() -> None:
     given = witness("x > 0 and y = x", "1", "1")
-    found = claim_of(given)
-    assert found.answer == TRUE and found.words[-1] == "by numbers for the variables"
-    assert found.words[0].startswith("the sentence  ex x, y. ") and found.words[1] == "is true"
+    assert claim_of(given).words == ("the sentence  ex x, y. x > 0 and x - y = 0", "is true", "by instance")
     assert is_about(given, read("ex x, y. x > 0 and y = x")) == TRUE
     assert is_about(given, read("ex u, v. v = u and u > 0")) == TRUE  # other names, another order
     assert is_about(given, read("all x, y. x <= 0 or y /= x")) == FALSE  # the negation
@@ -43,10 +39,10 @@ def test_a_witness_claims_a_true_sentence() -> None:
 
 
 def test_a_substitution_claims_an_equivalence() -> None:
-    found = claim_of(substitution())
-    assert found.words == (
+    assert claim_of(substitution()).words == (
         "the formula  ex x. a - x = 0 and x - 1 > 0",
         "is equivalent to  a - 1 > 0, for all real values of a",
+        "by linear equation solved",
     )
     about = is_about(substitution(), read("ex x. x = a and x > 1"))
     assert isinstance(about, Formula) and str(about) == "a - 1 > 0"
@@ -54,18 +50,12 @@ def test_a_substitution_claims_an_equivalence() -> None:
 
 def test_tables() -> None:
     plain = cell_table("x^2 + y^2 < 1", "x y")
-    # nine: the two sectors of x beyond the circle are not divided
-    assert claim_of(plain).words == ("truth values of  x^2 + y^2 - 1 < 0  on 9 cells",)
+    said = ("the formula  x^2 + y^2 - 1 < 0", "has one truth value on each cell of a decomposition", "by cells")
+    assert claim_of(plain).words == said
     closed = cell_table("x^2 + y^2 < 1", "x y", "EE")
-    assert claim_of(closed).answer == TRUE and "by a cylindrical algebraic decomposition" in claim_of(closed).words
+    assert claim_of(closed).words == ("the sentence  ex x, y. x^2 + y^2 - 1 < 0", "is true", "by cells")
     assert is_about(closed, read("ex x, y. x^2 + y^2 < 1")) == TRUE
     assert is_about(closed, read("ex x, y. x^2 + y^2 < 2")) is None
-
-
-def test_a_region_claims_no_equivalence() -> None:
-    described = cell_table("x^2 + y^2 < 1", "x y")
-    assert claim_of(described).answer is None
-    assert is_about(described, read("x^2 + y^2 < 1")) is None
 
 
 def test_bundles() -> None:
@@ -76,18 +66,41 @@ def test_bundles() -> None:
     assert is_about(bundle, read("ex x. x = a")) is None
 
 
+def test_solutions() -> None:
+    ring = Ring.of(("x", "y"))
+    x, y = ring.gen(0), ring.gen(1)
+    found = claim_of(solutions_certificate([x**2 - 4, y - x], [(x, Relation.GT)]))
+    assert found.words[0] == "the formula  x^2 - 4 = 0 and y - x = 0 and x > 0"
+    assert found.equivalence is not None and is_same(found.equivalence[1], read("x = 2 and y = 2"))
+    assert claim_of(solutions_certificate([x**2 + 1])).equivalence == (read("x^2 + 1 = 0"), FALSE)
+
+
+def decided(where: str, question: str, truth: bool) -> tuple[Formula, Formula]:
+    """What a derivation says that proves the truth of a question where something holds."""
+    condition = read(where)
+    return read(f"({where}) and ({question})"), condition if truth else FALSE
+
+
+QUESTION = "ex x. x^2 < a and b*x > 1"
+
+
 @pytest.mark.parametrize(
-    ("count", "said"), [(0, "no real solution"), (1, "exactly 1 real solution"), (2, "exactly 2 real solutions")]
+    ("equivalence", "expected"),
+    [
+        ((read(QUESTION), read("a > 0 and b /= 0")), "a > 0 and b /= 0"),
+        ((read("all x. x^2 >= a or b*x <= 1"), read("a > 0")), "a <= 0"),
+        (decided("a > 1", QUESTION, True), "a > 1"),
+        (decided("a > 1 and b > 1", QUESTION, True), "a - 1 > 0 and b - 1 > 0"),
+        (decided("a > 1 or b > 1", "ex y. 1 < b*y and a > y^2", True), "a - 1 > 0 or b - 1 > 0"),
+        (decided("a < 0", "all x. x^2 >= a or b*x <= 1", False), "a < 0"),
+        (decided("a > 1", QUESTION, False), None),  # about the negation
+        (decided("a > 1", "all x. x^2 >= a or b*x <= 1", True), None),
+        ((decided("a > 1", QUESTION, True)[0], read("a > 0")), None),
+        (decided("a > 1", "ex x. x^2 <= a and b*x > 1", True), None),
+    ],
 )
-def test_solutions(count: int, said: str) -> None:
-    payload: Any = {
-        "order": ["x"],
-        "equations": ["x^2 - 2"],
-        "conditions": [["x", ">"]],
-        "weights": [1],
-        "form": [1],
-        "solutions": [{}] * count,
-    }
-    found = claim_of(Certificate(Kind.SOLUTIONS, payload))
-    assert found.words[:2] == ("the system  x^2 - 2 = 0 and x > 0", f"has {said}")
-    assert found.answer == (TRUE if count else FALSE) and str(found.question) == "ex x. x^2 - 2 = 0 and x > 0"
+def test_what_an_equivalence_says_to_imply_a_formula(
+    equivalence: tuple[Formula, Formula], expected: str | None
+) -> None:
+    found = true_where(equivalence, read(QUESTION))
+    assert (None if found is None else str(found)) == (None if expected is None else str(read(expected)))

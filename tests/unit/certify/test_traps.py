@@ -17,6 +17,7 @@ from qe.options import Projection
 from qe.proof.cells import Cell, CellTable, Stack
 from qe.proof.certificate import Certificate
 
+TABLE = "payload.steps[0].evidence.cells"
 BROWN, LAZARD = Projection.BROWN_MCCALLUM, Projection.LAZARD
 
 
@@ -61,13 +62,13 @@ def test_a_factor_nullified_away_from_the_sample() -> None:
     verdict = _verdict(names, ("E",) * 3, read("x = 0 and x*z + y - 1 = 0"), [["x"], [], ["x*z + y - 1"]], root)
     assert not verdict.accepted
     assert "may vanish identically" in verdict.reason
-    assert verdict.step == "payload.root.stack.cells[1].stack.cells[0].stack.used"
+    assert verdict.step == f"{TABLE}.root.stack.cells[1].stack.cells[0].stack.used"
 
 
 def test_the_same_table_is_not_closed_under_lazard() -> None:
     names, factors = ("x", "y", "z"), [["x"], [], ["x*z + y - 1"]]
     verdict = _verdict(names, ("E",) * 3, read("x = 0 and x*z + y - 1 = 0"), factors, _flat(), LAZARD)
-    assert verdict.step == "payload.factors[2][0]"
+    assert verdict.step == f"{TABLE}.factors[2][0]"
     assert "trailing coefficient" in verdict.reason
 
 
@@ -92,7 +93,7 @@ def test_a_root_beyond_the_outermost_samples_is_missed() -> None:
 def test_the_complete_stack_of_the_same_cubic() -> None:
     stack = _stack((0,), "-3 0", ((0,),), _leaf("-", False), _leaf("0", True), _leaf("+", False))
     verdict = _cubic(stack)
-    assert verdict.step == "payload.root.stack.cells[0].truth"  # the cell says False, E y is True
+    assert verdict.step == f"{TABLE}.root.stack.cells[0].truth"  # the cell says False, E y is True
     table_cell = replace(Cell("+", True, stack))
     root = Cell("", None, _stack((0,), "0", (), table_cell))
     names = ("x", "y")
@@ -128,7 +129,7 @@ def test_a_degree_drop_is_not_a_double_root() -> None:
     honest = Cell("0-", False, _stack((0,), "0", (), _leaf("+", False)))
     assert str(verdict(honest)) == "accepted"
     wrong = verdict(Cell("0-", True, false_stack))
-    assert wrong.step == "payload.root.stack.cells[1].stack.sections[0]"
+    assert wrong.step == f"{TABLE}.root.stack.cells[1].stack.sections[0]"
 
 
 def test_equal_intervals_are_not_equal_roots() -> None:
@@ -146,12 +147,12 @@ def test_equal_intervals_are_not_equal_roots() -> None:
     both = conj([atom(_poly("x^2 - 2", names), Relation.EQ), atom(_poly("x^2 - 3", names), Relation.EQ)])
     verdict = _verdict(names, ("",), both, [["x^2 - 2", "x^2 - 3"]], Cell("", None, merged))
     assert ring is Ring.of(names)
-    assert verdict.step == "payload.root.stack.sections[0]"
+    assert verdict.step == f"{TABLE}.root.stack.sections[0]"
     assert "no common root" in verdict.reason
 
 
 @pytest.mark.parametrize(
-    ("quantifiers", "step"), [(("E", ""), "payload.quantifiers[1]"), (("X", "E"), "payload.quantifiers[0]")]
+    ("quantifiers", "step"), [(("E", ""), f"{TABLE}.quantifiers[1]"), (("X", "E"), f"{TABLE}.quantifiers[0]")]
 )
 def test_free_variables_come_first(quantifiers: tuple[str, str], step: str) -> None:
     root = Cell("", True)
@@ -176,7 +177,7 @@ def test_a_sector_beside_a_constraint_is_decomposed() -> None:
     root = Cell("", False, _stack((0, 1), "-1 1/2", ((0,),), *cells))
     factors = [["x", "x - 1"], ["y^2 - x + 1"]]
     verdict = _verdict(("x", "y"), ("E", "E"), read("y^2 = x - 1"), factors, root, constraints=((0,), ()))
-    assert verdict.step == "payload.root.stack.cells[0].stack.cells"
+    assert verdict.step == f"{TABLE}.root.stack.cells[0].stack.cells"
     assert "may change its sign" in verdict.reason
 
 
@@ -184,7 +185,7 @@ def test_a_leaf_beside_a_constraint_that_is_not_implied() -> None:
     cells = (_leaf("-?", False), _leaf("0-", False), _leaf("+?", False))
     root = Cell("", False, _stack((0, 1), "-1 1/2", ((0,),), *cells))
     verdict = _verdict(("x",), ("E",), read("x = 1 or x^2*(x - 1) > 0"), [["x", "x - 1"]], root, constraints=((0,),))
-    assert verdict.step == "payload.root.stack.cells[0].truth"
+    assert verdict.step == f"{TABLE}.root.stack.cells[0].truth"
 
 
 def _over_a_nullified_factor(constraints: tuple[tuple[int, ...], ...]) -> Verdict:
@@ -207,9 +208,9 @@ def test_a_factor_beside_a_constraint_may_be_nullified_over_a_point() -> None:
 @pytest.mark.parametrize(
     ("constraints", "step"),
     [
-        (((), ()), "payload.constraints"),
-        (((), (), (2,), ()), "payload.constraints[2]"),
-        (((), (), (1, 0), ()), "payload.constraints[2]"),
+        (((), ()), f"{TABLE}.constraints"),
+        (((), (), (2,), ()), f"{TABLE}.constraints[2]"),
+        (((), (), (1, 0), ()), f"{TABLE}.constraints[2]"),
     ],
 )
 def test_lists_that_are_no_constraints(constraints: tuple[tuple[int, ...], ...], step: str) -> None:
@@ -221,7 +222,7 @@ def test_no_constraint_restricts_lazard_projection() -> None:
     root = Cell("", True, _stack((0, 1), "-1 1", ((0,),), *cells))
     question = (("x",), ("E",), read("x = 0 and x^2 + 1 > 0"), [["x", "x^2 + 1"]], root)
     assert _verdict(*question, constraints=((0,),)).accepted
-    assert _verdict(*question, LAZARD, ((0,),)).step == "payload.projection"
+    assert _verdict(*question, LAZARD, ((0,),)).step == f"{TABLE}.projection"
 
 
 def test_roots_of_a_factor_beside_a_constraint_are_not_known() -> None:
@@ -235,7 +236,7 @@ def test_roots_of_a_factor_beside_a_constraint_are_not_known() -> None:
     sound = CellTable(names, ("",), matrix, BROWN, lists, root, ((0,),))
     assert verify(Certificate.cells(sound)).accepted
     answer = convert(read("x^2 - 1 = 0 and x > root(1, x^2 - 4*x, x)"), ring)
-    assert verify(Certificate.cells(sound, answer)).step == "payload.answer"
+    assert verify(Certificate.cells(sound, answer)).step == "payload.steps[0].after"
 
 
 def test_a_decomposition_shows_all_factors_of_a_level_below_the_last() -> None:
@@ -244,7 +245,7 @@ def test_a_decomposition_shows_all_factors_of_a_level_below_the_last() -> None:
     over = Cell("", None, _stack((0,), "-1 1", ((0,),), *leaves))
     root = Cell("", None, _stack((), "0", (), over))
     verdict = _verdict(("x", "y"), ("", ""), read("y > 0"), [["x"], ["y"]], root)
-    assert (verdict.step, verdict.reason) == ("payload.root.stack.used", "a factor of this level is missing")
+    assert (verdict.step, verdict.reason) == (f"{TABLE}.root.stack.used", "a factor of this level is missing")
     assert _verdict(("x", "y"), ("", ""), read("y > 0"), [[], ["y"]], root).accepted
 
 

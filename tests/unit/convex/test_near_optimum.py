@@ -83,11 +83,11 @@ def test_a_bound_that_is_too_good_is_rejected() -> None:
         return qe.verify(qe.Certificate.from_json(json.dumps(data))).accepted
 
     def raised(data: dict) -> None:  # the last condition is f - bound < 0
-        constant = data["certificates"][0]["payload"]["problem"]["constraints"][-1]["terms"][0]
+        constant = data["certificates"][0]["payload"]["steps"][0]["evidence"]["problem"]["constraints"][-1]["terms"][0]
         constant[0] = str(F(constant[0]) - F(1, 10**7))
 
     def nearer(data: dict) -> None:  # the value that the point is said to reach
-        values = data["certificates"][1]["payload"]["values"]
+        values = data["certificates"][1]["payload"]["steps"][0]["evidence"]["values"]
         values[0] = str(F(values[0]) + F(1, 10**6))
 
     assert altered(lambda data: None) and not altered(raised) and not altered(nearer)

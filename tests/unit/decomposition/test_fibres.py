@@ -16,14 +16,11 @@ from qe.formula.syntax import FALSE, TRUE
 from qe.io.text import read
 from qe.options import Budget, Projection
 from qe.proof.cells import CellTable
-from qe.proof.cells_json import CellEvidence
-from tests.certificates.producing import cell_table
+from tests.certificates.producing import cell_table, table_in
 
 
 def table(text: str, order: str, projection: Projection = Projection.BROWN_MCCALLUM) -> CellTable:
-    found = cell_table(text, order, projection=projection).payload
-    assert isinstance(found, CellEvidence)
-    return found.table
+    return table_in(cell_table(text, order, projection=projection))
 
 
 def fibre(text: str, *values: Number, projection: Projection = Projection.BROWN_MCCALLUM) -> list[Interval]:

@@ -12,9 +12,11 @@ from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.expert.arithmetic.numbers import read_field
 from qe.expert.arithmetic.residue import of_rationals
+from qe.expert.sentences import Sentence
 from qe.expert.solutions import check_solutions, value
 from qe.proof.entry import Entry
 from tests.tables import each
+from tests.unit.certify.claims import limits
 
 SQRT2 = {"minimal_polynomial": ["-2", "0", "1"], "interval": ["1", "2"]}
 MINUS = {"minimal_polynomial": ["-2", "0", "1"], "interval": ["-2", "-1"]}
@@ -22,6 +24,10 @@ MINUS = {"minimal_polynomial": ["-2", "0", "1"], "interval": ["-2", "-1"]}
 
 def point(field: Any, *values: list[str]) -> dict[str, Any]:
     return {"field": field, "values": list(values)}
+
+
+def checked(evidence: dict[str, Any]) -> Sentence:
+    return check_solutions(Entry(evidence, "evidence"), limits())
 
 
 def payload(**other: Any) -> dict[str, Any]:
@@ -53,7 +59,7 @@ ONE = [payload()["solutions"][1]]
     {"conditions": [["x", "/="]]},
 )
 def test_the_solutions(other: Any) -> None:
-    check_solutions(payload(**other))
+    checked(payload(**other))
 
 
 @each(
@@ -78,20 +84,20 @@ def test_the_solutions(other: Any) -> None:
 )
 def test_what_is_refused(other: Any, reason: str) -> None:
     with pytest.raises(CertificateRejected, match=reason):
-        check_solutions(payload(**deepcopy(other)))
+        checked(payload(**deepcopy(other)))
 
 
 def test_rational_solutions_have_their_own_field() -> None:
     three = {"minimal_polynomial": ["-3", "2"], "interval": ["3/2", "3/2"]}
     given = payload(order=["x"], equations=["2*x - 3"], weights=[1], form=[1], solutions=[point(three, ["3/2"])])
-    check_solutions(given)
+    checked(given)
     with pytest.raises(CertificateRejected):
-        check_solutions({**given, "solutions": [point(three, ["1"])]})
+        checked({**given, "solutions": [point(three, ["1"])]})
 
 
 def test_too_many_conditions() -> None:
     with pytest.raises(Unable, match="signatures"):
-        check_solutions(payload(conditions=[["x", ">"]] * 9, solutions=[]))
+        checked(payload(conditions=[["x", ">"]] * 9, solutions=[]))
 
 
 def test_values_at_a_point() -> None:

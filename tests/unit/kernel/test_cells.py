@@ -17,14 +17,15 @@ from qe.io.text import read
 from qe.kernel.cells import check_cells, sectors_suffice
 from qe.options import Budget
 from qe.proof.cells import Cell, CellTable, Stack
-from qe.proof.cells_json import CellEvidence
-from tests.certificates.producing import cell_table
+from tests.certificates.producing import cell_table, table_in
 
 
-def evidence(text: str, order: str, quantifiers: str = "") -> CellEvidence:
-    found = cell_table(text, order, quantifiers).payload
-    assert isinstance(found, CellEvidence)
-    return found
+def made(text: str, order: str, quantifiers: str = "") -> CellTable:
+    return table_in(cell_table(text, order, quantifiers))
+
+
+def check(table: CellTable, answer: Formula | None = None, *given: Formula) -> None:
+    check_cells(table, answer, given, Budget())
 
 
 @pytest.mark.parametrize(
@@ -49,7 +50,7 @@ def evidence(text: str, order: str, quantifiers: str = "") -> CellEvidence:
     ],
 )
 def test_where_sectors_suffice(text: str, quantifiers: str, level: int, enough: bool) -> None:
-    table = evidence("x^2 < y", "x y").table
+    table = made("x^2 < y", "x y")
     asked = replace(table, matrix=read(text), quantifiers=tuple(q.replace(".", "") for q in quantifiers))
     assert sectors_suffice(asked, level) is enough
 
@@ -72,7 +73,7 @@ SHARED = [
 
 @pytest.mark.parametrize("case", [*CASES, *SHARED])
 def test_tables_as_they_are_made(case: Any) -> None:
-    check_cells(evidence(*case), Budget())
+    check(made(*case))
 
 
 def changed(cell: Cell, place: tuple[int, ...], **parts: Any) -> Cell:
@@ -99,16 +100,16 @@ def at(cell: Cell, place: tuple[int, ...]) -> Cell:
 
 @pytest.mark.parametrize("case", CASES)
 def test_no_truth_value_and_no_sign_can_be_turned(case: Any) -> None:
-    given = evidence(*case)
-    for place in places(given.table.root):
-        cell = at(given.table.root, place)
+    given = made(*case)
+    for place in places(given.root):
+        cell = at(given.root, place)
         others: list[dict[str, Any]] = [{"truth": not cell.truth}] if cell.truth is not None else []
         for k, sign in enumerate(cell.signs):
             others += [{"signs": cell.signs[:k] + s + cell.signs[k + 1 :]} for s in "+-0?" if s != sign]
         for other in others:
-            table = replace(given.table, root=changed(given.table.root, place, **other))
+            table = replace(given, root=changed(given.root, place, **other))
             with pytest.raises(CertificateRejected):
-                check_cells(replace(given, table=table), Budget())
+                check(table)
 
 
 @pytest.mark.parametrize(
@@ -125,16 +126,16 @@ def test_no_truth_value_and_no_sign_can_be_turned(case: Any) -> None:
     ],
 )
 def test_other_claims_on_the_same_cells(change: Any, reason: str) -> None:
-    given = evidence("x^2 + y^2 < 1", "x y", ".E")
-    table: CellTable = change(given.table)
+    given = made("x^2 + y^2 < 1", "x y", ".E")
+    table: CellTable = change(given)
     with pytest.raises(CertificateRejected, match=reason):
-        check_cells(replace(given, table=table), Budget())
+        check(table)
 
 
 def test_between_the_sections_of_a_constraint_nothing_is_decomposed() -> None:
     """There the signs of the other factors are not known: a truth value found below would say nothing."""
-    given = evidence("y^2 = x and y*z = 1", "x y z", ".EE")
-    root = given.table.root
+    given = made("y^2 = x and y*z = 1", "x y z", ".EE")
+    root = given.root
     open_sectors = [p for p in places(root) if p and "?" in at(root, p).signs]
     assert open_sectors
     for place in open_sectors:
@@ -145,26 +146,26 @@ def test_between_the_sections_of_a_constraint_nothing_is_decomposed() -> None:
         above = Stack((0,), (Fraction(),), (), (Cell("-", False),))  # the right one
         if y:
             above = Stack((0,), (1 / y - 1, 1 / y + 1), ((0,),), cells)
-        table = replace(given.table, root=changed(root, place, stack=above))
+        table = replace(given, root=changed(root, place, stack=above))
         with pytest.raises(CertificateRejected, match="may change its sign or order"):
-            check_cells(replace(given, table=table), Budget())
+            check(table)
 
 
 @pytest.mark.parametrize("case", [*SHARED[1:3], ("y^2 = x and y*z = 1", "x y z", ".EE")])
 def test_no_section_can_list_other_factors(case: Any) -> None:
     """Also factors besides a constraint's, which have no branch of their own: refused, with no other error."""
-    given = evidence(*case)
-    for place in places(given.table.root):
-        stack = at(given.table.root, place).stack
-        count = len(given.table.factors[len(place)]) if stack is not None else 0
+    given = made(*case)
+    for place in places(given.root):
+        stack = at(given.root, place).stack
+        count = len(given.factors[len(place)]) if stack is not None else 0
         for k, section in enumerate(stack.sections if stack is not None else ()):
             subsets = [s for size in (1, 2) for s in combinations(range(count), size) if s != section]
             for other in subsets[:6]:
                 assert stack is not None
                 sections = (*stack.sections[:k], other, *stack.sections[k + 1 :])
-                root = changed(given.table.root, place, stack=replace(stack, sections=sections))
+                root = changed(given.root, place, stack=replace(stack, sections=sections))
                 with pytest.raises(CertificateRejected):
-                    check_cells(replace(given, table=replace(given.table, root=root)), Budget())
+                    check(replace(given, root=root))
 
 
 def over(text: str) -> Formula:
@@ -172,8 +173,23 @@ def over(text: str) -> Formula:
 
 
 def test_the_answer_has_the_truth_of_the_cells() -> None:
-    given = evidence("x^2 + y^2 < 1", "x y", ".E")
-    check_cells(replace(given, answer=over("x - 1 < 0 and x + 1 > 0")), Budget())
+    given = made("x^2 + y^2 < 1", "x y", ".E")
+    check(given, over("x - 1 < 0 and x + 1 > 0"))
     for wrong in ("x + 1 > 0", "x - 1 <= 0 and x + 1 > 0", "false", "true"):
         with pytest.raises(CertificateRejected, match="differs from the truth value"):
-            check_cells(replace(given, answer=over(wrong)), Budget())
+            check(given, over(wrong))
+
+
+def test_where_what_is_given_is_false_the_answer_and_the_cells_say_nothing() -> None:
+    given = made("x^2 + y^2 < 1", "x y", ".E")
+    check(given, over("true"), over("x - 1 < 0 and x + 1 > 0"))
+    check(given, over("false"), over("x - 1 >= 0"))
+    check(given, over("x + 1 > 0"), over("x - 1 < 0"))
+    for answer, fact in (("true", "x - 1 < 0"), ("false", "x + 1 >= 0"), ("true", "x - 2 < 0"), ("true", "x - 1 <= 0")):
+        with pytest.raises(CertificateRejected, match="differs from the truth value"):
+            check(given, over(answer), over(fact))
+    open_right = replace(given, root=changed(given.root, (4,), truth=None, stack=None))
+    check(open_right, over("true"), over("x - 1 < 0 and x + 1 > 0"))
+    for facts in ((), (over("x + 1 > 0"),)):
+        with pytest.raises(CertificateRejected, match="no truth value"):
+            check(open_right, over("x - 1 < 0 and x + 1 > 0"), *facts)

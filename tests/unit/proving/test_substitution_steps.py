@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from qe.certify.registry import RULES
-from qe.certify.verify import check_certificate
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.trace import Eliminated, Unchanged
 from qe.errors import CertificateRejected
@@ -22,7 +21,7 @@ from qe.proving.made import FRESH
 from qe.proving.substitution_steps import steps
 from qe.simplify.simplify import simplify
 
-LIMITS = limits_of(Budget(), RULES, check_certificate)
+LIMITS = limits_of(Budget(), RULES)
 
 
 def simplification(before: Formula, after: Formula) -> Json:

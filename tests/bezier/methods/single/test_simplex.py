@@ -1,5 +1,6 @@
 """Exact linear programs: against a numerical solver, against the independent checker, and on degenerate input."""
 
+import copy
 from fractions import Fraction
 
 import pytest
@@ -111,8 +112,9 @@ def test_altered_proofs_are_rejected():
     good = certificate(program, cost, solve(program, [cost]))
     assert qe.verify(good).accepted
     for key, place, value in (("multipliers", 0, ["1/3"]), ("point", 0, ["1"])):
-        changed = dict(good.payload)
-        changed[key] = [*changed[key][:place], value, *changed[key][place + 1 :]]
+        changed = copy.deepcopy(good.payload)
+        evidence = changed["steps"][0]["evidence"]
+        evidence[key] = [*evidence[key][:place], value, *evidence[key][place + 1 :]]
         assert not qe.verify(qe.Certificate(good.kind, changed)).accepted
 
 

@@ -15,7 +15,7 @@ from qe.engine import anytime
 from qe.engine.anytime import partly
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall
-from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.formula.syntax import FALSE, Formula, Relation
 from qe.io.text import read
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
@@ -76,31 +76,51 @@ def test_something_is_decided_and_something_is_open(text: str, work: int) -> Non
     assert verify(found.certificate, formula=read("ex x. x^2 = a")).step == "claim"
 
 
-@pytest.mark.parametrize("claimed", [TRUE, read("a < 0"), read("b > 0"), read("a >= 0")])
-def test_a_part_claimed_true_that_is_not_proved_is_rejected(claimed: Formula) -> None:
-    """Both by the composition and, where that agrees, by the cells."""
+def member(whole: dict[str, Any], label: str) -> dict[str, Any]:
+    """The derivation that the question is true, or false, where something holds."""
+    return next(m["payload"] for m in whole["certificates"] if m["label"] == label)  # type: ignore[no-any-return]
+
+
+def where(derivation: dict[str, Any], condition: Any, truth: bool) -> None:
+    """Let the derivation claim another condition, in all its entries."""
+    step = derivation["steps"][0]
+    question = derivation["start"][-1]
+    derivation["start"] = ["and", condition, question]
+    step["context"], step["at"] = [condition], [1]
+    derivation["answer"] = condition if truth else False
+
+
+def inside(derivation: dict[str, Any]) -> dict[str, Any]:
+    """The derivation by cells of which the parts are made."""
+    return derivation["steps"][0]["evidence"]["proofs"][0]  # type: ignore[no-any-return]
+
+
+@pytest.mark.parametrize("truth", [True, False])
+@pytest.mark.parametrize("claimed", [read("a < 0"), read("b > 0"), read("a >= 0"), read("a + b > 0")])
+def test_a_part_that_is_not_proved_is_rejected(claimed: Formula, truth: bool) -> None:
+    """By the composition and, where that agrees, by the cells."""
     whole = data(CELLS, 120)
-    cells, written = whole["payload"]["proofs"][0]["payload"], formula_to_json(convert(claimed, RING))
-    whole["payload"]["true"] = written
-    assert said(whole) == "payload.true"
-    for k, name in enumerate(("true", "false")):  # of the negation, as the block was decomposed
-        whole["payload"][name] = cells["parts"][k] = written
-    assert said(whole).startswith("payload.proofs[0].payload.parts[")
+    label, condition = str(truth).lower(), formula_to_json(convert(claimed, RING))
+    derivation = member(whole, label)
+    where(derivation, condition, truth)
+    assert ".evidence.proofs" in said(whole)
+    for proof in derivation["steps"][0]["evidence"]["proofs"]:  # of the question, or of its negation
+        where(proof, condition, proof["answer"] is not False)
+    assert "proofs[0]" in said(whole)
 
 
 def test_exchanged_parts_are_rejected() -> None:
     whole = data(CELLS, 120)
-    payload = whole["payload"]
-    payload["true"], payload["false"] = payload["false"], payload["true"]
-    assert said(whole) == "payload.true"
-    payload["proofs"][0]["payload"]["parts"].reverse()
-    assert said(whole).startswith("payload.proofs[0].payload.parts[")
+    one, other = (member(whole, label) for label in ("true", "false"))
+    one["steps"], other["steps"] = other["steps"], one["steps"]
+    assert said(whole)
 
 
 @pytest.mark.parametrize("truth", [True, False])
-def test_an_open_cell_given_a_truth_value_is_rejected(truth: bool) -> None:
+@pytest.mark.parametrize("part", ["true", "false"])
+def test_an_open_cell_given_a_truth_value_is_rejected(truth: bool, part: str) -> None:
     whole = data(CELLS, 120)
-    cells = [whole["payload"]["proofs"][0]["payload"]["root"]]
+    cells = [inside(member(whole, part))["steps"][0]["evidence"]["cells"]["root"]]
     changed = 0
     for _ in range(2):  # the levels of a and b
         cells = [below for cell in cells if "stack" in cell for below in cell["stack"]["cells"]]
@@ -111,28 +131,36 @@ def test_an_open_cell_given_a_truth_value_is_rejected(truth: bool) -> None:
     assert changed and said(whole)
 
 
-def test_open_cells_need_parts_and_an_answer_has_none() -> None:
-    leaf = data(CELLS, 120)["payload"]["proofs"][0]
-    header = {"format": "bezier-qe certificate", "version": 2}
-    assert said({**header, **leaf}) == ""
-    with_answer = {**leaf, "payload": {**leaf["payload"], "answer": True}}
-    assert said({**header, **with_answer}) == "payload.parts"
-    plain = {**leaf, "payload": {k: v for k, v in leaf["payload"].items() if k != "parts"}}
-    assert said({**header, "version": 1, **plain}).endswith(".truth")
+def test_open_cells_prove_nothing_without_a_condition() -> None:
+    derivation = inside(member(data(CELLS, 120), "true"))
+    header = {"format": "bezier-qe certificate", "version": 3, "kind": "derivation"}
+    assert said({**header, "payload": derivation}) == ""
+    step, truth = derivation["steps"][0], derivation["steps"][0]["after"]
+    plain = {**derivation, "start": step["before"], "answer": truth, "steps": [{**step, "at": [], "context": []}]}
+    assert said({**header, "payload": plain}).endswith((".truth", ".after"))
 
 
-def test_a_part_without_its_proof_is_rejected() -> None:
-    for k in range(2):
-        whole = data(MIXED, 300)
-        del whole["payload"]["proofs"][k]
-        assert said(whole) in ("payload.true", "payload.false")
+@pytest.mark.parametrize("part", ["true", "false"])
+def test_a_part_without_its_proof_is_rejected(part: str) -> None:
+    whole = data(MIXED, 300)
+    if any(m["label"] == part for m in whole["certificates"]):
+        proofs = member(whole, part)["steps"][0]["evidence"]["proofs"]
+        for k in range(len(proofs)):
+            other = json.loads(json.dumps(whole))
+            del member(other, part)["steps"][0]["evidence"]["proofs"][k]
+            if not said(other):  # a proof that only the other part needs
+                assert member(other, part)["answer"] == member(whole, part)["answer"]
+        proofs.clear()
+        assert ".evidence.proofs" in said(whole)
 
 
 def test_another_question_is_rejected() -> None:
     whole = data(CELLS, 120)
-    other = convert(read(CELLS.replace("> 0", ">= 0")), RING)
-    whole["payload"]["question"] = formula_to_json(other, quantified=True)
-    assert said(whole) in ("payload.true", "payload.false")
+    other = formula_to_json(convert(read(CELLS.replace("> 0", ">= 0")), RING), quantified=True)
+    for label in ("true", "false"):
+        derivation = member(whole, label)
+        derivation["start"][-1] = derivation["steps"][0]["before"] = other
+    assert ".evidence.proofs" in said(whole)
 
 
 def test_no_internal_error_where_an_answered_part_stands_beside_decided_cells() -> None:
@@ -145,7 +173,7 @@ def test_parts_of_the_wrong_truth_value_are_rejected(monkeypatch: pytest.MonkeyP
     right = anytime._where
     monkeypatch.setattr(anytime, "_where", lambda table, truth: right(table, not truth))
     found = parts(read(CELLS), 120).certificate
-    assert found is not None and verify(found).step.startswith("payload.proofs[0].payload.parts[")
+    assert found is not None and "proofs[0].steps[0]" in verify(found).step
 
 
 def test_a_checked_question_has_checked_parts() -> None:
