@@ -29,7 +29,7 @@ def roots_counted(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         table = certificate_for(counted, found, Options(order=order), limits.budget)
         if table is None:
             raise claim.fail("no decomposition shows what a comparison with a root means")
-        step = written("cells", (), counted, found, (), {"certificate": table.to_data()})
+        step = written("cells", (), counted, found, (), table.single_step["evidence"])
         while found in {*atoms(made.current)}:
             made.step("converse", found, counted, {"steps": [step]})
     return made.finished(after)

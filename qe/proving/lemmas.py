@@ -54,6 +54,7 @@ def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits, ideal: bool = Fa
         *(modulo if ideal else ()),
         lambda: _values(found, goals, polys),
         lambda: _algebra(found, polys),
+        lambda: _lines(found, polys),  # behind what identities alone give: those rest on no theorem
         lambda: _expanded(found, polys),
         lambda: _bounds(found, goals, limits),
         lambda: _chained(found, polys),
@@ -128,7 +129,6 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
     _differences(found, pool)
     for poly in pool:
         as_squares(found, poly)
-    _lines(found, polys)
 
 
 def _expanded(found: Lemmas, polys: dict[Poly, bool]) -> None:

@@ -83,7 +83,7 @@ def elimination_set(claim: Claim, context: Context, limits: Limits) -> list[Json
         found = certificate_for(claim.before, claim.after, Options(), limits.budget)
         if found is None:
             raise points.fail("no decomposition takes the place of roots of cubics")
-        return [written("cells", (), claim.before, claim.after, (), {"certificate": found.to_data()})]
+        return [written("cells", (), claim.before, claim.after, (), found.single_step["evidence"])]
     evidence = {k: v for k, v in claim.evidence.value.items() if k != "exponent"}
     power = 1 if exponent.value is None else exponent.integer(1)
     if power == 1:

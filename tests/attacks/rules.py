@@ -233,17 +233,6 @@ RULES: dict[str, Row] = {
         "all x. {p}*x^2 {>} {p} or x {O} {p}",
         "ex x, y. x*y {<|>} {p} and {s}*x + {s}*y /= 0 and x {<|>} y",
     ),
-    "convex": row(
-        "all x, y, z, u. x^2 + y^2 + {p}*z^2 + u^2 {>|>=} {n} - {p}",
-        "ex x, y, z, u. x^2 + y^2 + z^2 + {p}*u^2 + {s}*x {<} {n}",
-        "ex x, y. x^2 + {p}*y^2 {<} {p} and x + y {O} {p}",
-        method=Method.CONVEX,
-    ),
-    "point or multipliers": row(
-        "all x, y. x^2 + {p}*y^2 {>} {n}",
-        "ex x, y, z, u. x*y {>} {p} and z*u {<} x and x {>} {n} and y + u {<} {p}",
-        "ex x, y, z, u. x*y {>} z^2 + {p} and z*u {>} {p} and x + y {<} 5 + {p} and (u^2 {<} x*y or x {>} 100)",
-    ),
     "cells": row(
         "ex x. x^4 - a*x + {n} {R} 0",
         "ex x, y. x^2 + {p}*y^2 {O} {p} and x^3 {R} {s}*y and x*y {O} {n}",
@@ -324,6 +313,9 @@ PRIMITIVES: dict[str, tuple[str, ...]] = {
 }
 """Primitives of the kernel that are no rule of the engine: rules whose steps are made of them."""
 
+STATED = frozenset(("classification", "multipliers", "parts", "solutions"))
+"""Rules whose evidence says what stands before and after: ``tests/certificates`` has false claims of them."""
+
 METHODS: dict[str, Row] = {
     "vs": RULES["virtual substitution"],
     "vs, cubic": row(
@@ -332,9 +324,18 @@ METHODS: dict[str, Row] = {
     ),
     "cad": RULES["cells"],
     "critical": RULES["critical values"],
-    "convex": RULES["convex"],
+    "convex": row(
+        "all x, y, z, u. x^2 + y^2 + {p}*z^2 + u^2 {>|>=} {n} - {p}",
+        "ex x, y, z, u. x^2 + y^2 + z^2 + {p}*u^2 + {s}*x {<} {n}",
+        "ex x, y. x^2 + {p}*y^2 {<} {p} and x + y {O} {p}",
+        method=Method.CONVEX,
+    ),
     "witness": RULES["witness in the parameters"],
-    "samples": RULES["point or multipliers"],
+    "samples": row(
+        "all x, y. x^2 + {p}*y^2 {>} {n}",
+        "ex x, y, z, u. x*y {>} {p} and z*u {<} x and x {>} {n} and y + u {<} {p}",
+        "ex x, y, z, u. x*y {>} z^2 + {p} and z*u {>} {p} and x + y {<} 5 + {p} and (u^2 {<} x*y or x {>} 100)",
+    ),
     "search": RULES["Boolean search"],
     "cgs": RULES["comprehensive Gröbner system"],
     "coverings": RULES["covering"],

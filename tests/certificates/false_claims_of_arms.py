@@ -25,6 +25,8 @@ from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Entry
 from tests.attacks.formulas import simple
 from tests.certificates.false_claims import number
+from tests.certificates.mutation import evidence_in
+from tests.certificates.restated import is_stated
 
 Data = dict[str, Any]
 Vector = list[float]
@@ -46,8 +48,10 @@ def solutions(rng: random.Random) -> Certificate | None:
 
 
 def other_solutions(rng: random.Random, data: Data) -> bool:
-    """Whether the list of solutions is another than that which is found."""
-    payload = data["payload"]
+    """Whether the list of solutions is another than that which is found, or the sentence another than of the list."""
+    if not is_stated(data):
+        return True
+    payload = evidence_in(data)
     ring = Ring.of(payload["order"])
     equations = [Entry(text, "").polynomial(ring) for text in payload["equations"]]
     conditions = [(Entry(text, "").polynomial(ring), Relation(sign)) for text, sign in payload["conditions"]]

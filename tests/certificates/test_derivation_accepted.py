@@ -61,12 +61,12 @@ def test_what_is_not_checked_is_named() -> None:
 
 def test_versions() -> None:
     made = certificate(CASES["names"])
-    assert '"version":2' in made.to_json()
-    assert '"version":1' in qe.eliminate("ex x. x^2 = 2").certificate.to_json()  # type: ignore[union-attr]
-    assert '"version":2' in Certificate.bundle([("one", made)]).to_json()
+    assert '"version":3' in made.to_json()
+    assert '"version":3' in qe.eliminate("ex x. x^2 = 2").certificate.to_json()  # type: ignore[union-attr]
+    assert '"version":3' in Certificate.bundle([("one", made)]).to_json()
     assert verify(Certificate.from_json(Certificate.bundle([("one", made)]).to_json())).accepted
-    with pytest.raises(qe.InputError, match="written in version 2"):
-        Certificate.from_json(made.to_json().replace('"version":2', '"version":1'))
+    with pytest.raises(qe.InputError, match="certificate version 4"):
+        Certificate.from_json(made.to_json().replace('"version":3', '"version":4'))
 
 
 def test_the_document() -> None:

@@ -211,7 +211,7 @@ def test_every_entry_may_be_anything() -> None:
     said, offered = sweep(1, 5)
     brought = {point.name for point in entry_points(group=GROUP)}
     assert set(offered) - brought == {*RULES, "bundle"}
-    assert said["rejected"] > 180 and said["accepted"]
+    assert said["rejected"] > 150 and said["accepted"]
 
 
 @pytest.mark.deep
