@@ -32,7 +32,7 @@ def unused(*_: object) -> NoReturn:
     raise AssertionError
 
 
-LIMITS = Limits(Budget(), unused, unused)
+LIMITS = Limits(Budget(), unused)
 TRIANGLE = "ex b, c. 1 + b > c and b + c > 1 and c + 1 > b and b^3 + c^3 + 1 = m*(b*c + b + c)"
 WITH_VALUES = [
     "ex x, y. x^3 + y^3 = 9 and x*y = 2",
