@@ -13,10 +13,15 @@ from typing import Any
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.expert import classification, optimum, solutions
-from qe.formula.build import exists
+from qe.formula.build import convert, exists
+from qe.formula.normal import rename_apart
 from qe.formula.syntax import TRUE, Formula
+from qe.kernel.negation import negation, normal
+from qe.kernel.renaming import is_same
+from qe.kernel.table import is_prenex_form
 from qe.kernel.verdict import CRASHES
 from qe.options import Budget
+from qe.proof.cells import CellTable
 from qe.proof.cells_json import cells_from_json
 from qe.proof.certificate import Certificate, Kind, Labelled, prenex_form
 from qe.proof.entry import Entry, Json, formula_from_json
@@ -40,6 +45,20 @@ def recent(certificate: Certificate) -> Certificate:
     except CRASHES as error:
         raise CertificateRejected("payload", f"not a certificate of kind {certificate.kind.value}: {error}") from None
     return replace(found, digests=certificate.digests)
+
+
+def is_table_of(certificate: Certificate, formula: Formula) -> bool:
+    """Whether a certificate was a table of this formula or its negation: it named no question but the prenex form."""
+    if certificate.kind.value != "cells" or not isinstance(certificate.payload, dict):
+        return False
+    table = cells_from_json(Entry(_table(certificate.payload), "payload"))
+    return any(_is_prenex_form(table, asked) for asked in (formula, negation(formula)))
+
+
+def _is_prenex_form(table: CellTable, formula: Formula) -> bool:
+    question = rename_apart(normal(formula))
+    ring = Ring.of(dict.fromkeys((*table.order, *(question.ring.names if question.ring else ()))))
+    return is_same(question, formula) and is_prenex_form(convert(question, ring), table)
 
 
 def objects(data: Json) -> Iterator[dict[str, Json]]:

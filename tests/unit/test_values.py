@@ -59,7 +59,7 @@ def test_reprs_say_what_it_is() -> None:
     assert repr(qe.eliminate("ex x. x^2 = b")) == "Answer(b >= 0; derived)"
     assert repr(qe.eliminate("ex x. x^2 = 2")).startswith("Answer(true, x = ")
     assert repr(DISC.bounds("x")) == "Interval[-1, 1]" and repr(qe.region("x > 0").bounds("x")) == "Interval(0, oo)"
-    assert repr(DISC) == "Region(x, y: x^2 + y^2 - 1 <= 0)" and repr(DISC.certificate) == "Certificate(cells)"
+    assert repr(DISC) == "Region(x, y: x^2 + y^2 - 1 <= 0)" and repr(DISC.certificate) == "Certificate(derivation)"
     assert repr(qe.minimize("x^2 + y", "y >= x")) == "Optimum(-1/4 at x = -1/2, y = -1/2)"
     assert repr(qe.minimize("x", "x > 0")) == "Optimum(0, not attained)" and "unbounded" in repr(qe.minimize("x"))
 

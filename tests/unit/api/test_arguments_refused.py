@@ -302,7 +302,8 @@ ENGINE = {
     "compare",
     "compare_rational",
     "decided",
-    "parts",
+    "evidence_for",
+    "step",
 }
 """Methods that take values of the engine."""
 

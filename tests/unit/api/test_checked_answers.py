@@ -83,7 +83,7 @@ def test_global_optima(objective: str, constraints: str) -> None:
         if found.point:
             point = json.loads(found.certificate.to_json())["certificates"][-1]
             assert point["label"] == "point"
-            assert point["kind"] == "witness"
+            assert [step["rule"] for step in point["payload"]["steps"]] == ["instance"]
 
 
 def test_a_point_under_quantifiers_is_not_proved() -> None:

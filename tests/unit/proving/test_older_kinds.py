@@ -127,3 +127,12 @@ def test_certificates_inside_steps(rule: str, inside: tuple[str, Any], before: A
         names = ["b", "c", "x", "y"]
         text = text_of("derivation", {"order": names, "start": before, "steps": [step], "answer": after})
         assert qe.verify(Certificate.from_json(text), timeout=None).accepted is right
+
+
+def test_a_table_is_about_formulas_of_which_it_has_a_prenex_form() -> None:
+    """It named no question but that form."""
+    whole = {"format": "bezier-qe certificate", "version": 1, "kind": "cells", "payload": OLD["cells"][1]}
+    old = Certificate.from_json(json.dumps({**whole, "digest": digest(whole)}))
+    for text in ("ex x. b*x + x^2 + c = 0", "not all x. x^2 + b*x + c /= 0", "ex b_1. b_1^2 + b*b_1 + c = 0"):
+        assert qe.verify(old, formula=read(text)).accepted
+    assert qe.verify(old, formula=read("ex x. x^2 + b*x - c = 0")).step == "claim"
