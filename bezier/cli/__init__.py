@@ -1,4 +1,4 @@
-"""The command line."""
+"""The command line. What its commands do stands with their subjects."""
 
 from bezier.cli.app import main
 

@@ -1,1 +1,3 @@
-"""Planning from Python: the function ``bezier.plan`` and what it gives back."""
+"""Planning from Python: the function ``bezier.plan`` and what it gives back. The command line and this call the same
+planner; neither decides anything.
+"""

@@ -1,1 +1,3 @@
-"""The planning methods; none imports another one."""
+"""The planning methods; none imports another one. What every method shares is in ``bezier.methods.control``; what is
+decided about every plan is in ``bezier.planner``.
+"""

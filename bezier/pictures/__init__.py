@@ -1,1 +1,1 @@
-"""Pictures, in floating point, for the eye only."""
+"""Pictures, in floating point, for the eye only. No statement about a path rests on one."""

@@ -1,1 +1,1 @@
-"""The page of a plan."""
+"""The page of a plan. It shows what was decided, and decides nothing."""

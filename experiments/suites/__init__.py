@@ -1,4 +1,4 @@
-"""The problem suites by name."""
+"""The problem suites by name. How they are run is in ``experiments.solvers``."""
 
 from __future__ import annotations
 

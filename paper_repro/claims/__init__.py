@@ -1,4 +1,4 @@
-"""All claims of the paper, in its order."""
+"""All claims of the paper, in its order. How they are shown is no business of theirs."""
 
 from paper_repro.claim import Claim
 from paper_repro.claims import (

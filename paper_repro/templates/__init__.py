@@ -1,1 +1,1 @@
-"""The page's template."""
+"""The page's template. No text is computed here."""

@@ -1,1 +1,3 @@
-"""Convex quadratic systems: read, minimise, prove, feasible, faces."""
+"""Convex quadratic systems: read, minimise, prove, feasible, faces. What is not convex, or not quadratic, goes to
+``qe.optimization``.
+"""

@@ -1,1 +1,3 @@
-"""Parametric ideals: comprehensive Gröbner systems and the real solutions that they count."""
+"""Parametric ideals: comprehensive Gröbner systems and the real solutions that they count. Gröbner bases over the
+rationals are in ``qe.exact``.
+"""

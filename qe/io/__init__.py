@@ -1,1 +1,1 @@
-"""Readers and writers, a pair for every format."""
+"""Readers and writers, a pair for every format. They say what a text means; no question is answered here."""

@@ -1,1 +1,3 @@
-"""Global optima of any polynomial over any semialgebraic set, by elimination; with parameters as functions of them."""
+"""Global optima of any polynomial over any semialgebraic set, by elimination; with parameters as functions of them.
+Convex quadratic problems are in ``qe.convex``.
+"""

@@ -1,1 +1,3 @@
-"""From what was found to certificates: evidence for the steps of a derivation. Nothing made here is trusted."""
+"""From what was found to certificates: evidence for the steps of a derivation. Nothing made here is trusted. What
+checks it is in ``qe.kernel`` and imports none of this.
+"""

@@ -70,6 +70,13 @@ def test_modules_and_public_names_have_docstrings() -> None:
     assert not [name for p in CODE if shown(p).startswith(("qe/", "bezier/")) for name in without_docstring(p)]
 
 
+def test_folders_say_what_belongs_there_and_what_does_not() -> None:
+    packages = [p for p in CODE if p.name == "__init__.py" and shown(p).startswith(("qe/", "bezier/"))]
+    documents = {shown(p): ast.get_docstring(ast.parse(p.read_text())) or "" for p in packages}
+    assert len(packages) > 40
+    assert not [name for name, text in documents.items() if len(re.findall(r"[.:;](?=\s|$)", text)) < 2]
+
+
 def without_docstring(path: Path) -> list[str]:
     """The module itself, and its public functions and classes, where they do not say what they are."""
     tree = ast.parse(path.read_text())

@@ -1,1 +1,1 @@
-"""The pages' templates."""
+"""The pages' templates. No text is computed here."""

@@ -1,4 +1,4 @@
-"""Critical-value elimination: one block over bounded fibres."""
+"""Critical-value elimination: one block over bounded fibres. What has no compact fibres belongs to other methods."""
 
 from qe.elimination.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
 from qe.elimination.critical.open_cells import OpenCell

@@ -1,1 +1,3 @@
-"""The arithmetic of the second ring: ideals, algebraic numbers, signatures of forms."""
+"""The arithmetic of the second ring: ideals, algebraic numbers, signatures of forms. It shares none with the producers
+of answers, nor is it used by the kernel.
+"""
