@@ -6,7 +6,7 @@ import os
 import signal
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from importlib import import_module
 
@@ -48,7 +48,8 @@ def children(pid: int | None = None) -> set[int]:
     pid = os.getpid() if pid is None else pid
     found: set[int] = set()
     for thread in os.listdir(f"/proc/{pid}/task"):
-        with open(f"/proc/{pid}/task/{thread}/children") as handle:
+        # a thread may have ended since it was listed
+        with suppress(FileNotFoundError, ProcessLookupError), open(f"/proc/{pid}/task/{thread}/children") as handle:
             found |= {int(n) for n in handle.read().split()}
     return found
 
