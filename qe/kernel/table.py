@@ -32,12 +32,14 @@ def check_table(claim: Claim, context: Context, limits: Limits) -> None:
     table, before = cells_from_json(entry), normal(claim.before)
     if not {*before.free, *claim.after.free} <= set(table.order) <= set(claim.ring.names):
         raise entry.fail("the table is about other variables")
-    same = claim.before == claim.after
+    answer = None if claim.before == claim.after else claim.after
+    if answer is not None and not answer.is_quantifier_free:
+        raise claim.fail("expected an answer without quantifiers")
+    known = [fact for fact in context if fact.is_quantifier_free and {*fact.free} <= {*table.order}]
     ring = Ring.of(table.order)
-    known = [fact for fact in context if set(fact.free) <= set(table.order)]
-    answer, *given = (convert(normal(formula), ring) for formula in (claim.after, *known))
+    given = [_moved(fact, ring) for fact in known]
     try:
-        check_cells(table, None if same else answer, given, limits.budget)
+        check_cells(table, None if answer is None else _moved(answer, ring), given, limits.budget)
     except CertificateRejected as error:
         at = f"{claim.path}.after" if error.step == "answer" else f"{entry.path}.{error.step.removeprefix('payload.')}"
         raise CertificateRejected(at, error.reason) from None

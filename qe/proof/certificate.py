@@ -177,10 +177,13 @@ class Certificate:
 
     @property
     def single_step(self) -> dict[str, Json]:
-        """The step of a derivation that has one; nothing for others."""
+        """The step of a derivation by one step of its whole formula; nothing for others.
+
+        At a place inside, what is known there may stand for a part of what the evidence seems to say.
+        """
         steps = self.payload.get("steps") if isinstance(self.payload, dict) else None
         step = steps[0] if isinstance(steps, list) and len(steps) == 1 else None
-        return step if isinstance(step, dict) else {}
+        return step if isinstance(step, dict) and step.get("at") == [] else {}
 
     def evidence_for(self, rule: str) -> Any:
         """The evidence of a derivation by one step of this rule; None for others."""

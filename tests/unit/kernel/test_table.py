@@ -7,13 +7,17 @@ from typing import Any
 
 import pytest
 
+import qe
 from qe.api.input import read_formula
+from qe.elimination.cad import certificate_for
 from qe.exact.ring import Ring
-from qe.formula.build import convert
-from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.formula.build import conj, convert, disj
+from qe.formula.syntax import FALSE, TRUE, And, Formula
+from qe.io.text import read
 from qe.kernel.table import is_prenex_form
-from qe.options import Projection
+from qe.options import Budget, Options, Projection
 from qe.proof.cells import Cell, CellTable
+from qe.proof.certificate import Certificate, written
 from tests.certificates.producing import cell_table
 from tests.unit.certify.claims import formula, objection
 
@@ -81,7 +85,7 @@ SQUARE = ("x^2 < a", "a x", ".E")
         ("ex x. x^2 < a", "a >= 0", SQUARE, "step.after: differs from the truth value"),
         ("ex x. x^2 < a", "a > 1", SQUARE, "not a product of listed factors"),
         ("ex x. x^2 < a", "ex x. x^2 < a", SQUARE, ""),  # no more than that the table is right
-        ("ex x. x^2 < a", "ex x. x^2 + 0 < a and 1 > 0 and x^2 - a < 1", SQUARE, "a quantifier"),
+        ("ex x. x^2 < a", "ex x. x^2 + 0 < a and 1 > 0 and x^2 - a < 1", SQUARE, "an answer without quantifiers"),
         ("ex x. x^2 <= a", "a > 0", SQUARE, "another formula"),
         ("all x. x^2 < a", "a > 0", SQUARE, "another formula"),
         ("ex x. x^2 < b", "b > 0", SQUARE, "other variables"),
@@ -111,3 +115,36 @@ def test_a_table_is_about_the_step(before: str, after: str, table: Any, reason: 
 def test_a_table_where_something_holds(after: str, given: str, accepted: bool) -> None:
     found = objection("cells", "ex x. x^2 < a", after, evidence(*SQUARE), given)
     assert (found == "") is accepted, found
+
+
+def test_a_table_below_what_is_known_is_no_region() -> None:
+    """Cells on which x > 1 is false are open there: the step proves less than the table seems to say."""
+    ring = Ring.of(("x", "y"))
+    disc, beyond = (convert(read(text), ring) for text in ("x^2 + y^2 < 4 or y > 5", "x > 1"))
+    made = certificate_for(disc, disj((disc, conj((beyond, disc)))), Options(order=ring.names), Budget(20))
+    assert made is not None
+    table = made.evidence_for("cells")["cells"]
+    for cell in table["root"]["stack"]["cells"]:
+        if cell["signs"][table["factors"][0].index("x - 1")] in "-0":
+            cell.pop("stack")
+    whole = conj((beyond, disc))
+    assert isinstance(whole, And)
+    step = written("cells", [whole.args.index(disc)], disc, disc, [beyond], {"cells": table})
+    content = Certificate.derivation(ring.names, whole, [step], whole).to_json()
+    assert qe.verify(Certificate.from_json(content)).accepted and Certificate.from_json(content).single_step == {}
+    with pytest.raises(qe.InputError, match="a region in JSON expected"):
+        qe.Region.from_json(content)
+
+
+def test_facts_with_quantifiers_are_no_hindrance() -> None:
+    """Their bound variables are no variables of the table: a right step ended in an internal error."""
+    ring = Ring.of(("a", "x", "y"))
+    fact, before, after = (convert(read(text), ring) for text in ("ex y. y^4 = a + 1", "ex x. x^2 = a", "a >= 0"))
+    made = certificate_for(before, after, Options(), Budget(20))
+    assert made is not None
+    whole = conj((fact, before))
+    assert isinstance(whole, And)
+    step = written("cells", [whole.args.index(before)], before, after, [fact], made.single_step["evidence"])
+    content = Certificate.derivation(ring.names, whole, [step], conj((fact, after))).to_json()
+    assert qe.verify(Certificate.from_json(content)).accepted
+    assert "without quantifiers" in objection("cells", "ex x. x^2 = a", "ex y. y^2 = a", made.single_step["evidence"])
