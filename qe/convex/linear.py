@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.convex.simplex import Endless, Nowhere, least_cost
 from qe.exact.quadratic_form import Quadratic
-from qe.options import Budget
 
 _ZERO = Fraction(0)
 Numbers = tuple[Fraction, ...]
@@ -43,25 +42,23 @@ def is_linear_problem(objective: Quadratic, forms: Sequence[Quadratic]) -> bool:
 
 
 def linear_optimum(
-    objective: Quadratic, forms: Sequence[Quadratic], *, budget: Budget
+    objective: Quadratic, forms: Sequence[Quadratic], *, check: Callable[[], object]
 ) -> LinearBest | LinearConflict | LinearFall:
     """Minimise a linear polynomial subject to linear polynomials <= 0.
 
     The dual problem is in standard form: the greatest sum w_i forms_i(0) for weights w >= 0 with
-    sum w_i grad forms_i = -grad objective; the multipliers of its equations are the point.
+    sum w_i grad forms_i = -grad objective; the multipliers of its equations are the point. ``check`` is called
+    between steps.
     """
-
-    def check() -> None:
-        budget.check("optimum: simplex")
 
     columns = [form.gradient for form in forms]
     cost = [-form.constant for form in forms]
-    found = least_cost(columns, [-b for b in objective.gradient], cost, check=check)
-    if isinstance(found, Endless):
-        return LinearConflict(found.weights)
-    if not isinstance(found, Nowhere):
-        return LinearBest(found.dual, found.weights)
+    optimum = least_cost(columns, [-b for b in objective.gradient], cost, check=check)
+    if isinstance(optimum, Endless):
+        return LinearConflict(optimum.weights)
+    if not isinstance(optimum, Nowhere):
+        return LinearBest(optimum.dual, optimum.weights)
     anywhere = least_cost(columns, [_ZERO] * objective.size, cost, check=check)
     if isinstance(anywhere, Endless):
         return LinearConflict(anywhere.weights)
-    return LinearFall(anywhere.dual, found.dual)
+    return LinearFall(anywhere.dual, optimum.dual)

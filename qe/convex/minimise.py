@@ -161,7 +161,7 @@ def _linear(
 ) -> OptimumEvidence:
     """The exact answer to a linear problem for which floats proposed nothing that could be proved."""
     flat, keys, rationals = state.flat, list(forms), NumberField.rationals()
-    found = linear_optimum(objective, list(forms.values()), budget=budget)
+    found = linear_optimum(objective, list(forms.values()), check=lambda: budget.check("optimum: simplex"))
     if isinstance(found, LinearFall):
         direction = Flat((_ZERO,) * len(system.names), flat.basis).lift(found.direction)
         point = flat.lift(found.point)

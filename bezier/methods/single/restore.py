@@ -107,7 +107,7 @@ def _outcome(base: LinearProgram, cost: Values, label: str, evidence: Certificat
         if len(point) != len(cost):
             raise CertificateRejected(f"{label}: point", f"expected {len(cost)} numbers")
         value = sum((c * x for c, x in zip(cost, point, strict=True)), Fraction(0))
-        outcome = LinearOptimum(value, point, duals, unique=False)
+        outcome = LinearOptimum(value, point, duals)
     expected: Any = certificate(base, cost, outcome).evidence_for("multipliers")
     for key in expected:
         if payload.get(key) != expected[key]:

@@ -88,8 +88,6 @@ def test_the_second_objective_decides_among_the_minima_of_the_first(case, second
     fixed = LinearProgram(program.names, program.lower, (*program.rows, LinearRow(cost, first.value, True)))
     best = solve(fixed, [second])
     assert best.value == sum(c * x for c, x in zip(second, found.point, strict=True))
-    if first.unique:
-        assert found.point == first.point
 
 
 def test_the_example_on_which_other_pivot_rules_cycle():
