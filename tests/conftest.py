@@ -66,6 +66,14 @@ def work_stays_here(request: pytest.FixtureRequest) -> Iterator[None]:
         yield
 
 
+@pytest.fixture(autouse=True, scope="session")
+def workers_start_soon() -> Iterator[None]:
+    """A worker loads what is loaded where it was asked: for callers the engine, in tests every module there is."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("qe.processes.worker.PACKAGES", ("qe.engine.",))
+        yield
+
+
 @pytest.fixture(autouse=True, scope="module")
 def faults_are_heard(request: pytest.FixtureRequest) -> Iterator[None]:
     """An error that ends a proof costs users the proof alone; here it fails a test that is about others."""

@@ -1,12 +1,29 @@
-"""A floor under property tests that may leave examples undecided: a test that decides too few fails."""
+"""Property tests of two sizes, and a floor under those that may leave examples undecided."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+
+def sized(
+    few: int, many: int, *drawn: st.SearchStrategy[Any], **named: st.SearchStrategy[Any]
+) -> Callable[[Callable[..., None]], Callable[[int], None]]:
+    """Turn a function into a test over ``few`` examples on every day, and over ``many`` in the deep tests."""
+
+    def made(body: Callable[..., None]) -> Callable[[int], None]:
+        @pytest.mark.parametrize("examples", [few, pytest.param(many, marks=pytest.mark.deep)])
+        def test(examples: int) -> None:
+            settings(max_examples=examples)(given(*drawn, **named)(body))()
+
+        test.__name__, test.__doc__ = body.__name__, body.__doc__
+        return test
+
+    return made
 
 
 def enough(

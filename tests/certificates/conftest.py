@@ -23,7 +23,7 @@ def reader(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return file
 
 
-MOST = 1_000
+MOST = 500
 """So many texts that tests of this folder read go to both readers, evenly chosen; with the deep tests all of them."""
 
 

@@ -29,6 +29,7 @@ from qe.proving.nested import names_within
 from qe.proving.prover import Prover
 from tests.certificates.derivations import CASES, data
 from tests.certificates.test_derivation_rejected import altered, at, entries, others, refused
+from tests.tables import each
 
 Patch = Callable[[pytest.MonkeyPatch], None]
 
@@ -218,11 +219,12 @@ def test_with_their_side_conditions_they_are() -> None:
     assert whole("a^2 + b^2 < 1 and a*b > 1", certify=True) == set()
 
 
-def test_steps_inside_the_evidence() -> None:
+@each(24, pytest.param(4, marks=pytest.mark.deep))
+def test_steps_inside_the_evidence(step: int) -> None:
     """Steps from infinity, and from what remains, may not be altered either."""
     made = data(CASES["infinity"])
     k = next(k for k, step in enumerate(made["payload"]["steps"]) if step["rule"] == "steps")
-    for path, value in _few(entries(made["payload"]["steps"][k]["evidence"]))[::4]:
+    for path, value in _few(entries(made["payload"]["steps"][k]["evidence"]))[::step]:
         for other in others(value):
 
             def change(payload: dict[str, Any], path: Any = path, other: object = other) -> None:

@@ -131,7 +131,8 @@ def test_users_of_type_checkers_see_the_keywords(tmp_path: Path) -> None:
         'qe.decide("x > 0", timeot=3)\n'
         'qe.solve("x > 0", timeout="3")\n'
     )
-    checked = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(ROOT / ".mypy_cache"), str(user)]
-    run = subprocess.run(checked, cwd=ROOT, capture_output=True, text=True, timeout=300)
-    lines = [line for line in run.stdout.splitlines() if "error:" in line]
+    public = ["qe/__init__.py", "qe/api", "qe/proof/answer.py", "qe/convex/optimum.py"]  # not all that they rest on
+    checked = [sys.executable, "-m", "mypy", "--strict", "--follow-imports", "skip", "--cache-dir", str(tmp_path)]
+    run = subprocess.run([*checked, str(user), *public], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    lines = [line for line in run.stdout.splitlines() if "error:" in line and user.name in line]
     assert len(lines) == 2 and 'did you mean "timeout"' in lines[0] and '"timeout" to "solve"' in lines[1], run.stdout

@@ -22,6 +22,7 @@ from qe.kernel.theorem import check_theorem
 from qe.proof.certificate import Kind
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.rules.closed_forms import matches, pattern, square_root
+from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS, limits
 
 NAMES = tuple(rows())
@@ -94,9 +95,10 @@ def cases(name: str, count: int = 4) -> list[Case]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_right_at_random_numbers(name: str) -> None:
-    right, _ = tried(name, 60, seed=3)
-    assert right >= 55
+@each((20, 18), pytest.param(60, 55, marks=pytest.mark.deep))
+def test_right_at_random_numbers(count: int, at_least: int, name: str) -> None:
+    right, _ = tried(name, count, seed=3)
+    assert right >= at_least
 
 
 @pytest.mark.deep

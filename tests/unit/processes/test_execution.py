@@ -9,7 +9,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
@@ -18,13 +18,25 @@ import pytest
 import qe
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.formula.weight import may_block, text_may_block
-from qe.options import Budget
 from qe.processes.execution import COLD, HERE, SWITCH, perform
 from qe.processes.limits import Limits
 from qe.processes.worker import IDLE, end_idle
 from qe.progress import Event
 from tests.conftest import ROOT
 from tests.tables import each
+from tests.unit.processes.works import (
+    asleep,
+    failing,
+    heedless,
+    inside,
+    loading,
+    noting,
+    outer,
+    process,
+    slowly_counting,
+    spent,
+    work,
+)
 from tests.waiting import ending
 from tests.workers import only_idle_children
 
@@ -42,26 +54,6 @@ def no_process_is_left() -> Iterator[None]:
         yield
 
 
-def process(budget: Budget) -> int:
-    return os.getpid()
-
-
-def spent(seconds: float, then: Callable[[Budget], object], budget: Budget) -> object:
-    """Work that checks its budget all the time."""
-    end = time.monotonic() + seconds
-    part = budget.share(0.9).part(10)  # parts of a budget move with it
-    while time.monotonic() < end:
-        part.check("waiting")
-        time.sleep(0.002)
-    if seconds:
-        part.check("at the end")  # a busy machine may have slept through all the checks before
-    return then(budget)
-
-
-def work(seconds: float, then: Callable[[Budget], object] = process) -> Callable[[Budget], object]:
-    return partial(spent, seconds, then)
-
-
 def test_short_work_stays_and_long_work_moves() -> None:
     assert perform(work(0.0), Limits()) == os.getpid()
     assert perform(work(3 * HERE), Limits()) != os.getpid()
@@ -72,13 +64,6 @@ def test_where_no_worker_runs_work_stays_as_long_as_one_takes_to_start() -> None
     end_idle()
     assert perform(work(2 * HERE), Limits()) == os.getpid() and not IDLE
     assert perform(work(2 * COLD), Limits()) != os.getpid() and IDLE
-
-
-def loading(budget: Budget) -> int:
-    time.sleep(2 * HERE)
-    sys.modules[f"a module that is loaded by {os.getpid()}"] = sys
-    budget.check("loaded")
-    return os.getpid()
 
 
 def test_time_in_which_modules_are_loaded_does_not_count() -> None:
@@ -114,31 +99,11 @@ def test_each_block_is_left_once_in_each_process(tmp_path: Path) -> None:
     assert len(lines) == len(set(lines)) == 2 and lines[0] == str(os.getpid())
 
 
-def noting(file: str, budget: Budget) -> int:
-    try:
-        return spent(3 * HERE, process, budget)  # type: ignore[return-value]
-    finally:
-        with open(file, "a") as handle:
-            print(os.getpid(), file=handle)
-
-
-def counting(budget: Budget) -> int:
-    for k in range(5):
-        budget.listener(Event("count", k))
-        time.sleep(HERE / 2)
-        budget.check("step")
-    return os.getpid()
-
-
 def test_events_arrive_before_and_after_the_move() -> None:
     seen: list[Event] = []
-    assert perform(counting, Limits(progress=seen.append)) != os.getpid()
+    assert perform(slowly_counting, Limits(progress=seen.append)) != os.getpid()
     done = [e.done for e in seen if e.phase == "count"]
     assert done[0] == 0 and done[-5:] == list(range(5)) and len(done) > 5
-
-
-def failing(error: Exception, budget: Budget) -> None:
-    raise error
 
 
 @each(0.0, 3 * HERE)
@@ -153,15 +118,6 @@ def test_other_errors_of_moved_work_are_internal_errors() -> None:
         perform(work(3 * HERE, partial(failing, ZeroDivisionError())), Limits())
 
 
-def heedless(budget: Budget) -> str:
-    time.sleep(2 * HERE)
-    try:
-        while True:
-            budget.check("step")
-    except Unable:
-        return "the work went on"
-
-
 def test_an_error_of_the_listener_ends_the_work() -> None:
     """Even an ``Unable``, which the engine would take for one of its own if it met it inside a method."""
 
@@ -172,29 +128,17 @@ def test_an_error_of_the_listener_ends_the_work() -> None:
         perform(heedless, Limits(progress=listener))
 
 
-def stuck(budget: Budget) -> None:
-    signal.sigtimedwait([], 30)
-
-
 def test_the_limit_kills_work_that_never_looks_up() -> None:
     start = time.monotonic()
     with pytest.raises(BudgetExceeded) as caught:
-        perform(work(2 * HERE, stuck), Limits(timeout=0.3))
+        perform(work(2 * HERE, asleep), Limits(timeout=0.3))
     assert caught.value.limit == "time" and time.monotonic() - start < 30
-
-
-def inside(several: list[Limits], budget: Budget) -> list[object]:
-    return [os.getpid(), *(perform(work(0.0), limits, at_once=True) for limits in several)]
 
 
 def test_inside_a_worker_only_a_tighter_limit_needs_another() -> None:
     several = [Limits(), Limits(timeout=100), Limits(memory=5000), Limits(timeout=20), Limits(memory=3000)]
     this, *found = perform(partial(inside, several), Limits(timeout=60, memory=5000), at_once=True)
     assert [pid == this for pid in found] == [True, True, True, False, False] and this != os.getpid()
-
-
-def outer(first: Callable[[Budget], object], at_once: bool, budget: Budget) -> tuple[object, int]:
-    return perform(first, Limits(), at_once=at_once), os.getpid()
 
 
 @each((3 * HERE, False), (0.0, True))
@@ -216,23 +160,16 @@ CALLS = {
     "eliminate": f"qe.eliminate({HARD!r})",
     "find_instance": "qe.find_instance('all a, b. ex x. all y. a*x^4*y^3 + b*x^3*y^5 + x^2*y + z*x > a^2*y^4 + x*y')",
     "region": "qe.region('x^6*y^5+z^7*x-y*z^3+3 > 0 and x^7+y^6*z^5-x*y*z = 1')",
-    "a long FLINT call": "perform(partial(t.factorial, 10**9), Limits(), at_once=True)",
+    "a long FLINT call": "perform(t.factorial, Limits(), at_once=True)",
 }
-
-
-def factorial(n: int, budget: Budget) -> int:
-    from flint import fmpz
-
-    return int(fmpz.fac_ui(n).bit_length())
 
 
 @pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
 def test_ctrl_c_ends_it_at_once_and_leaves_nothing_behind(call):
     code = f"""
 import os, qe, signal, sys
-from functools import partial
 sys.path.insert(0, os.getcwd())
-from tests.unit.processes import test_execution as t
+from tests.unit.processes import works as t
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
 signal.pthread_sigmask(signal.SIG_UNBLOCK, {{signal.SIGINT}})  # whoever started this, and

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -17,6 +16,7 @@ from qe.processes.channel import Channel, WorkerDied
 from qe.processes.limits import Limits
 from qe.processes.racing import first
 from tests.tables import each
+from tests.unit.processes.works import asleep, failing, given, gone, wrong
 from tests.workers import only_idle_children
 
 pytestmark = pytest.mark.processes
@@ -24,25 +24,7 @@ pytestmark = pytest.mark.processes
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 
 
-def asleep(channel: Channel) -> str:
-    time.sleep(600)
-    return "late"
-
-
-def answered(channel: Channel) -> str:
-    return "early"
-
-
-def broken(channel: Channel) -> str:
-    raise qe.Unable("cannot")
-
-
-def gone(channel: Channel) -> str:
-    os._exit(3)
-
-
-def bad(channel: Channel) -> str:
-    raise ZeroDivisionError
+EARLY, UNABLE = partial(given, "early"), partial(failing, qe.Unable("cannot"))
 
 
 def raced(**works: Callable[[Channel], str]) -> tuple[str | None, dict[str, str | QEError]]:
@@ -51,17 +33,17 @@ def raced(**works: Callable[[Channel], str]) -> tuple[str | None, dict[str, str 
 
 
 def test_the_first_answer_ends_the_others() -> None:
-    winner, found = raced(slow=asleep, fast=answered, wrong=broken)
+    winner, found = raced(slow=asleep, fast=EARLY, wrong=UNABLE)
     assert winner == "fast" and found["fast"] == "early" and "slow" not in found
 
 
 def test_where_nobody_wins_everything_is_told() -> None:
-    winner, found = raced(wrong=broken, dead=gone)
+    winner, found = raced(wrong=UNABLE, dead=gone)
     assert winner is None and str(found["wrong"]) == "cannot" and isinstance(found["dead"], WorkerDied)
 
 
 def test_an_error_in_a_work_is_a_result_like_others() -> None:
-    winner, found = raced(bad=bad, fast=answered)
+    winner, found = raced(bad=wrong, fast=EARLY)
     assert winner == "fast" and isinstance(found.get("bad", InternalError("")), InternalError)
 
 

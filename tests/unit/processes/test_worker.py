@@ -19,13 +19,14 @@ from qe.exact.ring import Ring
 from qe.formula.build import atom, exists
 from qe.formula.syntax import Relation
 from qe.processes import worker
-from qe.processes.channel import Channel, Known, WorkerDied, WorkerStopped
+from qe.processes.channel import Known, WorkerDied, WorkerStopped
 from qe.processes.execution import run
 from qe.processes.limits import Limits
 from qe.processes.worker import IDLE, MOST_IDLE, end_idle
 from qe.progress import Event
 from tests.conftest import ROOT
 from tests.tables import each
+from tests.unit.processes import works
 from tests.waiting import ending
 from tests.workers import children, is_gone, only_idle_children
 
@@ -38,64 +39,50 @@ def no_process_is_left() -> Iterator[None]:
         yield
 
 
-def process(channel: Channel) -> int:
-    return os.getpid()
-
-
-def given(value: object, channel: Channel) -> object:
-    return value
-
-
-def counting(channel: Channel) -> int:
-    for k in range(3):
-        channel.event(Event("lift", k, 3))
-    return os.getpid()
-
-
 def test_result_and_events_arrive_in_order() -> None:
     seen: list[Event] = []
-    assert run(counting, Limits(progress=seen.append)) != os.getpid()
+    assert run(works.counting, Limits(progress=seen.append)) != os.getpid()
     assert [e.done for e in seen] == [0, 1, 2]
 
 
 def test_a_worker_is_kept_for_the_next_question() -> None:
-    assert run(process, Limits()) == run(process, Limits(timeout=60)) == run(process, Limits(memory=4000))
+    assert len({run(works.process, limits) for limits in (Limits(), Limits(timeout=60), Limits(memory=4000))}) == 1
+
+
+def test_a_worker_has_loaded_what_is_loaded_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The time of a question is not that of its modules."""
+    import qe.coq.text
+
+    end_idle()
+    loaded = {name for name in sys.modules if name.startswith("qe.coq.")}
+    assert qe.coq.text.__name__ in loaded and not loaded & run(works.modules, Limits())
+    end_idle()
+    monkeypatch.setattr(worker, "PACKAGES", ("qe.coq.",))
+    assert loaded <= run(works.modules, Limits())
 
 
 def test_what_holds_for_the_whole_interpreter_holds_in_the_worker(monkeypatch: pytest.MonkeyPatch) -> None:
-    run(process, Limits())
+    run(works.process, Limits())
     before = sys.get_int_max_str_digits(), sys.getrecursionlimit()
     monkeypatch.syspath_prepend("/nowhere")
     sys.set_int_max_str_digits(7000)
     sys.setrecursionlimit(1234)
     try:
-        assert run(general, Limits()) == ("/nowhere", 7000, 1234)
+        assert run(works.general, Limits()) == ("/nowhere", 7000, 1234)
     finally:
         sys.set_int_max_str_digits(before[0])
         sys.setrecursionlimit(before[1])
-
-
-def general(channel: Channel) -> tuple[str, int, int]:
-    return sys.path[0], sys.get_int_max_str_digits(), sys.getrecursionlimit()
 
 
 def test_formulas_travel() -> None:
     ring = Ring.of(("x", "y"))
     x, y = ring.var("x"), ring.var("y")
     formula = exists(("y",), atom(x * x + y, Relation.LT))
-    assert run(partial(given, formula), Limits()) == formula
+    assert run(partial(works.given, formula), Limits()) == formula
 
 
 def test_large_questions_and_results_arrive_whole() -> None:
-    assert run(partial(given, b"x" * 3_000_000), Limits()) == b"x" * 3_000_000
-
-
-def failing(error: Exception, channel: Channel) -> None:
-    raise error
-
-
-def parse_error(channel: Channel) -> None:
-    raise ParseError("a bracket is open", source="f.txt", line=3, column=7, expected="')'")
+    assert run(partial(works.given, b"x" * 3_000_000), Limits()) == b"x" * 3_000_000
 
 
 @pytest.mark.parametrize(
@@ -105,63 +92,41 @@ def parse_error(channel: Channel) -> None:
 )
 def test_own_errors_arrive_as_they_were(error: Exception) -> None:
     with pytest.raises(type(error)) as caught:
-        run(partial(failing, error), Limits())
+        run(partial(works.failing, error), Limits())
     assert str(caught.value) == str(error)
     assert {k: v for k, v in vars(caught.value).items() if k != "known"} == vars(error)
 
 
 def test_the_place_in_a_text_arrives_with_its_error() -> None:
     with pytest.raises(ParseError) as caught:
-        run(parse_error, Limits())
+        run(works.parse_error, Limits())
     assert (caught.value.line, caught.value.column) == (3, 7)
 
 
-def wrong(channel: Channel) -> float:
-    return 1 // 0
-
-
 def test_foreign_errors_arrive_as_internal_errors_with_their_place() -> None:
-    with pytest.raises(InternalError, match=r"ZeroDivisionError at processes/test_worker.py:\d+: ") as caught:
-        run(wrong, Limits())
+    with pytest.raises(InternalError, match=r"ZeroDivisionError at processes/works.py:\d+: ") as caught:
+        run(works.wrong, Limits())
     assert "Traceback" in caught.value.trace
 
 
 def test_after_a_foreign_error_the_worker_is_replaced() -> None:
-    before = run(process, Limits())
+    before = run(works.process, Limits())
     with pytest.raises(InternalError):
-        run(wrong, Limits())
-    assert run(process, Limits()) != before
-
-
-def unpicklable(channel: Channel) -> object:
-    return lambda: None
+        run(works.wrong, Limits())
+    assert run(works.process, Limits()) != before
 
 
 def test_an_unpicklable_result_is_an_internal_error() -> None:
     with pytest.raises(InternalError):
-        run(unpicklable, Limits())
-
-
-def unreadable(channel: Channel) -> Unreadable:
-    return Unreadable()
-
-
-class Unreadable:
-    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        return only_in_a_worker, (os.getpid(),)
-
-
-def only_in_a_worker(pid: int) -> str:
-    assert pid == os.getpid()
-    return "early"
+        run(works.unpicklable, Limits())
 
 
 def test_a_result_that_cannot_be_read_here_ends_its_worker() -> None:
     """The rest of it was still in the pipe, and the next question got that for its answer."""
-    before = run(process, Limits())
+    before = run(works.process, Limits())
     with pytest.raises(AssertionError):
-        run(unreadable, Limits())
-    assert run(process, Limits()) != before
+        run(works.unreadable, Limits())
+    assert run(works.process, Limits()) != before
 
 
 def test_work_that_cannot_be_sent_stays_here_where_nothing_is_limited() -> None:
@@ -171,18 +136,11 @@ def test_work_that_cannot_be_sent_stays_here_where_nothing_is_limited() -> None:
             run(lambda channel: os.getpid(), limits)
 
 
-def stuck(channel: Channel) -> None:
-    channel.fact("variables left", 3)
-    channel.event(Event("project", 4, 12))
-    while True:
-        signal.sigtimedwait([], 10)  # no Python-level check would ever end this
-
-
 def test_the_time_limit_kills_and_keeps_what_was_known() -> None:
-    run(process, Limits())
+    run(works.process, Limits())
     start = time.monotonic()
     with pytest.raises(WorkerStopped) as caught:
-        run(stuck, Limits(timeout=0.2), grace=0.05)
+        run(works.stuck, Limits(timeout=0.2), grace=0.05)
     assert time.monotonic() - start < 30  # without the limit it takes for ever
     assert caught.value.limit == "time"
     known = caught.value.known
@@ -191,42 +149,21 @@ def test_the_time_limit_kills_and_keeps_what_was_known() -> None:
     assert "variables left: 3; project 4 of 12" in str(known)
 
 
-def factorial(channel: Channel) -> int:
-    from flint import fmpz
-
-    return int(fmpz.fac_ui(10**9).bit_length())
-
-
 def test_a_long_flint_call_is_killed() -> None:
     start = time.monotonic()
     with pytest.raises(WorkerStopped):
-        run(factorial, Limits(timeout=0.3, memory=4000))
+        run(works.factorial, Limits(timeout=0.3, memory=4000))
     assert time.monotonic() - start < 30  # without the limit it takes for ever
-
-
-def out_of_budget(channel: Channel) -> None:
-    channel.event(Event("lift", 9))
-    raise BudgetExceeded("time limit reached while doing: lift", limit="time")
 
 
 @each(Limits(timeout=60), Limits(process=False))
 def test_a_soft_limit_reports_what_is_known(limits: Limits) -> None:
     with pytest.raises(WorkerStopped) as caught:
-        run(out_of_budget, limits)
+        run(works.out_of_budget, limits)
     assert caught.value.known.phases["lift"].done == 9
 
 
-def large(channel: Channel) -> int:
-    return len(bytearray(1 << 31))
-
-
-def power(channel: Channel) -> int:
-    from flint import fmpz_poly
-
-    return int((fmpz_poly([1, 1]) ** 10**12).degree())
-
-
-@each(large, power)
+@each(works.large, works.power)
 def test_memory_limits_hold_also_where_a_library_aborts(work: object, capfd: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(BudgetExceeded) as caught:
         run(work, Limits(memory=600))  # type: ignore[arg-type]
@@ -234,55 +171,35 @@ def test_memory_limits_hold_also_where_a_library_aborts(work: object, capfd: pyt
     assert capfd.readouterr().err == ""
 
 
-def a_gigabyte(channel: Channel) -> int:
-    return len(bytearray(1 << 30))
-
-
 def test_a_memory_limit_is_that_of_one_question() -> None:
     with pytest.raises(BudgetExceeded):
-        run(a_gigabyte, Limits(memory=600))
-    first = run(process, Limits(memory=600))
-    assert run(a_gigabyte, Limits()) == 1 << 30 and run(process, Limits()) == first
-
-
-def asking(inner: Limits, channel: Channel) -> int:
-    return run(a_gigabyte, inner)
+        run(works.a_gigabyte, Limits(memory=600))
+    first = run(works.process, Limits(memory=600))
+    assert run(works.a_gigabyte, Limits()) == 1 << 30 and run(works.process, Limits()) == first
 
 
 def test_workers_of_a_worker_have_its_memory_limit_for_as_long() -> None:
     inner = Limits(timeout=100)
     with pytest.raises(BudgetExceeded):
-        run(partial(asking, inner), Limits(timeout=200, memory=600))
-    assert run(partial(asking, inner), Limits(timeout=200)) == 1 << 30
-
-
-grown: list[bytes] = []
-
-
-def growing(channel: Channel) -> int:
-    grown.append(bytes(range(256)) * (4 << 20))
-    return os.getpid()
+        run(partial(works.asking, inner), Limits(timeout=200, memory=600))
+    assert run(partial(works.asking, inner), Limits(timeout=200)) == 1 << 30
 
 
 def test_a_worker_that_has_grown_is_replaced() -> None:
-    assert run(growing, Limits()) != run(process, Limits())
-
-
-def killed(number: int, channel: Channel) -> None:
-    os.kill(os.getpid(), number)
+    assert run(works.growing, Limits()) != run(works.process, Limits())
 
 
 def test_death_by_signal_is_a_clear_unable() -> None:
     with pytest.raises(WorkerDied) as caught:
-        run(partial(killed, signal.SIGSEGV), Limits())
+        run(partial(works.killed, signal.SIGSEGV), Limits())
     assert caught.value.signal_number == signal.SIGSEGV
     assert "signal 11" in str(caught.value)
 
 
 def test_a_worker_that_was_killed_while_it_waited_is_replaced() -> None:
-    before = run(process, Limits())
+    before = run(works.process, Limits())
     os.kill(before, signal.SIGKILL)
-    assert is_gone(before) and run(process, Limits()) != before
+    assert is_gone(before) and run(works.process, Limits()) != before
 
 
 def test_a_worker_that_is_killed_from_outside_is_a_clear_unable() -> None:
@@ -293,13 +210,8 @@ def test_a_worker_that_is_killed_from_outside_is_a_clear_unable() -> None:
         os.kill(event.done, signal.SIGTERM)
 
     with pytest.raises(WorkerDied, match="signal 15"):
-        run(says_its_name, Limits(progress=kill))
-    assert pids and run(process, Limits()) not in pids
-
-
-def says_its_name(channel: Channel) -> None:
-    channel.event(Event("here", os.getpid()))
-    time.sleep(60)
+        run(works.says_its_name, Limits(progress=kill))
+    assert pids and run(works.process, Limits()) not in pids
 
 
 @each(KeyboardInterrupt, Unable)
@@ -309,17 +221,13 @@ def test_a_failing_listener_leaves_no_worker(error: type[BaseException]) -> None
 
     before = children()
     with pytest.raises(error, match="enough"):
-        run(says_its_name, Limits(progress=listener))
+        run(works.says_its_name, Limits(progress=listener))
     assert children() <= before
-
-
-def knowing(channel: Channel) -> None:
-    channel.fact("method", "vs")
 
 
 def test_known_is_filled_for_a_run_that_ends_well() -> None:
     known = Known()
-    run(knowing, Limits(), known=known)
+    run(works.knowing, Limits(), known=known)
     assert known.facts == {"method": "vs"}
     assert known.seconds > 0
 
@@ -350,7 +258,7 @@ def test_threads_ask_side_by_side() -> None:
 
     def ask(k: int) -> None:
         wait.wait()
-        found.append((k, run(partial(resting, k), Limits(timeout=60))))
+        found.append((k, run(partial(works.resting, k), Limits(timeout=60))))
 
     threads = [threading.Thread(target=ask, args=(k,)) for k in range(6)]
     for thread in threads:
@@ -360,11 +268,6 @@ def test_threads_ask_side_by_side() -> None:
     assert sorted(k for k, _ in found) == list(range(6)) and all(k == answer[0] for k, answer in found)
     assert len({answer[1] for _, answer in found}) > 1
     assert len(IDLE) == MOST_IDLE == len(children() & {w.process.pid for w in IDLE})
-
-
-def resting(k: int, channel: Channel) -> tuple[int, int]:
-    time.sleep(0.3)
-    return k, os.getpid()
 
 
 def test_two_hundred_calls_leave_no_process_behind_and_are_quick() -> None:
@@ -391,7 +294,7 @@ def test_it_is_not_the_main_module_of_the_caller_that_is_run_again(tmp_path) -> 
 
 
 def in_another(code: str) -> subprocess.Popen[str]:
-    text = f"import os, sys\nsys.path.insert(0, os.getcwd())\nfrom tests.unit.processes import test_worker as t\n{code}"
+    text = f"import os, sys\nsys.path.insert(0, os.getcwd())\nfrom tests.unit.processes import works as t\n{code}"
     return subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, text=True, cwd=ROOT)
 
 
@@ -406,16 +309,6 @@ def test_workers_end_with_the_process_that_asks_however_it_ends(work: str) -> No
         time.sleep(0.1)
         parent.send_signal(signal.SIGKILL)
         assert is_gone(pid)
-
-
-def says_its_name_and_is_stuck(channel: Channel) -> int:
-    channel.event(Event("here", os.getpid()))
-    return factorial(channel)
-
-
-def asks_another(channel: Channel) -> None:
-    """A question of a worker to a worker of its own, since an earlier limit is to hold."""
-    run(says_its_name_and_is_stuck, Limits(timeout=600, progress=channel.event))
 
 
 def test_workers_that_wait_end_with_the_process() -> None:
@@ -438,7 +331,7 @@ print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), t.run(t.process, t.Lim
 
 
 WITHOUT = """
-import os, sys, flint, tests.unit.processes.test_worker  # the standard library has branches of its own
+import os, sys, flint, tests.unit.processes.works  # the standard library has branches of its own
 for name in ("resource", "fcntl", "termios", "pwd", "grp"):
     sys.modules[name] = None
 sys.platform = "win32"
@@ -450,14 +343,10 @@ def test_a_system_with_nothing_but_processes(monkeypatch: pytest.MonkeyPatch) ->
     end_idle()
     monkeypatch.setattr(worker, "START", f"import sys; sys.path[:] = sys.argv[1:]\n{WITHOUT}\n{worker.START}")
     try:
-        assert run(platform, Limits()) == "win32"
+        assert run(works.platform, Limits()) == "win32"
         assert qe.eliminate("ex x. x^2 + b*x + c = 0", timeout=60) is not None
         with pytest.raises(WorkerStopped):
-            run(factorial, Limits(timeout=0.3))
-        assert run(a_gigabyte, Limits(memory=600)) == 1 << 30
+            run(works.factorial, Limits(timeout=0.3))
+        assert run(works.a_gigabyte, Limits(memory=600)) == 1 << 30
     finally:
         end_idle()
-
-
-def platform(channel: Channel) -> str:
-    return sys.platform
