@@ -8,10 +8,8 @@ Three tests, each finer than the one before:
    so this test accepts strictly more curves;
 3. roots: the square-free decomposition of margin(P(t)) (``bezier.curves.nonnegative``), which decides contact too.
 
-Certificates for whole curves: what ``qe.verify`` multiplies out to see that a curve stays in a condition.
-
-The certificate holds the control points over one number field, the condition, and breaks of [0, 1] such that
-margin(P(t)) has nonnegative Bernstein coefficients between neighbouring breaks.
+The certificate is a derivation: no point of the curve, for 0 <= t <= 1, is outside the condition
+(``bezier.curves.sentences``).
 """
 
 from __future__ import annotations
@@ -21,16 +19,17 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from itertools import pairwise
-from math import floor
 from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import Interval, Negative, Nonnegative, decide
-from bezier.curves.scalar import Vector, rational, sign
+from bezier.curves.scalar import Terms, Vector, exactly, sign
+from bezier.curves.sentences import CurveSentence
 from bezier.curves.workspace import Ball, Condition, HalfSpace
 from qe.errors import InternalError
-from qe.proof.certificate import Certificate, Kind
+from qe.formula.syntax import Relation
+from qe.proof.certificate import Certificate
 
 
 class Argument(Enum):
@@ -108,25 +107,11 @@ MAX_DEPTH = 14
 
 
 def containment(curve: Bezier, inside: Inside) -> Certificate | None:
-    """The certificate, or None where the curve touches the boundary at an irrational parameter.
-
-    There no breaks with nonnegative coefficients exist; the square-free decomposition is then the only proof.
-    """
-    breaks = _breaks(curve, inside)
-    if breaks is None:
-        return None
-    payload: dict[str, Any] = {
-        **curve_payload(curve),
-        "condition": _condition(inside.condition),
-        "breaks": [str(t) for t in breaks],
-    }
-    return Certificate(Kind("containment"), payload)
-
-
-def curve_payload(curve: Bezier) -> dict[str, Any]:
-    """The control points of a curve over one number field, as every certificate about a curve holds them."""
-    values = [c for p in curve.points for c in p]
-    return {"field": _field(values), "points": [[_coefficients(c) for c in p] for p in curve.points]}
+    """The certificate; None where a curve over a number field touches the boundary at an irrational parameter, where
+    no intervals with nonnegative Bernstein coefficients exist."""
+    sentence = CurveSentence(curve, ([(margin_terms(inside.condition), Relation.LT)],))
+    breaks = [Fraction(0), Fraction(1)] if sentence.theta is None else _breaks(curve, inside)
+    return None if breaks is None else sentence.refuted([[(low, high, 0) for low, high in pairwise(breaks)]])
 
 
 def _breaks(curve: Bezier, inside: Inside) -> list[Fraction] | None:
@@ -158,58 +143,20 @@ def _bisected(b: bs.Coefficients, low: Fraction, high: Fraction, depth: int) -> 
     return None if first is None or second is None else first + second
 
 
-def _field(values: Iterable[Any]) -> dict[str, Any]:
-    theta = next((v.field.theta for v in values if rational(v) is None), None)
-    if theta is None:
-        return {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
-    return field_json(theta, 96)
-
-
-def field_json(theta: Any, bits: int) -> dict[str, Any]:
-    """An irrational theta by its minimal polynomial and an isolating interval of at least ``bits`` good bits.
-
-    The interval depends on theta alone, not on what was computed with it before: its ends are neighbouring multiples
-    of a power of 1/2. So whoever reads theta from a file and writes it again writes the same text.
-    """
-    # narrow enough for a checker to see at once that there is one root, and a simple one
-    height = max(abs(c) for c in theta.minimal_polynomial).bit_length()
-    low, high = dyadic_interval(theta, max(bits, 64 + height))
-    return {"minimal_polynomial": [str(c) for c in theta.minimal_polynomial], "interval": [str(low), str(high)]}
-
-
-def dyadic_interval(theta: Any, bits: int) -> tuple[Fraction, Fraction]:
-    """The neighbouring multiples of 2^(e - bits) around an irrational theta with 2^e < |theta| < 2^(e + 1)."""
-    working = bits + 32
-    while True:
-        ends = [Fraction(end) for end in theta.interval(working)]
-        if ends[0] * ends[1] > 0 and _size(ends[0]) == _size(ends[1]):
-            unit = Fraction(2) ** (_size(ends[0]) - bits)
-            first, last = (floor(end / unit) for end in ends)
-            if first == last:
-                return first * unit, (first + 1) * unit
-        working *= 2
-
-
-def _size(value: Fraction) -> int:
-    """The e with 2^e <= |value| < 2^(e + 1)."""
-    result = value.numerator.bit_length() - value.denominator.bit_length()
-    return result if abs(value) >= Fraction(2) ** result else result - 1
-
-
-def _coefficients(value: Any) -> list[str]:
-    number = rational(value)
-    if number is not None:
-        return [str(number)]
-    coefficients = list(value.coefficients)
-    while len(coefficients) > 1 and not coefficients[-1]:
-        coefficients.pop()
-    return [str(c) for c in coefficients]
-
-
-def _condition(condition: Condition) -> dict[str, Any]:
-    """The checker's form: |p - centre|^2 <= radius_squared, or normal . p <= offset."""
-    if isinstance(condition, Ball):
-        return {"centre": [str(c) for c in condition.centre], "radius_squared": [str(condition.radius_squared)]}
+def margin_terms(condition: Condition) -> Terms:
+    """The margin of a condition as a polynomial in the coordinates."""
     if isinstance(condition, HalfSpace):
-        return {"normal": [str(-c) for c in condition.normal], "offset": str(condition.offset)}
+        size = len(condition.normal)
+        linear = {_unit(size, i): exactly(c) for i, c in enumerate(condition.normal)}
+        return {(0,) * size: condition.offset, **linear}
+    if isinstance(condition, Ball):
+        centre = [exactly(c) for c in condition.centre]
+        size = len(centre)
+        terms = {_unit(size, i, 2): Fraction(-1) for i in range(size)}
+        terms |= {_unit(size, i): 2 * c for i, c in enumerate(centre)}
+        return {(0,) * size: condition.radius_squared - sum(c * c for c in centre), **terms}
     raise InternalError(f"no certificate for the condition {condition.name}")
+
+
+def _unit(size: int, i: int, exponent: int = 1) -> tuple[int, ...]:
+    return tuple(exponent if k == i else 0 for k in range(size))

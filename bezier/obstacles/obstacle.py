@@ -64,6 +64,11 @@ class Constraint:
         x, y, z = p
         return sum((c * x**i * y**j * z**k for (i, j, k), c in self.terms), ZERO)
 
+    @property
+    def relation(self) -> Relation:
+        """How f compares with 0."""
+        return Relation.GT if self.strict else Relation.GE
+
     def holds(self, value: Any) -> bool:
         """Whether a value of f satisfies the constraint."""
         return sign(value) > 0 if self.strict else sign(value) >= 0

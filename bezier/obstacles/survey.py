@@ -3,81 +3,81 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from bezier.certify.containment import MAX_DEGREE
-from bezier.curves.containment import curve_payload
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
+from bezier.curves.sentences import CurveSentence
 from bezier.obstacles.bodies import distance_enclosure
-from bezier.obstacles.clearance import Along, Clear, Contact, ContactSearch, Outcome, examine
-from bezier.obstacles.obstacle import Constraint, Obstacle, Piece
+from bezier.obstacles.clearance import SHORT, Along, Clear, Contact, ContactSearch, Outcome, examine
+from bezier.obstacles.obstacle import Obstacle
 from qe.errors import InputError, Unable
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 
 JUST_BEFORE = Fraction(1, 2**40)
 """How closely before an exactly known contact the curve is proved clear."""
+MAX_DEGREE = 64
+"""Of polynomials along a curve that certificates are about."""
 DEEP = 64
 """Halvings allowed for a certificate. Where roots alone decide, there is none."""
 
 
 def clearance_certificate(curve: Bezier, obstacle: Obstacle) -> Certificate | None:
-    """The certificate that the curve never meets the obstacle.
+    """The certificate that no point of the curve lies in the obstacle.
 
-    For closed obstacles the compactness of [0, 1] makes the subdivision end. None when the obstacle is given by strict
-    inequalities and the curve touches its boundary, when it comes closer than ``DEEP`` halvings can tell, or when a
-    polynomial along the curve has a degree beyond what the checker takes.
+    None where a polynomial along the curve has a degree above ``MAX_DEGREE``; and for a curve over a number field that
+    touches the boundary of an obstacle given by strict inequalities, or comes closer than ``DEEP`` halvings can tell.
     Raises ``InputError`` when the curve does meet the obstacle.
     """
-    pieces = _pieces(curve, obstacle, Fraction(1))
-    return None if pieces is None else Certificate(Kind("clearance"), {**curve_payload(curve), "pieces": pieces})
+    sentence = _sentence(curve, obstacle)
+    return _clear(sentence, obstacle) if sentence is not None else None
 
 
 def contact_certificate(curve: Bezier, obstacle: Obstacle, contact: Contact) -> Certificate | None:
-    """The certificate that the curve first meets the obstacle within the interval of this contact.
+    """The certificate that the curve first meets the obstacle at this contact: that it does there, and not before.
 
-    For an exactly known parameter t the interval is (t - ``JUST_BEFORE``, t]. None when no rational parameter in the
-    interval lies in the obstacle (tangency at an irrational parameter), and in the cases of ``clearance_certificate``.
+    For an interval of t: in it, and not up to its beginning. Over a number field an exact t is the end of an interval
+    of the length ``JUST_BEFORE``. None when no rational parameter in the interval lies in the obstacle (tangency at an
+    irrational parameter), and in the cases of ``clearance_certificate``.
     """
     low, high = contact.t
-    after = max(low - JUST_BEFORE, Fraction(0)) if contact.is_exact else low
-    place = curve.point(high)
-    hit = [k for k, piece in enumerate(obstacle.pieces) if all(c.holds(c.value(place)) for c in piece.constraints)]
-    pieces = _pieces(curve, obstacle, after) if hit else None
-    if pieces is None:
+    place, whole = curve.point(high), _sentence(curve, obstacle)
+    if whole is None or not any(all(c.holds(c.value(place)) for c in piece.constraints) for piece in obstacle.pieces):
         return None
-    where: dict[str, Any] = {"after": str(after), "t": str(high), "piece": hit[0]}
-    return Certificate(Kind("clearance"), {**curve_payload(curve), "pieces": pieces, "contact": where})
+    sharp = contact.is_exact and whole.theta is None
+    if contact.is_exact and not sharp:
+        low = max(low - JUST_BEFORE, Fraction(0))
+    if not high:
+        return replace(whole, between=(high, high)).holds_at(high)
+    there = replace(whole, between=(low, high), after=not sharp and low > 0).holds_at(high)
+    if not low:
+        return there
+    until = replace(whole, between=(Fraction(0), low), before=sharp)
+    clear = until.refuted([[(Fraction(0), low, None)] for _ in obstacle.pieces]) if sharp else _clear(until, obstacle)
+    return None if clear is None else Certificate.bundle([("not before", clear), ("there", there)])
 
 
-def _pieces(curve: Bezier, obstacle: Obstacle, until: Fraction) -> list[Any] | None:
-    """The pieces with a proof that the curve misses them on [0, until]."""
-    if max(c.degree for piece in obstacle.pieces for c in piece.constraints) * curve.degree > MAX_DEGREE:
-        return None
-    along = Along(curve.segment(Fraction(0), until)) if until else None
-    result = []
+def _sentence(curve: Bezier, obstacle: Obstacle) -> CurveSentence | None:
+    """That some point of the curve lies in the obstacle."""
+    systems = [[(dict(c.terms), c.relation) for c in piece.constraints] for piece in obstacle.pieces]
+    most = max(c.degree for piece in obstacle.pieces for c in piece.constraints)
+    return CurveSentence(curve, systems) if most * curve.degree <= MAX_DEGREE else None
+
+
+def _clear(sentence: CurveSentence, obstacle: Obstacle) -> Certificate | None:
+    """That a sentence about the curve, up to a parameter, is false."""
+    until, listed = sentence.between[1], []
+    along = Along(sentence.curve.segment(Fraction(0), until))
     for piece in obstacle.pieces:
-        spans = [] if along is None else _cover(along, piece, until)
-        if spans is None:
-            return None
-        result.append({"constraints": [_constraint(c) for c in piece.constraints], "spans": spans})
-    return result
-
-
-def _cover(along: Along, piece: Piece, until: Fraction) -> list[list[Any]] | None:
-    """The spans for one piece; ``along``: the curve up to ``until``."""
-    search = ContactSearch(piece, roots_after=DEEP)
-    if search.run([along.form(c) for c in piece.constraints]) is not None:
-        raise InputError("a curve that meets the obstacle has no clearance certificate")
-    if any(span.constraint is None for span in search.spans):
+        search = ContactSearch(piece, roots_after=SHORT if sentence.theta is None else DEEP)
+        if search.run([along.form(c) for c in piece.constraints]) is not None:
+            raise InputError("a curve that meets the obstacle has no clearance certificate")
+        listed.append([(until * span.low, until * span.high, span.constraint) for span in search.spans])
+    if sentence.theta is not None and any(i is None for spans in listed for _, _, i in spans):
         return None
-    return [[str(until * span.low), str(until * span.high), span.constraint] for span in search.spans]
-
-
-def _constraint(constraint: Constraint) -> dict[str, Any]:
-    return {"terms": [[list(e), str(c)] for e, c in constraint.terms], "strict": constraint.strict}
+    return sentence.refuted(listed)
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,8 +17,8 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
-from bezier.curves.containment import field_json
 from bezier.curves.scalar import decimal_text, described, rational, scale
+from bezier.curves.sentences import dyadic_interval
 from bezier.motion import motion
 from bezier.paths import heights
 from bezier.paths.path import Path
@@ -255,3 +255,15 @@ def write_data(plan: Plan, folder: FilePath) -> list[str]:
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
     return list(texts)
+
+
+def field_json(theta: Any, bits: int) -> dict[str, Any]:
+    """An irrational theta by its minimal polynomial and an isolating interval of at least ``bits`` good bits.
+
+    The interval depends on theta alone, not on what was computed with it before: its ends are neighbouring multiples
+    of a power of 1/2. So whoever reads theta from a file and writes it again writes the same text.
+    """
+    # narrow enough for a checker to see at once that there is one root, and a simple one
+    height = max(abs(c) for c in theta.minimal_polynomial).bit_length()
+    low, high = dyadic_interval(theta, max(bits, 64 + height))
+    return {"minimal_polynomial": [str(c) for c in theta.minimal_polynomial], "interval": [str(low), str(high)]}

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from importlib.metadata import entry_points
 from typing import Any
 
 from qe.errors import CertificateRejected, Unable
@@ -26,6 +27,9 @@ from qe.proof.cells_json import cells_from_json
 from qe.proof.certificate import Certificate, Kind, Labelled, prenex_form
 from qe.proof.entry import Entry, Json, formula_from_json
 
+GROUP = "bezier_qe.older_kinds"
+Reader = Callable[[Entry], Certificate]
+
 
 def recent(certificate: Certificate) -> Certificate:
     """The certificate as a derivation, or a bundle of such; itself where it is that. ``CertificateRejected`` names what
@@ -34,7 +38,7 @@ def recent(certificate: Certificate) -> Certificate:
     if isinstance(payload, tuple):
         members = tuple(Labelled(m.label, recent(m.certificate)) for m in payload)
         return certificate if members == payload else replace(certificate, payload=members)
-    made = READERS.get(certificate.kind.value)
+    made = READERS.get(certificate.kind.value) or brought_reader(certificate.kind.value)
     if made is None and not any(map(_is_certificate, objects(payload))):
         return certificate
     try:
@@ -45,6 +49,12 @@ def recent(certificate: Certificate) -> Certificate:
     except CRASHES as error:
         raise CertificateRejected("payload", f"not a certificate of kind {certificate.kind.value}: {error}") from None
     return replace(found, digests=certificate.digests)
+
+
+def brought_reader(kind: str) -> Reader | None:
+    """What an installed package makes of its former kind of this name (entry points of the group ``GROUP``)."""
+    points = () if kind in (Kind.DERIVATION.value, Kind.BUNDLE.value) else entry_points(group=GROUP, name=kind)
+    return next((point.load() for point in points), None)
 
 
 def is_table_of(certificate: Certificate, formula: Formula) -> bool:
@@ -170,7 +180,7 @@ def _step(rule: str, sentence: Callable[[Entry], tuple[Formula, Formula]]) -> Ca
     return made
 
 
-READERS: dict[str, Callable[[Entry], Certificate]] = {
+READERS: dict[str, Reader] = {
     "cells": _cells,
     "witness": _witness,
     "substitution": _substitution,

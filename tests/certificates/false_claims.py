@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import json
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from copy import deepcopy
+from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise, product
 from typing import Any
 
+from bezier.curves.containment import Inside, examine
+from bezier.curves.containment import containment as contained
 from bezier.curves.curve import Bezier
+from bezier.curves.workspace import Ball, Condition, HalfSpace
 from bezier.obstacles.survey import clearance_certificate
 from qe.certify.claims import claim_of
 from qe.convex.optimum import NotConvex, minimize
@@ -26,7 +29,8 @@ from qe.expert.optimum import RELATIONS
 from qe.expert.sentences import read_terms
 from qe.formula.build import atom, conj, exists, forall
 from qe.formula.evaluate import substituted
-from qe.formula.syntax import TRUE, Constant, Formula, Relation
+from qe.formula.syntax import TRUE, Atom, Constant, Exists, Formula, Relation
+from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Kind, digest
 from qe.proof.entry import Entry, formula_from_json, formula_to_json, poly_to_text
@@ -124,30 +128,27 @@ def optimum(rng: random.Random) -> Certificate | None:
         return None
 
 
-def containment(rng: random.Random) -> Certificate:
+def containment(rng: random.Random) -> Certificate | None:
     """A curve of up to four points in a ball or a half-space that holds it, sometimes just so."""
     points = [[Fraction(rng.randint(-4, 4), rng.choice((1, 2))) for _ in range(2)] for _ in range(rng.randint(2, 4))]
-    rational = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
     slack = rng.choice((Fraction(0), Fraction(0), Fraction(1, 10), Fraction(1)))
+    condition: Condition = Ball((Fraction(0),) * 2, max(x * x + y * y for x, y in points) + slack)
     if rng.random() < 0.5:
-        bound = max(x * x + y * y for x, y in points) + slack
-        condition: Data = {"centre": ["0", "0"], "radius_squared": [str(bound)]}
-    else:
-        a, b = rng.randint(-3, 3), rng.randint(1, 3)
-        condition = {"normal": [str(a), str(b)], "offset": str(max(a * x + b * y for x, y in points) + slack)}
-    breaks = ["0", "1/2", "1"] if rng.random() < 0.5 else ["0", "1"]
-    coordinates = [[[str(c)] for c in point] for point in points]
-    payload: Any = {"field": rational, "points": coordinates, "condition": condition, "breaks": breaks}
-    return Certificate(Kind("containment"), payload)
+        a, b = (Fraction(rng.randint(*ends)) for ends in ((-3, 3), (1, 3)))
+        condition = HalfSpace((-a, -b), max(a * x + b * y for x, y in points) + slack)
+    curve = Bezier.of(points)
+    outcome = examine(curve, condition)
+    return contained(curve, outcome) if isinstance(outcome, Inside) else None
 
 
 def clearance(rng: random.Random) -> Certificate | None:
-    """A curve of three points that passes a ball."""
+    """A curve of three points that passes a ball, or two."""
     points = [tuple(rng.randint(-4, 4) for _ in range(3)) for _ in range(3)]
-    centre = tuple(rng.randint(-2, 2) for _ in range(3))
+    balls = [ball([rng.randint(-2, 2) for _ in range(3)], rng.randint(1, 3)) for _ in range(rng.randint(1, 2))]
+    both = replace(balls[0], pieces=tuple(piece for one in balls for piece in one.pieces), box=None)
     try:
-        return clearance_certificate(Bezier.of(points), ball(centre, rng.randint(1, 3)))
-    except InputError:  # it meets the ball
+        return clearance_certificate(Bezier.of(points), both)
+    except InputError:  # it meets a ball
         return None
 
 
@@ -207,50 +208,24 @@ def number(coefficients: list[str], field: Data) -> float:
     return float(sum(Fraction(c) * low**k for k, c in enumerate(coefficients)))
 
 
-def _leaves_the_set(rng: random.Random, data: Data) -> bool:
+def _has_a_point(rng: random.Random, data: Data) -> bool:
+    """Whether a point of a curve is seen to satisfy what is claimed to have none; or if it is claimed to have one."""
     payload = data["payload"]
-    condition = payload["condition"]
-    for t in parameters():
-        place = _at(payload["points"], t)
-        if "centre" in condition:
-            square = sum((p - Fraction(c)) ** 2 for p, c in zip(place, condition["centre"], strict=True))
-            margin = Fraction(condition["radius_squared"][0]) - square
-        else:
-            along = sum(p * Fraction(a) for p, a in zip(place, condition["normal"], strict=True))
-            margin = Fraction(condition["offset"]) - along
-        if margin < 0:
-            return True
-    return False
+    whole = formula_from_json(Entry(payload["start"], "start"), Ring.of(payload["order"]), quantified=True)
+    if payload["answer"] is not False or not isinstance(whole, Exists):
+        return payload["answer"] is True
+    return any(_at(whole.body, Fraction(k, PARAMETERS - 1)) for k in range(-PARAMETERS, 2 * PARAMETERS))
 
 
-def _meets_the_obstacle(rng: random.Random, data: Data) -> bool:
-    payload = data["payload"]
-    return any(
-        all(_inside(constraint, _at(payload["points"], t)) for constraint in piece["constraints"])
-        for t, piece in product(parameters(), payload["pieces"])
-    )
-
-
-def _inside(constraint: Data, place: list[Fraction]) -> bool:
-    value = Fraction(0)
-    for exponents, coefficient in constraint["terms"]:
-        term = Fraction(coefficient)
-        for base, power in zip(place, exponents, strict=True):
-            term *= base**power
-        value += term
-    return value > 0 if constraint["strict"] else value >= 0
-
-
-def parameters() -> Iterator[Fraction]:
-    """Points of a curve that are looked at."""
-    return (Fraction(k, PARAMETERS - 1) for k in range(PARAMETERS))
-
-
-def _at(points: list[list[list[str]]], t: Fraction) -> list[Fraction]:
-    row = [[Fraction(c[0]) for c in point] for point in points]
-    while len(row) > 1:
-        row = [[(1 - t) * a + t * b for a, b in zip(p, q, strict=True)] for p, q in pairwise(row)]
-    return row[0]
+def _at(body: Formula, t: Fraction) -> bool:
+    """Whether the body holds at the parameter, with the only values that its equations leave for the others."""
+    body, values = substituted(body, {"t": t}), dict[str, Fraction]()
+    for part in conjuncts(body):
+        if isinstance(part, Atom) and part.relation == Relation.EQ and len(part.free) == 1:
+            rest, *higher = part.poly.coefficients(part.poly.variables[0])
+            if len(higher) == 1:
+                values.setdefault(part.free[0], Fraction(-rest.constant_value(), higher[0].constant_value()))
+    return set(body.free) <= set(values) and substituted(body, {v: values[v] for v in body.free}) == TRUE
 
 
 KINDS: dict[str, tuple[Callable[[random.Random], Certificate | None], IsFalse]] = {
@@ -260,8 +235,8 @@ KINDS: dict[str, tuple[Callable[[random.Random], Certificate | None], IsFalse]] 
     "substitution": (substitution, not_equivalent),
     "witness": (witness, _not_a_solution),
     "optimum": (optimum, _not_the_optimum),
-    "containment": (containment, _leaves_the_set),
-    "clearance": (clearance, _meets_the_obstacle),
+    "containment": (containment, _has_a_point),
+    "clearance": (clearance, _has_a_point),
 }
 
 

@@ -66,7 +66,8 @@ def test_cell_tables_and_bundles(reader: Path, tmp_path: Path) -> None:
     assert set(compared(reader, texts, tmp_path)) == {"accepted"}
 
 
-KINDS = ["derivation", "derivation by a rule", "cells", "substitution", "witness", "optimum"]
+KINDS = ["derivation", "derivation by a rule", "cells", "substitution", "witness", "optimum", "containment"]
+KINDS += ["clearance"]
 
 
 @pytest.mark.parametrize("kind", KINDS)
