@@ -378,9 +378,13 @@ class Poly:
         if ring.is_wide or self.ring.is_wide:
             moved = ((sorted((index[names[i]], k) for i, k in powers), c) for powers, c in self.sparse_terms())
             return ring.from_sparse((tuple(powers), c) for powers, c in moved)
-        source = {index[names[i]]: i for i in self.variables}
-        places = [source.get(k) for k in range(ring.size)]
-        return ring.from_terms({tuple([0 if i is None else e[i] for i in places]): c for e, c in self.terms()})
+        if not (ring.size and self.ring.size):
+            return ring.constant(self.constant_value())
+        slots = {self.ring.slot(i): ring.slot(index[names[i]]) for i in self.variables}
+        if ring.ctx is not self.ring.ctx:  # to its own context FLINT projects nothing, whatever is to go where
+            return Poly(ring, self.p.project_to_context(ring.ctx, slots))
+        images = [ring._gens[slots.get(slot, slot)] for slot in range(ring.size)]
+        return Poly(ring, self.p.compose(*images, ctx=ring.ctx))
 
     def to_univariate(self, i: int) -> fmpz_poly:
         """The polynomial as a FLINT univariate one; no other variable may occur."""

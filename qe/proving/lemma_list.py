@@ -25,19 +25,21 @@ EMPTY: Json = {"polynomials": [], "lemmas": [], "cases": []}
 
 @dataclass(slots=True)
 class Lemmas:
-    """Lemmas under way: polynomials in the order in which they are first used; ``facts``: what each lemma says."""
+    """Lemmas under way: polynomials in the order in which they are first used; ``facts``: what each lemma says,
+    ``known``: what need not be said again."""
 
     ring: Ring
     numbers: dict[Poly, int] = field(default_factory=dict)
     lemmas: list[Json] = field(default_factory=list)
     facts: list[Lemma] = field(default_factory=list)
+    known: set[object] = field(default_factory=set)
 
     def number(self, poly: Poly) -> int:
         """The number of a primitive polynomial."""
         return self.numbers.setdefault(poly, len(self.numbers))
 
     def identity(self, terms: Iterable[Term]) -> None:
-        """That the terms add up to 0."""
+        """That the terms add up to 0, unless it has been said."""
         listed: list[Json] = []
         signs: list[tuple[int, tuple[tuple[int, bool], ...]]] = []
         for coefficient, powers in terms:
@@ -52,11 +54,17 @@ class Lemmas:
             numbered = [(self.number(p), e) for p, e in found.items()]
             listed.append([digits(coefficient), [[i, e] for i, e in numbered]])
             signs.append((sign_bit(coefficient), tuple((i, e % 2 == 1) for i, e in numbered)))
+        if (said := repr(listed)) in self.known:
+            return
+        self.known.add(said)
         self.lemmas.append({"identity": listed})
         self.facts.append(Identity(tuple(signs)))
 
     def line(self, polys: Sequence[Poly], x: int) -> None:
-        """The sign vectors of irreducible polynomials in one variable."""
+        """The sign vectors of irreducible polynomials in one variable, unless they have been listed."""
+        if (said := (x, *polys)) in self.known:
+            return
+        self.known.add(said)
         roots = ((r, k) for k, p in enumerate(polys) for r in real_roots(p.to_univariate(x)))
         placed = sorted(roots, key=itemgetter(0))
         samples = [rational_between(a, b) for a, b in pairwise([None, *(r for r, _ in placed), None])]
@@ -70,14 +78,11 @@ class Lemmas:
         self.facts.append(Line(tuple(map(self.number, polys)), tuple(dict.fromkeys(cells))))
 
     def only(self, used: Iterable[int], searches: Sequence[Refutation] = ()) -> Json:
-        """The evidence with these lemmas alone, which are multiplied out, and the cases of refutations that need no
-        others. Raises ``CertificateRejected``."""
+        """The evidence with these lemmas alone, and the cases of refutations that need no others."""
         chosen = [self.lemmas[k] for k in sorted(used)]
         polys = list(self.numbers)
         numbers = {i: k for k, i in enumerate(dict.fromkeys(i for lemma in chosen for i in _mentioned(lemma)))}
         listed: list[Json] = [poly_to_text(polys[i]) for i in numbers]
-        for lemma in chosen:
-            read_lemma(Entry(lemma, "lemma"), polys, self.ring)
         cases = _cases(searches, [polys[i] for i in numbers])
         return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen], "cases": cases}
 

@@ -47,18 +47,25 @@ def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits, ideal: bool = Fa
     polys = polynomials_outside(f for goal in goals for f in goal)
     if len(polys) > MOST_POLYNOMIALS or any(map(is_hopeless, goals)):
         return None
-    found = Lemmas(ring)
-    modulo = [lambda: _remainders(found, polys), lambda: _ideals(found, goals, limits.budget)]
+    found, pool = Lemmas(ring), dict[Poly, None]()
+    given = {a.poly for a in _comparisons(goals) if a.relation is Relation.EQ}
+    equations = [p for p, is_equation in polys.items() if is_equation]
+    sure, perhaps = ([p for p in equations if (p in given) is k] for k in (True, False))
+    modulo = [lambda: _remainders(found, polys, sure), lambda: _ideals(found, goals, limits.budget)]
     stages: list[Callable[[], None]] = [
         lambda: None,
         *(modulo if ideal else ()),
         lambda: _values(found, goals, polys),
-        lambda: _algebra(found, polys),
+        lambda: _factors(found, polys, pool),
+        lambda: _pairs(found, polys, equations, pool, _reduced),
+        lambda: _pairs(found, polys, sure, pool, _cancelled),
+        lambda: _pairs(found, polys, perhaps, pool, _cancelled),
         lambda: _lines(found, polys),  # behind what identities alone give: those rest on no theorem
         lambda: _expanded(found, polys),
         lambda: _bounds(found, goals, limits),
         lambda: _chained(found, polys),
         *(() if ideal else modulo),
+        lambda: _remainders(found, polys, perhaps),
     ]
     searches = [Refutation(goal, limits) for goal in goals]
     for stage, search in enumerate(stages):
@@ -116,18 +123,29 @@ def _combined_bounds(found: Lemmas, polys: Sequence[Poly], squares: bool) -> Non
     found.identity([*terms, (-int(total), ())] if total else terms)
 
 
-def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
-    """Factors, equations put into the others, differences that are constant, squares, and lines."""
-    pool: dict[Poly, None] = dict.fromkeys(polys)
-    for poly in polys:
-        pool.update(dict.fromkeys(_factored(found, poly)))
-    for equation in [p for p, is_equation in polys.items() if is_equation]:
-        for poly in list(polys):
-            if poly != equation:
-                pool.update(dict.fromkeys(_reduced(found, poly, equation)))
-                pool.update(dict.fromkeys(_cancelled(found, poly, equation)))
+def _factors(found: Lemmas, polys: Iterable[Poly], pool: dict[Poly, None]) -> None:
+    """Factors, differences that are constant, and squares; what they are about joins the pool."""
+    _join(found, pool, [*polys, *(part for poly in polys for part in _factored(found, poly))])
+
+
+def _pairs(
+    found: Lemmas,
+    polys: Iterable[Poly],
+    equations: Iterable[Poly],
+    pool: dict[Poly, None],
+    change: Callable[[Lemmas, Poly, Poly], list[Poly]],
+) -> None:
+    """Polynomials changed by equations, with what ``_factors`` says of what comes of them."""
+    pairs = ((poly, equation) for equation in equations for poly in polys if poly != equation)
+    _join(found, pool, [part for pair in pairs for part in change(found, *pair)])
+
+
+def _join(found: Lemmas, pool: dict[Poly, None], polys: Iterable[Poly]) -> None:
+    """Differences of these and of others in the pool that are constant, and their squares."""
+    fresh = [p for p in dict.fromkeys(polys) if p not in pool]
+    pool.update(dict.fromkeys(fresh))
     _differences(found, pool)
-    for poly in pool:
+    for poly in fresh:
         as_squares(found, poly)
 
 
@@ -137,12 +155,17 @@ def _expanded(found: Lemmas, polys: dict[Poly, bool]) -> None:
     shifted(found, polys)
 
 
+def _comparisons(goals: Iterable[Goal]) -> list[Atom]:
+    """Those that a goal says to hold."""
+    parts = (part for goal in goals for f in goal for part in conjuncts(normal(f)))
+    return [part for part in parts if isinstance(part, Atom)]
+
+
 def _values(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
     """Values of variables, which equations beside all else give, put into the others, all at once."""
-    parts = [part for goal in goals for f in goal for part in conjuncts(normal(f))]
     lines: dict[int, Poly] = {}
-    for a in parts:
-        if isinstance(a, Atom) and a.relation is Relation.EQ and a.poly.total_degree == 1:
+    for a in _comparisons(goals):
+        if a.relation is Relation.EQ and a.poly.total_degree == 1:
             variables = a.poly.variables
             if len(variables) == 1:
                 lines.setdefault(variables[0], a.poly)
@@ -184,9 +207,7 @@ def _chained(found: Lemmas, polys: dict[Poly, bool]) -> None:
             parts = _reduced(found, poly, equation)
             pool.update(dict.fromkeys(parts))
             maybe.update(parts if poly in maybe else ())
-    _differences(found, pool)
-    for poly in pool:
-        as_squares(found, poly)
+    _join(found, {}, pool)
     _lines(found, pool)
 
 
@@ -253,9 +274,9 @@ def _lines(found: Lemmas, polys: Iterable[Poly]) -> None:
         found.line(list(dict.fromkeys(members)), x)
 
 
-def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
+def _remainders(found: Lemmas, polys: Iterable[Poly], equations: Iterable[Poly]) -> None:
     """Polynomials that are the same, up to a factor, where an equation holds, and such that vanish there."""
-    for equation in [p for p, is_equation in polys.items() if is_equation]:
+    for equation in equations:
         basis = groebner_basis((equation,), variables=range(found.ring.size))
         alike: dict[Poly, list[tuple[Fraction, Poly]]] = {}
         lead = basis.leads[0] if basis is not None else ()

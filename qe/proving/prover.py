@@ -277,7 +277,9 @@ class Prover:
                 goals = checker.obligations(self._claim(rule, step, evidence), context)
                 ideal = step.rule == IDEAL
                 theory = refuting(goals, self.ring, self.limits, ideal) if goals else EMPTY
-                return None if theory is None else {**evidence, "theory": theory}
+                if theory is None:
+                    return None
+                evidence = {**evidence, "theory": theory}
             self._check(self._claim(rule, step, evidence), context)
         except CertificateRejected:
             return None

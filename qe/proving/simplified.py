@@ -78,18 +78,21 @@ class Simplified:
 
     def _at_once(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
         """By one step, with as little as possible of what is known at its place."""
-        facts, changed = replaced(current, place, before, after, self.known, Entry(None, "place"))
+        facts, changed = self._replaced(place, before, after, current)
         names = {*before.free, *after.free}
-        context = tuple(f for f in facts if f.is_quantifier_free)
-        if not any(names & set(f.free) for f in context):
-            context = ()
-        for used in ((), context) if context else ((),):
+        context = facts if any(names & set(f.free) for f in facts) else ()
+        for used in ((), context) if context and simplify(before) == after else (context,):
             self.tried += 1
             found = self.evidence(before, after, used) if self.tried <= MOST_TRIED else None
             if found is not None:
                 self.steps.append(written(found[0], place, before, after, used, found[1]))
                 return changed
         return None
+
+    def _replaced(self, place: Place, before: Formula, after: Formula, current: Formula) -> tuple[Context, Formula]:
+        """What is known at a place without quantifiers, and the whole formula with ``after`` for ``before`` there."""
+        facts, changed = replaced(current, place, before, after, self.known, Entry(None, "place"))
+        return tuple(f for f in facts if f.is_quantifier_free), changed
 
     def _under(self, place: Place, before: Exists | ForAll, after: Formula, current: Formula) -> Formula | None:
         """The body simplified, then quantifiers of variables that no longer occur left out."""
@@ -120,9 +123,11 @@ class Simplified:
             if part.is_quantifier_free or part in targets:
                 continue
             about = set(polynomials(part))
-            near = {f: len(about.intersection(polynomials(f))) for f in targets}
+            facts, _ = self._replaced((*place, k), part, part, current)
+            simpler = simplify(part, conj(facts))
+            near = {f: (f == simpler, len(about.intersection(polynomials(f)))) for f in targets}
             alike = [f for f in targets if type(f) is type(part) and set(f.bound) & set(part.bound)]
-            alike = sorted(alike, key=lambda f, near=near: -near[f])[:MOST_ALIKE]  # type: ignore[misc]
+            alike = sorted(alike, key=near.__getitem__, reverse=True)[:MOST_ALIKE]
             for target in alike or (*targets, TRUE, FALSE):
                 mark = len(self.steps)
                 found = self._inside((*place, k), part, target, current)
