@@ -23,7 +23,7 @@ from qe.cli.source import MOST_BYTES
 from qe.errors import InputError, ParseError, Unable
 from qe.io import smtlib
 from qe.io import surface as s
-from qe.io.smtlib_parser import Ends, Expression, Listing, Word, parse, show
+from qe.io.smtlib_parser import Ends, Expression, parse, plain, show
 from qe.io.smtlib_script import Script
 from qe.io.smtlib_terms import is_real
 from qe.io.text_errors import Failing
@@ -145,10 +145,10 @@ class Solver(Checks):
         """Carry out one command and print its answer."""
         try:
             self.script.fail = fail
-            head = self.script.head(command).text
-            reply = self.reply(head, cast(Listing, command))
+            head = self.script.head(command)
+            reply = self.reply(head, cast(list[Expression], command))
         except InputError as error:
-            kept = self.script.keep(cast(Listing, command)) if command_name(command) else True
+            kept = self.script.keep(cast(list[Expression], command)) if command_name(command) else True
             self.lost[-1] = self.lost[-1] or not kept
             self.error(error)
         except Unable as error:
@@ -164,8 +164,8 @@ class Solver(Checks):
                 self.put("success")
 
     # --- commands --------------------------------------------------------------------------------------------
-    def reply(self, head: str, command: Listing) -> str | None:
-        rest = command.items[1:]
+    def reply(self, head: str, command: list[Expression]) -> str | None:
+        rest = command[1:]
         match head:
             case "check-sat":
                 return self.check()
@@ -202,7 +202,7 @@ class Solver(Checks):
                 return None
         return self.question(head, command)
 
-    def question(self, head: str, command: Listing) -> str | None:
+    def question(self, head: str, command: list[Expression]) -> str | None:
         match head:
             case "get-model":
                 return self.model()
@@ -210,7 +210,7 @@ class Solver(Checks):
                 return self.values(command)
             case "eval":
                 self.script.arity(command, 1)
-                return self.value(command.items[1], self.evaluation())
+                return self.value(command[1], self.evaluation())
             case "get-assertions":
                 return f"({' '.join(show(a.written) for a in self.script.assertions)})"
             case "get-unsat-core":
@@ -225,20 +225,20 @@ class Solver(Checks):
             self.result = None
             return None
         hint = {"minimize": "; qe minimize does this", "maximize": "; qe minimize --maximize does this"}.get(head, "")
-        return self.script.error(f"the command {head} is not supported{hint}", command.at)
+        return self.script.error(f"the command {head} is not supported{hint}", command)
 
-    def move(self, head: str, command: Listing) -> None:
+    def move(self, head: str, command: list[Expression]) -> None:
         """``push`` and ``pop``."""
-        number = command.items[1] if len(command.items) > 1 else Word("NUMBER", "1", command.at)
-        if not isinstance(number, Word) or not number.text.isdigit() or int(number.text[:9]) > MOST_LEVELS:
-            self.script.error("a number of levels expected", number.at)
-        count = int(number.text)
+        number = command[1] if len(command) > 1 else "1"
+        if not isinstance(number, str) or not number.isdigit() or int(number[:9]) > MOST_LEVELS:
+            self.script.error("a number of levels expected", number)
+        count = int(number)
         self.result = None
         if head == "push":
             self.script.push(count)
             self.lost += [False] * count
         else:
-            self.script.pop(count, command.at)
+            self.script.pop(count, command)
             del self.lost[len(self.lost) - count :]
 
     def reset_assertions(self) -> None:
@@ -271,13 +271,11 @@ class Solver(Checks):
         self.status = ""
         return found.answer
 
-    def assuming(self, command: Listing) -> str:
+    def assuming(self, command: list[Expression]) -> str:
         self.script.arity(command, 1)
-        literals = command.items[1]
-        if not isinstance(literals, Listing):
-            self.script.error("a list of assumptions expected", literals.at)
-        nodes = [self.script.formula(item, self.script.globals) for item in literals.items]
-        return self.check(nodes, tuple(literals.items))
+        literals = self.script.items(command[1], "a list of assumptions expected")
+        nodes = [self.script.formula(item, self.script.globals) for item in literals]
+        return self.check(nodes, tuple(literals))
 
     def last(self, answer: str) -> Result:
         """The last check, which must have had this answer."""
@@ -295,7 +293,7 @@ class Solver(Checks):
             rest = [a for a in kept if a is not assertion]
             if self.solved([*others, *(a.node for a in rest)]).answer == "unsat":
                 kept = rest
-        return f"({' '.join(smtlib.symbol(str(a.name)) for a in kept)})"
+        return f"({' '.join(str(a.name) for a in kept)})"
 
     def refuted(self, asked: Sequence[Expression]) -> list[Expression]:
         """Assumptions that cannot hold together with the assertions; none of them can be left out."""
@@ -333,15 +331,15 @@ class Solver(Checks):
         for symbol, (sort, name) in self.script.constants.items():
             number = values.point.get(name, 0)
             shown = written(number) if sort == "Real" else ("true" if number > 0 else "false")
-            lines.append(f"  (define-fun {smtlib.symbol(symbol)} () {sort} {shown})")
+            lines.append(f"  (define-fun {symbol} () {sort} {shown})")
         return "\n".join(["(", *lines, ")"])
 
-    def values(self, command: Listing) -> str:
+    def values(self, command: list[Expression]) -> str:
         self.script.arity(command, 1)
-        terms, values = command.items[1], self.evaluation()
-        if not isinstance(terms, Listing) or not terms.items:
-            self.script.error("a list of terms expected", terms.at)
-        return f"({' '.join(f'({show(item)} {self.value(item, values)})' for item in terms.items)})"
+        terms, values = command[1], self.evaluation()
+        if isinstance(terms, str) or not terms:
+            self.script.error("a list of terms expected", terms)
+        return f"({' '.join(f'({show(item)} {self.value(item, values)})' for item in terms)})"
 
     def value(self, item: Expression, values: Evaluation) -> str:
         """What a term, or a formula, is worth."""
@@ -350,23 +348,22 @@ class Solver(Checks):
             return written(values.term(cast(s.Term, meaning)))
         return "true" if values.truth(cast(s.Node, meaning)) else "false"
 
-    def eliminated(self, command: Listing) -> str:
+    def eliminated(self, command: list[Expression]) -> str:
         """``get-qe``: an equivalent formula without quantifiers."""
         self.script.arity(command, 1)
         self.tick()
-        asked = self.script.formula(command.items[1], self.script.globals)
+        asked = self.script.formula(command[1], self.script.globals)
         formula, total = self.formula([asked], Total(fill=Fill.ANY), self.left())
         answer = api.eliminate(total.checked(formula), timeout=self.left(), memory=self.memory)
         if answer.formula is None:
             raise Unable(answer.reason or "no answer")
-        symbols = {name: symbol for symbol, (_, name) in self.script.constants.items()}
+        symbols = {name: plain(symbol) for symbol, (_, name) in self.script.constants.items()}
         return smtlib.term(answer.formula, symbols)
 
 
 def command_name(command: Expression) -> str:
     """The first word of a command."""
-    head = command.items[0] if isinstance(command, Listing) and command.items else None
-    return head.text if isinstance(head, Word) else ""
+    return command[0] if not isinstance(command, str) and command and isinstance(command[0], str) else ""
 
 
 def _behind(text: str, line: int, column: int) -> tuple[int, int]:
@@ -376,9 +373,9 @@ def _behind(text: str, line: int, column: int) -> tuple[int, int]:
 
 
 def _word(items: Sequence[Expression], k: int) -> str:
-    if len(items) <= k or not isinstance(items[k], Word):
+    if len(items) <= k or not isinstance(word := items[k], str):
         raise InputError("a keyword expected")
-    return cast(Word, items[k]).text
+    return word
 
 
 def run(text: str | None, source: str, *, timeout: float | None, memory: int | None, interactive: bool) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from itertools import pairwise
+from math import prod
 from typing import Any
 
 from qe.errors import InputError
@@ -60,6 +61,9 @@ class Evaluation:
                 return Fraction(value)
             case s.Name(name):
                 return self.point.get(name, Fraction(0))
+            case s.Polynomial(terms):
+                values = (prod((self.point.get(name, 0) for name in names), start=c) for names, c in terms.items())
+                return sum(values, Fraction(0))
             case s.Sum(parts):
                 return sum((self.term(part) for part in parts), Fraction(0))
             case s.Product(left, right):

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
+from operator import add
 from typing import Any, ClassVar
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
@@ -34,7 +35,7 @@ class Ring:
 
     kinds: ClassVar[tuple[tuple[int, type[Ring]], ...]] = ()
     is_wide = False
-    __slots__ = ("__weakref__", "_gens", "_hash_point", "cache", "ctx", "index", "names", "qctx", "size")
+    __slots__ = ("__weakref__", "_gens", "_hash_point", "_products", "cache", "ctx", "index", "names", "qctx", "size")
 
     def __init_subclass__(cls, *, more_than: int) -> None:
         Ring.kinds += ((more_than, cls),)
@@ -50,6 +51,7 @@ class Ring:
         self.qctx: fmpq_mpoly_ctx = fmpq_mpoly_ctx.get(flint_names, "lex")
         self._gens = self.ctx.gens()
         self._hash_point = tuple(fmpz(_PRIMES[i % 16] + 64 * (i // 16)) for i in range(max(1, self.size)))
+        self._products: dict[tuple[str, ...], fmpz_mpoly] = {}
         self.cache: dict[object, object] = {}
 
     @staticmethod
@@ -88,6 +90,26 @@ class Ring:
     def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
         """The polynomial with these terms; see ``Poly.sparse_terms``."""
         return self.from_terms({tuple(dict(powers).get(i, 0) for i in range(self.size)): c for powers, c in terms})
+
+    def combination(self, coefficients: Mapping[tuple[str, ...], int]) -> Poly:
+        """The sum of multiples, not by zero, of products of names, each of which is sorted."""
+        if len(self._products) > MOST_CACHED:
+            self._products.clear()
+        parts = [self._product(names) * c for names, c in coefficients.items()]
+        while len(parts) > 1:  # sums of two are much faster than a growing one
+            parts = [*map(add, parts[::2], parts[1::2]), *parts[len(parts) & ~1 :]]
+        support = {self.index[name] for names in coefficients for name in names}
+        return self.element(parts[0], support)
+
+    def _product(self, names: tuple[str, ...]) -> fmpz_mpoly:
+        """The product of the variables with these names."""
+        product = self._products.get(names)
+        if product is None:
+            product = self.ctx.constant(1)
+            if names:
+                product = self._product(names[:-1]) * self._gens[self.slot(self.index[names[-1]])]
+            self._products[names] = product
+        return product
 
     def hash_of(self, p: Poly) -> int:
         """The hash of a polynomial of the ring: equal for equal values."""
@@ -166,7 +188,7 @@ class Poly:
     __rmul__ = __mul__
 
     def __neg__(self) -> Poly:
-        return self._like(-self.p)
+        return self._scaled(-self.p)
 
     def __pow__(self, exponent: int) -> Poly:
         return self._like(self.p**exponent)
@@ -178,6 +200,10 @@ class Poly:
     def _like(self, p: fmpz_mpoly) -> Poly:
         """A polynomial of the ring in which no other variables occur than here."""
         return Poly(self.ring, p)
+
+    def _scaled(self, p: fmpz_mpoly) -> Poly:
+        """A polynomial of the ring with just the monomials that occur here."""
+        return self._like(p)
 
     # --- structure -------------------------------------------------------------------------
     @cached_property
@@ -301,7 +327,7 @@ class Poly:
         unit = int(content)
         if primitive.leading_coefficient() < 0:
             unit, primitive = -unit, -primitive
-        return unit, (self if unit == 1 else self._like(primitive))
+        return unit, (self if unit == 1 else self._scaled(primitive))
 
     def normal(self) -> tuple[int, Poly]:
         """(u, q) with self = u*q, q primitive with positive leading coefficient; (0, 0) for zero."""

@@ -49,9 +49,15 @@ class WideRing(Ring, more_than=WIDE):
             total += prod((self.gen(i) ** k for i, k in powers), start=self.constant(c))
         return total
 
+    def combination(self, coefficients: Mapping[tuple[str, ...], int]) -> Poly:
+        made = super().combination(coefficients)
+        if isinstance(made, WidePoly):
+            made.__dict__["variables"] = tuple(sorted(made.support))  # nothing cancels
+        return made
+
     def hash_of(self, p: Poly) -> int:
         """The hash of a polynomial of the ring: equal for equal values."""
-        return hash((p.variables, *(p.degree(i) for i in p.variables), *map(int, p.p.coeffs())))
+        return hash((p.variables, *map(int, p.p.coeffs())))
 
 
 class WidePoly(Poly):
@@ -73,6 +79,11 @@ class WidePoly(Poly):
 
     def _like(self, p: fmpz_mpoly) -> WidePoly:
         return WidePoly.of(self.ring, p, self.support)
+
+    def _scaled(self, p: fmpz_mpoly) -> WidePoly:
+        made = self._like(p)
+        made.__dict__["variables"] = self.variables
+        return made
 
     def _with(self, p: fmpz_mpoly, other: Poly | int) -> WidePoly:
         if isinstance(other, int):

@@ -19,6 +19,7 @@ from qe.io.surface import (
     Negation,
     Node,
     Number,
+    Polynomial,
     Power,
     Product,
     Quantification,
@@ -82,9 +83,10 @@ class Names:
             raise self.fail(f"nested more than {MAX_DEPTH} levels deep", -1)
         match term:
             case Name(name, at):
-                if name not in scope:
-                    self.meet(name, at)
-                    self.free[name] = None
+                self.name(name, at, scope)
+            case Polynomial(terms):
+                for name in dict.fromkeys(name for names in terms for name in names):
+                    self.name(name, -1, scope)
             case Sum(parts):
                 for part in parts:
                     self.term(part, scope, depth + 1)
@@ -112,6 +114,11 @@ class Names:
                 self.term(then, scope, depth + 1)
                 if other is not None:
                     self.term(other, scope, depth + 1)
+
+    def name(self, name: str, at: int, scope: frozenset[str]) -> None:
+        if name not in scope:
+            self.meet(name, at)
+            self.free[name] = None
 
     def root(self, term: Root, scope: frozenset[str], depth: int) -> None:
         """A root in a variable binds it, and may stand for a number of its own."""

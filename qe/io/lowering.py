@@ -23,7 +23,7 @@ from qe.io.auxiliaries import Exhausted
 from qe.io.cases import Cases
 from qe.io.collecting import Names
 from qe.io.radicals import Place
-from qe.io.sharing import refuse_long
+from qe.io.sharing import ordered, refuse_long
 from qe.io.surface import (
     Comparison,
     Equivalence,
@@ -67,10 +67,14 @@ def lower(
     ``total`` functions have values outside their domains too, of which it is told. Raises ``Unable`` where nested
     equivalences and shared parts would be much too long written out.
     """
-    refuse_long([node])
+    parts = ordered([node])
+    refuse_long(parts)
     found = Names(fail, meet)
     if not shared:
         found.node(node, frozenset(), 0)
+    elif len(parts) > 1:
+        contained = set(map(id, parts))
+        shared = [part for part in shared if id(part) in contained]
     if total is not None and names is None:
         total.bound = frozenset(found.bound)
     listed = found.all() if names is None else list(dict.fromkeys(names))
@@ -161,13 +165,11 @@ class Lowering:
         return conj((implies(denied[0], sides[1]), implies(denied[1], sides[0])))
 
     def comparison(self, node: Comparison, place: Place) -> Formula:
-        links: list[Formula] = []
-        for (left, right), relation in zip(pairwise(node.sides), node.relations, strict=True):
-            try:
-                links.append(self.link(left, relation, right, place))
-            except TermError as error:
-                raise self.fail(str(error), node.at) from None
-        return conj(links)
+        links = zip(pairwise(node.sides), node.relations, strict=True)
+        try:
+            return conj([self.link(left, relation, right, place) for (left, right), relation in links])
+        except TermError as error:
+            raise self.fail(str(error), node.at) from None
 
     def link(self, left: Term, relation: Relation, right: Term, place: Place) -> Formula:
         """``left relation right``."""

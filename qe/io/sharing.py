@@ -49,35 +49,38 @@ class Named(NamedTuple):
 
 def inside(part: s.Part) -> list[s.Part]:
     """The parts directly inside another."""
-    found: list[s.Part] = []
+    children: list[s.Part] = []
     for field in part:
         if isinstance(field, list):
-            found += [cast(s.Part, item) for item in field if isinstance(item, tuple)]
+            children += [cast(s.Part, item) for item in field if isinstance(item, tuple)]
         elif isinstance(field, tuple):
-            found.append(cast(s.Part, field))
-    return found
+            children.append(cast(s.Part, field))
+    return children
 
 
 def ordered(roots: Iterable[s.Part]) -> list[s.Part]:
     """All different parts, each after those inside it."""
-    found: dict[int, s.Part] = {}
+    parts: dict[int, s.Part] = {}
     pending: list[tuple[s.Part, bool]] = [(root, False) for root in roots]
     while pending:
         part, done = pending.pop()
         if done:
-            found.setdefault(id(part), part)
-        elif id(part) not in found:
+            parts.setdefault(id(part), part)
+        elif id(part) not in parts:
             pending.append((part, True))
-            pending += [(child, False) for child in inside(part)]
-    return list(found.values())
+            for child in inside(part):
+                if isinstance(child, s.Polynomial | s.Number | s.Name):
+                    parts[id(child)] = child
+                else:
+                    pending.append((child, False))
+    return list(parts.values())
 
 
-def refuse_long(roots: Iterable[s.Node]) -> None:
+def refuse_long(parts: Sequence[s.Part]) -> None:
     """Raise ``Unable`` where equivalences nested in each other, and what is shared, would be far too much written out.
 
-    Terms count as one part, since equal ones are worked out once.
+    ``parts``: all that there are, each after those inside it. Terms count as one, since equal ones are worked out once.
     """
-    parts = ordered(roots)
     _refuse(_longest(parts), len(parts))
 
 
@@ -172,13 +175,21 @@ class _Naming:
         self.sizes[id(part)] = 1 + sum(self.sizes[id(child)] * _times(part, child) for child in children)
         cases = _cases(part, [self.cases[id(child)] for child in children])
         self.cases[id(part)] = 1 if isinstance(part, s.Node) else min(cases, _CASES)
-        partial = isinstance(part, s.Root | s.Infinity) or (isinstance(part, s.Name) and part.name in self.bound)
-        if partial or any(id(child) in self.fixed for child in children):
+        if self.names_bound(part) or any(id(child) in self.fixed for child in children):
             self.fixed.add(id(part))
         meant = self.meant[id(part)] = self.rebuilt(part)
         self.now[id(part)] = meant
         if id(part) not in self.fixed and self.worth(part):
             self.name(part, meant)
+
+    def names_bound(self, part: s.Part) -> bool:
+        """Whether a part may not be named for what it says itself: a bound variable, or no value."""
+        match part:
+            case s.Name(name):
+                return name in self.bound
+            case s.Polynomial(terms):
+                return any(name in self.bound for names in terms for name in names)
+        return isinstance(part, s.Root | s.Infinity)
 
     def worth(self, part: s.Part) -> bool:
         if isinstance(part, s.Node):
@@ -212,5 +223,5 @@ class _Naming:
         return cast(Callable[..., s.Part], type(part))(*fields)
 
     def built(self, shared: Iterable[s.Part]) -> list[s.Part]:
-        """What the shared parts mean now."""
-        return [self.meant[id(part)] for part in shared]
+        """What the shared parts mean now that the nodes contain."""
+        return [self.meant[id(part)] for part in shared if id(part) in self.meant]

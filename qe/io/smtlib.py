@@ -14,14 +14,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from itertools import takewhile
 from typing import TypeAlias, cast
 
-from qe.errors import InputError
+from qe.errors import InputError, ParseError
 from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children, is_quantifier_free
 from qe.io.names import Renaming, names_in
-from qe.io.smtlib_parser import Expression, Listing, parse, without_collections
+from qe.io.smtlib_parser import Expression, parse, without_collections
 from qe.io.smtlib_script import Script
 from qe.io.surface import MAX_DEPTH
 from qe.io.text_errors import Failing
@@ -51,7 +52,7 @@ def read(text: str, *, source: str = "<text>") -> Formula:
     fail = Failing(text, source)
     try:
         with without_collections():
-            formula = _asserted(parse(text, fail), fail)
+            formula = _read(text, fail)
         depth = _depth(formula)
     except RecursionError:
         raise fail("the script is nested too deeply", -1) from None
@@ -60,27 +61,31 @@ def read(text: str, *, source: str = "<text>") -> Formula:
     return formula
 
 
+def _read(text: str, fail: Failing) -> Formula:
+    try:
+        return _asserted(parse(text, fail, placed=False), fail)
+    except ParseError:  # once more, to see where it is
+        return _asserted(parse(text, fail), fail)
+
+
 def _asserted(commands: list[Expression], fail: Failing) -> Formula:
-    script, checked = Script(fail), False
-    for command in commands:
-        if script.head(command).text == "exit":
-            break
-        if script.head(command).text in ("declare-const", "declare-fun"):
-            script.reserve(command)
-    for command in commands:
-        head = script.head(command)
-        if head.text == "exit":
-            break
-        if checked and head.text == "assert":
-            script.error("an assert after check-sat: one question per script (qe smt runs it)", command.at)
-        if script.change(cast(Listing, command)) or _ANSWERED.fullmatch(head.text):
+    script = Script(fail)
+    heads = list(takewhile("exit".__ne__, map(script.head, commands)))
+    for head, command in zip(heads, commands):
+        if head in ("declare-const", "declare-fun"):
+            script.reserve(cast(list[Expression], command))
+    checked = False
+    for head, command in zip(heads, commands):
+        if checked and head == "assert":
+            script.error("an assert after check-sat: one question per script (qe smt runs it)", command)
+        if script.change(cast(list[Expression], command)) or _ANSWERED.fullmatch(head):
             continue
-        if head.text in ("check-sat", "check-sat-using"):
+        if head in ("check-sat", "check-sat-using"):
             checked = True
-        elif head.text in ("push", "pop", "reset", "reset-assertions", "check-sat-assuming"):
-            script.error(f"{head.text} is not supported: one question per script (qe smt runs it)", head.at)
+        elif head in ("push", "pop", "reset", "reset-assertions", "check-sat-assuming"):
+            script.error(f"{head} is not supported: one question per script (qe smt runs it)", head)
         else:
-            script.error(f"the command {head.text} is not supported", head.at)
+            script.error(f"the command {head} is not supported", head)
     return script.whole()
 
 

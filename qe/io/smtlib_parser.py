@@ -7,41 +7,46 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from qe.io.surface import Fail
 
-# the scripts of MetiTarski write 1. for 1.0, and other solvers read it
-_TOKEN = re.compile(
-    r"(?P<SPACE>\s+|;[^\n]*)"
-    r"|(?P<OPEN>\()|(?P<CLOSE>\))"
-    r"|(?P<NUMBER>[0-9]+(?:\.[0-9]*)?(?![A-Za-z0-9~!@$%^&*_+=<>.?/-]))"
-    r"|(?P<SYMBOL>[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*)"
-    r"|(?P<QUOTED>\|[^|\\]*\|)"
-    r"|(?P<KEYWORD>:[A-Za-z0-9~!@$%^&*_+=<>.?/-]+)"
-    r'|(?P<STRING>"(?:[^"]|"")*")'
-    r"|(?P<BITS>\#x[0-9a-fA-F]+|\#b[01]+)"
-)
 _SYMBOL = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
+# the scripts of MetiTarski write 1. for 1.0, and other solvers read it
+_WORD = (
+    rf"{_SYMBOL.pattern}|[0-9]+(?:\.[0-9]*)?(?![A-Za-z0-9~!@$%^&*_+=<>.?/-])"
+    r'|\|[^|\\]*\||:[A-Za-z0-9~!@$%^&*_+=<>.?/-]+|"(?:[^"]|"")*"|\#x[0-9a-fA-F]+|\#b[01]+'
+)
+_TOKEN = re.compile(rf"(?P<SPACE>\s+|;[^\n]*)|(?P<OPEN>\()|(?P<CLOSE>\))|(?P<WORD>{_WORD})")
+_WORDS = re.compile(rf"[()]|{_WORD}|;[^\n]*|\S[\s\S]*")
+"""Words, brackets and comments; as the last, all that follows where none of them begins."""
 _INSIDE = re.compile(r'[^()|";]+')  # what opens and closes nothing
 
 
-class Word(NamedTuple):
-    """A symbol (without its bars) or, by ``kind``, a number, keyword, string or bit vector."""
+class Word(str):
+    """A word and the offset ``at`` where it stands."""
 
-    kind: str
-    text: str
+    __slots__ = ("at",)
     at: int
 
 
-class Listing(NamedTuple):
-    """A bracketed list."""
+class Listing(list["Expression"]):
+    """A bracketed list and the offset ``at`` of its bracket."""
 
-    items: list[Expression]
-    at: int
+    __slots__ = ("at",)
+
+    def __init__(self, at: int) -> None:
+        super().__init__()
+        self.at = at
 
 
-Expression: TypeAlias = Word | Listing
+Expression: TypeAlias = "str | list[Expression]"
+"""A word as it is written, but a symbol without needless bars; or a bracketed list."""
+
+
+def place(expression: Expression) -> int:
+    """The offset of an expression that is a ``Word`` or ``Listing``; -1 of any other."""
+    return getattr(expression, "at", -1)
 
 
 @contextmanager
@@ -57,34 +62,70 @@ def without_collections() -> Iterator[None]:
 
 
 @without_collections()
-def parse(text: str, fail: Fail) -> list[Expression]:
-    """The expressions of a script; raises what ``fail`` makes."""
+def parse(text: str, fail: Fail, *, placed: bool = True) -> list[Expression]:
+    """The expressions of a script; raises what ``fail`` makes.
+
+    Unless they are ``placed``, they are mere strings and lists, which takes a third of the time, and errors have no
+    offset.
+    """
     items: list[Expression] = []
-    outside: list[tuple[list[Expression], int]] = []
-    at = 0
-    for found in _TOKEN.finditer(text):
-        start, kind = at, found.lastgroup
-        if found.start() != start:
-            break
-        at = found.end()
-        if kind == "OPEN":
-            outside.append((items, start))
-            items = []
-        elif kind == "CLOSE":
+    outside: list[list[Expression]] = []
+    for word in _placed_words(text, fail) if placed else _words(text, fail):
+        if word == "(":
+            inner = Listing(place(word)) if placed else []
+            items.append(inner)
+            outside.append(items)
+            items = inner
+        elif word == ")":
             if not outside:
-                raise fail("unbalanced brackets: this ')' has no partner", start)
-            listing = Listing(items, outside[-1][1])
-            items = outside.pop()[0]
-            items.append(listing)
-        elif kind == "QUOTED":
-            items.append(Word("SYMBOL", found.group()[1:-1], start))
-        elif kind != "SPACE":
-            items.append(Word(str(kind), found.group(), start))
+                raise fail("unbalanced brackets: this ')' has no partner", place(word))
+            items = outside.pop()
+        else:
+            items.append(word)
+    if outside:
+        raise fail("unbalanced brackets: this '(' is never closed", place(items))
+    return items
+
+
+def _words(text: str, fail: Fail) -> list[str]:
+    """The words and brackets."""
+    words = _WORDS.findall(text)
+    if words and not _TOKEN.fullmatch(words[-1]):
+        raise fail("here no word begins", -1)
+    if ";" in text or "|" in text:
+        words = [simplified(word) for word in words if word[0] != ";"]
+    return words
+
+
+def _placed_words(text: str, fail: Fail) -> Iterator[Word]:
+    """The words and brackets with their offsets."""
+    at = 0
+    for token in _TOKEN.finditer(text):
+        start = at
+        if token.start() != start:
+            break
+        at = token.end()
+        if token.lastgroup != "SPACE":
+            word = Word(simplified(token.group()))
+            word.at = start
+            yield word
     if at < len(text):
         raise fail(_no_token(text[at]), at)
-    if outside:
-        raise fail("unbalanced brackets: this '(' is never closed", outside[-1][1])
-    return items
+
+
+def simplified(word: str) -> str:
+    """A symbol without the bars that it does not need."""
+    return word[1:-1] if word[0] == "|" and _SYMBOL.fullmatch(word[1:-1]) else word
+
+
+def plain(word: str) -> str:
+    """What a word is called: a symbol without its bars."""
+    return word[1:-1] if word[0] == "|" else word
+
+
+def is_symbol(expression: Expression) -> bool:
+    """Whether it is a symbol: no list, number, keyword, string or bit vector."""
+    return isinstance(expression, str) and expression[0] not in '0123456789:"#'
 
 
 def _no_token(character: str) -> str:
@@ -137,19 +178,15 @@ class Ends:
 
 def show(expression: Expression) -> str:
     """The text of an expression."""
-    if isinstance(expression, Listing):
-        return f"({' '.join(map(show, expression.items))})"
-    if expression.kind == "SYMBOL" and not _SYMBOL.fullmatch(expression.text):
-        return f"|{expression.text}|"
-    return expression.text
+    return expression if isinstance(expression, str) else f"({' '.join(map(show, expression))})"
 
 
-def symbols(expression: Expression) -> Iterator[str]:
-    """The symbols of an expression."""
+def words(expression: Expression) -> Iterator[str]:
+    """The words of an expression."""
     stack = [expression]
     while stack:
         part = stack.pop()
-        if isinstance(part, Listing):
-            stack += part.items
-        elif part.kind == "SYMBOL":
-            yield part.text
+        if isinstance(part, str):
+            yield part
+        else:
+            stack += part

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import count
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 from qe.errors import InputError, Unable
 from qe.formula.build import exists
 from qe.formula.syntax import Formula
 from qe.io import surface as s
 from qe.io.lowering import lower
-from qe.io.sharing import named
-from qe.io.smtlib_parser import Expression, Listing, Word
+from qe.io.sharing import named, ordered
+from qe.io.smtlib_parser import Expression, place, plain
 from qe.io.smtlib_terms import Foreign, Macro, Meaning, Terms
 from qe.io.total import Fill, Total
 
@@ -44,18 +44,17 @@ class Script(Terms):
         self.assertions: list[Assertion] = []
         self.levels: list[Level] = []
 
-    def head(self, command: Expression) -> Word:
+    def head(self, command: Expression) -> str:
         """The name of a command."""
-        if not isinstance(command, Listing) or not command.items or not isinstance(command.items[0], Word):
-            self.error("a command in brackets expected", command.at)
-        return command.items[0]
+        if isinstance(command, str) or not command or not isinstance(command[0], str):
+            self.error("a command in brackets expected", command)
+        return command[0]
 
-    def change(self, command: Listing) -> bool:
+    def change(self, command: list[Expression]) -> bool:
         """Carry out a command that declares, defines or asserts; whether it is one."""
-        head = cast(Word, command.items[0])
-        rest = command.items[1:]
-        self.steps = 0
-        match head.text:
+        head, *rest = command
+        self.steps = self.pause = 0
+        match head:
             case "assert":
                 self.arity(command, 1)
                 self.assertions.append(Assertion(self.formula(rest[0], self.globals), rest[0], _label(rest[0])))
@@ -64,8 +63,8 @@ class Script(Terms):
                 self.declare(rest[0], rest[1])
             case "declare-fun":
                 self.arity(command, 3)
-                if not isinstance(rest[1], Listing) or rest[1].items:
-                    self.error("only functions without arguments can be declared", rest[1].at)
+                if rest[1] != []:
+                    self.error("only functions without arguments can be declared", rest[1])
                 self.declare(rest[0], rest[2])
             case "define-const":
                 self.arity(command, 3)
@@ -74,22 +73,22 @@ class Script(Terms):
                 self.arity(command, 4)
                 self.define(rest[0], self.parameters(rest[1]), rest[2], rest[3])
             case "define-fun-rec" | "define-funs-rec":
-                self.error("recursive functions are not supported", head.at)
-            case "define-sort" if len(rest) == 3 and isinstance(rest[1], Listing) and not rest[1].items:
+                self.error("recursive functions are not supported", head)
+            case "define-sort" if len(rest) == 3 and rest[1] == []:
                 self.sorts[self.symbol(rest[0])] = self.sort(rest[2])
             case "declare-sort" | "declare-datatype" | "declare-datatypes" | "define-sort":
-                self.error("only the sorts Real and Bool are supported", head.at)
+                self.error("only the sorts Real and Bool are supported", head)
             case _:
                 return False
         return True
 
-    def keep(self, command: Listing) -> bool:
+    def keep(self, command: list[Expression]) -> bool:
         """What is left of a command that was not read; whether all that it asserts is kept.
 
         A declared symbol is known as one whose values are not known, and in an assertion such values get names.
         """
-        match [item.text if isinstance(item, Word) else "" for item in command.items]:
-            case ["declare-const" | "declare-fun", symbol, *_, sort] if symbol and symbol not in self.globals:
+        match command:
+            case ["declare-const" | "declare-fun", str(symbol), *_, sort] if symbol not in self.globals:
                 if sort in ("Real", "Int", "Bool"):
                     self.globals[symbol] = Foreign("Bool" if sort == "Bool" else "Real")
             case ["assert" | "define-fun" | "define-const", *_]:
@@ -104,30 +103,29 @@ class Script(Terms):
 
     def declare(self, name: Expression, sort: Expression) -> None:
         symbol, kind = self.symbol(name), self.sort(sort)
-        self.fresh_global(symbol, name.at)
-        self.reserved.discard(symbol)
+        self.fresh_global(symbol, name)
+        self.reserved.discard(plain(symbol))
         inside = self.fresh(symbol)
         self.constants[symbol] = kind, inside
-        self.globals[symbol] = self.variable(inside, kind, name.at)
+        self.globals[symbol] = self.variable(inside, kind, place(name))
 
-    def reserve(self, command: Expression) -> None:
+    def reserve(self, command: list[Expression]) -> None:
         """Keep the name that a later declaration needs, so that no bound variable takes it."""
-        rest = cast(Listing, command).items[1:]
-        if rest and isinstance(rest[0], Word):
-            self.reserved.add(rest[0].text)
+        if len(command) > 1 and isinstance(command[1], str):
+            self.reserved.add(plain(command[1]))
 
     def define(self, name: Expression, parameters: list[tuple[str, str]], sort: Expression, body: Expression) -> None:
         symbol = self.symbol(name)
-        self.fresh_global(symbol, name.at)
+        self.fresh_global(symbol, name)
         wanted = self.sort(sort)
         if parameters:
             self.globals[symbol] = Macro(parameters, wanted, body, dict(self.globals))
         else:
-            self.globals[symbol] = self.share(self.expect(self.meaning(body, self.globals), wanted, body.at))
+            self.globals[symbol] = self.share(self.expect(self.meaning(body, self.globals), wanted, body))
 
-    def fresh_global(self, name: str, at: int) -> None:
-        if name in self.globals:
-            self.error(f"{name} is declared twice", at)
+    def fresh_global(self, symbol: str, at: Expression) -> None:
+        if symbol in self.globals:
+            self.error(f"{plain(symbol)} is declared twice", at)
 
     # --- levels ----------------------------------------------------------------------------------------------
     def push(self, count: int) -> None:
@@ -135,7 +133,7 @@ class Script(Terms):
         sizes = len(self.names), len(self.shared), len(self.assertions)
         self.levels += [Level(dict(self.globals), dict(self.constants), *sizes) for _ in range(count)]
 
-    def pop(self, count: int, at: int) -> None:
+    def pop(self, count: int, at: Expression) -> None:
         """Go back to the state before the last ``count`` levels."""
         if count > len(self.levels):
             self.error(f"pop {count}, but there are only {len(self.levels)} levels", at)
@@ -158,7 +156,7 @@ class Script(Terms):
         Raises ``Unable`` where it is much too long all the same.
         """
         new = (name for k in count(1) if (name := f"part_{k}") not in self.taken)
-        known = named(nodes, self.used(nodes), self.bound, lambda: next(new))
+        known = named(nodes, self.shared, self.bound, lambda: next(new))
         nodes = [*known.definitions, *known.nodes]
         return exists(known.names, self.lowered(nodes, total, [*self.names, *known.names], known.shared))
 
@@ -168,21 +166,15 @@ class Script(Terms):
 
     def used(self, nodes: Sequence[s.Node]) -> list[s.Part]:
         """The shared parts that the nodes contain, in their order."""
-        seen: set[int] = set()
-        pending: list[object] = list(nodes)
-        while pending:
-            part = pending.pop()
-            if isinstance(part, tuple | list) and id(part) not in seen:
-                seen.add(id(part))
-                pending += part
-        return [part for part in self.shared if id(part) in seen]
+        contained = set(map(id, ordered(nodes)))
+        return [part for part in self.shared if id(part) in contained]
 
     def whole(self) -> Formula:
         """The conjunction of all assertions, with quantifiers in it only if there were some or it is too long without.
         Raises where a value outside a domain cannot be written down."""
         total, nodes = Total(fill=Fill.ANY), [a.node for a in self.assertions]
         try:
-            formula = self.lowered(nodes, total, self.names, self.used(nodes))
+            formula = self.lowered(nodes, total, self.names, self.shared)
         except Unable:  # too long without names
             formula = self.formula_of(nodes, total)
         return total.checked(formula)
@@ -190,8 +182,8 @@ class Script(Terms):
 
 def _label(written: Expression) -> str | None:
     """The ``:named`` name of an assertion."""
-    if isinstance(written, Listing) and written.items and written.items[0][:2] == ("SYMBOL", "!"):
-        for key, value in zip(written.items[2::2], written.items[3::2]):
-            if key[:2] == ("KEYWORD", ":named") and isinstance(value, Word):
-                return value.text
+    if not isinstance(written, str) and written[:1] == ["!"]:
+        for key, value in zip(written[2::2], written[3::2]):
+            if key == ":named" and isinstance(value, str):
+                return str(value)
     return None

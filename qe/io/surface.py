@@ -49,6 +49,12 @@ class Name(NamedTuple):
     at: int
 
 
+class Polynomial(NamedTuple):
+    """Coefficients, none of them zero, by the names that are multiplied: sorted, each as often as its power."""
+
+    terms: dict[tuple[str, ...], Fraction | int]
+
+
 class Sum(NamedTuple):
     """A sum of at least two parts."""
 
@@ -172,7 +178,7 @@ class Quantification(NamedTuple):
 
 
 Term: TypeAlias = (
-    Number | Algebraic | Name | Sum | Product | Quotient | Power | Minus | Root | Apply | Choice | Infinity
+    Number | Algebraic | Name | Polynomial | Sum | Product | Quotient | Power | Minus | Root | Apply | Choice | Infinity
 )
 Node: TypeAlias = Comparison | Truth | Every | Some | Negation | Implication | Equivalence | Quantification
 Part: TypeAlias = Term | Node

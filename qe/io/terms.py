@@ -7,10 +7,10 @@ position; readers that know one turn it into a ``ParseError``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import lcm
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
@@ -75,6 +75,17 @@ def number(ring: Ring, value: Fraction | int) -> Value:
 def variable(ring: Ring, name: str) -> Value:
     """The variable called ``name``."""
     return Value(ring.var(name), 1, 1)
+
+
+def combination(ring: Ring, coefficients: Mapping[tuple[str, ...], Fraction | int]) -> Value:
+    """The sum of multiples, not by zero, of products of names."""
+    den, whole = 1, cast(Mapping[tuple[str, ...], int], coefficients)
+    if set(map(type, coefficients.values())) != {int}:
+        den = lcm(*(c.denominator for c in coefficients.values()))
+        whole = {names: c.numerator * (den // c.denominator) for names, c in coefficients.items()}
+    bits = max(c.bit_length() for c in whole.values())
+    _bounded(len(whole), bits)
+    return Value(ring.combination(whole), den, bits)
 
 
 def negative(value: Value) -> Value:
@@ -147,6 +158,8 @@ def power(base: Value, exponent: int) -> Value:
 
 def compare(left: Value, relation: Relation, right: Value) -> Formula:
     """The atom ``left relation right``."""
+    if not right.poly:
+        return atom(left.poly, relation)
     return atom(total((left, negative(right))).poly, relation)
 
 

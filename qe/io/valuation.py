@@ -25,6 +25,7 @@ from qe.io.surface import (
     Name,
     Node,
     Number,
+    Polynomial,
     Power,
     Product,
     Quotient,
@@ -71,6 +72,8 @@ class Valuation(Auxiliaries):
                     if name not in self.ring.index:
                         raise self.fail(f"unknown variable {name}", at)
                     return terms.variable(self.ring, name)
+                case Polynomial(coefficients):
+                    return terms.combination(self.ring, coefficients)
                 case Sum(parts):
                     return self.sum([self.term(part) for part in parts])
                 case Minus(part):

@@ -14,7 +14,7 @@ import pytest
 
 import qe
 from qe.cli.smt import Solver
-from qe.io.smtlib_parser import Listing, parse
+from qe.io.smtlib_parser import Expression, parse
 from qe.io.smtlib_script import Script
 from qe.io.text_errors import Failing
 from tests.tables import each
@@ -230,16 +230,16 @@ def test_pysmt_drives_it() -> None:
 
 def test_what_is_said_twice_is_read_once_also_after_pop() -> None:
     script = Script(Failing("", "<test>"))
-    text = "(declare-const x Real)(assert (> (/ (* x x) 3) 1))(push)(assert (< (/ (* x x) 3) 2))(pop)(assert (< (/ (* x x) 3) 2))"
+    text = "(declare-const x Real)(assert (> (/ (abs x) 3) 1))(push)(assert (< (/ (abs x) 3) 2))(pop)(assert (< (/ (abs x) 3) 2))"
     sizes = []
     for command in parse(text, script.fail):
-        match script.head(command).text:
+        match script.head(command):
             case "push":
                 script.push(1)
             case "pop":
-                script.pop(1, 0)
+                script.pop(1, command)
             case _:
-                script.change(cast(Listing, command))
+                script.change(cast(list[Expression], command))
         sizes.append(len(script.shared))
     assert sizes[1] > 2
     assert [size - sizes[1] for size in sizes[1:]] == [0, 0, 1, 0, 1]

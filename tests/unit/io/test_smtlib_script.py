@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.errors import InputError
-from qe.io.smtlib_parser import Ends, Expression, Listing, Word, parse, show
+from qe.io.smtlib_parser import Ends, Expression, parse, place, show
 from qe.io.smtlib_script import Script
 from tests.tables import each
 
@@ -19,37 +19,34 @@ def fail(message: str, at: int) -> InputError:
 
 
 WORDS = st.one_of(
-    st.from_regex(r"[a-z+<=][a-z0-9!@.-]{0,4}", fullmatch=True).map(lambda text: Word("SYMBOL", text, 0)),
-    st.sampled_from(("two words", "", "a(b", "1x", ";")).map(lambda text: Word("SYMBOL", text, 0)),
-    st.sampled_from(("0", "12", "1.50")).map(lambda text: Word("NUMBER", text, 0)),
-    st.sampled_from((":named", ":a-b")).map(lambda text: Word("KEYWORD", text, 0)),
-    st.sampled_from(('"a ""quoted"" (word"', '""')).map(lambda text: Word("STRING", text, 0)),
-    st.sampled_from(("#x1F", "#b01")).map(lambda text: Word("BITS", text, 0)),
+    st.from_regex(r"[a-z+<=][a-z0-9!@.-]{0,4}", fullmatch=True),
+    st.sampled_from(("|two words|", "||", "|a(b|", "|1x|", "|;|", "|1|")),
+    st.sampled_from(("0", "12", "1.50", ":named", ":a-b", '"a ""quoted"" (word"', '""', "#x1F", "#b01")),
 )
 
 
 EXPRESSIONS: st.SearchStrategy[Expression] = st.recursive(
-    WORDS, lambda inner: st.lists(inner, max_size=3).map(lambda items: Listing(items, 0)), max_leaves=6
+    WORDS, lambda inner: st.lists(inner, max_size=3), max_leaves=6
 )
 
 
-def same(left: Expression, right: Expression) -> bool:
-    if isinstance(left, Listing) and isinstance(right, Listing):
-        return len(left.items) == len(right.items) and all(map(same, left.items, right.items))
-    return left[:2] == right[:2] and type(left) is type(right)
+def both(text: str) -> list[Expression]:
+    """What the text says, which is the same with places and without."""
+    expressions = parse(text, fail)
+    assert parse(text, fail, placed=False) == expressions
+    return expressions
 
 
 @given(st.lists(EXPRESSIONS, max_size=3), st.sampled_from((" ", "\n", " ; a comment (\n")))
 def test_what_is_shown_is_read_back(expressions: list[Expression], between: str) -> None:
     text = between.join(map(show, expressions))
-    found = parse(text, fail)
-    assert len(found) == len(expressions) and all(map(same, found, expressions))
+    assert both(text) == expressions
     assert max(Ends().found(text + " "), default=0) == len(text.rstrip("\n ")) or ";" in text or not expressions
 
 
 @given(st.lists(EXPRESSIONS, max_size=4), st.sampled_from((" ", "\n", " ; a comment (\n", "|)")), st.integers(1, 9))
 def test_a_text_in_pieces_ends_where_the_whole_does(expressions: list[Expression], between: str, size: int) -> None:
-    text = between.join(show(Listing([e], 0)) for e in expressions) + "\n"
+    text = between.join(show([e]) for e in expressions) + "\n"
     ends, found, held, gone = Ends(), [], "", 0
     for k in range(0, len(text), size):
         held, start = held + text[k : k + size], 0
@@ -61,9 +58,9 @@ def test_a_text_in_pieces_ends_where_the_whole_does(expressions: list[Expression
 
 
 def test_offsets() -> None:
-    (first, second) = parse("(f |a b| ; (\n 1.5) x", fail)
-    assert isinstance(first, Listing) and first.at == 0 and second == Word("SYMBOL", "x", 19)
-    assert first.items == [Word("SYMBOL", "f", 1), Word("SYMBOL", "a b", 3), Word("NUMBER", "1.5", 14)]
+    (first, second) = parse("(f |a b| ; (\n 1.5 |c|) x", fail)
+    assert first == ["f", "|a b|", "1.5", "c"] and second == "x"
+    assert [place(part) for part in (first, second, *first)] == [0, 23, 1, 3, 14, 18]
 
 
 @each(
@@ -80,6 +77,8 @@ def test_what_cannot_be_read(text: str, said: str) -> None:
     with pytest.raises(InputError) as error:
         parse(text, fail)
     assert str(error.value) == said
+    with pytest.raises(InputError):
+        parse(text, fail, placed=False)
 
 
 @each(
@@ -105,9 +104,10 @@ def test_a_text_with_an_end_is_read_the_same_piece_by_piece(text: str) -> None:
     try:
         whole = parse(text, fail)
     except InputError:
+        with pytest.raises(InputError):
+            parse(text, fail, placed=False)
         return
-    parts = [e for start, stop in pairwise(stops) for e in parse(text[start:stop], fail)]
-    assert len(parts) == len(whole) and all(map(same, parts, whole))
+    assert [e for start, stop in pairwise(stops) for e in both(text[start:stop])] == whole == both(text)
 
 
 def script(text: str) -> Script:
@@ -119,10 +119,10 @@ def script(text: str) -> Script:
 def run(made: Script, text: str) -> None:
     for command in parse(text, fail):
         head = made.head(command)
-        assert isinstance(command, Listing)
-        if head.text in ("push", "pop"):
-            count = int(command.items[1].text)  # type: ignore[union-attr]
-            made.push(count) if head.text == "push" else made.pop(count, command.at)
+        assert isinstance(command, list)
+        if head in ("push", "pop"):
+            count = int(str(command[1]))
+            made.push(count) if head == "push" else made.pop(count, command)
         else:
             assert made.change(command)
 
@@ -148,12 +148,12 @@ def test_levels_take_declarations_and_assertions_back() -> None:
     run(made, "(pop 2)(declare-const y Bool)")
     assert made.constants == {"x": ("Real", "x"), "y": ("Bool", "y")} and str(made.whole()) == "x > 0"
     with pytest.raises(InputError, match="7: pop 1, but there are only 0 levels"):
-        made.pop(1, 7)
+        run(made, "       (pop 1)")
 
 
 def test_a_name_kept_for_a_later_declaration_is_not_taken_by_a_bound_variable() -> None:
     made = Script(fail)
-    made.reserve(parse("(declare-const x Real)", fail)[0])
+    made.reserve(["declare-const", "x", "Real"])
     run(made, "(assert (exists ((x Real)) (> x 0)))(declare-const x Real)")
     assert made.constants["x"] == ("Real", "x") and made.bound == {"x_1"}
 
@@ -182,7 +182,7 @@ def test_what_is_refused(text: str, said: str) -> None:
 
 def test_other_commands_are_left_to_the_caller() -> None:
     (command,) = parse("(check-sat)", fail)
-    assert isinstance(command, Listing) and not Script(fail).change(command)
+    assert isinstance(command, list) and not Script(fail).change(command)
 
 
 def test_division_by_zero_is_some_function() -> None:

@@ -1,0 +1,126 @@
+"""Sums and products of names and numbers, collected while they are read: short polynomials in place of trees.
+
+Only what is surely small is collected, so that no limit of ``qe.io.terms`` can be passed here. Everything else stays a
+tree, which ``qe.io.valuation`` works out, or refuses where it is too large.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TypeAlias
+
+from qe.io.surface import Name, Number, Polynomial, Sum, Term
+
+Coefficients: TypeAlias = dict[tuple[str, ...], Fraction | int]
+
+SHORT = 16
+"""Terms of a polynomial up to which it becomes part of another."""
+MOST_FACTORS = 64
+"""The degree of a product."""
+_LARGE = 1 << 2048
+_ZERO = Number(0)
+
+
+def total(parts: Sequence[Term]) -> Term:
+    """The sum of at least one part."""
+    terms: Coefficients = {}
+    others: list[Term] = []
+    for part in parts:
+        if (added := coefficients(part)) is None:
+            others.append(part)
+            continue
+        for names, value in added.items():
+            terms[names] = terms[names] + value if names in terms else value
+    if not others:
+        return polynomial(terms)
+    if terms:
+        others.insert(0, polynomial(terms))
+    return Sum(others) if len(others) > 1 else others[0]
+
+
+def negative(part: Term) -> Term | None:
+    """``-part``, if the part is short."""
+    terms = coefficients(part)
+    return None if terms is None else polynomial({names: -value for names, value in terms.items()})
+
+
+def product(parts: Sequence[Term]) -> Term | None:
+    """The product of at least one part, if it is short."""
+    value: Fraction | int = 1
+    names: list[str] = []
+    sums: list[Coefficients] = []
+    for part in parts:
+        if isinstance(part, Name):
+            names.append(part.name)
+            continue
+        if (terms := coefficients(part)) is None or not _is_small(value):
+            return None
+        if len(terms) == 1:
+            ((factors, number),) = terms.items()
+            names += factors
+            value = value * number
+        else:
+            sums.append(terms)
+    if len(names) > MOST_FACTORS or not _is_small(value):
+        return None
+    names.sort()
+    result: Coefficients = {tuple(names): value}
+    for terms in sums:
+        if len(result) * len(terms) > SHORT or not all(map(_is_small, result.values())):
+            return None
+        result = _times(result, terms)
+    return polynomial(result)
+
+
+def quotient(part: Term, divisor: Number) -> Term | None:
+    """``part / divisor``, if the part is short and the divisor not zero."""
+    return product((part, Number(Fraction(1) / divisor.value))) if divisor.value else None
+
+
+def power(base: Term, exponent: Number) -> Term | None:
+    """``base ^ exponent``, if it is short and the exponent is a small number from 1 on."""
+    k = exponent.value
+    return product((base,) * int(k)) if k.denominator == 1 and 1 <= k <= SHORT else None
+
+
+def sides(left: Term, right: Term) -> list[Term]:
+    """The sides of a comparison: of two that are short, their difference and zero."""
+    if right == _ZERO or (subtracted := negative(right)) is None or coefficients(left) is None:
+        return [left, right]
+    return [total((left, subtracted)), _ZERO]
+
+
+def coefficients(term: Term) -> Coefficients | None:
+    """The coefficients of a short term; None for any other."""
+    if isinstance(term, Polynomial):
+        return term.terms if len(term.terms) <= SHORT else None
+    if isinstance(term, Name):
+        return {(term.name,): 1}
+    if isinstance(term, Number) and _is_small(term.value):
+        return {(): term.value}
+    return None
+
+
+def polynomial(terms: Coefficients) -> Polynomial | Number:
+    """The term with these coefficients, some of which may be zero."""
+    if 0 in terms.values():
+        terms = {names: value for names, value in terms.items() if value}
+    if len(terms) > 1 or (terms and () not in terms):
+        return Polynomial(terms)
+    return Number(terms.get((), 0))
+
+
+def _times(left: Coefficients, right: Coefficients) -> Coefficients:
+    result: Coefficients = {}
+    for a, m in left.items():
+        for b, n in right.items():
+            names = tuple(sorted(a + b))
+            result[names] = result.get(names, 0) + m * n
+    return result
+
+
+def _is_small(value: Fraction | int) -> bool:
+    if isinstance(value, int):
+        return -_LARGE < value < _LARGE
+    return -_LARGE < value.numerator < _LARGE and value.denominator < _LARGE
