@@ -65,7 +65,7 @@ class ComprehensiveGroebner:
         ring = Ring.of((*free, *dual.variables))
         if _length(dual.body) > MOST_CONJUNCTIONS or dual.has_root_atoms:
             return None
-        parts = list(_conjunctions(convert(dual.body, ring)))
+        parts = list(conjunctions(convert(dual.body, ring)))
         read = [_Conjunction.of(part, ring, dual.variables) for part in parts]
         answers, listed = list[Formula](), not free
         for part in read:
@@ -105,14 +105,14 @@ def _length(formula: Formula) -> int:
     return 1
 
 
-def _conjunctions(formula: Formula) -> Iterator[tuple[Formula, ...]]:
+def conjunctions(formula: Formula) -> Iterator[tuple[Formula, ...]]:
     """The disjunctive normal form of a formula in negation normal form."""
     match formula:
         case Or(args):
             for arg in args:
-                yield from _conjunctions(arg)
+                yield from conjunctions(arg)
         case And(args):
-            for choice in product(*(list(_conjunctions(arg)) for arg in args)):
+            for choice in product(*(list(conjunctions(arg)) for arg in args)):
                 yield tuple(a for part in choice for a in part)
         case Constant(value):
             if value:

@@ -36,7 +36,7 @@ complement; null where S is convex).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -61,8 +61,6 @@ from qe.proof.cells_json import cells_from_json
 from qe.proof.entry import Entry
 
 Row = Sequence[Fraction]
-Seen = Callable[[tuple[Fraction, ...], Entry], None]
-"""What refuses a sample that what is said of it does not place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,39 +101,20 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
     _check_bound(conditions, free, bound)
     surfaces = _surfaces(conditions, free, chains, limits)
     listed = _Listed(conditions, free, points, weights)
-    check_open_cells(
-        holds, outer, surfaces, (factors, stacks), (listed.check_inside, listed.check_outside), claim, limits
-    )
-    if regular.value is None:
-        shape = read_conditions(after, outer, claim, strict=strict)
-        if strict and any(c.is_equation for c in shape):
-            raise claim.fail("a set with equations is not open")
-    else:
-        check_shape(regular, negation(holds) if strict else holds, limits)
-
-
-def check_open_cells(
-    holds: Formula,
-    outer: Ring,
-    surfaces: Sequence[Sequence[Poly]],
-    entries: tuple[Entry, Entry],
-    sides: tuple[Seen, Seen],
-    claim: Claim,
-    limits: Limits,
-) -> None:
-    """The samples of all open cells of ``factors`` and ``stacks`` are seen to be inside T, off the critical points,
-    where the answer holds, and outside elsewhere; it holds at one of them."""
-    (factors, stacks), (check_inside, check_outside) = entries, sides
+    if regular.value is not None:
+        _check_shape(regular, negation(holds) if strict else holds, limits)
+    elif any(c.is_equation for c in read_conditions(after, outer, claim, strict=strict)) and strict:
+        raise claim.fail("a set with equations is not open")
     lists, inside = read_lists(factors, outer, limits), False
     for found in (*([p] for p in polynomials(holds)), *surfaces):
         if lists.decompose(common(found).convert(outer)) is None:
             raise factors.fail("a polynomial of the answer, or of the critical points, is not a product of factors")
     for values, said in open_cells(lists.lists, stacks, limits):
-        if not holds_at(holds, dict(zip(outer.names, values, strict=True))):
-            check_outside(values, said)
+        if not holds_at(holds, dict(zip(names, values, strict=True))):
+            listed.check_outside(values, said)
             continue
         inside = True
-        check_inside(values, said)
+        listed.check_inside(values, said)
         for found in surfaces:
             if len(found) > 1 and not any(q.evaluate(padded(values, q.ring)) for q in found):
                 raise said.fail("the sample lies over critical points")
@@ -222,7 +201,7 @@ def _check_bound(conditions: Sequence[Quadratic], free: int, entry: Entry) -> No
         raise entry.fail("the weighted sum does not bound the variables of the block")
 
 
-def check_shape(entry: Entry, holds: Formula, limits: Limits) -> None:
+def _check_shape(entry: Entry, holds: Formula, limits: Limits) -> None:
     """The table is one of this formula, and shows that it describes the closure of its interior."""
     table, names = cells_from_json(entry), () if holds.ring is None else holds.ring.names
     if any(table.quantifiers):

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from itertools import pairwise
 
 from qe.convex.violation import proposed
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
@@ -14,14 +13,11 @@ from qe.elimination.cad import certificate_for
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.system import systems
 from qe.errors import CertificateRejected
-from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.fibre_stack import isolate_over
-from qe.exact.nearby import rational_between
 from qe.exact.quadratic_form import Quadratic as Form
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.expert.critical_points import active_sets, vanishing
-from qe.expert.critical_universal import Exceeding, read_parts
+from qe.expert.critical_points import active_sets
 from qe.expert.critical_values import (
     Quadratic,
     are_weights,
@@ -37,10 +33,10 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Exists, Formula
 from qe.formula.traverse import polynomials
 from qe.kernel.block import existential
-from qe.kernel.negation import negation, normal
+from qe.kernel.negation import negation
 from qe.kernel.step import Claim
 from qe.options import Budget, Options
-from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proof.entry import Json, poly_to_text
 from qe.proving.elimination_chain import Row, chain
 
 Values = tuple[Fraction, ...]
@@ -81,66 +77,6 @@ def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budg
         "weights": [[str(w) for w in row] for row in cells.weights],
         "regular": regular,
     }
-
-
-def universal_evidence(claim: Claim, order: Sequence[str], options: Options, budget: Budget) -> dict[str, Json]:
-    """The evidence for a universal block, with the parameters in this order; raises as ``critical_evidence``."""
-    names = tuple(order)
-    parts, outer = read_parts(claim, names), Ring.of(names)
-    holds = convert(normal(claim.after), outer)
-    chains, walls = [], dict[Poly, None]()
-    for start in (start for part in parts for start in part.critical()):
-        found = chain(start, len(names), bool, budget)
-        if found is None:
-            raise claim.fail("no chain of elimination found")
-        rows: Json = [[[k, poly_to_text(f)] for k, f in row] for row in found]
-        chains.append(rows)
-        divisor = common(vanishing(start, Entry(rows, "chain"), len(names), parts[0].poly.ring))
-        walls.update(dict.fromkeys(f.convert(outer) for f, _ in divisor.factors()[1]))
-    regular = _table(normal(claim.after), outer, False, claim, options, budget)
-    answer = [f for p in polynomials(holds) for f, _ in p.factors()[1]]
-    levels = factor_lists([*walls, *answer], len(names), BROWN_MCCALLUM, budget, frozenset())
-    exceptions: list[tuple[int, Fraction]] = []
-
-    def said(values: Values) -> Json:
-        budget.check("prove")
-        if holds_at(holds, dict(zip(names, values, strict=True))):
-            return -1
-        for k, (j, y) in enumerate(exceptions):
-            if parts[j].poly.evaluate((*values, y)) > 0:
-                return k
-        exceptions.append(_exception(parts, values, claim))
-        return len(exceptions) - 1
-
-    stacks = _stacks(levels, Point(Ring.of(names)), (), said)
-    listed: Json = [[j, str(y)] for j, y in exceptions]
-    return {
-        "order": list(names),
-        "chains": chains,
-        "factors": [[poly_to_text(f.convert(outer)) for f in level] for level in levels],
-        "stacks": stacks,
-        "exceptions": listed,
-        "regular": regular,
-    }
-
-
-def _exception(parts: Sequence[Exceeding], values: Values, claim: Claim) -> tuple[int, Fraction]:
-    """A case, and a number between the zeros of its polynomial at which it is positive."""
-    for j, part in enumerate(parts):
-        line = part.poly
-        for i, value in enumerate(values):
-            line = line.at_rational(i, value)
-        y = line.ring.size - 1
-        if line.is_constant:
-            places = [part.low]
-        else:
-            zeros = [r for r in real_roots(line.to_univariate(y)) if part.low < r < part.high]
-            ends = [RealAlgebraic.rational(part.low), *zeros, RealAlgebraic.rational(part.high)]
-            places = [rational_between(a, b) for a, b in pairwise(ends)]
-        for place in places:
-            if part.poly.evaluate((*values, place)) > 0:
-                return j, place
-    raise claim.fail("no exception found outside")
 
 
 def _stacks(levels: Sequence[Sequence[Poly]], point: Point, values: Values, said: Callable[[Values], Json]) -> Json:

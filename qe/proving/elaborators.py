@@ -34,6 +34,7 @@ from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.along import constant_along
 from qe.proving.apart import alternatives, independent_parts
 from qe.proving.counted_roots import roots_counted
+from qe.proving.decomposed import counted, decomposed, roots_by_signs
 from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
@@ -460,6 +461,9 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "linear form named": named,
     "mirror images of a convex set": mirrored,
     "disjuncts with equations apart": distributed,
+    "roots by signs": roots_by_signs,
+    "critical values of a universal block": decomposed,
+    "comprehensive Gröbner system": counted,
 }
 
 

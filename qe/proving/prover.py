@@ -12,7 +12,7 @@ from fractions import Fraction
 from qe.certify.registry import RULES
 from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
-from qe.errors import CertificateRejected, InternalError, Unable
+from qe.errors import CertificateRejected, Contradiction, InternalError, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
@@ -29,7 +29,6 @@ from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.proof.on_demand import completed
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
-from qe.proving.counted import case_proofs
 from qe.proving.elaborators import ELABORATORS
 from qe.proving.lemma_list import EMPTY, identities, with_cases
 from qe.proving.lemmas import refuting
@@ -52,16 +51,19 @@ SIMPLIFYING = (
 )
 """Rules whose steps go on under quantifiers."""
 
-CRITICAL = ("critical values", "critical values of a universal block")
+CRITICAL = "critical values"
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
 REDUNDANT = "redundant part"
 ELABORATED = (
+    "comprehensive Gröbner system",
+    "critical values of a universal block",
     "conditions on zeros that follow",
     "constant along directions",
     "degenerate truth set",
     "degree shift",
     "infinity first",
     "linear form named",
+    "roots by signs",
     "roots counted",
     "ranges that exclude each other",
     "mirror images of a convex set",
@@ -75,7 +77,6 @@ ELABORATED = (
     "value that is taken",
     "witness in the parameters",
 )
-COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
 
@@ -224,7 +225,7 @@ class Prover:
             inner = self._substituted(step, trace)
             if inner is not None:
                 return "virtual substitution", inner
-        if step.rule in CRITICAL:
+        if step.rule == CRITICAL:
             found = self._critical(step)
             return None if found is None else (step.rule, found)
         if isinstance(trace, RunLog):
@@ -238,8 +239,6 @@ class Prover:
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
         if step.rule == SEARCH:
             return self._searched(step, evidence)
-        if step.rule == COUNTED and not evidence:
-            evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
         if step.rule in ELABORATED:
             elaborated = self._elaborated(step, context, evidence)
             if elaborated is not None or step.rule not in RULES:
@@ -293,6 +292,8 @@ class Prover:
         try:
             claim, elaborator = self._claim(step.rule, step, evidence), ELABORATORS[step.rule]
             made = proved_inside(lambda limits: elaborator(claim, context, limits), self.limits, self.nested)
+        except Contradiction:
+            raise
         except (CertificateRejected, *CRASHES):  # what evidence an elaborator cannot read proves nothing
             return None
         except Unable:
@@ -330,18 +331,19 @@ class Prover:
 
     def _critical(self, step: Step) -> Json | None:
         """The evidence for a step by critical values, accepted."""
-        from qe.proving.critical import critical_evidence, universal_evidence
+        from qe.proving.critical import critical_evidence
 
         order, claim = step.evidence.get("order"), self._claim(step.rule, step, {})
-        made = critical_evidence if step.rule == CRITICAL[0] else universal_evidence
         try:
-            evidence = made(claim, order, self.options, self.budget) if isinstance(order, tuple) else None
+            if not isinstance(order, tuple):
+                return None
+            evidence = critical_evidence(claim, order, self.options, self.budget)
         except CertificateRejected:
             return None
         except Unable:
             self.budget.check("prove")
             return None
-        return None if evidence is None else self._tried(step.rule, step, (), evidence)
+        return self._tried(step.rule, step, (), evidence)
 
     def _replayed(self, step: Step, log: RunLog) -> Json | None:
         """The steps of which one step is made, all of them accepted."""

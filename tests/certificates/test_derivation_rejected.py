@@ -80,9 +80,7 @@ def refused(verdict: Verdict, k: int | None = None) -> None:
 
 ELSEWHERE = {
     "critical values": "certificates/test_critical_values",
-    "critical values of a universal block": "certificates/test_critical_universal",
     "covering": "certificates/test_covering",
-    "comprehensive Gröbner system": "certificates/test_counted_solutions",
     "multipliers": "certificates/test_optimum",
     "instance": "certificates/test_witness",
     "solutions": "certificates/test_solutions",

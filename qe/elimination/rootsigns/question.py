@@ -31,6 +31,7 @@ class Question:
 
     ``relation`` is one of =, <, <=. ``g``, ``sign``: what else is asked, in the place CONDITION. ``closed``: whether
     y = 0, and whether y = oo, takes part, in the place RAY. ``side``: a condition on the parameters besides.
+    ``change``: numerator and denominator, by coefficients in y, of what the block's variable is; none where that is y.
     """
 
     f: tuple[Poly, ...]
@@ -40,6 +41,7 @@ class Question:
     sign: Relation = GT
     closed: tuple[bool, bool] = (False, False)
     side: Formula = TRUE
+    change: tuple[Sequence[Poly], Sequence[Poly]] | None = None
 
     @property
     def degree(self) -> int:
@@ -65,6 +67,14 @@ class Question:
         if self.closed[0]:
             inside = (Root.ZERO, Root.POSITIVE)
         return count(kind, *inside) > 0 or (self.relation is LE and lead < 0)
+
+    def terms(self, x: Poly) -> tuple[tuple[Poly, Poly], tuple[Poly, Poly]]:
+        """The variable of the block by y, and y by it, as quotients; both have the name x."""
+        one = x.ring.constant(1)
+        if self.change is None:
+            return (x, one), (x, one)
+        (s, t), (b, k) = self.change
+        return (s + t * x, b + k * x), (b * x - s, t - k * x)
 
     def degenerate(self, x: int) -> Formula:
         """The question where the leading coefficient is 0."""
@@ -139,15 +149,17 @@ def _on_interval(poly: Poly, relation: Relation, bounds: Sequence[Atom], x: int)
     if not upper or not lower:
         (end,) = ends
         turn = end.bottom if end.lower else -end.bottom
-        moved = _composed(f, (end.top, one * turn), (one * end.bottom,))
-        return Question(moved, relation, Place.RAY, closed=(end.closed, False))
+        change = (end.top, one * turn), (one * end.bottom, zero)
+        moved = _composed(f, change[0], change[1][:1])
+        return Question(moved, relation, Place.RAY, closed=(end.closed, False), change=change)
     (low,), (high,) = lower, upper
     common = lcm(low.bottom, high.bottom)
     l, u = low.top * (common // low.bottom), high.top * (common // high.bottom)
-    moved = _composed(f, (l, u), (one * common, one * common))
+    change = (l, u), (one * common, one * common)
+    moved = _composed(f, *change)
     while not moved[-1] and len(moved) > 1:
         moved = moved[:-1]
-    question = Question(moved, relation, Place.RAY, closed=(low.closed, high.closed))
+    question = Question(moved, relation, Place.RAY, closed=(low.closed, high.closed), change=change)
     side = atom(u - l, GE if low.closed and high.closed else GT) if u - l != zero else None
     if side is None:
         return None

@@ -1,9 +1,6 @@
-"""Hermite's trace forms over a case of the parameters, for the checker: their minors and characteristic polynomials."""
+"""Hermite's trace forms over a case of the parameters, for the checker: their characteristic polynomials."""
 
 from __future__ import annotations
-
-from collections.abc import Mapping, Sequence
-from itertools import combinations
 
 from qe.errors import Unable
 from qe.exact.ring import Poly
@@ -91,28 +88,6 @@ class ParametricForms:
         """The characteristic polynomial of a form, highest coefficient (1) first, up to positive factors and squares
         that do not vanish."""
         return [self._sign_of(c) for c in self._characteristic(matrix)]
-
-    def minors(self, matrix: Matrix) -> list[Poly]:
-        """The leading minors of a form, from 1 by 1 on, as its coefficients: by expansion along the last rows, every
-        determinant of a set of columns once, and modulo the equations."""
-        size, found = len(matrix), []
-        above: dict[tuple[int, ...], Poly] = {(): self.ring.constant(1)}
-        for k in range(size):
-            self.case.where.tick()
-            columns = list(combinations(range(size), k + 1))
-            here = self.case.where.reduced([self._expanded(matrix[k], chosen, above) for chosen in columns])
-            if max((p.term_count() for p in here), default=0) > MOST_TERMS:
-                raise Unable("a trace form grows past the limits of the checker")
-            above = dict(zip(columns, here, strict=True))
-            found.append(self._sign_of(above[tuple(range(k + 1))]))
-        return found
-
-    def _expanded(self, row: Sequence[Poly], columns: Sequence[int], above: Mapping[tuple[int, ...], Poly]) -> Poly:
-        total = self.ring.constant(0)
-        for place, column in enumerate(columns):
-            rest = above[(*columns[:place], *columns[place + 1 :])]
-            total = total + row[column] * rest * (-1) ** (len(columns) - 1 - place)
-        return total
 
     def _characteristic(self, matrix: Matrix) -> list[Poly]:
         """By the recursion of Faddeev and LeVerrier."""

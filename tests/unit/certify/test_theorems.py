@@ -15,5 +15,5 @@ def test_every_rule_with_a_checker_has_its_theorem(rule: str) -> None:
 
 def test_a_rule_has_the_theorem_of_its_checker_and_no_other() -> None:
     assert "intermediate values" in theorem_of("root")[0]
-    assert len(theorem_of("roots by signs")) == 1
+    assert len(theorem_of("solutions")) == 1
     assert theorem_of("no such rule") == ()
