@@ -25,7 +25,7 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 # The default is deterministic: the same examples on every machine and in every run.
 _COMMON = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow], "print_blob": True}
-settings.register_profile("ci", derandomize=True, database=None, max_examples=25, **_COMMON)
+settings.register_profile("ci", derandomize=True, database=None, max_examples=15, **_COMMON)
 settings.register_profile("explore", max_examples=400, **_COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
@@ -85,6 +85,15 @@ def faults_are_heard(request: pytest.FixtureRequest) -> Iterator[None]:
         if request.node.get_closest_marker("faults") is None:
             patch.setattr("qe.proving.certificates.fault", raised)
         yield
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Every property test is a deep test, too, of other examples, and of more where it names no number."""
+    if "not deep" not in config.option.markexpr:
+        for item in items:
+            if getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
+                item.add_marker("deep")
 
 
 def pytest_collection_finish() -> None:

@@ -7,6 +7,7 @@ import json
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from math import cos, pi, sin, sqrt
 from typing import Any
 
@@ -80,6 +81,12 @@ CASES: dict[str, Callable[[], Inverse]] = {
 }
 
 
+@cache
+def payload_of(name: str) -> Payload:
+    """Of a case, accepted; whoever changes it takes a copy."""
+    return made(CASES[name]())
+
+
 # --- accepted ------------------------------------------------------------------------------------------------------
 def families(payload: Payload) -> list[Any]:
     over = [s for root in payload.get("roots", ()) for s in root["solutions"]]
@@ -88,10 +95,9 @@ def families(payload: Payload) -> list[Any]:
 
 @pytest.mark.parametrize("name", CASES)
 def test_a_joint_that_can_be_chosen(name: str) -> None:
-    found = CASES[name]()
-    payload = made(found)
-    assert found.free and payload["count"] is None and families(payload)
-    assert "families of joint positions" in claim_of(inverse_certificate(found)).words[0]
+    payload = payload_of(name)
+    assert payload["count"] is None and families(payload)
+    assert "families of joint positions" in claim_of(Certificate(Kind("inverse"), payload)).words[0]
 
 
 @settings(max_examples=6)
@@ -176,7 +182,7 @@ MARKS: dict[str, Callable[[Payload], object]] = {
 
 @pytest.mark.parametrize("name", CASES)
 def test_changed_certificates_are_rejected(name: str) -> None:
-    payload = made(CASES[name]())
+    payload = payload_of(name)
     arcs = _range(payload)[1]
     changes = {**EVERY, **(ARCS if arcs else {}), **(MARKS if "marks" in payload else {})}
     if arcs and arcs[0][0] == arcs[0][1]:
@@ -188,7 +194,7 @@ def test_changed_certificates_are_rejected(name: str) -> None:
 
 
 def test_a_family_left_out() -> None:
-    payload = made(CASES["skew wrist"]())
+    payload = payload_of("skew wrist")
     for root in payload["roots"]:
         changed = json.loads(json.dumps(payload))
         changed["roots"][payload["roots"].index(root)]["solutions"] = []

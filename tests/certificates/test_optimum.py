@@ -82,15 +82,15 @@ def test_accepted_after_a_round_trip(whole: Any) -> None:
 
 def test_every_altered_leaf_is_rejected(whole: Any) -> None:
     for path, value in leaves(evidence_in(whole)):
-        for other in _alterations(value)[:2]:
+        for other in _alterations(value)[:1]:
             verdict = verify_json(replaced(whole, (*EVIDENCE, *path), other, signed=False))
             assert not verdict.accepted, (path, value, other)
             assert verdict.step
 
 
 def test_altered_meaning_is_rejected_whatever_the_digest_says(whole: Any) -> None:
-    """Every entry is altered in two ways, entries of one kind in different ones."""
-    _accepted_only_if_true(whole, 2)
+    """Every entry is altered in one way, entries of one kind in different ones."""
+    _accepted_only_if_true(whole, 1)
 
 
 @pytest.mark.deep

@@ -18,7 +18,7 @@ from qe.api.input import read_formula
 from tests.corpus.catalogue import problems
 
 METHODS = ("auto", "vs", "cad", "cgs", "coverings", "critical", "roots", "convex", "witness")
-LIMIT, BETWEEN = 0.25, 0.35
+LIMIT, BETWEEN = 0.15, 0.35
 """Seconds. Modules are loaded and single operations of FLINT may be long; a loop that never looks takes seconds."""
 
 LONG = (

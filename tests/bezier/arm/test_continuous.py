@@ -332,6 +332,11 @@ def false(number: int, among: set[int], *, every: bool) -> list[int]:
     return others if every else others[:1]
 
 
+def some(listed: list[Any]) -> list[Any]:
+    """One of them, in the middle."""
+    return listed[len(listed) // 2 :][:1]
+
+
 @pytest.mark.parametrize("case", CASES)
 @each(False, pytest.param(True, marks=pytest.mark.deep))
 def test_false_numbers_are_rejected(every: bool, case: str) -> None:
@@ -340,7 +345,7 @@ def test_false_numbers_are_rejected(every: bool, case: str) -> None:
     for key in ("solutions", "through"):
         listed = payload[key]
         assert isinstance(listed, list)
-        for k, value in enumerate(listed):
+        for k, value in enumerate(listed) if every else some(list(enumerate(listed))):
             for other in false(value, {0, 2, 4, 8}, every=every):
                 assert not forged(payload, **{key: [*listed[:k], other, *listed[k + 1 :]]})
         assert not forged(payload, **{key: [*listed, 4]}) and not forged(payload, **{key: None})
@@ -348,7 +353,7 @@ def test_false_numbers_are_rejected(every: bool, case: str) -> None:
         assert not forged(payload, motions=other)
     places: Any = payload["places"]
     for i, curve in enumerate(places):
-        for k, place in enumerate(curve):
+        for k, place in enumerate(curve) if every else some(list(enumerate(curve))):
             low, high = F(place["low"]), F(place["high"])
             wrong = [
                 {**place, "low": str(high)},

@@ -76,7 +76,10 @@ def test_decided_cells_are_described(text: str, work: int) -> None:
 
 def test_a_solved_disjunct_is_handed_over() -> None:
     """One disjunct is easy, the other is not answered in the time: what is known of the first is said."""
-    answer = eliminate(f"(ex z. z < 0 and z^2 = a) or ({HARD})", timeout=3, anytime=True)
+    for seconds in (1.5, 6, 24):  # the more, the busier the machine is
+        answer = eliminate(f"(ex z. z < 0 and z^2 = a) or ({HARD})", timeout=seconds, anytime=True)
+        if answer.formula is not None or (answer.partial is not None and answer.partial.proved_true != FALSE):
+            break
     if answer.formula is None:  # else the machine is fast
         assert answer.reason and answer.partial is not None
         assert str(answer.partial.proved_true).startswith("a > 0")

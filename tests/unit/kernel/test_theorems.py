@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -81,6 +82,7 @@ def objection(before: Formula, after: Formula, evidence: dict[str, Json], known:
     return ""
 
 
+@cache
 def cases(name: str, count: int = 4) -> list[Case]:
     rng = random.Random(name)
     choices = list(rows()[name].choices(SIZES))
