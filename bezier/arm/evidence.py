@@ -1,9 +1,9 @@
-"""Certificates of kind "branch" for the runs of a path, and of all its motions, which ``qe.verify`` checks."""
+"""Certificates for the runs of a path, and of all its motions, which ``qe.verify`` checks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from math import ceil, floor, tau
@@ -18,16 +18,18 @@ from bezier.arm.motion_chain import ProvedPiece
 from bezier.arm.roots_of_squares import square_roots
 from bezier.arm.vertical import SignsAlong
 from bezier.certify import branch as checked
+from bezier.certify import inverse_position, joint_motions
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
 from qe.certify.verify import verify
-from qe.errors import BudgetExceeded, Unable
+from qe.errors import BudgetExceeded, CertificateRejected, Unable
 from qe.exact.balls import precision
 from qe.exact.field import FieldElement, NumberField
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
+from qe.expert.sentences import Sentence
 from qe.kernel.verdict import Verdict
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry, Json
 
 
@@ -124,19 +126,40 @@ def motions_certificate(motions: ContinuousMotions) -> Certificate:
                 "motions": motions.count,
             }
 
-    return accepted_certificate("motions", payloads())
+    return MOTIONS.accepted(payloads())
 
 
-def accepted_certificate(kind: str, payloads: Iterable[dict[str, Json]]) -> Certificate:
-    """The first of these that the checker accepts. Raises ``Unable`` with its last reason where it accepts none."""
-    reason = "the last joint is undetermined"
-    for payload in payloads:
-        certificate = Certificate(Kind(kind), payload)
-        verdict = verify(certificate)
-        if verdict.accepted:
-            return certificate
-        reason = verdict.reason
-    raise Unable(f"no certificate was found: {reason}")
+@dataclass(frozen=True, slots=True)
+class SentenceRule:
+    """A rule, and the sentence that its evidence proves where it is accepted."""
+
+    rule: str
+    sentence: Callable[[Entry], Sentence]
+
+    def certificate(self, evidence: Entry) -> Certificate:
+        """The sentence, by one step with this evidence. Raises ``CertificateRejected`` where it is malformed."""
+        assert isinstance(evidence.value, dict)
+        return Certificate.step(self.rule, (), *self.sentence(evidence), evidence.value)
+
+    def accepted(self, listed: Iterable[dict[str, Json]]) -> Certificate:
+        """That of the first evidence that the checker accepts. Raises ``Unable`` with its last reason without one."""
+        reason = "the last joint is undetermined"
+        for evidence in listed:
+            try:
+                certificate = self.certificate(Entry(evidence, "evidence"))
+            except CertificateRejected as error:
+                reason = error.reason
+                continue
+            verdict = verify(certificate)
+            if verdict.accepted:
+                return certificate
+            reason = verdict.reason
+        raise Unable(f"no certificate was found: {reason}")
+
+
+POSITIONS = SentenceRule("joint positions", inverse_position.sentence)
+MOTIONS = SentenceRule("joint motions", joint_motions.sentence)
+LIMITED = SentenceRule("joints along curves", checked.sentence)
 
 
 def _place(s: Number, factor: Json, bits: int) -> Json:
@@ -262,7 +285,7 @@ def _branch_certificate(path: JointPath, run: Run) -> Certificate:
         "limits": [None if j.limits is None else [str(v) for v in j.limits] for j in path.arm.joints],
         "pieces": pieces,
     }
-    return Certificate(Kind("branch"), payload)
+    return LIMITED.certificate(Entry(payload, "evidence"))
 
 
 def _piece(curve: int, piece: ProvedPiece) -> Json:

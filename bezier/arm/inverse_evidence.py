@@ -1,4 +1,4 @@
-"""Certificates of kind "inverse" for all joint positions at a point or at a pose, which ``qe.verify`` checks."""
+"""Certificates of all joint positions at a point or at a pose, which ``qe.verify`` checks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 from bezier.arm.choices import Choice, Value
 from bezier.arm.elimination import TURNS
-from bezier.arm.evidence import accepted_certificate, arm_json, surd_json
+from bezier.arm.evidence import POSITIONS, arm_json, surd_json
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve
 from bezier.arm.model import JointKind
 from bezier.arm.wrist import centre_at, wrist_of
@@ -34,7 +34,7 @@ def inverse_certificate(answer: Inverse) -> Certificate:
         listed["rotation"] = [_triple(row) for row in answer.rotation]
     listed["count"] = answer.count
     attempts = (payload for bits, places in ATTEMPTS for payload in _payloads(answer, bits, places))
-    return accepted_certificate("inverse", ({**listed, **payload} for payload in attempts))
+    return POSITIONS.accepted({**listed, **payload} for payload in attempts)
 
 
 def _payloads(answer: Inverse, bits: int, places: int) -> Iterator[dict[str, Json]]:

@@ -1,2 +1,2 @@
-"""Checkers of the certificates about curves and arms, apart from whatever makes them: containment, clearance, branches,
-joint positions. They read rational data only; how a curve or an arm is planned or solved belongs elsewhere."""
+"""Rules about arms: checkers of what is said of joint positions, and of joints along curves, with the sentences that
+they prove. They read exact data only; how an arm is planned or solved belongs elsewhere."""

@@ -1,4 +1,4 @@
-"""Arms, points and boxes of joint positions as certificates of kind "inverse" hold them."""
+"""Arms, points and boxes of joint positions as evidence holds them."""
 
 from __future__ import annotations
 

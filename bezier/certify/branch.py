@@ -1,4 +1,9 @@
-"""Checker for certificates of kind "branch": an arm with three joints follows curves continuously.
+"""Rule "joints along curves": an arm with three joints follows curves continuously.
+
+The sentence (``sentence``): at every parameter of each curve, from the beginning of the first piece to the end of the
+last, some joints solve the equations of the arm (``bezier.certify.arm_sentences``). What first-order logic has no words
+for is checked all the same: that they depend continuously on the parameter, are the only ones in boxes of angles,
+and keep the limits.
 
 ``pieces``: on [low, high] of a curve, joint values within ``radius`` of centre + slope (s - middle). THEOREM (Krawczyk
 1969; Neumaier, Interval Methods for Systems of Equations, section 5.1, with a parameter): with f(σ, r) the end point at
@@ -23,13 +28,16 @@ from typing import Any
 
 from bezier.certify import duals
 from bezier.certify.arm_rows import read_chain
+from bezier.certify.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
 from bezier.certify.duals import Dual, Vector
-from bezier.certify.joint_limits import JointStretch, KeptLimits, Limits, read_limits
+from bezier.certify.joint_limits import Ends, JointStretch, KeptLimits, read_limits
 from bezier.certify.square_roots import STILL, Motion, Surd, back, image
-from qe.certify.kinds import BroughtKind
 from qe.exact.balls import ends, precision
-from qe.options import Budget
-from qe.proof.entry import Entry, Json
+from qe.expert.sentences import Sentence, stated
+from qe.formula.build import conj, exists, forall, implies
+from qe.formula.syntax import TRUE, Formula
+from qe.kernel.step import Limits
+from qe.proof.entry import Entry
 
 MOST_POINTS = 60
 SIGMA, DIRECTIONS = 0, 4
@@ -53,24 +61,47 @@ class Tube:
         return [c + v * step for c, v in zip(self.centre, self.slope, strict=True)]
 
 
-def check_branch(payload: dict[str, Json], budget: Budget | None = None) -> None:
-    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    arm, curves_entry, limits, pieces_entry = Entry(payload, "payload").fields("arm", "curves", "limits", "pieces")
+def check_branch(evidence: Entry, limits: Limits) -> Sentence:
+    """What the evidence proves; or raise ``CertificateRejected`` naming the entry that fails."""
+    arm, curves_entry, kept, pieces_entry = evidence.fields("arm", "curves", "limits", "pieces")
     curves = [read_curve(entry) for entry in curves_entry.items()]
     pieces = [_piece(entry, len(curves)) for entry in pieces_entry.items()]
     if not pieces:
         raise pieces_entry.fail("expected at least one piece")
-    tubes = Tubes(arm, curves, read_limits(limits, 3))
+    tubes = Tubes(arm, curves, read_limits(kept, 3))
     images = []
     for piece in pieces:
-        if budget is not None:
-            budget.check()
+        limits.tick()
         images.append(tubes.image(piece))
         joint = tubes.unlimited(piece, images[-1])
         if joint is not None:
             raise piece.entry.fail(f"joint {joint + 1} is not proved to keep its limits there")
     for (one, first), (other, second) in pairwise(zip(pieces, images, strict=True)):
         _check_link(one, first, other, second, curves)
+    return sentence(evidence)
+
+
+def sentence(evidence: Entry) -> Sentence:
+    """That the arm reaches every point of the curves along the pieces."""
+    arm, curves_entry, _, pieces_entry = evidence.fields("arm", "curves", "limits", "pieces")
+    chain, curves = read_chain(arm), [read_curve(entry) for entry in curves_entry.items()]
+    ranges: dict[int, tuple[Fraction, Fraction]] = {}
+    for piece in (_piece(entry, len(curves)) for entry in pieces_entry.items()):
+        ranges[piece.curve] = (ranges.get(piece.curve, (piece.low,))[0], piece.high)
+    if not ranges:
+        raise pieces_entry.fail("expected at least one piece")
+    listed = [ArmEquations.on_curve(chain, coefficients(curves[k])) for k in ranges]
+    ring = ring_of(listed)
+    s, parts = ring.var(ALONG), list[Formula]()
+    for equations, pair in zip(listed, ranges.values(), strict=True):
+        reached = exists(equations.variables(), equations.hold(ring))
+        parts.append(forall((ALONG,), implies(between(s, *pair), reached)))
+    return with_roots(ring, listed, conj(parts)), TRUE
+
+
+def coefficients(points: Points) -> list[list[Fraction]]:
+    """Of the coordinates of a curve, as polynomials in its parameter."""
+    return [powers([p[i] for p in points]) for i in range(3)]
 
 
 def read_curve(entry: Entry) -> Points:
@@ -98,15 +129,15 @@ def _piece(entry: Entry, curves: int) -> Tube:
 class Tubes:
     """An arm along curves, and what is proved about pieces."""
 
-    def __init__(self, arm: Entry, curves: Sequence[Points], limits: Sequence[Limits | None]) -> None:
+    def __init__(self, arm: Entry, curves: Sequence[Points], limits: Sequence[Ends | None]) -> None:
         chain = read_chain(arm)
         if len(chain.turns) != 3:
             raise arm.fail("expected rows, three of them with a joint")
-        coefficients = [[powers([p[i] for p in points]) for i in range(3)] for points in curves]
-        self._turns, self._limits = chain.turns, KeptLimits(chain, coefficients, limits)
+        along = [coefficients(points) for points in curves]
+        self._turns, self._limits = chain.turns, KeptLimits(chain, along, limits)
         with precision(duals.BITS):
             self._links = [duals.rigid(motion) for motion in chain.constants[1:]]
-            self._curves = [list(_seen_from(chain.constants[0], curve)) for curve in coefficients]
+            self._curves = [list(_seen_from(chain.constants[0], curve)) for curve in along]
 
     def image(self, piece: Tube) -> list[Fraction]:
         """Radii of a box around 0 that holds the image, which is proved to lie inside the piece's box."""
@@ -191,4 +222,4 @@ def _check_link(one: Tube, first: list[Fraction], other: Tube, second: list[Frac
         raise other.entry.fail("its solution is not proved to be that of the piece before at their common parameter")
 
 
-KIND = BroughtKind(check_branch, lambda _: "about an arm that follows curves, see the entries of its payload")
+RULE = stated(check_branch)

@@ -1,4 +1,4 @@
-"""Families of joint positions in certificates of kind "inverse": joints that can be chosen, and for which values.
+"""Families of joint positions: joints that can be chosen, and for which values.
 
 THEOREM. For numbers a, b, c and L > 0 let R = |(a, b)| > 0, ψ the direction of (a, b). |a cos θ + b sin θ + c| <= L iff
 -L - c <= R cos(θ - ψ) <= L - c. Each of the two inequalities holds everywhere, nowhere, or from ψ - arccos(k/R) to ψ +

@@ -1,4 +1,9 @@
-"""Checker for certificates of kind "inverse": all joint positions of an arm at a point or at a pose.
+"""Rule "joint positions": all joint positions of an arm at a point or at a pose.
+
+The sentence (``sentence``): there are positions, one in each of the boxes, and all solutions of the equations of the
+arm (``bezier.certify.arm_sentences``) are these. Where joints can be chosen: every solution lies in the boxes of one of
+the families, or of the positions beside them, each of which is the only one there; and for which angles of the chosen
+joints the others can follow.
 
 A point, three joints that turn or slide: ``bezier.certify.three_joints``, an equation E in t, what the last joint is
 told by, and perhaps a square root. ``roots``: intervals of t; the checker counts the roots of E in each (one) and
@@ -19,19 +24,25 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from bezier.certify.arm_rows import ArmChain, read_chain, read_circle, read_number, read_triple
+from bezier.certify.arm_sentences import ArmEquations, constant, ring_of, with_roots
 from bezier.certify.families import Listed, Position, read_listed
 from bezier.certify.inverse_pose import centre, parallel_axes, wrist
 from bezier.certify.square_roots import ZERO, Motion, Triple, back, image, is_motion
 from bezier.certify.three_joints import Positions, is_still
-from qe.certify.kinds import BroughtKind
 from qe.errors import Unable
+from qe.expert.sentences import Sentence, stated
+from qe.formula.build import conj, disj, forall, implies
+from qe.formula.syntax import TRUE
+from qe.kernel.step import Limits
 from qe.options import Budget
-from qe.proof.entry import Entry, Json
+from qe.proof.entry import Entry
 
 
-def check_inverse(payload: dict[str, Json], budget: Budget | None = None) -> None:
-    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    whole, budget = Entry(payload, "payload"), budget or Budget()
+def check_positions(whole: Entry, limits: Limits) -> Sentence:
+    """What the evidence proves; or raise ``CertificateRejected`` naming the entry that fails."""
+    payload, budget = whole.value, limits.budget
+    if not isinstance(payload, dict):
+        raise whole.fail("expected an object")
     rest: tuple[str, ...] = ("rotation",) if "rotation" in payload else ()
     if "roots" in payload:
         arm, point, turn, count, roots, *rotation = whole.fields("arm", "point", "turn", "count", "roots", *rest)
@@ -58,6 +69,36 @@ def check_inverse(payload: dict[str, Json], budget: Budget | None = None) -> Non
         raise count.fail("not the number of solutions")
     if any(one.meets(other) for one, other in combinations(listed, 2)):
         raise whole.fail("two boxes meet")
+    return sentence(whole)
+
+
+def sentence(evidence: Entry) -> Sentence:
+    """That there are positions in the boxes, and no others."""
+    rest = ("rotation", "turn", "roots", "marks", "solutions")
+    arm, point, _, rotation, _, roots, _, solutions = evidence.fields("arm", "point", "count", optional=rest)
+    chain, place = read_chain(arm), read_triple(point)
+    if rotation.value is None:
+        equations = ArmEquations.at_point(chain, [constant(c) for c in place])
+    else:
+        equations = ArmEquations.at_pose(chain, _pose(rotation, place))
+    lists = [solutions]
+    if roots.value is not None:
+        lists = [root.fields("low", "high", "solutions")[2] for root in roots.items()]
+    listed = [read_listed(entry, chain.turns) for boxes in lists for entry in boxes.items()]
+    if any(arcs is not None and not chain.turns[k] for one in listed for k, arcs in one.chosen.items()):
+        raise evidence.fail("expected arcs of joints that turn")
+    if not any(one.chosen for one in listed):
+        ring = ring_of([equations], len(listed))
+        whole = equations.exactly(ring, len(listed), [one.boxes for one in listed])
+    else:
+        ring = ring_of([equations], max(1, *(2 * len(arcs or ()) for one in listed for arcs in one.chosen.values())))
+        somewhere = disj(equations.within(ring, one.boxes) for one in listed)
+        parts = [forall(equations.variables(), implies(equations.hold(ring), somewhere))]
+        for one in listed:
+            own = equations.family(ring, one.boxes, one.chosen) if one.chosen else equations.only(ring, one.boxes)
+            parts.append(own)
+        whole = conj(parts)
+    return with_roots(ring, [equations], whole), TRUE
 
 
 def _pose(rotation: Entry, place: Triple) -> Motion:
@@ -121,12 +162,4 @@ def _matched(positions: Sequence[Position], chain: ArmChain, solutions: Entry) -
     return listed
 
 
-def _claim(payload: Entry) -> str:
-    rest = ("rotation", "turn", "roots", "marks", "solutions")
-    count, rotation, *_ = payload.fields("arm", "point", "count", optional=rest)[2:]
-    number = "families of" if count.value is None else f"exactly {count.integer()}"
-    place = "point" if rotation.value is None else "pose"
-    return f"an arm has {number} joint positions at a {place}, see the entries of its payload"
-
-
-KIND = BroughtKind(check_inverse, _claim)
+RULE = stated(check_positions)

@@ -34,7 +34,7 @@ PROBES = (-5, -2, -1, 1, 2, 3, 7)
 """Lengths, and tangents of half of angles. A condition of a relation is of degree at most 3 in a length, in cosine and
 sine: where it vanishes for seven values it vanishes for all."""
 
-Limits = tuple[Fraction, Fraction]
+Ends = tuple[Fraction, Fraction]
 Range = tuple[Fraction, Fraction]
 
 
@@ -51,9 +51,9 @@ class JointStretch:
     at_end: Callable[[int], Sequence[Range]]
 
 
-def read_limits(entry: Entry, joints: int) -> list[Limits | None]:
+def read_limits(entry: Entry, joints: int) -> list[Ends | None]:
     """For each joint null, or its least and its greatest value."""
-    result = list[Limits | None]()
+    result = list[Ends | None]()
     for item in entry.items():
         ends = None if item.value is None else tuple(v.rational() for v in item.items())
         if ends is not None and (len(ends) != 2 or ends[0] >= ends[1]):
@@ -68,7 +68,7 @@ class KeptLimits:
     """The limits of the joints of one arm along curves, given by the coefficients of 1, s, s², …"""
 
     def __init__(
-        self, chain: ArmChain, curves: Sequence[Sequence[Sequence[Fraction]]], limits: Sequence[Limits | None]
+        self, chain: ArmChain, curves: Sequence[Sequence[Sequence[Fraction]]], limits: Sequence[Ends | None]
     ) -> None:
         self._chain, self._curves, self.limits = chain, curves, limits
         self._zeros = cache(self._zeros_at)

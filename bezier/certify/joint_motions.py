@@ -1,4 +1,8 @@
-"""Checker for certificates of kind "motions": all continuous motions of an arm along curves, limits left aside.
+"""Rule "joint motions": all continuous motions of an arm along curves, limits left aside.
+
+The sentence (``sentence``): for all parameters between neighbouring places, the equations of the arm
+(``bezier.certify.arm_sentences``) have exactly so many solutions. First-order logic has no words for motions: how the
+solutions go on from there, and the number of chains of them, is checked all the same, by what follows.
 
 An arm whose first joint turns about z, while the other two keep the end point in a plane parallel to z: with a
 horizontal unit normal h and e = h x z it is r e + d h + z e_z, d constant. Let W = x² + y² - d² for the point (x, y, z)
@@ -24,18 +28,22 @@ number of chains from start to goal.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import ArmChain, read_chain, read_number, read_surd
-from bezier.certify.branch import powers, read_curve
+from bezier.certify.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
+from bezier.certify.branch import coefficients, read_curve
 from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, constant_sign, dot
-from qe.certify.kinds import BroughtKind
 from qe.errors import Unable
+from qe.expert.sentences import Sentence, stated
+from qe.formula.build import conj, disj, forall, implies
+from qe.formula.syntax import TRUE, Formula
+from qe.kernel.step import Limits
 from qe.options import Budget
-from qe.proof.entry import Entry, Json
+from qe.proof.entry import Entry
 
 Label = tuple[int, int]
 Split = tuple[Polynomial, Polynomial]
@@ -166,11 +174,9 @@ class _Between:
         return side and (one[1] == other[1] or one[0] in self.empty)
 
 
-def check_motions(payload: dict[str, Json], budget: Budget | None = None) -> None:
-    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    whole, budget = Entry(payload, "payload"), budget or Budget()
-    names = ("arm", "curves", "places", "solutions", "through", "motions")
-    arm, curves, places, solutions, through, motions = whole.fields(*names)
+def check_motions(evidence: Entry, limits: Limits) -> Sentence:
+    """What the evidence proves; or raise ``CertificateRejected`` naming the entry that fails."""
+    arm, curves, places, solutions, through, motions = evidence.fields(*_MEMBERS)
     chain, budgeted = read_chain(arm), list(zip(curves.items(), places.items(), strict=False))
     if not budgeted or len(budgeted) != len(list(curves.items())) or len(budgeted) != len(list(places.items())):
         raise places.fail("expected a list for each of at least one curve")
@@ -181,7 +187,7 @@ def check_motions(payload: dict[str, Json], budget: Budget | None = None) -> Non
         if last is not None and points[0] != last:
             raise curve.fail("the curve does not begin where the one before ends")
         along, last = _Along.of(plane, _target(chain, points), curve), points[-1]
-        betweens, samples = _cut(along, listed, budget)
+        betweens, samples = _cut(along, listed, limits.budget)
         for i, sample in enumerate(samples):
             labels = along.labels(sample)
             if before is None:
@@ -198,12 +204,46 @@ def check_motions(payload: dict[str, Json], budget: Budget | None = None) -> Non
             raise entry.fail("not the numbers that were found")
     if motions.integer() != sum(chains.values()):
         raise motions.fail("not the number of continuous motions")
+    return sentence(evidence)
+
+
+_MEMBERS = ("arm", "curves", "places", "solutions", "through", "motions")
+
+
+def sentence(evidence: Entry) -> Sentence:
+    """That between neighbouring places the equations have as many solutions as are stated."""
+    arm, curves, places, solutions, _, _ = evidence.fields(*_MEMBERS)
+    chain, numbers = read_chain(arm), [entry.integer() for entry in solutions.items()]
+    listed = [ArmEquations.on_curve(chain, coefficients(read_curve(curve))) for curve in curves.items()]
+    if not listed or len(listed) != len(list(places.items())):
+        raise places.fail("expected a list for each of at least one curve")
+    if len(intervals := list(_intervals(places))) != len(numbers):
+        raise solutions.fail(f"expected {len(intervals)} numbers")
+    ring = ring_of(listed, max(numbers, default=0))
+    where: dict[tuple[int, int], list[Formula]] = {}
+    for (curve, low, high), count in zip(intervals, numbers, strict=True):
+        where.setdefault((curve, count), []).append(between(ring.var(ALONG), low, high))
+    exactly = ((disj(ends), listed[curve].exactly(ring, count)) for (curve, count), ends in where.items())
+    return with_roots(ring, listed, conj(forall((ALONG,), implies(*pair)) for pair in exactly)), TRUE
+
+
+def _intervals(places: Entry) -> Iterator[tuple[int, Fraction, Fraction]]:
+    """The number of a curve, and two parameters, between the places on it."""
+    for k, listed in enumerate(places.items()):
+        begin = Fraction(0)
+        for entry in listed.items():
+            low, high = (read_number(end) for end in entry.fields("low", "high", "factor")[:2])
+            if low > 0:
+                yield k, begin, low
+            begin = high
+        if begin <= 1:
+            yield k, begin, Fraction(1)
 
 
 def _target(chain: ArmChain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
     """The curve in the frame of the first joint."""
     rows, shift = back(chain.constants[0])
-    curve = [Polynomial.of(map(Surd.rational, powers([p[i] for p in points]))) for i in range(3)]
+    curve = [Polynomial.of(map(Surd.rational, row)) for row in coefficients(points)]
     result = list[Polynomial]()
     for row, o in zip(rows, shift, strict=True):
         total = Polynomial.of([o])
@@ -339,9 +379,4 @@ def _cross(a: Triple, b: Triple) -> Triple:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
-def _claim(payload: Entry) -> str:
-    motions = payload.fields("arm", "curves", "places", "solutions", "through", "motions")[-1].integer()
-    return f"an arm has exactly {motions} continuous joint motions along curves, limits of joints left aside"
-
-
-KIND = BroughtKind(check_motions, _claim)
+RULE = stated(check_motions)

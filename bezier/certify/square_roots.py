@@ -68,7 +68,7 @@ class Surd:
         largest = self.terms[-1][0]
         if largest == 1:
             return Surd.rational(1 / self.terms[0][1])
-        p = _prime(largest)
+        p = least_prime(largest)
         other = Surd(tuple((d, -q if d % p == 0 else q) for d, q in self.terms))
         return other * (self * other).inverse()
 
@@ -108,7 +108,8 @@ def is_squarefree(d: int) -> bool:
     return True
 
 
-def _prime(d: int) -> int:
+def least_prime(d: int) -> int:
+    """The least prime factor of d > 1."""
     return next((k for k in range(2, isqrt(d) + 1) if d % k == 0), d)
 
 

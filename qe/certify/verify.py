@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from qe.arguments import shown
-from qe.certify.kinds import Checker, brought_kind
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.kernel.verdict import CRASHES, Verdict
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Kind, Labelled
+from qe.proof.entry import Json
 
+Checker = Callable[[dict[str, Json], Budget], None]
 CRASHED = "its checker ends in an internal error here, please report"
 
 
@@ -83,15 +86,12 @@ def check_certificate(certificate: Certificate, budget: Budget, *, core: bool = 
 
 
 def _checker(kind: Kind, core: bool) -> Checker | None:
-    """The checker of a kind of objects; each is loaded where it is needed, as most questions need one."""
-    if kind == Kind.DERIVATION:
-        from qe.kernel.derivation import check_derivation
-        from qe.kernel.primitives import PRIMITIVES as rules
-
-        if not core:
-            from qe.certify.registry import RULES as rules
-        return lambda payload, budget: check_derivation(payload, budget, rules)
-    if core:
+    """The checker of the only kind that is no bundle."""
+    if kind != Kind.DERIVATION:
         return None
-    brought = brought_kind(kind.value)
-    return None if brought is None else brought.check
+    from qe.kernel.derivation import check_derivation
+    from qe.kernel.primitives import PRIMITIVES as rules
+
+    if not core:
+        from qe.certify.registry import RULES as rules
+    return lambda payload, budget: check_derivation(payload, budget, rules)

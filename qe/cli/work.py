@@ -240,11 +240,11 @@ def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
 
 def _rests(trusts: Sequence[str]) -> Iterator[str]:
     """What has to be believed beside the kernel, a line each."""
-    from qe.expert.rules import EXPERT
+    from qe.certify.registry import RULES
     from qe.kernel.statements import rows
 
     for name in trusts:
-        what = "a rule" if name in EXPERT else "a kind of certificate"
+        what = "a rule" if name in RULES else "a kind of certificate"
         why = f"by {rows()[name].data['axiom']}" if name in rows() else f"{what} of the expert ring"
         yield f"rests on: {name}, {why}"
 

@@ -11,17 +11,18 @@ from itertools import pairwise, product
 from math import cos, hypot, pi, sin
 from typing import Any
 
+from bezier.arm.evidence import LIMITED
 from bezier.arm.inverse import solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.reader import load_arm, read_arm
-from bezier.certify.branch import check_branch
-from qe.errors import CertificateRejected, QEError, Unable
+from qe.certify.verify import verify
+from qe.errors import QEError, Unable
 from qe.exact.polynomial_system import solve_system
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Ring
 from qe.formula.syntax import Relation
 from qe.groebner.evidence import solutions_certificate
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry
 from tests.attacks.formulas import simple
 from tests.certificates.false_claims import number
@@ -169,16 +170,15 @@ def branch(rng: random.Random) -> Certificate | None:
     curves = [[[str(v) for v in point] for point in (start, end)]]
     limits = [rng.choice((None, [str(Fraction(round((v + d) * 64), 64)) for d in (-1 / 8, 1 / 8)])) for v in q]
     payload: Any = {"arm": arm, "curves": curves, "limits": limits, "pieces": pieces}
-    try:
-        check_branch(payload)
-    except CertificateRejected:
-        return None
-    return Certificate(Kind("branch"), payload)
+    certificate = LIMITED.certificate(Entry(payload, "evidence"))
+    return certificate if verify(certificate).accepted else None
 
 
 def leaves_the_branch(rng: random.Random, data: Data) -> bool:
     """Whether a box holds no solution or several, or neighbouring ones different ones, or a joint breaks its limits."""
-    payload = data["payload"]
+    if not is_stated(data):
+        return True
+    payload = evidence_in(data)
     before: Vector | None = None
     for piece in payload["pieces"]:
         low, high = Fraction(piece["low"]), Fraction(piece["high"])
@@ -230,7 +230,9 @@ def inverse(rng: random.Random) -> Certificate | None:
 
 def other_positions(rng: random.Random, data: Data) -> bool:
     """Whether the boxes do not hold one solution each, of those that are found once more for the rows as they are."""
-    payload = data["payload"]
+    if not is_stated(data):
+        return True
+    payload = evidence_in(data)
     if any(d != 1 for c in payload["point"] for _, d in c):
         return False
     point = [sum((Fraction(q) for q, _ in c), Fraction(0)) for c in payload["point"]]

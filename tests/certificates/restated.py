@@ -6,21 +6,27 @@ import json
 from collections.abc import Callable
 from typing import Any
 
+from bezier.certify import branch, inverse_position, joint_motions
 from qe.certify.claims import claim_of
+from qe.certify.verify import verify
+from qe.errors import CertificateRejected
 from qe.expert import classification, optimum, solutions
 from qe.expert.sentences import Sentence
 from qe.kernel.renaming import is_same
-from qe.kernel.verdict import CRASHES
+from qe.kernel.verdict import CRASHES, Verdict
 from qe.options import Budget
 from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import Entry
-from tests.certificates.mutation import evidence_in
+from tests.certificates.mutation import PLACE, evidence_in
 
 Data = dict[str, Any]
 SENTENCES: dict[str, Callable[[Entry], Sentence]] = {
     "multipliers": lambda evidence: optimum.sentence(evidence, Budget()),
     "solutions": lambda evidence: solutions.sentence(evidence, Budget()),
     "classification": classification.sentence,
+    "joint positions": inverse_position.sentence,
+    "joint motions": joint_motions.sentence,
+    "joints along curves": branch.sentence,
 }
 """By the rule: what its evidence says."""
 
@@ -44,3 +50,17 @@ def restated(data: Data) -> Data:
         return {**data, "payload": Certificate.step(rule, (), *said, evidence).payload}
     except CRASHES:
         return data
+
+
+def verdict_by(rule: str, evidence: Data) -> Verdict:
+    """The verdict on what this evidence says, whatever that is."""
+    try:
+        said = SENTENCES[rule](Entry(evidence, PLACE))
+    except CertificateRejected as error:
+        return Verdict(False, error.step, error.reason)
+    return verify(Certificate.step(rule, (), *said, evidence))
+
+
+def evidence_of(certificate: Certificate) -> Data:
+    """A copy of the evidence of a derivation by one step."""
+    return json.loads(json.dumps(evidence_in({"payload": certificate.payload})))  # type: ignore[no-any-return]

@@ -19,7 +19,8 @@ from bezier.arm.model import Arm
 from bezier.arm.reader import load_arm, read_route
 from bezier.curves.curve import Bezier
 from qe.certify.verify import verify_json
-from tests.certificates.mutation import Path, leaves, lists, other_numbers, replaced, without
+from tests.certificates.mutation import EVIDENCE, Path, evidence_in, leaves, lists, other_numbers, replaced, without
+from tests.certificates.restated import verdict_by
 
 EV3 = load_arm("ev3-120")
 
@@ -47,50 +48,56 @@ MADE = {
 }
 
 
-def altered(whole: Any) -> Iterator[tuple[Path, str]]:
-    """Numbers far away, lists without an element. A box that is larger on one side, or a piece with other bounds of
-    its own derivatives, may still be right: boxes are altered by moving both ends only."""
-    for path, value in leaves(whole):
-        if path[0] == "digest" or path[-1] in ("kind", "format", "version", "label"):
-            continue
+def altered(step: Any) -> Iterator[tuple[Path, Any]]:
+    """The evidence of a step with numbers far away, lists without an element. A box that is larger on one side, or a
+    piece with other bounds of its own derivatives, may still be right: boxes are altered by moving both ends only."""
+    evidence = {"evidence": step["evidence"]}
+
+    def read(text: str) -> Any:
+        return json.loads(text)["evidence"]
+
+    for path, value in leaves(evidence):
         if "solutions" in path:
             continue
         if isinstance(value, int) and not isinstance(value, bool):
-            yield path, replaced(whole, path, value + 1)
+            yield path, read(replaced(evidence, path, value + 1))
         elif isinstance(value, str) and value.lstrip("-")[:1].isdigit():
-            yield from ((path, replaced(whole, path, other)) for other in other_numbers(value))
-    for path, node in lists(whole):
+            yield from ((path, read(replaced(evidence, path, other))) for other in other_numbers(value))
+    for path, node in lists(evidence):
         if "solutions" in path and len(path) > path.index("solutions") + 1 and isinstance(node[0], str):
             moved = [str(Fraction(end) + 1) for end in node]
-            yield path, replaced(whole, path, moved)
-        # without its first or last piece a branch is shorter, and followed all the same
-        ends = (0, len(node) - 1) if path[-1] == "pieces" else ()
-        yield from ((path, without(whole, path, k)) for k in range(len(node)) if k not in ends)
+            yield path, read(replaced(evidence, path, moved))
+        yield from ((path, read(without(evidence, path, k))) for k in range(len(node)))
 
 
 @pytest.mark.parametrize(
     "name", ["point", "two for one last joint", "line", pytest.param("two curves", marks=pytest.mark.deep)]
 )
 def test_no_altered_entry_is_accepted(name: str) -> None:
+    """Neither with the sentence as it is, nor with the one that the altered evidence says."""
     whole = MADE[name]()
     assert verify_json(json.dumps(whole)).accepted
-    found = list(altered(whole))
-    for path, text in Random(5).sample(found, min(len(found), 25)):
-        verdict = verify_json(text)
-        assert not verdict.accepted, path
-        assert verdict.step != "digest", path
+    place: Path = EVIDENCE if "payload" in whole else ("certificates", 0, *EVIDENCE)
+    step = (whole if "payload" in whole else whole["certificates"][0])["payload"]["steps"][0]
+    listed = list(altered(step))
+    for path, evidence in Random(5).sample(listed, min(len(listed), 25)):
+        verdict = verify_json(replaced(whole, place, evidence))
+        assert not verdict.accepted and verdict.step != "digest", path
+        # without its first or last piece a branch is shorter, and followed all the same
+        if path[-1] != "pieces":
+            assert not verdict_by(step["rule"], evidence).accepted, path
 
 
 def test_no_solution_is_no_solution() -> None:
     whole = at_a_point("ev3-112", 600, 0, 10)
-    nearer = replaced(whole, ("payload", "point", 0), [["100", 1]])
-    for text in (replaced(whole, ("payload", "count"), 2), nearer):
+    nearer = replaced(whole, (*EVIDENCE, "point", 0), [["100", 1]])
+    for text in (replaced(whole, (*EVIDENCE, "count"), 2), nearer):
         assert not verify_json(text).accepted
 
 
 def test_the_arm_of_the_path_of_a_plan() -> None:
     """The certificate of one arm is none for another."""
     whole = MADE["line"]()
-    rows = whole["certificates"][0]["payload"]["arm"]["rows"]
+    rows = evidence_in(whole["certificates"][0])["arm"]["rows"]
     assert rows[-1]["a"] == "120"
-    assert not verify_json(replaced(whole, ("certificates", 0, "payload", "arm", "rows", 7, "a"), "112")).accepted
+    assert not verify_json(replaced(whole, ("certificates", 0, *EVIDENCE, "arm", "rows", 7, "a"), "112")).accepted

@@ -1,5 +1,5 @@
-"""Certificates of kind "inverse" where a joint can be chosen: right ranges are accepted, changed ones are not; poses of
-arms with joints that slide."""
+"""Certificates of joint positions where a joint can be chosen: right ranges are accepted, changed ones are not; poses
+of arms with joints that slide."""
 
 from __future__ import annotations
 
@@ -27,24 +27,23 @@ from bezier.certify.families import bounded
 from bezier.certify.nested_roots import nested
 from bezier.certify.square_roots import Surd
 from qe.certify.claims import claim_of
-from qe.certify.verify import verify
 from qe.errors import Unable
-from qe.proof.certificate import Certificate, Kind
 from tests.bezier.arm.test_choices import PLANAR, SKEW_WRIST, STILL
 from tests.bezier.arm.test_pose import SIX, SKEW_FREE, arm_of, at_the_pose_of, pairs_of
 from tests.bezier.arm.test_wrist import FLAT, FOLDED, PUMA, pairs_with
+from tests.certificates.restated import evidence_of, verdict_by
 
 Payload = dict[str, Any]
 
 
 def accepted(payload: Any) -> bool:
-    verdict = verify(Certificate(Kind("inverse"), payload))
+    verdict = verdict_by("joint positions", payload)
     assert verdict.decided and (verdict.accepted or verdict.step.startswith("payload"))
     return verdict.accepted
 
 
 def made(found: Inverse) -> Payload:
-    payload: Payload = json.loads(json.dumps(inverse_certificate(found).payload))
+    payload: Payload = evidence_of(inverse_certificate(found))
     assert payload["count"] == found.count and accepted(payload)
     return payload
 
@@ -82,9 +81,14 @@ CASES: dict[str, Callable[[], Inverse]] = {
 
 
 @cache
+def case(name: str) -> Inverse:
+    return CASES[name]()
+
+
+@cache
 def payload_of(name: str) -> Payload:
     """Of a case, accepted; whoever changes it takes a copy."""
-    return made(CASES[name]())
+    return made(case(name))
 
 
 # --- accepted ------------------------------------------------------------------------------------------------------
@@ -95,9 +99,10 @@ def families(payload: Payload) -> list[Any]:
 
 @pytest.mark.parametrize("name", CASES)
 def test_a_joint_that_can_be_chosen(name: str) -> None:
-    payload = payload_of(name)
-    assert payload["count"] is None and families(payload)
-    assert "families of joint positions" in claim_of(Certificate(Kind("inverse"), payload)).words[0]
+    found, payload = case(name), payload_of(name)
+    assert found.free and payload["count"] is None and families(payload)
+    words = claim_of(inverse_certificate(found)).words
+    assert "all c" in words[0] and "ex c" in words[0] and words[1:] == ("is true", "by joint positions")
 
 
 @settings(max_examples=6)
@@ -190,7 +195,7 @@ def test_changed_certificates_are_rejected(name: str) -> None:
     for what, change in changes.items():
         changed = json.loads(json.dumps(payload))
         change(changed)
-        assert not verify(Certificate(Kind("inverse"), changed)).accepted, what
+        assert not verdict_by("joint positions", changed).accepted, what
 
 
 def test_a_family_left_out() -> None:
@@ -291,7 +296,7 @@ SCARA: dict[str, Callable[[Payload], object]] = {
 def test_changed_certificates_of_a_scara_are_rejected(what: str) -> None:
     payload = made(solve_pose(SLIDING["scara"], (300, 50, 300), rotation_of((0, 1, 0, 0))))
     SCARA[what](payload)
-    assert not verify(Certificate(Kind("inverse"), payload)).accepted
+    assert not verdict_by("joint positions", payload).accepted
 
 
 def test_a_producer_with_another_length_gets_no_certificate() -> None:

@@ -1,4 +1,4 @@
-"""Certificates of kind "inverse" at poses, and for joints that slide: right ones are accepted, changed ones are not."""
+"""Certificates of joint positions at poses, and for joints that slide: right ones are accepted, others are not."""
 
 from __future__ import annotations
 
@@ -23,25 +23,24 @@ from bezier.arm.reader import load_arm
 from bezier.certify.nested_roots import Nested, Place, nested, turns
 from bezier.certify.square_roots import ONE, Polynomial, Surd
 from qe.certify.claims import claim_of
-from qe.certify.verify import verify
 from qe.errors import Unable
-from qe.proof.certificate import Certificate, Kind
 from tests.bezier.arm.test_pose import BACKWARDS, SIX, at_the_pose_of, pairs_of
 from tests.bezier.arm.test_prismatic import ARMS, IDS, pair
 from tests.bezier.arm.test_wrist import PUMA, STANDARD
+from tests.certificates.restated import evidence_of, verdict_by
 
 PLANAR, CYLINDER = load_arm("planar-3r"), load_arm("cylindrical")
 Change = Callable[[dict[str, Any]], object]
 
 
 def accepted(payload: Any) -> bool:
-    verdict = verify(Certificate(Kind("inverse"), payload))
+    verdict = verdict_by("joint positions", payload)
     assert verdict.decided and (verdict.accepted or verdict.step.startswith("payload"))
     return verdict.accepted
 
 
 def made(found: Inverse) -> dict[str, Any]:
-    payload: dict[str, Any] = json.loads(json.dumps(inverse_certificate(found).payload))
+    payload: dict[str, Any] = evidence_of(inverse_certificate(found))
     assert payload["count"] == found.count and accepted(payload)
     return payload
 
@@ -107,8 +106,11 @@ def test_a_wrist_that_does_not_reach_the_rotation_over_an_arm_that_reaches_the_p
 def test_what_it_claims() -> None:
     at_pose = inverse_certificate(solve_pose(PLANAR, (120, 90, 0), rotation_of((2, 0, 0, 1))))
     at_point = inverse_certificate(solve(CYLINDER, (100, 20, 150)))
-    assert "exactly 2 joint positions at a pose" in claim_of(at_pose).words[0]
-    assert "exactly 2 joint positions at a point" in claim_of(at_point).words[0]
+    first, *rest = claim_of(at_pose).words
+    assert first.startswith("the sentence  ex c1_1, s1_1, c2_1, s2_1, c3_1, s3_1, c1_2, s1_2, c2_2, s2_2, c3_2, s3_2. ")
+    assert "all c1, s1, c2, s2, c3, s3. (not (c1^2 + s1^2 - 1 = 0 and" in first
+    assert rest == ["is true", "by joint positions"] and at_pose.trusts == ("joint positions",)
+    assert "ex c1_1, s1_1, d2_1, d3_1, c1_2, s1_2, d2_2, d3_2. " in claim_of(at_point).words[0]
 
 
 # --- rejected ----------------------------------------------------------------------------------------------------
@@ -172,7 +174,7 @@ def test_changed_certificates_are_rejected(name: str) -> None:
     for what, change in changes.items():
         changed = json.loads(json.dumps(payload))
         change(changed)
-        verdict = verify(Certificate(Kind("inverse"), changed))
+        verdict = verdict_by("joint positions", changed)
         assert not verdict.accepted, what
     assert len(changes) > 10
 

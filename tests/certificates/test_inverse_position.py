@@ -1,4 +1,4 @@
-"""Certificates of kind "inverse": all joint positions at a point; right ones are accepted, changed ones are not."""
+"""Certificates of all joint positions at a point; right ones are accepted, changed ones are not."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from bezier.certify.square_roots import ONE, Polynomial, Surd
 from qe.certify.verify import verify, verify_json
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.proof.certificate import Certificate, Kind
 from tests.certificates.mutation import leaves
+from tests.certificates.restated import evidence_of, verdict_by
 
 POINT = ("599/66", "824/33", "323/10")
 EDGES = {
@@ -60,13 +60,11 @@ a = 25
 
 
 def made(arm: str, point: tuple[str, ...]) -> dict[str, Any]:
-    payload = inverse_certificate(solve(load_arm(arm), [read_exact(c) for c in point])).payload
-    assert isinstance(payload, dict)
-    return json.loads(json.dumps(payload))
+    return evidence_of(inverse_certificate(solve(load_arm(arm), [read_exact(c) for c in point])))
 
 
 def accepted(payload: Any) -> bool:
-    verdict = verify(Certificate(Kind("inverse"), payload))
+    verdict = verdict_by("joint positions", payload)
     assert verdict.decided and (verdict.accepted or verdict.step.startswith("payload"))
     return verdict.accepted
 
@@ -106,7 +104,7 @@ def test_two_solutions_for_one_last_joint() -> None:
 
 def test_axes_askew() -> None:
     arm = read_arm(SKEW)
-    assert inverse_certificate(solve(arm, (3, 50, 30))).kind == Kind("inverse")  # made only where the checker accepts
+    assert verify(inverse_certificate(solve(arm, (3, 50, 30)))).accepted  # made only where the checker accepts
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +162,7 @@ def test_the_angle_that_t_misses_cannot_hide_a_solution() -> None:
     arm = load_arm("ev3-120")
     point = position(arm, {"theta1": (1, 0), "theta4": (Fraction(3, 5), Fraction(4, 5)), "theta7": (-1, 0)})
     found = solve(arm, point)
-    payload = json.loads(json.dumps(inverse_certificate(found).payload))
+    payload = evidence_of(inverse_certificate(found))
     assert payload["turn"] != ["1", "0"] and payload["count"] == 4
     others = [s for s in found.solutions if abs(s.angles[2] or 0) < 3.1]
     turn = (Fraction(1), Fraction(0))

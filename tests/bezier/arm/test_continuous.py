@@ -29,8 +29,8 @@ from bezier.certify.square_roots import Polynomial, Surd, constant_sign
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.errors import Unable
 from qe.processes.channel import Channel
-from qe.proof.certificate import Kind
 from tests.bezier.arm.arms import Points, curves_of
+from tests.certificates.restated import evidence_of, verdict_by
 from tests.tables import each
 
 F = Fraction
@@ -147,7 +147,7 @@ def test_motions_by_hand(case: str) -> None:
     assert len(found.motions) == expected
     evidence = motions_certificate(found)
     assert qe.verify(evidence).accepted
-    assert evidence.payload["motions"] == expected
+    assert evidence_of(evidence)["motions"] == expected
     for curve, own in enumerate(curves_of(*curves).values()):
         assert [p.count for p in study(arm_of(name), own).stretches if p.count] or expected == 0
         for arcs in found.arcs:
@@ -216,7 +216,7 @@ def check_random(seed: int) -> bool:
     (curve,) = curves_of(points).values()
     whole = study(arm_of(name), curve)
     evidence = motions_certificate(found)
-    assert qe.verify(evidence).accepted and evidence.payload["motions"] == found.count
+    assert qe.verify(evidence).accepted and evidence_of(evidence)["motions"] == found.count
     inside = [p for p in whole.specials if p.reasons]
     if inside:
         assert found.count <= max(p.count for p in whole.stretches) and found.junctions
@@ -323,7 +323,7 @@ def test_a_constant_sign_is_proved_iff_there_is_no_zero(roots: list[F], at: tupl
 
 
 def forged(payload: dict[str, Any], **changes: Any) -> bool:
-    return qe.verify(qe.Certificate(Kind("motions"), {**payload, **changes})).accepted
+    return verdict_by("joint motions", {**payload, **changes}).accepted
 
 
 def false(number: int, among: set[int], *, every: bool) -> list[int]:
@@ -340,7 +340,7 @@ def some(listed: list[Any]) -> list[Any]:
 @pytest.mark.parametrize("case", CASES)
 @each(False, pytest.param(True, marks=pytest.mark.deep))
 def test_false_numbers_are_rejected(every: bool, case: str) -> None:
-    payload = motions_certificate(motions_by_hand(case)).payload
+    payload = evidence_of(motions_certificate(motions_by_hand(case)))
     assert forged(payload)
     for key in ("solutions", "through"):
         listed = payload[key]
@@ -370,8 +370,8 @@ def test_false_numbers_are_rejected(every: bool, case: str) -> None:
 
 
 def test_a_certificate_of_another_arm_or_path_is_rejected() -> None:
-    payload = motions_certificate(motions_of(E, [(-100, 0, 100), (100, 0, 100)])).payload
-    corner = motions_certificate(motions_of(E, [(20, 0, 166), (110, 0, 166)])).payload
+    payload = evidence_of(motions_certificate(motions_of(E, [(-100, 0, 100), (100, 0, 100)])))
+    corner = evidence_of(motions_certificate(motions_of(E, [(20, 0, 166), (110, 0, 166)])))
     assert not forged(payload, curves=corner["curves"]) and not forged(payload, curves=[])
     assert not forged(payload, curves=[[["-100", "1/1000000000", "100"], ["100", "0", "100"]]])
     curves: Any = payload["curves"]
@@ -382,7 +382,7 @@ def test_a_certificate_of_another_arm_or_path_is_rejected() -> None:
 
 def test_the_touching_point_has_to_be_touched_exactly() -> None:
     """The parabola that stays a little inside, with the claim of the one that touches."""
-    touching = motions_certificate(motions_of(S, [(-100, 110, 100), (0, 310, 100), (100, 110, 100)])).payload
+    touching = evidence_of(motions_certificate(motions_of(S, [(-100, 110, 100), (0, 310, 100), (100, 110, 100)])))
     for gap in (F(1, 10), F(1, 10**6), F(1, 10**12), F(1, 10**30)):
         for side in (1, -1):
             curve = [[["-100", "110", "100"], ["0", str(310 + side * gap), "100"], ["100", "110", "100"]]]

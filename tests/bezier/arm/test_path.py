@@ -23,7 +23,7 @@ from bezier.arm.study import study
 from bezier.curves.curve import Bezier
 from qe.certify.verify import verify, verify_json
 from qe.errors import InputError, Unable
-from qe.proof.certificate import Certificate, Kind
+from tests.certificates.restated import evidence_of, verdict_by
 from tests.enough import sized
 from tests.tables import each
 
@@ -207,8 +207,7 @@ def payload(straight: JointPath) -> dict:
     assert label == "motion 1, the whole path"
     assert verify(certificate).accepted
     assert verify_json(certificate.to_json()).accepted
-    assert isinstance(certificate.payload, dict)
-    return json.loads(json.dumps(certificate.payload))
+    return evidence_of(certificate)
 
 
 def moved(value: str, by: Fraction) -> str:
@@ -244,18 +243,17 @@ CHANGES = {
 def test_changed_certificates_are_rejected(payload: dict, what: str) -> None:
     changed = json.loads(json.dumps(payload))
     CHANGES[what](changed)
-    verdict = verify(Certificate(Kind("branch"), changed))
+    verdict = verdict_by("joints along curves", changed)
     assert not verdict.accepted and verdict.decided
     assert verdict.step.startswith("payload")
 
 
 def test_another_branch_does_not_join(straight: JointPath) -> None:
     """Pieces of two branches, each right, are not one motion."""
-    one, other = (c.payload for _, c in certificates(straight)[:2])
-    assert isinstance(one, dict) and isinstance(other, dict)
+    one, other = (evidence_of(c) for _, c in certificates(straight)[:2])
     half = [p for p in one["pieces"] if Fraction(p["high"]) <= Fraction(1, 2)]
     rest = [p for p in other["pieces"] if Fraction(p["low"]) >= Fraction(1, 2)]
-    verdict = verify(Certificate(Kind("branch"), {**one, "pieces": [*half, *rest]}))
+    verdict = verdict_by("joints along curves", {**one, "pieces": [*half, *rest]})
     assert "piece before" in verdict.reason or "one before" in verdict.reason
 
 

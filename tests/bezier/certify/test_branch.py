@@ -7,7 +7,9 @@ from typing import Any
 
 from bezier.certify.branch import check_branch
 from qe.errors import CertificateRejected
+from qe.proof.entry import Entry
 from tests.tables import each
+from tests.unit.certify.claims import limits
 
 
 def row(theta: Any, alpha: Any, joint: str | None = "prismatic") -> dict[str, Any]:
@@ -38,7 +40,7 @@ def payload(*pieces: dict[str, Any], **changed: Any) -> Any:
 
 def objection(given: Any) -> str:
     try:
-        check_branch(deepcopy(given))
+        check_branch(Entry(deepcopy(given), "payload"), limits())
     except CertificateRejected as error:
         return f"{error.step}: {error.reason}"
     return ""

@@ -7,11 +7,12 @@ from typing import Any
 
 import pytest
 
-from bezier.certify.inverse_position import check_inverse
+from bezier.certify.inverse_position import check_positions
 from qe.errors import BudgetExceeded, CertificateRejected
-from qe.options import Budget
+from qe.proof.entry import Entry
 from tests.certificates.test_inverse_position import POINT, made
 from tests.tables import each
+from tests.unit.certify.claims import limits
 
 
 @pytest.fixture(scope="module")
@@ -20,8 +21,7 @@ def right() -> dict[str, Any]:
 
 
 def test_it_is_accepted(right: dict[str, Any]) -> None:
-    check_inverse(right)
-    check_inverse(right, Budget(60))
+    check_positions(Entry(right, "payload"), limits())
 
 
 @each(
@@ -57,10 +57,10 @@ def test_the_wrong_entry_is_named(change: Any, where: str, reason: str, right: d
     wrong = copy.deepcopy(right)
     change(wrong)
     with pytest.raises(CertificateRejected, match=reason) as refused:
-        check_inverse(wrong)
+        check_positions(Entry(wrong, "payload"), limits())
     assert refused.value.step == where
 
 
 def test_a_budget_ends_it(right: dict[str, Any]) -> None:
     with pytest.raises(BudgetExceeded):
-        check_inverse(right, Budget(0))
+        check_positions(Entry(right, "payload"), limits(0))

@@ -11,8 +11,8 @@ from bezier.arm.joint_path import joint_path
 from bezier.arm.reader import load_arm
 from bezier.curves.curve import Bezier
 from qe.certify.verify import verify
-from qe.proof.certificate import Certificate, Kind
 from tests.bezier.certify.test_branch import LINE, ROWS, objection, piece
+from tests.certificates.restated import evidence_of, verdict_by
 from tests.tables import each
 
 TINY = Fraction(1, 10**12)
@@ -80,9 +80,9 @@ def test_altered_limits_are_rejected() -> None:
     assert verify(certificate).accepted
 
     def verdict(change: Any) -> Any:
-        payload = json.loads(json.dumps(certificate.payload))
+        payload = evidence_of(certificate)
         change(payload)
-        return verify(Certificate(Kind("branch"), payload))
+        return verdict_by("joints along curves", payload)
 
     changes = [
         lambda p: p.pop("limits"),

@@ -53,8 +53,8 @@ def step(rule: str, before: str, after: str, evidence: Any = None, given: str = 
     }
 
 
-def limits() -> Limits:
-    return limits_of(Budget(60), RULES)
+def limits(seconds: float = 60) -> Limits:
+    return limits_of(Budget(seconds), RULES)
 
 
 def objection(
