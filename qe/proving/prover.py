@@ -185,7 +185,8 @@ class Prover:
             self.unchecked.append(step.rule)
             return changed
         found = self.own(step, context)
-        if found is None and step.rule in SIMPLIFYING and self._simplified_inside(place, step, current) == changed:
+        simplifying = found is None and step.rule in SIMPLIFYING
+        if simplifying and self._simplified_inside(place, step, context, current) == changed:
             return changed
         if found is None:
             found = self._tabulated(step)
@@ -196,13 +197,15 @@ class Prover:
             self.steps.append(written(rule, place, step.before, step.after, context, evidence))
         return changed
 
-    def _simplified_inside(self, place: Place, step: Step, current: Formula) -> Formula | None:
-        """The formula after a simplification, as a step for each place inside; None where no evidence is found."""
+    def _simplified_inside(self, place: Place, step: Step, context: Context, current: Formula) -> Formula | None:
+        """The formula after a simplification, as a step for each place inside; None where no evidence is found, as for
+        all of it at once under the context."""
 
         def evidence(before: Formula, after: Formula, used: Context) -> tuple[str, Json] | None:
             return self.own(Step("simplification", before, after), used)
 
-        return Simplified(evidence, self.known, self.steps).inside(place, step.before, step.after, current)
+        failed = {(step.before, step.after, context)}
+        return Simplified(evidence, self.known, self.steps, failed).inside(place, step.before, step.after, current)
 
     def joined(self, current: Formula, goal: Formula) -> None:
         """The last formula of the derivation and the answer, where steps between them are missing."""

@@ -1,13 +1,13 @@
 """Simplifications that go on inside a formula: a step for each place, where one step for all of them is out of reach.
 
-The steps that a simplifier takes are found again from the formula before and after: what is under a quantifier, parts
-that are quantified, then parts under what stands beside them. Nothing here is trusted.
+What the simplifier has done is done again, a part after the other under what stands beside it, each as a step; what
+another rule has done to quantified parts is read off the formula before and after. Nothing here is trusted.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from qe.errors import CertificateRejected
 from qe.formula.build import conj, disj, exists, forall
@@ -23,18 +23,19 @@ from qe.simplify.simplify import simplify
 Evidence = Callable[[Formula, Formula, Context], tuple[str, Json] | None]
 """A rule by whose checker two formulas have the same truth under a context, and the evidence that it accepts."""
 
-MOST_TRIED, MOST_ALIKE = 60, 2
-"""Steps that are tried for one simplification, and quantified parts that one of them may have become, at most."""
+MOST_FAILED, MOST_ALIKE = 60, 2
+"""Steps tried in vain for one simplification, and quantified parts that one of them may have become, at most."""
 
 
 @dataclass(slots=True)
 class Simplified:
-    """``known``: what holds around the whole formula; ``steps``: those written so far."""
+    """``known``: what holds around the whole formula; ``steps``: those written so far; ``failed``: what need not be
+    tried again."""
 
     evidence: Evidence
     known: Context
     steps: list[Json]
-    tried: int = 0
+    failed: set[tuple[Formula, Formula, Context]] = field(default_factory=set)
 
     def inside(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
         """The whole formula ``current`` with ``after`` for ``before`` at a place, each step with evidence.
@@ -75,9 +76,13 @@ class Simplified:
         names = {*before.free, *after.free}
         context = facts if any(names & set(f.free) for f in facts) else ()
         for used in ((), context) if context and simplify(before) == after else (context,):
-            self.tried += 1
-            found = self.evidence(before, after, used) if self.tried <= MOST_TRIED else None
-            if found is not None:
+            search = before, after, used
+            if search in self.failed or len(self.failed) > MOST_FAILED:
+                continue
+            found = self.evidence(*search)
+            if found is None:
+                self.failed.add(search)
+            else:
                 self.steps.append(written(found[0], place, before, after, used, found[1]))
                 return changed
         return None
