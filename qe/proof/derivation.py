@@ -64,10 +64,13 @@ class Derivation:
         return self.whole[-1] if self.whole else self.start
 
 
-def put_together(start: Formula, steps: Iterable[Step], answer: Formula) -> Derivation:
-    """The derivation with its places. A step whose formula stands nowhere belongs to an attempt that was given up."""
+def put_together(start: Formula, steps: Iterable[Step], answer: Formula, ring: Ring | None = None) -> Derivation:
+    """The derivation with its places. A step whose formula stands nowhere belongs to an attempt that was given up.
+
+    ``ring``: one that has all names, if there is one already.
+    """
     listed = list(steps)
-    ring = Ring.of(dict.fromkeys(n for f in (start, answer, *_formulas(listed)) for n in names_in(f)))
+    ring = ring or Ring.of(dict.fromkeys(n for f in (start, answer, *_formulas(listed)) for n in names_in(f)))
     current = start = moved(start, ring)
     kept: list[Step] = []
     whole = [current]

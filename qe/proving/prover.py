@@ -148,7 +148,7 @@ class Prover:
         """
         prover = Prover(self.ring, self.options, self.budget, self.tables, known, self.accepted)
         goal = moved(inner.answer, self.ring)
-        prover.whole(put_together(inner.start, inner.steps, inner.answer), start, goal)
+        prover.whole(put_together(inner.start, inner.steps, inner.answer, self.ring), start, goal)
         if prover.unchecked:
             raise CertificateRejected("parts", f"no evidence for: {', '.join(prover.unchecked)}")
         return goal, prover.steps
