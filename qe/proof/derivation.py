@@ -89,13 +89,20 @@ def put_together(start: Formula, steps: Iterable[Step], answer: Formula, ring: R
 
 def moved(formula: Formula, ring: Ring) -> Formula:
     """The formula over another ring, with its negations where they stand."""
-    if formula.ring is ring:
+    if formula.ring is ring or isinstance(formula, Constant):
         return formula
+    key = "moved", formula
+    known = ring.cache.get(key)
+    if isinstance(known, Formula):
+        return known
     if isinstance(formula, Atomic):
-        return convert(formula, ring)
-    if isinstance(formula, Not):
-        return negated(moved(formula.arg, ring))
-    return map_children(formula, lambda part: moved(part, ring))
+        there = convert(formula, ring)
+    elif isinstance(formula, Not):
+        there = negated(moved(formula.arg, ring))
+    else:
+        there = map_children(formula, lambda part: moved(part, ring))
+    ring.remember(key, there)
+    return there
 
 
 def negated(formula: Formula) -> Formula:
