@@ -16,7 +16,7 @@ from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
-from qe.formula.traverse import children, clashes, conjuncts, subformula
+from qe.formula.traverse import children, clashes, conjuncts, polynomials, subformula
 from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import ByLemmas
 from qe.kernel.derivation import check_derivation, limits_of, replaced
@@ -247,7 +247,7 @@ class Prover:
             elaborated = self._elaborated(step, context, evidence)
             if elaborated is not None or step.rule not in RULES:
                 return elaborated
-        if step.rule in SIMPLIFYING and not step.before.is_quantifier_free:
+        if step.rule in SIMPLIFYING and _may_be_quantifiers(step):
             moved_only = self._tried(QUANTIFIERS, step, (), {})
             if moved_only is not None:
                 return QUANTIFIERS, moved_only
@@ -433,6 +433,12 @@ def _checked(checker: Check, claim: Claim, context: Context, limits: Limits) -> 
     """The evidence of a claim that its checker accepts."""
     checker(claim, context, limits)
     return claim.evidence.value
+
+
+def _may_be_quantifiers(step: Step) -> bool:
+    """Whether only quantifiers may have moved: as many polynomials are compared after the step as before it."""
+    before, after = (len({*polynomials(f)}) for f in (step.before, step.after))
+    return before == after and not step.before.is_quantifier_free
 
 
 def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:
