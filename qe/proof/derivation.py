@@ -64,10 +64,13 @@ class Derivation:
         return self.whole[-1] if self.whole else self.start
 
 
-def put_together(start: Formula, steps: Iterable[Step], answer: Formula) -> Derivation:
-    """The derivation with its places. A step whose formula stands nowhere belongs to an attempt that was given up."""
+def put_together(start: Formula, steps: Iterable[Step], answer: Formula, ring: Ring | None = None) -> Derivation:
+    """The derivation with its places. A step whose formula stands nowhere belongs to an attempt that was given up.
+
+    ``ring``: one that has all names, if there is one already.
+    """
     listed = list(steps)
-    ring = Ring.of(dict.fromkeys(n for f in (start, answer, *_formulas(listed)) for n in names_in(f)))
+    ring = ring or Ring.of(dict.fromkeys(n for f in (start, answer, *_formulas(listed)) for n in names_in(f)))
     current = start = moved(start, ring)
     kept: list[Step] = []
     whole = [current]
@@ -86,13 +89,20 @@ def put_together(start: Formula, steps: Iterable[Step], answer: Formula) -> Deri
 
 def moved(formula: Formula, ring: Ring) -> Formula:
     """The formula over another ring, with its negations where they stand."""
-    if formula.ring is ring:
+    if formula.ring is ring or isinstance(formula, Constant):
         return formula
+    key = "moved", formula
+    known = ring.cache.get(key)
+    if isinstance(known, Formula):
+        return known
     if isinstance(formula, Atomic):
-        return convert(formula, ring)
-    if isinstance(formula, Not):
-        return negated(moved(formula.arg, ring))
-    return map_children(formula, lambda part: moved(part, ring))
+        there = convert(formula, ring)
+    elif isinstance(formula, Not):
+        there = negated(moved(formula.arg, ring))
+    else:
+        there = map_children(formula, lambda part: moved(part, ring))
+    ring.remember(key, there)
+    return there
 
 
 def negated(formula: Formula) -> Formula:

@@ -57,8 +57,8 @@ def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits, ideal: bool = Fa
         *(modulo if ideal else ()),
         lambda: _values(found, goals, polys),
         lambda: _factors(found, polys, pool),
-        lambda: _pairs(found, polys, equations, pool, _reduced),
-        lambda: _pairs(found, polys, sure, pool, _cancelled),
+        lambda: _pairs(found, polys, sure, pool, _reduced, _cancelled),
+        lambda: _pairs(found, polys, perhaps, pool, _reduced),
         lambda: _pairs(found, polys, perhaps, pool, _cancelled),
         lambda: _lines(found, polys),  # behind what identities alone give: those rest on no theorem
         lambda: _expanded(found, polys),
@@ -133,11 +133,11 @@ def _pairs(
     polys: Iterable[Poly],
     equations: Iterable[Poly],
     pool: dict[Poly, None],
-    change: Callable[[Lemmas, Poly, Poly], list[Poly]],
+    *changes: Callable[[Lemmas, Poly, Poly], list[Poly]],
 ) -> None:
     """Polynomials changed by equations, with what ``_factors`` says of what comes of them."""
     pairs = ((poly, equation) for equation in equations for poly in polys if poly != equation)
-    _join(found, pool, [part for pair in pairs for part in change(found, *pair)])
+    _join(found, pool, [part for pair in pairs for change in changes for part in change(found, *pair)])
 
 
 def _join(found: Lemmas, pool: dict[Poly, None], polys: Iterable[Poly]) -> None:

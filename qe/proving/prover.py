@@ -16,7 +16,7 @@ from qe.errors import CertificateRejected, Contradiction, InternalError, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
-from qe.formula.traverse import children, clashes, conjuncts, subformula
+from qe.formula.traverse import children, clashes, conjuncts, polynomials, subformula
 from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import ByLemmas
 from qe.kernel.derivation import check_derivation, limits_of, replaced
@@ -149,7 +149,7 @@ class Prover:
         """
         prover = Prover(self.ring, self.options, self.budget, self.tables, known, self.accepted)
         goal = moved(inner.answer, self.ring)
-        prover.whole(put_together(inner.start, inner.steps, inner.answer), start, goal)
+        prover.whole(put_together(inner.start, inner.steps, inner.answer, self.ring), start, goal)
         if prover.unchecked:
             raise CertificateRejected("parts", f"no evidence for: {', '.join(prover.unchecked)}")
         return goal, prover.steps
@@ -186,7 +186,8 @@ class Prover:
             self.unchecked.append(step.rule)
             return changed
         found = self.own(step, context)
-        if found is None and step.rule in SIMPLIFYING and self._simplified_inside(place, step, current) == changed:
+        simplifying = found is None and step.rule in SIMPLIFYING
+        if simplifying and self._simplified_inside(place, step, context, current) == changed:
             return changed
         if found is None:
             found = self._tabulated(step)
@@ -197,13 +198,15 @@ class Prover:
             self.steps.append(written(rule, place, step.before, step.after, context, evidence))
         return changed
 
-    def _simplified_inside(self, place: Place, step: Step, current: Formula) -> Formula | None:
-        """The formula after a simplification, as a step for each place inside; None where no evidence is found."""
+    def _simplified_inside(self, place: Place, step: Step, context: Context, current: Formula) -> Formula | None:
+        """The formula after a simplification, as a step for each place inside; None where no evidence is found, as for
+        all of it at once under the context."""
 
         def evidence(before: Formula, after: Formula, used: Context) -> tuple[str, Json] | None:
             return self.own(Step("simplification", before, after), used)
 
-        return Simplified(evidence, self.known, self.steps).inside(place, step.before, step.after, current)
+        failed = {(step.before, step.after, context)}
+        return Simplified(evidence, self.known, self.steps, failed).inside(place, step.before, step.after, current)
 
     def joined(self, current: Formula, goal: Formula) -> None:
         """The last formula of the derivation and the answer, where steps between them are missing."""
@@ -243,7 +246,7 @@ class Prover:
             elaborated = self._elaborated(step, context, evidence)
             if elaborated is not None or step.rule not in RULES:
                 return elaborated
-        if step.rule in SIMPLIFYING and not step.before.is_quantifier_free:
+        if step.rule in SIMPLIFYING and _may_be_quantifiers(step):
             moved_only = self._tried(QUANTIFIERS, step, (), {})
             if moved_only is not None:
                 return QUANTIFIERS, moved_only
@@ -432,6 +435,12 @@ def _checked(checker: Check, claim: Claim, context: Context, limits: Limits) -> 
     """The evidence of a claim that its checker accepts."""
     checker(claim, context, limits)
     return claim.evidence.value
+
+
+def _may_be_quantifiers(step: Step) -> bool:
+    """Whether only quantifiers may have moved: as many polynomials are compared after the step as before it."""
+    before, after = (len({*polynomials(f)}) for f in (step.before, step.after))
+    return before == after and not step.before.is_quantifier_free
 
 
 def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:

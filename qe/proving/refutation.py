@@ -52,6 +52,10 @@ class Explained(Clauses):
         for i in lemma.polynomials:
             self._about[i].append(lemma)
 
+    def lemmas_about(self, i: int) -> int:
+        """How many lemmas say something of a variable."""
+        return len(self._about[i])
+
     def add(self, literals: Iterable[Literal], sources: Sources = 0) -> None:
         """As ``Clauses.add``, with the sources of the clause."""
         joined: dict[int, int] = {}
@@ -245,13 +249,14 @@ class Refutation:
                 break
         if chosen:
             return chosen
-        for i in self._split:
-            if domains[i] not in (NEGATIVE, ZERO, POSITIVE):
-                self._splits -= 1
-                if self._splits < 0:
-                    raise Unable("too many cases of signs")
-                return [(i, s) for s in (NEGATIVE, ZERO, POSITIVE) if domains[i] & s]
-        return []
+        undecided = [i for i in self._split if domains[i] not in (NEGATIVE, ZERO, POSITIVE)]
+        if not undecided:
+            return []
+        self._splits -= 1
+        if self._splits < 0:
+            raise Unable("too many cases of signs")
+        i = max(undecided, key=self.clauses.lemmas_about)
+        return [(i, s) for s in (NEGATIVE, ZERO, POSITIVE) if domains[i] & s]
 
     def _open(self, formulas: Iterable[Formula], domains: Domains) -> Iterator[Or]:
         """The disjunctions that have to hold and that do not yet."""
