@@ -230,7 +230,7 @@ class Poly:
 
     @property
     def is_constant(self) -> bool:
-        return not self.variables
+        return bool(self.p.is_constant())
 
     def constant_value(self) -> int:
         """The value of a constant polynomial."""
