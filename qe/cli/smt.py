@@ -25,7 +25,7 @@ from qe.io import smtlib
 from qe.io import surface as s
 from qe.io.smtlib_parser import Ends, Expression, parse, plain, show
 from qe.io.smtlib_script import Script
-from qe.io.smtlib_terms import is_real
+from qe.io.smtlib_words import is_real
 from qe.io.text_errors import Failing
 from qe.io.total import Fill, Total
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache, cached_property, reduce
 from operator import add
 from typing import Any, ClassVar
 
@@ -24,6 +24,7 @@ from qe.exact.sparse_text import sparse_text
 from qe.spelling import quoted
 
 _PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
+_FEW = 8
 MOST_CACHED = 50_000  # values of a ring
 
 
@@ -96,10 +97,10 @@ class Ring:
         if len(self._products) > MOST_CACHED:
             self._products.clear()
         parts = [self._product(names) * c for names, c in coefficients.items()]
-        while len(parts) > 1:  # sums of two are much faster than a growing one
+        while len(parts) > _FEW:  # a sum that grows by one term at a time is copied as often
             parts = [*map(add, parts[::2], parts[1::2]), *parts[len(parts) & ~1 :]]
         support = {self.index[name] for names in coefficients for name in names}
-        return self.element(parts[0], support)
+        return self.element(reduce(add, parts), support)
 
     def _product(self, names: tuple[str, ...]) -> fmpz_mpoly:
         """The product of the variables with these names."""
@@ -229,7 +230,7 @@ class Poly:
 
     @property
     def is_constant(self) -> bool:
-        return not self.variables
+        return bool(self.p.is_constant())
 
     def constant_value(self) -> int:
         """The value of a constant polynomial."""

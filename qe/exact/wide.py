@@ -117,6 +117,10 @@ class WidePoly(Poly):
         """The indices that occur, ascending."""
         return tuple(i for i in sorted(self.support) if self.p.derivative(self.ring.slot(i)))
 
+    @property
+    def is_constant(self) -> bool:
+        return not self.variables
+
     @cached_property
     def degrees(self) -> tuple[int, ...]:
         """The degree in every variable of the ring, in ring order (0 for the zero polynomial)."""

@@ -41,8 +41,10 @@ def total(parts: Sequence[Term]) -> Term:
 
 def negative(part: Term) -> Term | None:
     """``-part``, if the part is short."""
+    if isinstance(part, Number):
+        return Number(-part.value)
     terms = coefficients(part)
-    return None if terms is None else polynomial({names: -value for names, value in terms.items()})
+    return None if terms is None else Polynomial({names: -value for names, value in terms.items()})
 
 
 def product(parts: Sequence[Term]) -> Term | None:
@@ -59,7 +61,7 @@ def product(parts: Sequence[Term]) -> Term | None:
         if len(terms) == 1:
             ((factors, number),) = terms.items()
             names += factors
-            value = value * number
+            value = number if value == 1 else value * number
         else:
             sums.append(terms)
     if len(names) > MOST_FACTORS or not _is_small(value):
@@ -84,11 +86,13 @@ def power(base: Term, exponent: Number) -> Term | None:
     return product((base,) * int(k)) if k.denominator == 1 and 1 <= k <= SHORT else None
 
 
-def sides(left: Term, right: Term) -> list[Term]:
+def sides(first: Term, second: Term) -> list[Term]:
     """The sides of a comparison: of two that are short, their difference and zero."""
-    if right == _ZERO or (subtracted := negative(right)) is None or coefficients(left) is None:
-        return [left, right]
-    return [total((left, subtracted)), _ZERO]
+    if not (isinstance(second, Number) and not second.value):
+        subtracted = negative(second)
+        if subtracted is not None and coefficients(first) is not None:
+            return [total((first, subtracted)), _ZERO]
+    return [first, second]
 
 
 def coefficients(term: Term) -> Coefficients | None:
@@ -106,15 +110,15 @@ def polynomial(terms: Coefficients) -> Polynomial | Number:
     """The term with these coefficients, some of which may be zero."""
     if 0 in terms.values():
         terms = {names: value for names, value in terms.items() if value}
-    if len(terms) > 1 or (terms and () not in terms):
-        return Polynomial(terms)
-    return Number(terms.get((), 0))
+    if len(terms) < 2 and (not terms or () in terms):
+        return Number(terms.get((), 0))
+    return Polynomial(terms)
 
 
-def _times(left: Coefficients, right: Coefficients) -> Coefficients:
+def _times(one: Coefficients, other: Coefficients) -> Coefficients:
     result: Coefficients = {}
-    for a, m in left.items():
-        for b, n in right.items():
+    for a, m in one.items():
+        for b, n in other.items():
             names = tuple(sorted(a + b))
             result[names] = result.get(names, 0) + m * n
     return result

@@ -16,7 +16,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from qe.exact.ring import Ring
-from qe.formula.build import conj, convert, disj, exists, forall, iff, implies, neg, root_atom
+from qe.formula.build import atom, conj, convert, disj, exists, forall, iff, implies, neg, root_atom
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.io import cases, terms
 from qe.io.auxiliaries import Exhausted
@@ -36,7 +36,9 @@ from qe.io.surface import (
     Name,
     Negation,
     Node,
+    Number,
     Part,
+    Polynomial,
     Quantification,
     Root,
     Some,
@@ -167,18 +169,23 @@ class Lowering:
     def comparison(self, node: Comparison, place: Place) -> Formula:
         links = zip(pairwise(node.sides), node.relations, strict=True)
         try:
-            return conj([self.link(left, relation, right, place) for (left, right), relation in links])
+            formulas = [self.link(left, relation, right, place) for (left, right), relation in links]
         except TermError as error:
             raise self.fail(str(error), node.at) from None
+        return conj(formulas) if len(formulas) > 1 else formulas[0]
 
     def link(self, left: Term, relation: Relation, right: Term, place: Place) -> Formula:
         """``left relation right``."""
-        for side, other, seen in ((right, left, relation), (left, right, relation.flipped)):
+        both = () if isinstance(left, Polynomial) else ((right, left, relation), (left, right, relation.flipped))
+        for side, other, seen in both:
             if isinstance(side, Root) and isinstance(other, Name) and side.variable in (None, other.name):
                 return self.root_comparison(other, seen, side)
             if (sign := _infinite(side)) is not None:
                 return self.bounded(other, seen, sign, place)
-        a, b = self.values.term(left), self.values.term(right)
+        a = self.values.term(left)
+        if isinstance(a, Value) and isinstance(right, Number) and not right.value:
+            return atom(a.poly, relation)
+        b = self.values.term(right)
         if isinstance(a, Value) and isinstance(b, Value):
             return terms.compare(a, relation, b)
         return self.values.compared(cases_of(a), relation, cases_of(b), place)

@@ -30,6 +30,7 @@ MUCH = 8
 LONG = 20_000
 """Parts of a question, written out, up to which nothing is named."""
 
+_LEAVES = (s.Polynomial, s.Number, s.Name)
 _SHORT, _MANY = 8, 16
 """Parts up to which what is shared stays where it is; cases of a term from which on it gets a name."""
 
@@ -47,8 +48,12 @@ class Named(NamedTuple):
     shared: list[s.Part]
 
 
-def inside(part: s.Part) -> list[s.Part]:
+def inside(part: s.Part) -> Sequence[s.Part]:
     """The parts directly inside another."""
+    if isinstance(part, s.Comparison):
+        return part.sides
+    if isinstance(part, s.Every | s.Some):
+        return part.parts
     children: list[s.Part] = []
     for field in part:
         if isinstance(field, list):
@@ -69,7 +74,7 @@ def ordered(roots: Iterable[s.Part]) -> list[s.Part]:
         elif id(part) not in parts:
             pending.append((part, True))
             for child in inside(part):
-                if isinstance(child, s.Polynomial | s.Number | s.Name):
+                if isinstance(child, _LEAVES):
                     parts[id(child)] = child
                 else:
                     pending.append((child, False))
@@ -88,7 +93,9 @@ def _longest(parts: Sequence[s.Part]) -> int:
     """How long the longest part is written out, terms counted as one part."""
     sizes: dict[int, int] = {}
     for part in parts:
-        size = 1 + sum(sizes[id(child)] for child in inside(part)) if isinstance(part, s.Node) else 0
+        size = 0
+        if part.__class__ in s.NODES:
+            size = 1 + sum([sizes[id(child)] for child in inside(part)])
         sizes[id(part)] = min(2 * size if isinstance(part, s.Equivalence) else size, _CASES)
     return max(sizes.values(), default=0)
 

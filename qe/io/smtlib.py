@@ -51,7 +51,7 @@ def read(text: str, *, source: str = "<text>") -> Formula:
     """The conjunction of the assertions of a script. Raises ``ParseError`` with line and column."""
     fail = Failing(text, source)
     try:
-        with without_collections():
+        with without_collections(text):
             formula = _read(text, fail)
         depth = _depth(formula)
     except RecursionError:

@@ -20,6 +20,8 @@ _WORD = (
 _TOKEN = re.compile(rf"(?P<SPACE>\s+|;[^\n]*)|(?P<OPEN>\()|(?P<CLOSE>\))|(?P<WORD>{_WORD})")
 _WORDS = re.compile(rf"[()]|{_WORD}|;[^\n]*|\S[\s\S]*")
 """Words, brackets and comments; as the last, all that follows where none of them begins."""
+LONG = 100_000
+"""Characters of a text from which on the collector waits until it is read."""
 _INSIDE = re.compile(r'[^()|";]+')  # what opens and closes nothing
 
 
@@ -50,18 +52,24 @@ def place(expression: Expression) -> int:
 
 
 @contextmanager
-def without_collections() -> Iterator[None]:
-    """While a large tree grows, looking for circles in it takes most of the time, and there are none."""
-    enabled = gc.isenabled()
+def without_collections(text: str) -> Iterator[None]:
+    """While a large tree grows, looking for circles in it takes most of the time, and there are none.
+
+    What is left of a long text is old at once: whatever is frozen and not frozen any more is in the oldest generation.
+    """
+    if len(text) < LONG or not gc.isenabled():
+        yield
+        return
     gc.disable()
     try:
         yield
     finally:
-        if enabled:
-            gc.enable()
+        if not gc.get_freeze_count():  # else somebody wants it so
+            gc.freeze()
+            gc.unfreeze()
+        gc.enable()
 
 
-@without_collections()
 def parse(text: str, fail: Fail, *, placed: bool = True) -> list[Expression]:
     """The expressions of a script; raises what ``fail`` makes.
 

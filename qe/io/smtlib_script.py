@@ -13,7 +13,8 @@ from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.sharing import named, ordered
 from qe.io.smtlib_parser import Expression, place, plain
-from qe.io.smtlib_terms import Foreign, Macro, Meaning, Terms
+from qe.io.smtlib_terms import Terms
+from qe.io.smtlib_words import Foreign, Macro, Meaning
 from qe.io.total import Fill, Total
 
 

@@ -1,158 +1,40 @@
-"""The meaning of SMT-LIB terms: scopes and sorts; macros and ``let`` are expanded here."""
+"""The meaning of SMT-LIB terms; macros and ``let`` are expanded here."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from functools import reduce
 from itertools import combinations, pairwise
-from typing import NamedTuple, Never, TypeAlias, cast, get_args
+from typing import Any, cast
 
-from qe.errors import InputError, Unable
+from qe.errors import Unable
 from qe.formula.relation import Relation
 from qe.io import collected
 from qe.io import surface as s
-from qe.io.names import check_name
-from qe.io.smtlib_parser import Expression, is_symbol, place, plain, show, words
-from qe.io.terms import TermError, decimal
+from qe.io.smtlib_parser import Expression, place, plain
+from qe.io.smtlib_words import Foreign, Macro, Meaning, Scope, Words, is_real, leaf
 from qe.io.text_errors import way_out
-
-Meaning: TypeAlias = s.Term | s.Node
 
 MOST_STEPS = 1_000_000
 """Terms of one command, definitions written out."""
 
 _RELATIONS = {"<": Relation.LT, "<=": Relation.LE, ">": Relation.GT, ">=": Relation.GE, "=": Relation.EQ}
-_TERMS = frozenset(get_args(s.Term))
+_LET: list[Expression] = ["let"]
 _CONNECTIVES = frozenset(("not", "and", "or", "xor", "=>", "implies"))
 _ARITHMETIC = frozenset(("+", "-", "*", "/", "^"))
 _INFIX = frozenset((*_RELATIONS, *_CONNECTIVES, *_ARITHMETIC))
-_SIGNED = re.compile(r"(-?)([0-9]+\.?[0-9]*|\.[0-9]+)")
-"""What most solvers take for a number: a symbol for the standard, which may be declared."""
 _WITHOUT_ARGUMENTS = frozenset(("exists", "forall", "!"))
 """What says itself what it needs."""
 _INTEGERS = frozenset(("div", "mod", "rem", "to_int", "is_int", "divisible"))
 
 
-class Macro(NamedTuple):
-    """A ``define-fun`` with arguments: their names and sorts, the sort of the body, the body, and its scope."""
-
-    parameters: list[tuple[str, str]]
-    sort: str
-    body: Expression
-    scope: Scope
-
-
-class Foreign(NamedTuple):
-    """A symbol that was declared, but not read: only the sort of its values is known."""
-
-    sort: str
-
-
-Scope: TypeAlias = Mapping[str, "Meaning | Macro | Foreign"]
-
-
-def is_real(meaning: Meaning) -> bool:
-    """Whether a term is one of sort Real; else it is a formula."""
-    return meaning.__class__ in _TERMS
-
-
-class Terms:
-    """Reads terms. ``names``: the variables, declared ones first; bound variables get names of their own here, so
-    nothing is captured when a definition is expanded. ``bound``: those. ``shared``: definitions, in order.
-
-    ``lenient``: a value that is not read (of ``tanh``, of an integer or a declared function) gets a name of its own,
-    which is free. ``fixed`` are such names where no variable stands inside, ``varying`` the others.
-    """
+class Terms(Words):
+    """Reads terms; calls ``tick`` from time to time."""
 
     def __init__(self, fail: s.Fail, tick: Callable[[], None] = lambda: None) -> None:
-        self.fail, self.tick = fail, tick
-        self.steps, self.pause = 0, 0
+        super().__init__(fail)
+        self.tick, self.steps, self.pause = tick, 0, 0
         self.expanded: dict[tuple[object, ...], tuple[object, Meaning]] = {}
-        self.names: list[str] = []
-        self.bound: set[str] = set()
-        self.taken: set[str] = set()
-        self.reserved: set[str] = set()
-        self.sorts: dict[str, str] = {}  # names of sorts that are defined
-        self.shared: list[s.Part] = []
-        self.forms: dict[object, Meaning] = {}
-        self.globals: dict[str, Meaning | Macro | Foreign] = {}
-        self.numbers: dict[str, s.Number] = {}  # by their words
-        self.lenient = False
-        self.inside = 0
-        self.fixed: set[str] = set()
-        self.varying: set[str] = set()
-
-    def error(self, message: str, at: Expression) -> Never:
-        raise self.fail(message, place(at))
-
-    def items(self, expression: Expression, message: str, count: int | None = None) -> list[Expression]:
-        """The items of what must be a list, of so many; ``message`` says what was expected where it is none."""
-        if isinstance(expression, str) or count not in (None, len(expression)):
-            self.error(message, expression)
-        return expression
-
-    def parameters(self, listing: Expression) -> list[tuple[str, str]]:
-        pairs = (
-            self.items(item, "(name sort) expected", 2)
-            for item in self.items(listing, "a list of sorted variables expected")
-        )
-        return [(self.symbol(name), self.sort(sort)) for name, sort in pairs]
-
-    # --- words -----------------------------------------------------------------------------
-    def symbol(self, word: Expression) -> str:
-        if isinstance(word, str) and is_symbol(word):
-            return str(word)
-        return self.error("a symbol expected", word)
-
-    def sort(self, word: Expression) -> str:
-        name = show(word)[:40]
-        name = self.sorts.get(name, name)
-        if name not in ("Real", "Bool"):
-            hint = "; all numbers are real here" if name == "Int" else ""
-            self.error(f"sort Real or Bool expected, {name} found{hint}", word)
-        return name
-
-    def fresh(self, symbol: str) -> str:
-        """A name of its own for a variable, its symbol where that is free and a possible name."""
-        try:
-            name = base = check_name(plain(symbol))
-        except InputError:
-            name = base = "v"
-        k = 0
-        while name in self.taken or name in self.reserved:
-            k += 1
-            name = f"{base}_{k}"
-        self.taken.add(name)
-        self.names.append(name)
-        return name
-
-    def arity(self, listing: list[Expression], count: int) -> None:
-        if len(listing) != count + 1:
-            self.error(f"{count} arguments expected, {len(listing) - 1} found", listing)
-
-    def variable(self, name: str, sort: str, at: int) -> Meaning:
-        real = s.Name(name, at)
-        return real if sort == "Real" else s.Comparison([real, s.Number(0)], [Relation.GT], at)
-
-    def share(self, meaning: Meaning) -> Meaning:
-        """Remember a definition, so that its value is computed once and before its uses; what was said before in the
-        same words is the same object."""
-        form = (type(meaning), *(_leaf(field) for name, field in zip(meaning._fields, meaning) if name != "at"))
-        known = self.forms.setdefault(form, meaning)
-        if known is meaning:
-            self.shared.append(meaning)
-        return known
-
-    def once(self, node: s.Node) -> Meaning:
-        """A formula that is shared, unless it may have bound variables."""
-        return node if self.inside else self.share(node)
-
-    def expect(self, meaning: Meaning, sort: str, at: Expression) -> Meaning:
-        if is_real(meaning) is not (sort == "Real"):
-            other = "Bool" if sort == "Real" else "Real"
-            self.error(f"a term of sort {sort} expected, one of sort {other} found", at)
-        return meaning
 
     # --- terms -----------------------------------------------------------------------------
     def formula(self, expression: Expression, scope: Scope) -> s.Node:
@@ -163,22 +45,22 @@ class Terms:
 
     def reals(self, listing: list[Expression], scope: Scope) -> list[s.Term]:
         """Operands: names and numbers, most of them, which are looked up at once."""
-        terms: list[s.Term] = []
+        terms: list[Any] = []
         for expression in listing[1:]:
-            term = scope.get(expression) or self.numbers.get(expression) if isinstance(expression, str) else None
-            if term.__class__ not in _TERMS:
-                term = self.real(expression, scope)
-            terms.append(cast(s.Term, term))
+            if isinstance(expression, str):
+                term = scope.get(expression) or self.numbers.get(expression)
+                if term.__class__ not in s.TERMS:
+                    term = self.real(expression, scope)
+                terms.append(term)
+            else:
+                terms.append(term := self.meaning(expression, scope))
+                if term.__class__ not in s.TERMS:
+                    self.expect(term, "Real", expression)
         return terms
 
     def meaning(self, expression: Expression, scope: Scope) -> Meaning:
-        inner: dict[str, Meaning | Macro | Foreign] | None = None
-        while not isinstance(expression, str) and expression and expression[0] == "let":
-            bindings = self.bindings(expression, scope)
-            if inner is None:
-                scope = inner = dict(scope)
-            inner.update(bindings)  # nobody else has it
-            expression = expression[2]
+        if expression[:1] == _LET:
+            expression, scope = self.behind_lets(expression, scope)
         if isinstance(expression, str):
             return self.word(expression, scope)
         self.steps += len(expression)
@@ -199,48 +81,13 @@ class Terms:
         if self.steps > MOST_STEPS:
             raise Unable(f"definitions written out make this more than {MOST_STEPS:,} terms")
 
-    def word(self, word: str, scope: Scope) -> Meaning:
-        if not is_symbol(word):
-            if not word[0].isdigit():
-                self.error(f"unexpected {word[:40]}", word)
-            return self.numbers.setdefault(str(word), self.number(word, word))
-        value = scope.get(word)
-        if value is None:
-            return self.constant(word)
-        if isinstance(value, Macro):
-            self.error(f"{plain(word)} needs {len(value.parameters)} arguments", word)
-        if isinstance(value, Foreign):
-            return self.unread(word, scope, value.sort, f"the declaration of {plain(word)} was not read")
-        return value
-
-    def constant(self, word: str) -> Meaning:
-        """What a symbol that nobody has declared means."""
-        if word in ("true", "false"):
-            return s.Truth(word == "true")
-        if (number := _SIGNED.fullmatch(plain(word))) is None:
-            self.error(f"the symbol {plain(word)} is not declared", word)
-        value = self.number(number[2], word)
-        return s.Number(-value.value) if number[1] else value
-
-    def number(self, text: str, word: str) -> s.Number:
-        try:
-            value = decimal(text)
-        except TermError as error:
-            self.error(str(error), word)
-        return s.Number(value.numerator if value.denominator == 1 else value)
-
-    def unread(self, expression: Expression, scope: Scope, sort: str, message: str) -> Meaning:
-        """A value that is not read: a name of its own, the same for the same text, where that is allowed."""
-        head = expression if isinstance(expression, str) else expression[0]
-        inside = [word for word in words(expression) if word in scope and not isinstance(scope[word], Foreign)]
-        if not self.lenient or any(scope[word] is not self.globals.get(word) for word in inside):
-            self.error(message, head)
-        key = f"||{show(expression)}||"  # no symbol begins with two bars and goes on
-        if (known := self.globals.get(key)) is None:
-            name = self.fresh("unread")
-            (self.varying if inside else self.fixed).add(name)
-            known = self.globals[key] = self.variable(name, sort, place(expression))
-        return cast(Meaning, known)
+    def behind_lets(self, expression: Expression, scope: Scope) -> tuple[Expression, Scope]:
+        """The first expression inside that is no ``let``, and its scope."""
+        inner = dict(scope)
+        while not isinstance(expression, str) and expression[:1] == _LET:
+            inner.update(self.bindings(expression, inner))
+            expression = expression[2]
+        return expression, inner
 
     def bindings(self, let: list[Expression], scope: Scope) -> dict[str, Meaning]:
         self.arity(let, 2)
@@ -288,13 +135,13 @@ class Terms:
             result = self.combined(head, result, operand, at)
         return result
 
-    def combined(self, operator: str, left: s.Term, right: s.Term, at: int) -> s.Term:
+    def combined(self, operator: str, first: s.Term, second: s.Term, at: int) -> s.Term:
         """The product, quotient or power of two terms."""
         short = None
-        if isinstance(right, s.Number) and operator != "*":
-            short = collected.quotient(left, right) if operator == "/" else collected.power(left, right)
+        if isinstance(second, s.Number) and operator != "*":
+            short = collected.quotient(first, second) if operator == "/" else collected.power(first, second)
         build = s.Product if operator == "*" else s.Quotient if operator == "/" else s.Power
-        return cast(s.Term, self.share(build(left, right, at))) if short is None else short
+        return cast(s.Term, self.share(build(first, second, at))) if short is None else short
 
     def negated(self, term: s.Term) -> s.Term:
         short = collected.negative(term)
@@ -328,7 +175,7 @@ class Terms:
         for (name, sort), argument in zip(macro.parameters, listing[1:], strict=True):
             inner[name] = self.expect(self.meaning(argument, scope), sort, argument)
             values.append(cast(Meaning, inner[name]))
-        key = (id(macro.body), *map(_leaf, values))
+        key = (id(macro.body), *map(leaf, values))
         if key not in self.expanded:  # what the identities are of is kept with them
             meant = self.expect(self.meaning(macro.body, inner), macro.sort, listing)
             self.expanded[key] = (macro.body, values), meant
@@ -377,8 +224,9 @@ class Terms:
             self.error(f"{head} needs two arguments", head)
         meanings = [self.meaning(a, scope) for a in arguments]
         boolean = head in ("=", "distinct") and not is_real(meanings[0])
-        for meaning, argument in zip(meanings, arguments, strict=True):
-            self.expect(meaning, "Bool" if boolean else "Real", argument)
+        for meaning, argument in zip(meanings, arguments):
+            if is_real(meaning) is boolean:
+                self.expect(meaning, "Bool" if boolean else "Real", argument)
         links: list[s.Node] = []
         for left, right in combinations(meanings, 2) if head == "distinct" else pairwise(meanings):
             if boolean:
@@ -405,22 +253,6 @@ class Terms:
             case "xor":
                 return reduce(lambda result, part: s.Negation(s.Equivalence(result, part)), parts)
         return reduce(lambda result, part: s.Implication(part, result), reversed(parts))
-
-
-def _leaf(field: object) -> object:
-    """A part of a form: names, numbers and polynomials by what they are, what is made of others by its identity."""
-    match field:
-        case s.Name(name):
-            return name
-        case s.Number(value):
-            return value
-        case s.Polynomial(terms):
-            return _leaf(terms)
-        case dict():
-            return tuple(field.items())
-        case list():
-            return tuple(map(_leaf, field))
-    return id(field) if isinstance(field, tuple) else field
 
 
 _READERS: Mapping[str, Callable[[Terms, str, list[Expression], Scope], Meaning]] = {

@@ -83,7 +83,7 @@ def combination(ring: Ring, coefficients: Mapping[tuple[str, ...], Fraction | in
     if set(map(type, coefficients.values())) != {int}:
         den = lcm(*(c.denominator for c in coefficients.values()))
         whole = {names: c.numerator * (den // c.denominator) for names, c in coefficients.items()}
-    bits = max(c.bit_length() for c in whole.values())
+    bits = max(map(int.bit_length, whole.values()))
     _bounded(len(whole), bits)
     return Value(ring.combination(whole), den, bits)
 
@@ -158,8 +158,6 @@ def power(base: Value, exponent: int) -> Value:
 
 def compare(left: Value, relation: Relation, right: Value) -> Formula:
     """The atom ``left relation right``."""
-    if not right.poly:
-        return atom(left.poly, relation)
     return atom(total((left, negative(right))).poly, relation)
 
 

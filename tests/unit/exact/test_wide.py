@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from fractions import Fraction
+from math import prod
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -107,3 +108,22 @@ def test_a_polynomial_with_more_variables_than_are_few(coefficients, constant):
         assert f.evaluate(point) == plain.evaluate(point)
         assert f.at_rational(1, Fraction(2, 3)) == plain.at_rational(1, Fraction(2, 3))
         assert f.gcd(f * 2) == plain.gcd(plain * 2)
+
+
+@given(
+    st.sampled_from((3, 40)),
+    st.dictionaries(st.lists(st.integers(0, 39), max_size=4).map(tuple), st.integers(-9, 9).filter(bool), min_size=1),
+)
+def test_a_combination_of_products_of_names(size: int, terms: dict[tuple[int, ...], int]) -> None:
+    """It is the sum of the products, in rings of many variables too, where its hash does not depend on the way."""
+    ring = Ring.of([f"x{k}" for k in range(size)])
+    by_names: dict[tuple[str, ...], int] = {}
+    for indices, c in terms.items():
+        by_names[tuple(sorted(ring.names[i % size] for i in indices))] = c
+    total = ring.constant(0)
+    for names, c in by_names.items():
+        total += prod(map(ring.var, names), start=ring.constant(c))
+    made = ring.combination(by_names)
+    assert made == total and hash(made) == hash(total) and made.variables == total.variables
+    assert made.normal() == total.normal() and made.degrees == total.degrees
+    assert hash(-made) == hash(-total) and (-made).variables == total.variables

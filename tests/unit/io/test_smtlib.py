@@ -17,7 +17,8 @@ from qe.io import smtlib
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.smtlib_parser import parse
-from qe.io.smtlib_terms import Macro, Terms, is_real
+from qe.io.smtlib_terms import Terms
+from qe.io.smtlib_words import Macro, is_real
 from qe.io.text import read as text
 from tests.tables import each
 
@@ -294,3 +295,19 @@ def test_z3_agrees_at_points() -> None:
         for y in (Fraction(-1, 2), 0, 3):
             values = [(z3.Real("x"), z3.RealVal(x)), (z3.Real("y"), z3.RealVal(str(y)))]
             assert z3.is_true(z3.simplify(z3.substitute(term, *values))) is holds_at(formula, {"x": x, "y": y})
+
+
+def test_a_mistake_behind_everything_else_is_told_with_its_place() -> None:
+    """What is read has no places; they are looked for when there is a mistake."""
+    text = "\n".join([X, *["(assert (> (* 2 x y) (- 3)))"] * 50, "(assert (or p ; here\n  (> (+ x (* y nobody)) 1)))"])
+    with pytest.raises(ParseError, match="the symbol nobody is not declared") as caught:
+        smtlib.read(text)
+    assert (caught.value.line, caught.value.column) == (53, 16)
+
+
+def test_an_unknown_symbol_between_bars_is_said_without_them() -> None:
+    with pytest.raises(ParseError, match="the symbol a b is not declared"):
+        smtlib.read("(assert (> |a b| 0))")
+    assert str(smtlib.read("(declare-const |x| Real)(declare-const |1| Real)(assert (> x |1| 1))")) == (
+        "x - `1` > 0 and `1` - 1 > 0"
+    )
