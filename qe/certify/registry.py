@@ -6,9 +6,9 @@ are of the second ring: ``--core`` does not know them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
-from importlib.metadata import entry_points
+from importlib.metadata import EntryPoint, entry_points
 
 from qe.expert.rules import EXPERT
 from qe.kernel.primitives import PRIMITIVES
@@ -18,26 +18,34 @@ GROUP = "bezier_qe.rules"
 
 
 @cache
+def _entry_points() -> dict[str, EntryPoint]:
+    return {point.name: point for point in entry_points(group=GROUP)}
+
+
+@cache
 def brought(rule: str) -> Check | None:
     """The checker of the rule that an installed package brings under this name."""
-    return next((point.load() for point in entry_points(group=GROUP, name=rule)), None)
+    point = _entry_points().get(rule)
+    return None if point is None else point.load()
 
 
-class _Rules(dict[str, Check]):
+class _Rules(Mapping[str, Check]):
     """Listed are those of ``qe``; a rule that an installed package brings is loaded when it is named."""
 
-    def __missing__(self, rule: str) -> Check:
-        if (check := brought(rule)) is None:
+    def __init__(self, listed: Mapping[str, Check]) -> None:
+        self._listed = listed
+
+    def __getitem__(self, rule: str) -> Check:
+        check = self._listed.get(rule) or brought(rule)
+        if check is None:
             raise KeyError(rule)
         return check
 
-    def __contains__(self, rule: object) -> bool:
-        return super().__contains__(rule) or (isinstance(rule, str) and brought(rule) is not None)
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._listed)
 
-    def get(self, rule: str, default: Check | None = None) -> Check | None:  # type: ignore[override]
-        """The checker, if there is one."""
-        check = super().get(rule)
-        return check or brought(rule) or default
+    def __len__(self) -> int:
+        return len(self._listed)
 
 
 RULES: Mapping[str, Check] = _Rules({**PRIMITIVES, **EXPERT})

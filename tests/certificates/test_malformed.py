@@ -18,6 +18,7 @@ from typing import Any
 import pytest
 
 import qe
+from qe.certify import registry
 from qe.certify.registry import GROUP, RULES
 from qe.certify.verify import CRASHED, verify, verify_json
 from qe.options import Budget
@@ -248,7 +249,7 @@ def test_a_checker_that_crashes_has_accepted_nothing(monkeypatch: pytest.MonkeyP
     def crash(*_: object) -> None:
         raise KeyError("x")
 
-    monkeypatch.setitem(RULES, "renaming", crash)
+    monkeypatch.setattr(registry, "RULES", {**RULES, "renaming": crash})
     payload = alone(["a", "x"], step("renaming", "ex x. x = a", "ex x. x = a"))["payload"]
     found = verify(Certificate(Kind.DERIVATION, payload), Budget(5))
     assert (found.accepted, found.decided, found.step) == (False, True, "payload.steps[0]")
