@@ -214,7 +214,7 @@ def test_clusters_of_known_number_are_multiple_roots(given_roots: list[tuple[acb
         c = [x.real for x in p.coeffs()]
         found = distinct_roots(c, bits, len(distinct))
         if found is None:
-            assert "1000.00000000000" in distinct  # roots of very different size are not told from those that coincide
+            assert any(float(z.real) == 1000 for z in distinct.values())  # far from the others
             return
         assert len(found) == len(distinct)
         assert all(sum(z.overlaps(w) for w in found) == 1 for z in distinct.values())
