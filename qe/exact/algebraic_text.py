@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from math import gcd, isqrt
@@ -52,10 +53,12 @@ def square_part(n: int) -> int:
     Larger numbers are divided by small primes only, since factoring them may take for ever; what remains is taken out
     where it is a square.
     """
-    outside = 1
+    outside, powers = 1, Counter[int]()
     for factor, power in fmpz(n).factor(trial_limit=None if n.bit_length() <= _FACTORED_BITS else _TRIED):
-        root = isqrt(int(factor))
-        outside *= root ** int(power) if root * root == factor else int(factor) ** (int(power) // 2)
+        powers[int(factor)] += int(power)  # FLINT may list a factor twice
+    for factor, power in powers.items():
+        root = isqrt(factor)
+        outside *= root**power if root * root == factor else factor ** (power // 2)
     return outside
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from qe.exact.ring import Poly
-from qe.formula.notation import Notation, monomials, polynomial, positive
+from qe.formula.notation import Level, Notation, monomials, polynomial, positive
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation
 from qe.spelling import visible
 
@@ -47,11 +47,12 @@ def write(formula: Formula) -> str:
     prefix, body = _prefix(formula)
     if not isinstance(body, And | Or):
         return text
-    operator = _NOTATION.conjunction if isinstance(body, And) else _NOTATION.disjunction
-    looser = Or | Exists | ForAll if isinstance(body, And) else Exists | ForAll
-    lines = [arg.written(_NOTATION) for arg in body.args]
-    lines = [rf"\left({line}\right)" if isinstance(arg, looser) else line for arg, line in zip(body.args, lines)]
-    joined = (r" \\" + f"\n{operator.strip()}\\; & ").join(lines)
+    level, operator = (
+        (Level.AND, _NOTATION.conjunction) if isinstance(body, And) else (Level.OR, _NOTATION.disjunction)
+    )
+    joined = (r" \\" + f"\n{operator.strip()}\\; & ").join(
+        arg.written(_NOTATION, level, last=False) for arg in body.args
+    )
     return f"{prefix}\\begin{{array}}{{rl}}\n& {joined}\n\\end{{array}}"
 
 

@@ -225,7 +225,7 @@ def check_random(seed: int) -> bool:
     return True
 
 
-@each((range(40), 20), pytest.param(range(1000, 1500), 250, marks=pytest.mark.deep))
+@each((range(20), 8), pytest.param(range(1000, 1500), 250, marks=pytest.mark.deep))
 def test_random_paths_near_the_axis_and_near_borders(seeds: range, simple: int) -> None:
     assert sum(check_random(seed) for seed in seeds) >= simple
 
@@ -362,7 +362,7 @@ def test_false_numbers_are_rejected(every: bool, case: str) -> None:
                 {**place, "factor": []},
                 {**place, "factor": [[[str(-low - (high - low) / 3), 1]], [["1", 1]]]},
             ]
-            for one in wrong:
+            for one in wrong if every else [wrong[len(case) % len(wrong)]]:
                 assert not forged(payload, places=[*places[:i], [*curve[:k], one, *curve[k + 1 :]], *places[i + 1 :]])
             assert not forged(payload, places=[*places[:i], [*curve, place], *places[i + 1 :]])
             if low > 0 and high < 1:

@@ -114,6 +114,16 @@ def test_long_formulas_stand_in_lines() -> None:
     assert either.count(r"\lor\; &") == 5 and r"\left" not in either
 
 
+@each("and", "or")
+@each("not (ex x. x = 0)", "not (all x. x > y or z > x)", "(ex x. x = 0 and y > 1)", "(x > 1 and y > 1 or z = 0)")
+def test_a_line_of_latex_had_no_brackets_around_a_quantifier_below_a_negation(first: str, operator: str) -> None:
+    """The lines after it were read as more of its body."""
+    formula = read(f"{first} {operator} {10**100}*y > 1")
+    written = latex.write(formula)
+    assert "array" in written and latex.read(written) == formula
+
+
+
 PLAIN = st.from_regex(r"[A-Za-z][A-Za-z0-9_#&^~{}]{0,4}'?", fullmatch=True)
 
 
