@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from fractions import Fraction
 
 from qe.exact.ring import Poly
-from qe.formula.build import atom, conj, disj, exists, forall, neg
+from qe.formula.build import conj, disj, exists, forall, neg
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or
-from qe.kernel.limits import check_power, check_value
+from qe.kernel.limits import check_power
 from qe.kernel.step import Claim
 
 Change = Callable[[Atom], Formula]
@@ -44,18 +43,6 @@ def _mapped(formula: Formula, change: Change, bound: frozenset[str], claim: Clai
             quantify = exists if isinstance(formula, Exists) else forall
             return quantify(variables, _mapped(body, change, bound.union(variables), claim))
     raise claim.fail("no substitution into root atoms")
-
-
-def at_number(formula: Formula, x: int, value: Fraction, claim: Claim) -> Formula:
-    """The formula with a number for variable ``x``."""
-
-    def change(given: Atom) -> Formula:
-        if not given.poly.degree(x):
-            return given
-        check_value(given.poly, x, value)
-        return atom(given.poly.at_rational(x, value), given.relation)
-
-    return mapped(formula, change, (claim.ring.gen(x),), claim)
 
 
 def quotient(poly: Poly, x: int, top: Poly, bottom: Poly) -> Poly:

@@ -39,12 +39,13 @@ from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
 from qe.proving.lemmas import refuting
-from qe.proving.made import FRESH, Made, solved
+from qe.proving.made import FRESH, Made, at_number, solved
 from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
 from qe.proving.shifts import OPEN, elimination_set, lower, shifted
 from qe.proving.simplified import Simplified
 from qe.proving.thin import degenerate_truth_set
+from qe.proving.turns import turned
 from qe.rules.closed_forms import matches
 
 Elaborator = Callable[[Claim, Context, Limits], list[Json]]
@@ -164,7 +165,7 @@ def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     made = Made(claim, limits, block, context)
     made.simplified(block, disj(case for _, case in kept))
     for s, case in kept:
-        after, side = exists(rest, _at_number(block.body, x, s)), s
+        after, side = exists(rest, at_number(block.body, x, s)), s
         if made.current == TRUE or case not in disjuncts(made.current):  # another case has settled it
             continue
         if s == 0:
@@ -207,7 +208,7 @@ def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     back = {v: _along(ring, v, -by, name) for v, by in moves.items()}
     moved = moved_inside(block, (), there, back, (), steps, claim, limits, start=True)
     rest = [v for v in block.variables if v != name]
-    after = exists(rest, _at_number(block.body, x, 0))
+    after = exists(rest, at_number(block.body, x, 0))
     outer = {v: q for v, q in back.items() if v in rest}
     zero = {name: (ring.constant(0), ring.constant(1))}
     return [*steps, terms(moved, after, zero, outer, (), claim, limits)]
@@ -283,10 +284,6 @@ def _image(formula: Formula, back: Mapping[str, Quotient], known: Context, rest:
 def _times(ring: Ring, name: str, unit: Poly, power: int) -> Quotient:
     """name * unit^power, as a quotient."""
     return ring.var(name) * unit ** max(power, 0), unit ** max(-power, 0)
-
-
-def _at_number(formula: Formula, x: int, value: int) -> Formula:
-    return map_atoms(formula, lambda a: atom(a.poly.at_rational(x, value), a.relation))
 
 
 def _with(formula: Formula, x: int, value: Poly) -> Formula:
@@ -428,7 +425,10 @@ def only_nonzero(claim: Claim, context: Context, limits: Limits) -> list[Json]:
 
 
 NAMING = frozenset(
-    ("degree shift", "elimination set", "homogeneous scaling", "sphere seen along a form", "two variables exchanged")
+    (
+        *("degree shift", "elimination set", "homogeneous scaling", "rotation of the axes"),
+        *("sphere seen along a form", "two variables exchanged"),
+    )
 )
 """Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
 
@@ -462,6 +462,7 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "mirror images of a convex set": mirrored,
     "disjuncts with equations apart": distributed,
     "roots by signs": roots_by_signs,
+    "rotation of the axes": turned,
     "critical values of a universal block": decomposed,
     "comprehensive Gröbner system": counted,
 }

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom
 from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import children, conjuncts
+from qe.formula.traverse import children, conjuncts, map_atoms
 from qe.kernel.block import block_goals
 from qe.kernel.boolean import Goal, equivalence
 from qe.kernel.derivation import replaced
@@ -135,10 +137,23 @@ class Made:
         self.current = found
 
     def terms(
-        self, before: Formula, after: Formula, there: Mapping[str, Quotient], back: Mapping[str, Quotient]
+        self,
+        before: Formula,
+        after: Formula,
+        there: Mapping[str, Quotient],
+        back: Mapping[str, Quotient],
+        lemmas: Json = None,
     ) -> None:
-        """A change of variables by these terms."""
-        self.by_lemmas("terms", terms_goals, before, after, {"there": rows(there), "back": rows(back)})
+        """A change of variables by these terms; the lemmas are looked for where none are given, with what stands
+        beside it."""
+        evidence: dict[str, Json] = {"there": rows(there), "back": rows(back)}
+        if lemmas is None:
+            return self.by_lemmas("terms", terms_goals, before, after, evidence)
+        goals = terms_goals(self._step("terms", before, after, {**evidence, "theory": lemmas}), ())
+        theory = with_cases(lemmas, goals, self.ring, self.limits)
+        if theory is None:
+            raise self.claim.fail("the lemmas do not show the change of variables")
+        return self.step("terms", before, after, {**evidence, "theory": theory})
 
     def root(self, block: Exists, low: Poly | None = None) -> None:
         """An equation for x that rises, or falls, from a place (or the left end) to the right end has a root."""
@@ -191,6 +206,11 @@ def solved(equation: Atom, name: str) -> Json:
     lead = equation.poly.leading(equation.poly.ring.index[name])
     sign = 1 if lead.constant_value() > 0 else -1
     return {"solved": [[name, poly_to_text(equation.poly), sign]], "theory": EMPTY}
+
+
+def at_number(formula: Formula, x: int, value: Fraction | int) -> Formula:
+    """A formula without root atoms, with a number for variable ``x``."""
+    return map_atoms(formula, lambda a: atom(a.poly.at_rational(x, value), a.relation))
 
 
 def equal(one: Poly, other: Poly) -> Atom:

@@ -65,6 +65,7 @@ ELABORATED = (
     "linear form named",
     "roots by signs",
     "roots counted",
+    "rotation of the axes",
     "ranges that exclude each other",
     "mirror images of a convex set",
     "disjuncts with equations apart",

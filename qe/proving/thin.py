@@ -12,10 +12,9 @@ from qe.kernel.block import existential
 from qe.kernel.linear_equation import substituted, term
 from qe.kernel.negation import negation, normal
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.kernel.substitution import at_number
 from qe.kernel.terms import Quotient
 from qe.proof.entry import Entry, Json
-from qe.proving.made import Made, by_signs
+from qe.proving.made import Made, at_number, by_signs
 
 
 def degenerate_truth_set(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -26,7 +25,7 @@ def degenerate_truth_set(claim: Claim, context: Context, limits: Limits) -> list
         raise variable.fail("expected the one variable of a universal block")
     y, numbers = ring.index[name], [entry.rational() for entry in values.items()]
     assert isinstance(claim.before, ForAll)
-    instances = {v: at_number(claim.before.body, y, v, claim) for v in numbers}  # as the steps begin
+    instances = {v: at_number(claim.before.body, y, v) for v in numbers}  # as the steps begin
     cases: list[Formula] = [TRUE]
     made = Made(claim, limits, existential(claim)[0], context)
     made.moved(made.current, Not(block))  # both sides as they stand, though the block is universal
