@@ -152,6 +152,17 @@ class fmpz_mpoly(Polynomial):
             total = total + product
         return total
 
+    def project_to_context(self, ctx: fmpz_mpoly_ctx, places: Mapping[int, int]) -> fmpz_mpoly:
+        """The polynomial in other variables: where each that occurs has its place there."""
+        moved = {}
+        for exponents, c in self.terms():
+            there = [0] * len(ctx.gens())
+            for i, e in enumerate(exponents):
+                if e:
+                    there[places[i]] = e
+            moved[tuple(there)] = c
+        return ctx.from_dict(moved)
+
     def resultant(self, other: fmpz_mpoly, i: int) -> fmpz_mpoly:
         """The resultant with respect to variable i."""
         return self.like(resultant(self.t, other.t, self.places[i], len(self.places)))

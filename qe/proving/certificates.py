@@ -100,7 +100,7 @@ def without_loss(work: Callable[[], Result], instead: Callable[[str], Result]) -
         return instead(f"{UNPROVED} ({error})")
     except Contradiction:
         raise
-    except Exception as error:  # noqa: BLE001
+    except Exception as error:  # noqa: BLE001  # a bug in here costs the proof, which says so, and not the answer
         return instead(fault(error))
 
 

@@ -7,30 +7,26 @@ certificates of former releases have (``qe.proving.older``).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from fractions import Fraction
-from math import lcm
 
 from qe.errors import CertificateRejected
-from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import children, conjuncts, disjuncts, map_atoms, subformula, with_child
+from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Or, Relation
+from qe.formula.traverse import conjuncts, map_atoms, subformula
 from qe.kernel.block import block_goals, existential
-from qe.kernel.boolean import Goal, equivalence
 from qe.kernel.derivation import replaced
 from qe.kernel.linear_equation import term
 from qe.kernel.negation import normal
 from qe.kernel.open_block import generic
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.kernel.terms import Quotient, at_terms, terms_goals
+from qe.kernel.terms import Quotient, at_terms
 from qe.kernel.theorem import theorem_goals
 from qe.proof.certificate import written
-from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proof.entry import Json
 from qe.proving.along import constant_along
 from qe.proving.apart import alternatives, independent_parts
 from qe.proving.counted_roots import roots_counted
@@ -38,12 +34,11 @@ from qe.proving.decomposed import counted, decomposed, roots_by_signs
 from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
-from qe.proving.lemmas import refuting
-from qe.proving.made import FRESH, Made, at_number, solved
+from qe.proving.made import FRESH, Made, by_lemmas, terms, value
 from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
-from qe.proving.shifts import OPEN, elimination_set, lower, shifted
-from qe.proving.simplified import Simplified
+from qe.proving.scaling import scaled, translated
+from qe.proving.shifts import OPEN, elimination_set, shifted
 from qe.proving.thin import degenerate_truth_set
 from qe.proving.turns import turned
 from qe.rules.closed_forms import matches
@@ -73,11 +68,11 @@ def by_theorems(
     """Steps from a block to its answer by theorems of the family that is called like the rule, and the answers."""
     for match in matches((claim.rule,), block.variables, block.body):
         answer = nnf(match.formula("answer"))
-        evidence = {**match.evidence, "theory": EMPTY}
-        step = replace(claim, rule="theorem", before=block, after=answer, evidence=Entry(evidence, claim.path))
-        theory = refuting(theorem_goals(step, context), claim.ring, limits)
-        if theory is not None:
-            yield written("theorem", place, block, answer, context, {**evidence, "theory": theory}), answer
+        try:
+            step = by_lemmas("theorem", theorem_goals, block, answer, match.evidence, context, claim, limits, place)
+        except CertificateRejected:
+            continue
+        yield step, answer
 
 
 def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -109,11 +104,9 @@ def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     facts = replaced(middle, place, inner, TRUE, context, variable)[0]
     is_odd = isinstance(part, Atom) and part.poly.degree(claim.ring.index[name]) % 2
     for rising in (0,) if is_odd else (1, -1):
-        evidence: dict[str, Json] = {"low": None, "high": None, "rising": rising, "theory": EMPTY}
-        step = replace(claim, rule="root", before=inner, after=TRUE, evidence=Entry(evidence, claim.path))
-        theory = refuting(root_goals(step, facts), claim.ring, limits)
-        if theory is not None:
-            taken = written("root", place, inner, TRUE, facts, {**evidence, "theory": theory})
+        evidence: dict[str, Json] = {"low": None, "high": None, "rising": rising}
+        with suppress(CertificateRejected):
+            taken = by_lemmas("root", root_goals, inner, TRUE, evidence, facts, claim, limits, place)
             return [*_regrouped(block, middle), taken]
     raise claim.fail("not shown that the value is taken")
 
@@ -135,11 +128,11 @@ def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     renamed = exists(apart, map_atoms(before.body, lambda a: atom(a.poly.compose(apart_by), a.relation)))
     image = exists(apart, map_atoms(after.body, lambda a: atom(a.poly.compose(by), a.relation)))
     sums = [Atom((ring.var(v) - poly).normal()[1], Relation.EQ) for v, poly in ((x, one + other), (y, one * other))]
-    solved = [_solved(equation, v) for v, equation in zip((x, y), sums, strict=True)]
+    values = [value(equation, v) for v, equation in zip((x, y), sums, strict=True)]
     named = Exists(tuple(dict.fromkeys((*apart, *after.variables))), conj((*sums, *conjuncts(after.body))))
     inner = Exists((z, w), conj(sums))
     middle = exists(after.variables, conj((*conjuncts(after.body), inner)))
-    back = written("linear equation solved", (), named, image, (), {"solved": solved, "theory": EMPTY})
+    back = written("linear equation solved", (), named, image, (), {"solved": values, "theory": EMPTY})
     place = (0, len(conjuncts(after.body)))
     theorem = next(by_theorems(inner, (), claim, limits, place), None)
     if theorem is None:
@@ -153,197 +146,14 @@ def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     ]
 
 
-def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """The cases of the sign of a variable, in each of which the others are measured in powers of it, or of its root."""
-    variable, weights, values, _ = only(claim, "variable", "weights", "values", optional=("theory",))
-    (block, name, x), ring = claim.variable(variable), claim.ring
-    powers = _moves(weights, name, claim)
-    root = lcm(*(power.denominator for power in powers.values()))
-    rest, one = [v for v in block.variables if v != name], ring.constant(1)
-    cases = [(s, exists(block.variables, conj((atom(ring.gen(x), _SIDE[s]), block.body)))) for s in (1, 0, -1)]
-    kept = [case for case in cases if case[0] in {entry.integer(-1) for entry in values.items()}]
-    made = Made(claim, limits, block, context)
-    made.simplified(block, disj(case for _, case in kept))
-    for s, case in kept:
-        after, side = exists(rest, at_number(block.body, x, s)), s
-        if made.current == TRUE or case not in disjuncts(made.current):  # another case has settled it
-            continue
-        if s == 0:
-            made.step("linear equation solved", case, after, solved(Atom(ring.gen(x), Relation.EQ), name))
-            continue
-        body = block.body
-        if s < 0 and root % 2 == 0:
-            side, body = 1, _with(body, x, -ring.gen(x))
-            turned = exists(block.variables, conj((atom(ring.gen(x), _SIDE[1]), body)))
-            made.terms(case, turned, {name: (-ring.gen(x), one)}, {name: (-ring.gen(x), one)})
-            case = turned
-        if root > 1:
-            high = exists(block.variables, conj((atom(ring.gen(x), _SIDE[side]), _with(body, x, ring.gen(x) ** root))))
-            assert isinstance(high, Exists)
-            lowering = Made(claim, limits, high)
-            lower(lowering, high, case, name, root)
-            made.back(case, high, lowering)
-            case = high
-        unit, whole = ring.gen(x) * side, {v: int(power * root) for v, power in powers.items()}
-        times = {v: _times(ring, v, unit, power) for v, power in whole.items()}
-        back = {v: _times(ring, v, unit, -power) for v, power in whole.items()}
-        known = (atom(ring.gen(x), _SIDE[side]),)
-        place = made.place(case)
-        moved = moved_inside(case, place, times, back, known, made.steps, claim, limits, start=True)
-        made.current = made.beside(place, case, moved)[1]
-        image = _image(after, {v: q for v, q in back.items() if v in rest}, known, rest, ring)
-        regular = exists(block.variables, conj((*known, image)))
-        made.simplified(moved, regular)
-        outer = {v: q for v, q in back.items() if v in rest}
-        made.terms(regular, after, {name: (one * side, one)}, outer)
-    return made.finished(claim.after)
-
-
-def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A variable at 0, the others moved along; those bound inside first."""
-    variable, weights = only(claim, "variable", "weights")
-    (block, name, x), ring = claim.variable(variable), claim.ring
-    steps, moves = list[Json](), _moves(weights, name, claim)
-    there = {v: _along(ring, v, by, name) for v, by in moves.items()}
-    back = {v: _along(ring, v, -by, name) for v, by in moves.items()}
-    moved = moved_inside(block, (), there, back, (), steps, claim, limits, start=True)
-    rest = [v for v in block.variables if v != name]
-    after = exists(rest, at_number(block.body, x, 0))
-    outer = {v: q for v, q in back.items() if v in rest}
-    zero = {name: (ring.constant(0), ring.constant(1))}
-    return [*steps, terms(moved, after, zero, outer, (), claim, limits)]
-
-
-def _moves(weights: Entry, name: str, claim: Claim) -> dict[str, Fraction]:
-    """How the other variables move where this one moves by 1."""
-    rows = [entry.row("name", "weight") for entry in weights.items()]
-    by_name = {row[0].text(): row[1].rational() for row in rows}
-    if not by_name.get(name) or not by_name.keys() <= claim.ring.index.keys():
-        raise weights.fail(f"{name} does not move, or what moves is no variable")
-    return {other: weight / by_name[name] for other, weight in by_name.items() if other != name}
-
-
-def moved_inside(
-    formula: Formula,
-    place: tuple[int, ...],
-    there: Mapping[str, Quotient],
-    back: Mapping[str, Quotient],
-    known: Context,
-    steps: list[Json],
-    claim: Claim,
-    limits: Limits,
-    *,
-    start: bool = False,
-) -> Formula:
-    """The formula with these terms for the variables that quantifiers inside bind, and the steps to it.
-
-    ``start``: the outermost quantifier is left alone.
-    """
-    if isinstance(formula, Exists | ForAll) and not start and (names := set(formula.variables) & there.keys()):
-        inner, outer = ({v: of[v] for v in sorted(names)} for of in (there, back))
-        by = {claim.ring.index[v]: quotient for v, quotient in inner.items()}
-        moved = map_atoms(formula, lambda a: atom(at_terms(a.poly, by), a.relation))
-        steps.append(terms(formula, moved, inner, outer, known, claim, limits, place))
-        formula = moved
-    for k, child in enumerate(children(formula)):
-        changed = moved_inside(child, (*place, k), there, back, known, steps, claim, limits)
-        formula = formula if changed == child else with_child(formula, k, changed)
-    return formula
-
-
-def _simplified_inside(
-    place: tuple[int, ...],
-    before: Formula,
-    after: Formula,
-    current: Formula,
-    steps: list[Json],
-    claim: Claim,
-    limits: Limits,
-) -> Formula:
-    """The formula ``current`` with one part made simpler, also under quantifiers."""
-
-    def evidence(one: Formula, other: Formula, used: Context) -> tuple[str, Json] | None:
-        try:
-            return "signs", {"theory": _theory(equivalence(one, other, used), claim, limits)}
-        except CertificateRejected:
-            return None
-
-    found = Simplified(evidence, (), steps).inside(place, before, after, current)
-    if found is None:
-        raise claim.fail("not shown that this was simplified to that")
-    return found
-
-
-def _image(formula: Formula, back: Mapping[str, Quotient], known: Context, rest: list[str], ring: Ring) -> Formula:
-    """The body of a block at these terms for its variables."""
-    by = {ring.index[v]: quotient for v, quotient in back.items()}
-    body = formula.body if isinstance(formula, Exists) and rest else formula
-    return map_atoms(body, lambda a: atom(at_terms(a.poly, by), a.relation))
-
-
-def _times(ring: Ring, name: str, unit: Poly, power: int) -> Quotient:
-    """name * unit^power, as a quotient."""
-    return ring.var(name) * unit ** max(power, 0), unit ** max(-power, 0)
-
-
-def _with(formula: Formula, x: int, value: Poly) -> Formula:
-    return map_atoms(formula, lambda a: atom(a.poly.compose({x: value}), a.relation))
-
-
-def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
-    """name + by * variable, as a quotient."""
-    bottom = ring.constant(by.denominator)
-    return ring.var(name) * bottom + ring.var(variable) * by.numerator, bottom
-
-
-_SIDE = {1: Relation.GT, 0: Relation.EQ, -1: Relation.LT}
-
-
 def _regrouped(before: Formula, after: Formula) -> list[Json]:
     """A step that moves quantifiers, unless nothing moves."""
     return [] if before == after else [written("quantifiers", (), before, after, (), {})]
 
 
-def _solved(equation: Atom, name: str) -> Json:
-    """An equation for a variable with a number as coefficient, and the sign of that, as the kernel wants them."""
-    lead = equation.poly.leading(equation.poly.ring.index[name])
-    return [name, poly_to_text(equation.poly), 1 if lead.constant_value() > 0 else -1]
-
-
 def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
     """A step that signs of polynomials prove."""
-    empty = Entry({"theory": EMPTY}, claim.path)
-    step = replace(claim, rule="signs", before=before, after=after, evidence=empty)
-    theory = _theory(block_goals(step, context), claim, limits)
-    return written("signs", (), before, after, context, {"theory": theory})
-
-
-def terms(
-    before: Formula,
-    after: Formula,
-    there: Mapping[str, Quotient],
-    back: Mapping[str, Quotient],
-    context: Context,
-    claim: Claim,
-    limits: Limits,
-    place: tuple[int, ...] = (),
-) -> Json:
-    """A change of variables by these terms."""
-    evidence: dict[str, Json] = {"there": _rows(there), "back": _rows(back), "theory": EMPTY}
-    step = replace(claim, rule="terms", before=before, after=after, evidence=Entry(evidence, claim.path))
-    theory = _theory(terms_goals(step, context), claim, limits)
-    return written("terms", place, before, after, context, {**evidence, "theory": theory})
-
-
-def _rows(of: Mapping[str, Quotient]) -> list[Json]:
-    return [[name, poly_to_text(top), poly_to_text(bottom)] for name, (top, bottom) in of.items()]
-
-
-def _theory(goals: Sequence[Goal], claim: Claim, limits: Limits) -> Json:
-    theory = refuting(goals, claim.ring, limits) if goals else EMPTY
-    if theory is None:
-        raise claim.fail("no lemmas show what has to be shown")
-    return theory
+    return by_lemmas("signs", block_goals, before, after, {}, context, claim, limits)
 
 
 def _at(quotient: Quotient, terms: Mapping[int, Quotient]) -> Quotient:

@@ -146,7 +146,7 @@ class Made:
     ) -> None:
         """A change of variables by these terms; the lemmas are looked for where none are given, with what stands
         beside it."""
-        evidence: dict[str, Json] = {"there": rows(there), "back": rows(back)}
+        evidence = terms_evidence(there, back)
         if lemmas is None:
             return self.by_lemmas("terms", terms_goals, before, after, evidence)
         goals = terms_goals(self._step("terms", before, after, {**evidence, "theory": lemmas}), ())
@@ -168,8 +168,9 @@ class Made:
     ) -> None:
         """A step whose obligations follow from signs, with what stands beside it."""
         facts = self.beside(self.place(before), before, after)[0]
-        goals = obligations(self._step(rule, before, after, {**evidence, "theory": EMPTY}), facts)
-        self.step(rule, before, after, {**evidence, "theory": theory(goals, self.claim, self.limits)}, facts)
+        step = by_lemmas(rule, obligations, before, after, evidence, facts, self.claim, self.limits)
+        assert isinstance(step, dict)
+        self.step(rule, before, after, step["evidence"], facts)
 
     def _step(self, rule: str, before: Formula, after: Formula, evidence: Json) -> Claim:
         return replace(self.claim, rule=rule, before=before, after=after, evidence=Entry(evidence, self.claim.path))
@@ -188,24 +189,59 @@ def _place(formula: Formula, part: Formula) -> Place | None:
     return None
 
 
-def rows(of: Mapping[str, Quotient]) -> list[Json]:
-    """Terms as evidence has them."""
-    return [[name, poly_to_text(top), poly_to_text(bottom)] for name, (top, bottom) in of.items()]
-
-
-def theory(goals: Sequence[Goal], claim: Claim, limits: Limits) -> Json:
-    """Lemmas by which all goals are refuted; ``CertificateRejected`` where none are found."""
-    found = refuting(goals, claim.ring, limits) if goals else EMPTY
-    if found is None:
+def by_lemmas(
+    rule: str,
+    obligations: Obligations,
+    before: Formula,
+    after: Formula,
+    evidence: Mapping[str, Json],
+    context: Context,
+    claim: Claim,
+    limits: Limits,
+    place: Place = (),
+) -> Json:
+    """A step whose obligations follow from signs; ``CertificateRejected`` where no lemmas show it."""
+    given = Entry({**evidence, "theory": EMPTY}, claim.path)
+    goals = obligations(replace(claim, rule=rule, before=before, after=after, evidence=given), context)
+    lemmas = refuting(goals, claim.ring, limits) if goals else EMPTY
+    if lemmas is None:
         raise claim.fail("no lemmas show what has to be shown")
-    return found
+    return written(rule, place, before, after, context, {**evidence, "theory": lemmas})
+
+
+def terms(
+    before: Formula,
+    after: Formula,
+    there: Mapping[str, Quotient],
+    back: Mapping[str, Quotient],
+    context: Context,
+    claim: Claim,
+    limits: Limits,
+    place: Place = (),
+) -> Json:
+    """A change of variables by these terms."""
+    evidence = terms_evidence(there, back)
+    return by_lemmas("terms", terms_goals, before, after, evidence, context, claim, limits, place)
+
+
+def terms_evidence(there: Mapping[str, Quotient], back: Mapping[str, Quotient]) -> dict[str, Json]:
+    """Terms as evidence has them."""
+    named = {"there": there, "back": back}
+    return {
+        name: [[v, poly_to_text(top), poly_to_text(bottom)] for v, (top, bottom) in of.items()]
+        for name, of in named.items()
+    }
 
 
 def solved(equation: Atom, name: str) -> Json:
     """Evidence that an equation gives the variable, which has a number as its coefficient."""
+    return {"solved": [value(equation, name)], "theory": EMPTY}
+
+
+def value(equation: Atom, name: str) -> Json:
+    """An equation for a variable with a number as coefficient, and the sign of that, as the kernel wants them."""
     lead = equation.poly.leading(equation.poly.ring.index[name])
-    sign = 1 if lead.constant_value() > 0 else -1
-    return {"solved": [[name, poly_to_text(equation.poly), sign]], "theory": EMPTY}
+    return [name, poly_to_text(equation.poly), 1 if lead.constant_value() > 0 else -1]
 
 
 def at_number(formula: Formula, x: int, value: Fraction | int) -> Formula:

@@ -122,6 +122,17 @@ def test_resultants_and_discriminants() -> None:
     assert [int(c) for c in (3 * Z**2 - 5).to_univariate(2)] == [-5, 0, 3]
 
 
+@given(TERMS, st.permutations("wxyz"), st.integers(0, 1))
+def test_another_ring_has_the_same_terms(terms: dict, order: list[str], spare: int) -> None:
+    """Also in a ring of as many variables in another order, of which FLINT has the same context."""
+    p = RING.from_terms(terms)
+    there = Ring.of([name for name in order if spare or name != "w"])
+    by_name = {frozenset((n, k) for n, k in zip("xyz", e, strict=True) if k): c for e, c in p.terms()}
+    moved = p.convert(there)
+    assert by_name == {frozenset((n, k) for n, k in zip(there.names, e, strict=True) if k): c for e, c in moved.terms()}
+    assert moved.convert(RING) == p and hash(moved.convert(RING)) == hash(p)
+
+
 def test_other_rings() -> None:
     wider = Ring.of(("z", "w", "x", "y"))
     moved = (X * Y**2 - 3 * Z).convert(wider)

@@ -47,6 +47,22 @@ def test_operations(operation) -> None:
         assert same(operation, *(terms(rng, 3, count, 2) or {(0, 0, 0): 0} for count in (5, 4, 3)))
 
 
+def test_other_contexts() -> None:
+    """Into more variables and into fewer, as ``Ring`` does it: never where the context stays."""
+    rng = random.Random(2)
+    for _ in range(40):
+        given = terms(rng, 3, 5, 2)
+        used = [i for i in range(3) if any(e[i] for e in given)]
+        places = dict(zip(used, rng.sample(range(5), len(used)), strict=True))
+        results = []
+        for lib in (flint, plain):
+            here, there = (lib.fmpz_mpoly_ctx.get(tuple(f"v{i}" for i in range(n)), "lex") for n in (3, 5))
+            moved = here.from_dict(given).project_to_context(there, places)
+            back = moved.project_to_context(here, {k: i for i, k in places.items()})
+            results.append(shown([moved, back, here.from_dict(given)]))
+        assert results[0] == results[1] and results[0][1] == results[0][2]
+
+
 @each(1, 2, 3, 5)
 def test_factors(variables: int) -> None:
     rng = random.Random(variables)

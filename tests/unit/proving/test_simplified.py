@@ -11,13 +11,16 @@ from qe.exact.ring import Ring
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.io.text import read
 from qe.kernel.derivation import check_derivation
+from qe.kernel.step import Context
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import moved, put_together
-from qe.proof.entry import formula_to_json
+from qe.proof.entry import Json, formula_to_json
 from qe.proof.run_log import RunLog
-from qe.proving.prover import proved
+from qe.proof.step import Step
+from qe.proving.prover import Prover, proved
 from qe.proving.remembering import remembering
+from qe.proving.simplified import Simplified
 from qe.simplify.simplify import simplify
 from tests.strategies import formulas
 
@@ -56,6 +59,30 @@ def test_a_simplification_beyond_one_step_is_proved_in_several(name):
     before = read(text)
     found = certificate(before, simplify(before) if simple is None else read(simple))
     assert found is not None and qe.verify(found, formula=before).accepted
+
+
+@pytest.mark.parametrize("depth", [2, 5])
+def test_what_is_simplified_outside_helps_deep_inside_with_one_search_more_a_quantifier(depth: int) -> None:
+    """Each block is simpler only under what the one around it becomes: x0 = 0 is known when x1 is looked at."""
+    text = f"x{depth - 1}*y + x0 > 0 and w^2 + y^2 + x{depth - 1} >= y"
+    for k in reversed(range(depth)):
+        outer = f"x{k - 1}" if k else "a"
+        mine = f"x{k}^2 + {outer}*x{k} <= 0 and ({outer}*w + x{k}*y >= 0 or x{k}*w < 0)"
+        text = f"(ex x{k}. {mine} and {text})"
+    before = read(f"a^2 <= 0 and {text}")
+    assert before.ring is not None
+    prover, searches = Prover(before.ring, Options(), Budget()), list[bool]()
+
+    def evidence(one: Formula, other: Formula, used: Context) -> tuple[str, Json] | None:
+        made = prover.own(Step("simplification", one, other), used)
+        searches.append(made is not None)
+        return made
+
+    simplified = Simplified(evidence, (), prover.steps)
+    assert simplified.inside((), before, simplify(before), before) == simplify(before)
+    assert searches.count(False) <= depth and searches.count(True) <= 2 * depth
+    certificate = Certificate.derivation(before.ring.names, before, prover.steps, simplify(before))
+    assert qe.verify(certificate, formula=before).accepted
 
 
 @settings(max_examples=60, deadline=None)

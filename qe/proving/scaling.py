@@ -1,0 +1,142 @@
+"""Variables measured in powers of one of them, or moved along with it: steps that change variables inside, too.
+
+Nothing here is trusted: the kernel checks what comes out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from math import lcm
+
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, disj, exists
+from qe.formula.syntax import TRUE, Atom, Exists, ForAll, Formula, Relation
+from qe.formula.traverse import children, disjuncts, map_atoms, with_child
+from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.terms import Quotient, at_terms
+from qe.proof.entry import Entry, Json
+from qe.proving.made import Made, at_number, solved, terms
+from qe.proving.shifts import lower
+
+_SIDE = {1: Relation.GT, 0: Relation.EQ, -1: Relation.LT}
+
+
+def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """The cases of the sign of a variable, in each of which the others are measured in powers of it, or of its root."""
+    variable, weights, values, _ = only(claim, "variable", "weights", "values", optional=("theory",))
+    (block, name, x), ring = claim.variable(variable), claim.ring
+    powers = _moves(weights, name, claim)
+    root = lcm(*(power.denominator for power in powers.values()))
+    rest, one = [v for v in block.variables if v != name], ring.constant(1)
+    cases = [(s, exists(block.variables, conj((atom(ring.gen(x), _SIDE[s]), block.body)))) for s in (1, 0, -1)]
+    kept = [case for case in cases if case[0] in {entry.integer(-1) for entry in values.items()}]
+    made = Made(claim, limits, block, context)
+    made.simplified(block, disj(case for _, case in kept))
+    for s, case in kept:
+        after, side = exists(rest, at_number(block.body, x, s)), s
+        if made.current == TRUE or case not in disjuncts(made.current):  # another case has settled it
+            continue
+        if s == 0:
+            made.step("linear equation solved", case, after, solved(Atom(ring.gen(x), Relation.EQ), name))
+            continue
+        body = block.body
+        if s < 0 and root % 2 == 0:
+            side, body = 1, _with(body, x, -ring.gen(x))
+            turned = exists(block.variables, conj((atom(ring.gen(x), _SIDE[1]), body)))
+            made.terms(case, turned, {name: (-ring.gen(x), one)}, {name: (-ring.gen(x), one)})
+            case = turned
+        if root > 1:
+            high = exists(block.variables, conj((atom(ring.gen(x), _SIDE[side]), _with(body, x, ring.gen(x) ** root))))
+            assert isinstance(high, Exists)
+            lowering = Made(claim, limits, high)
+            lower(lowering, high, case, name, root)
+            made.back(case, high, lowering)
+            case = high
+        unit, whole = ring.gen(x) * side, {v: int(power * root) for v, power in powers.items()}
+        times = {v: _times(ring, v, unit, power) for v, power in whole.items()}
+        back = {v: _times(ring, v, unit, -power) for v, power in whole.items()}
+        known = (atom(ring.gen(x), _SIDE[side]),)
+        place = made.place(case)
+        moved = moved_inside(case, place, times, back, known, made.steps, claim, limits, start=True)
+        made.current = made.beside(place, case, moved)[1]
+        image = _image(after, {v: q for v, q in back.items() if v in rest}, known, rest, ring)
+        regular = exists(block.variables, conj((*known, image)))
+        made.simplified(moved, regular)
+        outer = {v: q for v, q in back.items() if v in rest}
+        made.terms(regular, after, {name: (one * side, one)}, outer)
+    return made.finished(claim.after)
+
+
+def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A variable at 0, the others moved along; those bound inside first."""
+    variable, weights = only(claim, "variable", "weights")
+    (block, name, x), ring = claim.variable(variable), claim.ring
+    steps, moves = list[Json](), _moves(weights, name, claim)
+    there = {v: _along(ring, v, by, name) for v, by in moves.items()}
+    back = {v: _along(ring, v, -by, name) for v, by in moves.items()}
+    moved = moved_inside(block, (), there, back, (), steps, claim, limits, start=True)
+    rest = [v for v in block.variables if v != name]
+    after = exists(rest, at_number(block.body, x, 0))
+    outer = {v: q for v, q in back.items() if v in rest}
+    zero = {name: (ring.constant(0), ring.constant(1))}
+    return [*steps, terms(moved, after, zero, outer, (), claim, limits)]
+
+
+def _moves(weights: Entry, name: str, claim: Claim) -> dict[str, Fraction]:
+    """How the other variables move where this one moves by 1."""
+    rows = [entry.row("name", "weight") for entry in weights.items()]
+    by_name = {row[0].text(): row[1].rational() for row in rows}
+    if not by_name.get(name) or not by_name.keys() <= claim.ring.index.keys():
+        raise weights.fail(f"{name} does not move, or what moves is no variable")
+    return {other: weight / by_name[name] for other, weight in by_name.items() if other != name}
+
+
+def moved_inside(
+    formula: Formula,
+    place: tuple[int, ...],
+    there: Mapping[str, Quotient],
+    back: Mapping[str, Quotient],
+    known: Context,
+    steps: list[Json],
+    claim: Claim,
+    limits: Limits,
+    *,
+    start: bool = False,
+) -> Formula:
+    """The formula with these terms for the variables that quantifiers inside bind, and the steps to it.
+
+    ``start``: the outermost quantifier is left alone.
+    """
+    if isinstance(formula, Exists | ForAll) and not start and (names := set(formula.variables) & there.keys()):
+        inner, outer = ({v: of[v] for v in sorted(names)} for of in (there, back))
+        by = {claim.ring.index[v]: quotient for v, quotient in inner.items()}
+        moved = map_atoms(formula, lambda a: atom(at_terms(a.poly, by), a.relation))
+        steps.append(terms(formula, moved, inner, outer, known, claim, limits, place))
+        formula = moved
+    for k, child in enumerate(children(formula)):
+        changed = moved_inside(child, (*place, k), there, back, known, steps, claim, limits)
+        formula = formula if changed == child else with_child(formula, k, changed)
+    return formula
+
+
+def _image(formula: Formula, back: Mapping[str, Quotient], known: Context, rest: list[str], ring: Ring) -> Formula:
+    """The body of a block at these terms for its variables."""
+    by = {ring.index[v]: quotient for v, quotient in back.items()}
+    body = formula.body if isinstance(formula, Exists) and rest else formula
+    return map_atoms(body, lambda a: atom(at_terms(a.poly, by), a.relation))
+
+
+def _times(ring: Ring, name: str, unit: Poly, power: int) -> Quotient:
+    """name * unit^power, as a quotient."""
+    return ring.var(name) * unit ** max(power, 0), unit ** max(-power, 0)
+
+
+def _with(formula: Formula, x: int, value: Poly) -> Formula:
+    return map_atoms(formula, lambda a: atom(a.poly.compose({x: value}), a.relation))
+
+
+def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
+    """name + by * variable, as a quotient."""
+    bottom = ring.constant(by.denominator)
+    return ring.var(name) * bottom + ring.var(variable) * by.numerator, bottom
