@@ -56,12 +56,12 @@ def linear_optimum(
 
     columns = [form.gradient for form in forms]
     cost = [-form.constant for form in forms]
-    found = least_cost(columns, [-b for b in objective.gradient], cost, check=check)
-    if isinstance(found, Endless):
-        return LinearConflict(found.weights)
-    if not isinstance(found, Nowhere):
-        return LinearBest(found.dual, found.weights)
+    outcome = least_cost(columns, [-b for b in objective.gradient], cost, check=check)
+    if isinstance(outcome, Endless):
+        return LinearConflict(outcome.weights)
+    if not isinstance(outcome, Nowhere):
+        return LinearBest(outcome.dual, outcome.weights)
     anywhere = least_cost(columns, [_ZERO] * objective.size, cost, check=check)
     if isinstance(anywhere, Endless):
         return LinearConflict(anywhere.weights)
-    return LinearFall(anywhere.dual, found.dual)
+    return LinearFall(anywhere.dual, outcome.dual)
