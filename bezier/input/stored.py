@@ -13,6 +13,7 @@ from typing import Any
 
 from bezier.curves.scalar import Vector
 from bezier.input.numbers import NotANumber, parse
+from bezier.input.toml_table import read_bytes
 from qe.errors import CertificateRejected, InputError
 from qe.proof.entry import read_json
 
@@ -25,13 +26,7 @@ DIMENSION = 3
 def text(path: FilePath) -> str:
     """The text of a file of moderate size."""
     try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)  # some files of devices never end
-        if len(data) > MAX_BYTES:
-            raise InputError(f"{path}: expected at most {MAX_BYTES} bytes")
-        return data.decode("utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: expected a readable file, found: {error.strerror or error}") from None
+        return read_bytes(path, MAX_BYTES).decode("utf-8")
     except UnicodeDecodeError:
         raise CertificateRejected(path.name, "expected UTF-8 text") from None
 

@@ -22,16 +22,23 @@ from qe.errors import InputError
 MAX_BYTES = 1_000_000
 
 
-def read_text(path: Path) -> str:
-    """The text of a file of at most ``MAX_BYTES``. Raises ``InputError`` when it cannot be read."""
+def read_bytes(path: Path, most: int) -> bytes:
+    """The content of a file of at most so many bytes. Raises ``InputError`` when it cannot be read."""
     try:
         with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)  # some files of devices never end
-        if len(data) > MAX_BYTES:
-            raise InputError(f"{path}: expected a problem of at most {MAX_BYTES} bytes, found more")
-        return data.decode("utf-8-sig")
+            data = file.read(most + 1)  # some files of devices never end
     except OSError as error:
         raise InputError(f"{path}: expected a readable file, found: {error.strerror or error}") from None
+    if len(data) > most:
+        raise InputError(f"{path}: expected at most {most} bytes, found more")
+    return data
+
+
+def read_text(path: Path) -> str:
+    """The text of a file of at most ``MAX_BYTES``. Raises ``InputError`` when it cannot be read."""
+    data = read_bytes(path, MAX_BYTES)
+    try:
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: expected UTF-8 text, found byte {data[error.start]:#04x} at {error.start}") from None
 

@@ -21,12 +21,14 @@ from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 
 
-def certified(asked: ParametricSystem, found: RealRootClassification, budget: Budget) -> RealRootClassification:
+def certified(
+    asked: ParametricSystem, classification: RealRootClassification, budget: Budget
+) -> RealRootClassification:
     """The classification with its certificate, which the checker has accepted.
 
     Raises ``Unable`` where a sentence about the parameters is not proved, or beyond the limits of the checker.
     """
-    payload = _question(asked, found)
+    payload = _question(asked, classification)
     question, classes, _ = read_question(Entry(payload, "payload"))
     sentences = question.sentences(classes, lambda: budget.check("certificate"))
     evidence: dict[str, Json] = {**payload, "proofs": [_proof(s, budget) for s in sentences if s != TRUE]}
@@ -34,7 +36,7 @@ def certified(asked: ParametricSystem, found: RealRootClassification, budget: Bu
     verdict = verify(certificate, budget)
     if not verdict.accepted:
         raise Unable(f"no certificate of the classification: {verdict.reason}")
-    return replace(found, certificate=certificate)
+    return replace(classification, certificate=certificate)
 
 
 def _proof(case: Formula, budget: Budget) -> Json:
@@ -48,7 +50,7 @@ def _proof(case: Formula, budget: Budget) -> Json:
     raise Unable("no certificate of the classification: a case is decided without one")
 
 
-def _question(asked: ParametricSystem, found: RealRootClassification) -> dict[str, Json]:
+def _question(asked: ParametricSystem, classification: RealRootClassification) -> dict[str, Json]:
     names = asked.ring.names
     variables = [names[i] for i in asked.block.variables]
     parameters = [n for n in names if n not in variables and n not in asked.constants]
@@ -63,10 +65,10 @@ def _question(asked: ParametricSystem, found: RealRootClassification) -> dict[st
         "parameters": list[Json](parameters),
         "constants": _constants(asked.constants, ring),
         "polynomials": texts(asked.polys),
-        "positive": texts(found.positive),
+        "positive": texts(classification.positive),
         "equal": texts(asked.equal, ring),
         "nonzero": texts(asked.nonzero, ring),
-        "classes": [[c.count, formula_to_json(convert(c.condition, ring))] for c in found.classes],
+        "classes": [[c.count, formula_to_json(convert(c.condition, ring))] for c in classification.classes],
         "proofs": [],
     }
 

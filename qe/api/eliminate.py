@@ -105,17 +105,17 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
     budget = Budget(left)
     finding = budget.share(UNVERIFIED_SHARE) if options.certify else budget
     try:
-        found = partly(formula, options, finding, Limits(memory=limits.memory, process=limits.process))
+        known = partly(formula, options, finding, Limits(memory=limits.memory, process=limits.process))
     except Unable:
         return Partial()
     if not options.certify:
-        return found
+        return known
     from qe.api.verify import judged
 
-    if found.proved_true == found.proved_false == FALSE:
-        return replace(found, certificate=None, reason="nothing is decided")
-    guarantee, reason = judged(found.certificate, budget)
-    return replace(found, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
+    if known.proved_true == known.proved_false == FALSE:
+        return replace(known, certificate=None, reason="nothing is decided")
+    guarantee, reason = judged(known.certificate, budget)
+    return replace(known, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
 
 
 def _raced(formula: Formula, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:
@@ -148,16 +148,16 @@ def _answer(formula: Formula, options: Options, check: bool, cluster: Cluster | 
         known = answered(formula, options, budget)
         if options.certify:
             budget.keep(replace(answer_to(formula, known), certificate=None, reason=UNPROVED))
-        found = proved(formula, known, options, budget)
+        outcome = proved(formula, known, options, budget)
     except Unable as error:
         log = RunLog()
         log.work("limits", {"work": budget.used})
         return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
-    answer, certificate = answer_to(formula, found), found.certificate
-    if certificate is not None and (check or certificate.evidence_for("instance") or found.witness is not None):
+    answer, certificate = answer_to(formula, outcome), outcome.certificate
+    if certificate is not None and (check or certificate.evidence_for("instance") or outcome.witness is not None):
         from qe.api.verify import with_verdict
 
-        return with_verdict(answer, budget, checked=found.checked)
+        return with_verdict(answer, budget, checked=outcome.checked)
     return answer
 
 
@@ -186,8 +186,8 @@ def _region(given: Formula, names: tuple[str, ...] | None, whole: Limits, check:
     from qe.api.verify import with_guarantee
     from qe.regions.build import described
 
-    found = described(given, names, budget, whole, check=check)
-    return with_guarantee(found, budget) if check else found
+    solution_set = described(given, names, budget, whole, check=check)
+    return with_guarantee(solution_set, budget) if check else solution_set
 
 
 def verify(

@@ -102,12 +102,12 @@ def real_root_classification(
 def _classified(
     system: ParametricSystem, positive: tuple[Poly, ...], check: bool, budget: Budget
 ) -> RealRootClassification:
-    found = classified(system, positive, budget)
+    classification = classified(system, positive, budget)
     if not check:
-        return found
+        return classification
     from qe.api.classified import certified
 
-    return certified(system, found, budget)
+    return certified(system, classification, budget)
 
 
 def read_system(
@@ -182,10 +182,10 @@ def algebraic(value: object, what: str) -> RealAlgebraic:
     if not isinstance(value, str | int | float) and hasattr(value, "is_number"):
         from qe.io.sympy_numbers import number_from_sympy
 
-        found = number_from_sympy(value)
-        if found is None:
+        exact = number_from_sympy(value)
+        if exact is None:
             raise arguments.wrong(what, "a real algebraic number", value)
-        return found
+        return exact
     number = exact_number(value, what)
     return number if isinstance(number, RealAlgebraic) else RealAlgebraic.rational(number)
 

@@ -57,10 +57,10 @@ def reading(
     Raises ``BudgetExceeded`` at one, ``Unable`` for a formula whose parts are shared so much that no method, all of
     which write it out, comes to an end.
     """
-    found = read_under(limits, partial(reader, formula, format, total_division), formula)
-    refuse_shared(found)
-    note_doubts(formula, found, format, solved)
-    return found
+    result = read_under(limits, partial(reader, formula, format, total_division), formula)
+    refuse_shared(result)
+    note_doubts(formula, result, format, solved)
+    return result
 
 
 def read_under(limits: Limits, read: Callable[[], Result], *given: object) -> Result:

@@ -75,9 +75,9 @@ def _slice(piece: Piece, symbols: list[Expression]) -> Parts:
     (y0, y1), (z0, z1) = (_both(r) for r in piece.ranges[1:])
     if z0.poly == z1.poly and z0.poly.degree(2) == 2 and y0.poly == y1.poly and y0.poly != z0.poly:
         c = z0.poly.coefficients(2)
-        found = c[1] * c[1] - 4 * (c[2] * c[0])
-        if found.normal()[1] == y0.poly and y0.poly.degree(1) == 2 and c[2].is_constant:
-            k, j, i = (_expression(part, symbols) for part in found.coefficients(1))
+        discriminant = c[1] * c[1] - 4 * (c[2] * c[0])
+        if discriminant.normal()[1] == y0.poly and y0.poly.degree(1) == 2 and c[2].is_constant:
+            k, j, i = (_expression(part, symbols) for part in discriminant.coefficients(1))
             if i.is_number and i.is_negative:
                 lead = abs(_expression(c[2], symbols))
                 return {_ONE: sympy.expand(sympy.pi * (j**2 - 4 * i * k) / (8 * sympy.sqrt(-i) ** 3) / lead)}
@@ -120,44 +120,44 @@ def _without_squares(q: Expression, x: Expression) -> Expression:
 
 def _composed(poly: Any, at: Parts) -> Parts:
     """A polynomial of the second variable at an end (Horner)."""
-    found: Parts = {}
+    value: Parts = {}
     for c in poly.all_coeffs():
-        found = _sum(_product(found, at), {_ONE: c}, 1)
-    return found
+        value = _sum(_product(value, at), {_ONE: c}, 1)
+    return value
 
 
 def _sum(left: Parts, right: Parts, sign: int) -> Parts:
-    found = dict(left)
+    total = dict(left)
     for q, c in right.items():
-        found[q] = found.get(q, 0) + sign * c
-    return {q: e for q, c in found.items() if (e := sympy.together(sympy.expand(c))) != 0}
+        total[q] = total.get(q, 0) + sign * c
+    return {q: e for q, c in total.items() if (e := sympy.together(sympy.expand(c))) != 0}
 
 
 def _product(left: Parts, right: Parts) -> Parts:
-    found: dict[Expression, Expression] = {}
+    total: dict[Expression, Expression] = {}
     for p, a in left.items():
         for q, b in right.items():
             under, c = (_ONE, a * b * p) if p == q else (sympy.expand(p * q), a * b)
-            found[under] = found.get(under, 0) + c
-    return {q: sympy.together(sympy.expand(c)) for q, c in found.items()}
+            total[under] = total.get(under, 0) + c
+    return {q: sympy.together(sympy.expand(c)) for q, c in total.items()}
 
 
 def _integral(c: Expression, q: Expression, x: Expression, ends: list[Expression]) -> Expression:
     """The integral of c sqrt(q) between the ends."""
     if q.is_number:
-        found = sympy.sqrt(q) * _rational(c, x)
+        antiderivative = sympy.sqrt(q) * _rational(c, x)
     elif not c.is_polynomial(x) or sympy.degree(q, x) > 2:
         raise Unable("no closed form was found: an elliptic integral, perhaps")
     else:
-        found = _with_root(sympy.Poly(c, x), sympy.Poly(q, x), x)
-    return _at(found, x, ends[1]) - _at(found, x, ends[0])
+        antiderivative = _with_root(sympy.Poly(c, x), sympy.Poly(q, x), x)
+    return _at(antiderivative, x, ends[1]) - _at(antiderivative, x, ends[0])
 
 
 def _rational(c: Expression, x: Expression) -> Expression:
-    found = sympy.integrate(c, x)
-    if found.has(sympy.Integral, sympy.RootSum):
+    antiderivative = sympy.integrate(c, x)
+    if antiderivative.has(sympy.Integral, sympy.RootSum):
         raise Unable("no closed form was found: a logarithm at roots of a polynomial")
-    return found.replace(sympy.log, lambda argument: sympy.log(sympy.Abs(argument)))
+    return antiderivative.replace(sympy.log, lambda argument: sympy.log(sympy.Abs(argument)))
 
 
 def _with_root(p: Any, q: Any, x: Expression) -> Expression:
@@ -170,19 +170,19 @@ def _with_root(p: Any, q: Any, x: Expression) -> Expression:
     solved = sympy.linsolve(sympy.Poly(equation, x).all_coeffs(), *unknown, *([rest] if rest != 0 else []))
     values = dict(zip((*unknown, *([rest] if rest != 0 else [])), next(iter(solved)), strict=True))
     root = sympy.sqrt(q.as_expr())
-    found = ansatz.as_expr().subs(values) * root
+    part = ansatz.as_expr().subs(values) * root
     if rest == 0:
-        return found
+        return part
     a, b, c = q.all_coeffs()
     if a.is_negative:
         inverse = -sympy.asin((2 * a * x + b) / sympy.sqrt(b**2 - 4 * a * c)) / sympy.sqrt(-a)
     else:
         inverse = sympy.log(sympy.Abs(2 * a * x + b + 2 * sympy.sqrt(a) * root)) / sympy.sqrt(a)
-    return found + values[rest] * inverse
+    return part + values[rest] * inverse
 
 
-def _at(found: Expression, x: Expression, end: Expression) -> Expression:
-    value = found.subs(x, end)
+def _at(antiderivative: Expression, x: Expression, end: Expression) -> Expression:
+    value = antiderivative.subs(x, end)
     value = value.replace(lambda e: isinstance(e, sympy.asin), lambda e: sympy.asin(sympy.simplify(e.args[0])))
     if not value.is_finite:
         raise Unable("no closed form was found: an end at which a term has no value")

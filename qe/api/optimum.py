@@ -141,14 +141,14 @@ def _optimum(
     check: bool,
     budget: Budget,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
-    found: Optimum | GlobalOptimum | ParametricOptimum
+    optimum: Optimum | GlobalOptimum | ParametricOptimum
     if parameters is not None:
         from qe.optimization.parametric_optimum import optimum_of
 
-        found = optimum_of(sign, Goal.of(term, conditions, parameters), budget=budget, check=check)
+        optimum = optimum_of(sign, Goal.of(term, conditions, parameters), budget=budget, check=check)
     else:
-        found = _free_optimum(sign, term, conditions, method, check, budget)
-    return _with_guarantee(found, budget) if check else found
+        optimum = _free_optimum(sign, term, conditions, method, check, budget)
+    return _with_guarantee(optimum, budget) if check else optimum
 
 
 def _free_optimum(
@@ -171,17 +171,17 @@ def _free_optimum(
 
 
 def _with_guarantee(
-    found: Optimum | GlobalOptimum | ParametricOptimum, budget: Budget
+    optimum: Optimum | GlobalOptimum | ParametricOptimum, budget: Budget
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum with what the checker says of its certificate."""
     from qe.api.verify import judged
     from qe.optimization.global_optimum import POINT, GlobalOptimum
 
-    guarantee, reason = judged(found.certificate, budget)
-    if isinstance(found, Optimum):
-        return replace(found, guarantee=guarantee, reason=reason)
-    if found.certificate is None:
-        reason = found.answer.why_unchecked
-    elif isinstance(found, GlobalOptimum) and POINT in found.unchecked_steps:
+    guarantee, reason = judged(optimum.certificate, budget)
+    if isinstance(optimum, Optimum):
+        return replace(optimum, guarantee=guarantee, reason=reason)
+    if optimum.certificate is None:
+        reason = optimum.answer.why_unchecked
+    elif isinstance(optimum, GlobalOptimum) and POINT in optimum.unchecked_steps:
         guarantee, reason = Guarantee.DERIVED, reason or "the point under the quantifiers is not proved"
-    return replace(found, guarantee=guarantee, reason=reason)
+    return replace(optimum, guarantee=guarantee, reason=reason)

@@ -18,15 +18,15 @@ def raced(asked: Callable[[Method, Budget], Answer], methods: Iterable[Method], 
     unproved: list[Answer] = []
     order = sorted(methods, key=lambda method: method.value)
     works = {method: partial(_attempt, asked, method) for method in order}
-    winner, found = first(works, lambda answer: answer.status is Status.SOLVED, limits, kept=unproved.append)
-    answer = None if winner is None else found[winner]
+    winner, answers = first(works, lambda answer: answer.status is Status.SOLVED, limits, kept=unproved.append)
+    answer = None if winner is None else answers[winner]
     if winner is not None and isinstance(answer, Answer):
         others = ", ".join(method.value for method in order if method is not winner)
         answer.log.choice("", (), f"the first answer was that of {winner.value}, ahead of {others or 'no other'}")
         return answer
     if unproved:
         return unproved[0]
-    reasons = [f"{method.value}: {_reason(found.get(method))}" for method in order]
+    reasons = [f"{method.value}: {_reason(answers.get(method))}" for method in order]
     return Answer(Status.UNABLE, None, reason="; ".join(reasons))
 
 

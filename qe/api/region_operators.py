@@ -98,11 +98,11 @@ def bounding_box(region: Region, timeout: float | None) -> dict[str, Interval]:
     """The bounds of every variable."""
     start = time.monotonic()
     limit = arguments.seconds(timeout)
-    found = {}
+    box = {}
     for variable in region.order:
         left = None if limit is None else max(limit - (time.monotonic() - start), limit * 1e-3)
-        found[variable] = region.bounds(variable, timeout=left)
-    return found
+        box[variable] = region.bounds(variable, timeout=left)
+    return box
 
 
 def project(region: Region, variables: Any, timeout: float | None) -> Region:
@@ -123,11 +123,11 @@ def section(region: Region, values: Mapping[Any, Coordinate], timeout: float | N
     ring = Ring.of(
         dict.fromkeys((*region.order, *(() if region.condition.ring is None else region.condition.ring.names)))
     )
-    found = convert(region.condition, ring)
-    found = substituted(found, {v: q for v, q in given.items() if isinstance(q, Fraction)})
+    condition = convert(region.condition, ring)
+    condition = substituted(condition, {v: q for v, q in given.items() if isinstance(q, Fraction)})
     exact = {v: a for v, a in given.items() if isinstance(a, RealAlgebraic)}
-    found = conj(together(found, *(_equal(v, a) for v, a in exact.items())))
-    return _region(region, exists(exact, found), rest, timeout)
+    condition = conj(together(condition, *(_equal(v, a) for v, a in exact.items())))
+    return _region(region, exists(exact, condition), rest, timeout)
 
 
 def distance(region: Region, point: object, timeout: float | None) -> Number:
@@ -159,10 +159,10 @@ def exact_volume(region: Region, timeout: float | None) -> Any:
 def sample(region: Region, seed: int, timeout: float | None) -> dict[str, Number]:
     """A random point of a region."""
     start = arguments.integers([seed], "seed")[0]
-    found = _under(region, region.condition, timeout, partial(_walked, region, start))
-    if found is None:
+    point = _under(region, region.condition, timeout, partial(_walked, region, start))
+    if point is None:
         raise InputError("an empty region has no points")
-    return found
+    return point
 
 
 def instances(region: Region, n: int, seed: int, timeout: float | None) -> list[dict[str, Number]]:
@@ -173,10 +173,10 @@ def instances(region: Region, n: int, seed: int, timeout: float | None) -> list[
 
 # --- what is done under limits ------------------------------------------------------------------------------------
 def _truth(sentence: Formula, budget: Budget) -> bool:
-    found = eliminated(sentence, Options(), budget).formula
-    if not isinstance(found, Constant):
+    answer = eliminated(sentence, Options(), budget).formula
+    if not isinstance(answer, Constant):
         raise InternalError("a sentence has no truth value")
-    return found.value
+    return answer.value
 
 
 def _components(region: Region, budget: Budget) -> list[Region]:

@@ -46,10 +46,10 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[Questio
 
 
 def _solutions(given: Formula, order: tuple[str, ...] | None, whole: Limits, budget: Budget) -> Solutions:
-    found = described(given, order, budget, replace(whole, process=False))
-    cases = tuple(found.cells)
-    found.limits = whole
-    return Solutions(found.order, cases, found)
+    region = described(given, order, budget, replace(whole, process=False))
+    cases = tuple(region.cells)
+    region.limits = whole
+    return Solutions(region.order, cases, region)
 
 
 reduce = solve
@@ -90,16 +90,16 @@ def _witnesses(given: Formula, check: bool, budget: Budget) -> ParametricWitness
     from qe.elimination.vs.parametric import parametric_witnesses as find
 
     log, options = RunLog(), Options(certify=check)
-    found = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
-    formula = found.equivalent_to(given)
+    witnesses = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
+    formula = witnesses.equivalent_to(given)
     answer = Answer(Status.SOLVED, formula, question=given, log=log, reason=certificates.NOT_WANTED)
     if check:
-        budget.keep(found.with_(replace(answer, reason=UNPROVED)))
+        budget.keep(witnesses.with_(replace(answer, reason=UNPROVED)))
         proof = certificates.derived(given, log, formula, options, budget)
         answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked, reason=proof.reason)
         if proof.certificate is not None:
             answer = with_verdict(answer, budget, checked=proof.checked)
-    return found.with_(answer)
+    return witnesses.with_(answer)
 
 
 def _outermost_block(given: Formula, log: RunLog, options: Options, budget: Budget) -> Formula:

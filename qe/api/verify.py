@@ -164,11 +164,11 @@ def _proved(answer: Answer, budget: Budget) -> Answer:
     assert answer.formula is not None and answer.question is not None
     question = rename_apart(without_root_atoms(without_clashes(answer.question)))
     options = Options(certify=True)
-    found = derived_or_decomposed(answer.question, question, answer.log, answer.formula, options, budget)
-    proof = replace(answer, certificate=found.certificate, unchecked_steps=found.unchecked)
-    if found.certificate is None:
-        return replace(proof, guarantee=Guarantee.DERIVED, reason=found.reason)
-    return with_verdict(replace(proof, reason=""), budget, checked=found.checked)
+    outcome = derived_or_decomposed(answer.question, question, answer.log, answer.formula, options, budget)
+    proof = replace(answer, certificate=outcome.certificate, unchecked_steps=outcome.unchecked)
+    if outcome.certificate is None:
+        return replace(proof, guarantee=Guarantee.DERIVED, reason=outcome.reason)
+    return with_verdict(replace(proof, reason=""), budget, checked=outcome.checked)
 
 
 def judged(certificate: Certificate | None, budget: Budget) -> tuple[Guarantee, str]:

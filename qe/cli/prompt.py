@@ -91,9 +91,9 @@ class Session:
     def _meant(self, text: str) -> str:
         """The text with the last answer in the place of ``%``."""
 
-        def put(found: re.Match[str]) -> str:
-            if found[1]:
-                return found[1]
+        def put(match: re.Match[str]) -> str:
+            if match[1]:
+                return match[1]
             if not self.text:
                 raise InputError("% is the last answer, and there is none yet")
             return f"({self.text})"
@@ -120,8 +120,8 @@ class Session:
     def _solve(self, rest: str) -> str:
         names, colon, formula = rest.partition(":")
         named = bool(colon) and not re.search(r"[=<>.()]|\b(ex|all|exists|forall)\b", names)
-        found = qe.solve(formula if named else rest, names if named else None, **self._those_of(Question))
-        return self._keep(found.region, str(found))
+        solutions = qe.solve(formula if named else rest, names if named else None, **self._those_of(Question))
+        return self._keep(solutions.region, str(solutions))
 
     def _instance(self, rest: str) -> str:
         point = qe.find_instance(rest, **self._those_of(Decision))
@@ -130,13 +130,13 @@ class Session:
         return self._keep(None, " and ".join(f"{name} = {value}" for name, value in point.items()) or "true")
 
     def _region(self, rest: str) -> str:
-        found = qe.region(rest, self.settings.get("order"), **self._those_of(ProvedQuestion))
-        if found.is_empty:
-            return self._keep(found, "false")
-        lines = [f"dimension {found.dimension} in {', '.join(found.order)}"]
-        lines += [f"{name}: {found.bounds(name)!r}".replace("Interval", "") for name in found.order]
-        lines += [f"cell: {cell.brief()}" for cell in found.cells]
-        self._keep(found, str(found.formula))
+        region = qe.region(rest, self.settings.get("order"), **self._those_of(ProvedQuestion))
+        if region.is_empty:
+            return self._keep(region, "false")
+        lines = [f"dimension {region.dimension} in {', '.join(region.order)}"]
+        lines += [f"{name}: {region.bounds(name)!r}".replace("Interval", "") for name in region.order]
+        lines += [f"cell: {cell.brief()}" for cell in region.cells]
+        self._keep(region, str(region.formula))
         return "\n".join(lines)
 
     def _min(self, rest: str) -> str:

@@ -28,14 +28,14 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
     start = time.perf_counter()
     formula = read_formula(channel, request.source)
-    found = api.region(formula, progress=channel.event, check=request.certificate, **request.settings)
+    solution_set = api.region(formula, progress=channel.event, check=request.certificate, **request.settings)
     seconds = time.perf_counter() - start
     files: dict[str, str | bytes] = {}
     if request.certificate:
-        files["certificate"] = found.proof.to_json()
+        files["certificate"] = solution_set.proof.to_json()
     if picture is not None:
-        files["plot"] = _drawn(found, picture)
-    text = found.to_json() if request.json else "\n".join(_in_words(found, seconds))
+        files["plot"] = _drawn(solution_set, picture)
+    text = solution_set.to_json() if request.json else "\n".join(_in_words(solution_set, seconds))
     return Reply(text, files=files)
 
 
@@ -45,34 +45,34 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
 
     start = time.perf_counter()
     formula = read_formula(channel, request.source, solved=variables or ())
-    found = api_solve.solve(formula, variables, progress=channel.event, **request.settings)
-    files = {"certificate": certificate_text(found.region)} if request.certificate else {}
+    solutions = api_solve.solve(formula, variables, progress=channel.event, **request.settings)
+    files = {"certificate": certificate_text(solutions.region)} if request.certificate else {}
     if not request.json:
-        return Reply(str(found), files=files)
+        return Reply(str(solutions), files=files)
     data = {
         "status": "solved",
-        "variables": list(found.order),
-        "cases": [str(case) for case in found],
+        "variables": list(solutions.order),
+        "cases": [str(case) for case in solutions],
         "seconds": round(time.perf_counter() - start, 6),
     }
     return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
 
 
-def _drawn(found: Region, ending: str) -> bytes:
+def _drawn(drawn: Region, ending: str) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"region{ending}"
-        found.plot(path)
+        drawn.plot(path)
         return path.read_bytes()
 
 
-def _in_words(found: Region, seconds: float) -> list[str]:
-    names = ", ".join(map(quoted, found.order))
-    if found.is_empty:
+def _in_words(described: Region, seconds: float) -> list[str]:
+    names = ", ".join(map(quoted, described.order))
+    if described.is_empty:
         return [f"empty: no real {names} satisfy the formula ({seconds:.3f} s)"]
-    count = len(found.cells)
-    lines = [f"{count} cell{'s' if count > 1 else ''} in {names}, dimension {found.dimension} ({seconds:.3f} s)"]
-    for name in found.order:
-        low, high = found.bounds(name)
+    count = len(described.cells)
+    lines = [f"{count} cell{'s' if count > 1 else ''} in {names}, dimension {described.dimension} ({seconds:.3f} s)"]
+    for name in described.order:
+        low, high = described.bounds(name)
         lines.append(f"{quoted(name)} from {shown(low, '-infinity')} to {shown(high, 'infinity')}")
-    lines += [f"cell {k}: {cell.brief()}" for k, cell in enumerate(found.cells, 1)]
-    return [*lines, f"not proved: {found.reason}"] if found.reason else lines
+    lines += [f"cell {k}: {cell.brief()}" for k, cell in enumerate(described.cells, 1)]
+    return [*lines, f"not proved: {described.reason}"] if described.reason else lines

@@ -115,8 +115,8 @@ class Solver(Checks):
         fail = FailingBehind(Failing(text, source), line, column)
         self.script.fail = fail
         self.begin()
-        if self.late and (found := _READ.match(text)):
-            self.passed_over(found[1])
+        if self.late and (skipped := _READ.match(text)):
+            self.passed_over(skipped[1])
             return
         try:
             commands = parse(text, fail)
@@ -262,14 +262,14 @@ class Solver(Checks):
     # --- checks ----------------------------------------------------------------------------------------------
     def check(self, extra: Sequence[s.Node] = (), asked: tuple[Expression, ...] = ()) -> str:
         nodes = [assertion.node for assertion in self.script.assertions]
-        found = self.solved([*nodes, *extra])
-        if found.answer == "sat" and any(self.lost):
-            found = Result("unknown", "(an assertion was not understood)")
-        self.result = found._replace(asked=asked)
-        if {self.status, found.answer} == {"sat", "unsat"}:
-            self.warn(f"the script says :status {self.status}, but the answer is {found.answer}")
+        result = self.solved([*nodes, *extra])
+        if result.answer == "sat" and any(self.lost):
+            result = Result("unknown", "(an assertion was not understood)")
+        self.result = result._replace(asked=asked)
+        if {self.status, result.answer} == {"sat", "unsat"}:
+            self.warn(f"the script says :status {self.status}, but the answer is {result.answer}")
         self.status = ""
-        return found.answer
+        return result.answer
 
     def assuming(self, command: list[Expression]) -> str:
         self.script.arity(command, 1)

@@ -72,13 +72,13 @@ class Checks:
         What was not read may have any value: without a solution for any of them there is none, and where there
         is one for each of them, there is one, which is not known.
         """
-        found = self.completed(nodes, exists)
-        if found.answer != "sat" or not (self.script.fixed or self.script.varying):
-            return found
-        found = self.completed(nodes, self.whatever)
-        if found.answer == "sat":
-            return found._replace(point=None)
-        return Result("unknown", found.reason or "(an assertion was not understood)")
+        result = self.completed(nodes, exists)
+        if result.answer != "sat" or not (self.script.fixed or self.script.varying):
+            return result
+        result = self.completed(nodes, self.whatever)
+        if result.answer == "sat":
+            return result._replace(point=None)
+        return Result("unknown", result.reason or "(an assertion was not understood)")
 
     def whatever(self, names: Iterable[str], formula: Formula) -> Formula:
         """Whether there is a solution whatever the values are that were not read."""
@@ -88,16 +88,16 @@ class Checks:
 
     def completed(self, nodes: Sequence[s.Node], close: Closing) -> Result:
         """The answer for the functions that are not defined everywhere made total."""
-        found = self.attempt(nodes, Total(fill=Fill.ANY), close)
-        if found.answer == "sat" and found.total is not None and found.total.weakened:
+        result = self.attempt(nodes, Total(fill=Fill.ANY), close)
+        if result.answer == "sat" and result.total is not None and result.total.weakened:
             for fill in (Fill.CONSTANT, Fill.ARGUMENT):
                 other = self.attempt(nodes, Total(fill=fill), close)
                 if other.answer == "sat":
                     return other
             return Result("unknown", "incomplete")
-        if found.answer == "unsat" and found.total is not None and found.total.unclear:
+        if result.answer == "unsat" and result.total is not None and result.total.unclear:
             return Result("unknown", "incomplete")
-        return found
+        return result
 
     def attempt(self, nodes: Sequence[s.Node], total: Total, close: Closing) -> Result:
         start, left = time.monotonic(), self.left()

@@ -191,12 +191,12 @@ def check(
         return Reply(json.dumps(data, indent=2, ensure_ascii=False))
     lines = [f"accepted ({took:.3f} s)", *claim_of(certificate).words, *_rests(trusts)]
     if formula is not None:
-        found = parts_of(certificate, formula)
-        assert found is not None
+        parts = parts_of(certificate, formula)
+        assert parts is not None
         if (answer := is_about(certificate, formula)) is not None:
             lines.append(f"so the question that was given has the answer  {answer}")
         else:
-            lines.append(f"so the question that was given is true where  {found[0]}  and false where  {found[1]}")
+            lines.append(f"so the question that was given is true where  {parts[0]}  and false where  {parts[1]}")
     return Reply("\n".join(lines))
 
 

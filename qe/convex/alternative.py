@@ -39,9 +39,9 @@ def alternative(rows: Sequence[Vector], size: int, *, budget: Budget) -> Descent
         return Descent(solution.particular)
     # sum w_i row_i = 0 with sum w_i = 1; without such weights (direction, s) has direction.row_i + s <= 0 and s > 0
     columns = [(*row, _ONE) for row in rows]
-    found = least_cost(
+    least = least_cost(
         columns, [_ZERO] * size + [_ONE], [_ZERO] * len(rows), check=lambda: budget.check("optimum: strict conditions")
     )
-    if isinstance(found, Nowhere):
-        return Descent(found.dual[:size])
-    return Balance(found.weights)
+    if isinstance(least, Nowhere):
+        return Descent(least.dual[:size])
+    return Balance(least.weights)

@@ -71,8 +71,8 @@ def implied_equations(conditions: Formula, *, budget: Budget) -> list[Poly] | No
     witness, weights = proposed(forms)
     if weights is not None:
         return None
-    found = None if witness is not None else _least_violation(forms, budget)
-    equations = [] if found is None else _equations(found, forms)
+    violation = None if witness is not None else _least_violation(forms, budget)
+    equations = [] if violation is None else _equations(violation, forms)
     return [_poly(e, system.names, ring) for e in equations if any(e.row)]
 
 
@@ -81,20 +81,20 @@ def _least_violation(forms: Sequence[Quadratic], budget: Budget) -> Kkt | None:
     size = forms[0].size
     extended, scales = violation_forms(forms, size)
     try:
-        found = kkt_point(height(size), extended, budget=budget)
+        kkt = kkt_point(height(size), extended, budget=budget)
     except (HighDegree, OverflowError):  # an irrational flat, or numbers beyond the range of floats
         return None
-    if found is None or sign(found.point[-1]) != 0:
+    if kkt is None or sign(kkt.point[-1]) != 0:
         return None
-    multipliers = {i: m * scales[i] for i, m in found.multipliers.items() if i < len(forms)}
-    return Kkt(found.field, found.point[:-1], multipliers, found.unique)
+    multipliers = {i: m * scales[i] for i, m in kkt.multipliers.items() if i < len(forms)}
+    return Kkt(kkt.field, kkt.point[:-1], multipliers, kkt.unique)
 
 
-def _equations(found: Kkt, forms: Sequence[Quadratic]) -> list[LinearEquation]:
-    place, weights = rational_numbers(found.point), rational_numbers(list(found.multipliers.values()))
+def _equations(kkt: Kkt, forms: Sequence[Quadratic]) -> list[LinearEquation]:
+    place, weights = rational_numbers(kkt.point), rational_numbers(list(kkt.multipliers.values()))
     if place is None or weights is None:
         return []
-    chosen = dict(zip(found.multipliers, weights, strict=True))
+    chosen = dict(zip(kkt.multipliers, weights, strict=True))
     face = Face(tuple(chosen.get(i, Fraction(0)) for i in range(len(forms))), (), place)
     return derived_equations(face, forms, [FormRelation.LE] * len(forms))
 

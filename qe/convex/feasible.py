@@ -33,7 +33,7 @@ def feasible(forms: Sequence[Quadratic], relations: Sequence[FormRelation], *, b
     """
     size = forms[0].size
     names = tuple(f"y{k}" for k in range(size))
-    found = proved(ConvexSystem(names, constant(size, 0), tuple(forms), tuple(relations)), budget=budget)
-    if found.status is OptimumStatus.UNBOUNDED:
+    optimum = proved(ConvexSystem(names, constant(size, 0), tuple(forms), tuple(relations)), budget=budget)
+    if optimum.status is OptimumStatus.UNBOUNDED:
         raise Unable("a constant objective was found unbounded")
-    return found.status is OptimumStatus.OPTIMAL
+    return optimum.status is OptimumStatus.OPTIMAL

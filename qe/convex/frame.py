@@ -48,21 +48,21 @@ def _centre_and_exponents(flat: Flat, forms: Sequence[Quadratic]) -> tuple[tuple
 def _exponents(forms: Sequence[Quadratic], size: int) -> list[int]:
     """For each coordinate the binary exponent of its unit: as far as the curved forms reach, else as far as the linear
     forms let it follow the coordinates that have one."""
-    found: dict[int, int] = {}
+    exponents: dict[int, int] = {}
     for j in range(size):
         reach = [_size(q, j) for q in forms if q.hessian[j][j]]
         if any(e > _NONE // 4 for e in reach):
-            found[j] = min(e for e in reach if e > _NONE // 4)
+            exponents[j] = min(e for e in reach if e > _NONE // 4)
     linear = [q for q in forms if q.is_linear]
     for j in range(size):
         linked = []
-        for q in linear if j not in found else ():
-            others = [_binary(abs(q.gradient[k])) + e for k, e in found.items() if q.gradient[k]]
+        for q in linear if j not in exponents else ():
+            others = [_binary(abs(q.gradient[k])) + e for k, e in exponents.items() if q.gradient[k]]
             if q.gradient[j] and others:
                 linked.append(max(*others, _binary(abs(q.constant))) - _binary(abs(q.gradient[j])))
         if linked:
-            found[j] = min(linked)
-    return [found.get(j, 0) for j in range(size)]
+            exponents[j] = min(linked)
+    return [exponents.get(j, 0) for j in range(size)]
 
 
 def _centre(curved: Sequence[Quadratic], linear: Sequence[Quadratic], size: int) -> tuple[Fraction, ...]:
@@ -72,9 +72,9 @@ def _centre(curved: Sequence[Quadratic], linear: Sequence[Quadratic], size: int)
     free = Flat.whole(size).basis
     if curved:
         total = combine([1 / max(abs(h) for row in q.hessian for h in row) for q in curved], curved)
-        found = solve_linear(total.hessian, [-b for b in total.gradient], size)
-        if found is not None:  # the sum may fall for ever
-            centre, free = found.particular, found.kernel
+        lowest = solve_linear(total.hessian, [-b for b in total.gradient], size)
+        if lowest is not None:  # the sum may fall for ever
+            centre, free = lowest.particular, lowest.kernel
     rows, values = [], []
     for q in linear:
         scale = sum((b * b for b in q.gradient), _ZERO)

@@ -53,12 +53,12 @@ def linear_optimum(
 
     columns = [form.gradient for form in forms]
     cost = [-form.constant for form in forms]
-    optimum = least_cost(columns, [-b for b in objective.gradient], cost, check=check)
-    if isinstance(optimum, Endless):
-        return LinearConflict(optimum.weights)
-    if not isinstance(optimum, Nowhere):
-        return LinearBest(optimum.dual, optimum.weights)
+    outcome = least_cost(columns, [-b for b in objective.gradient], cost, check=check)
+    if isinstance(outcome, Endless):
+        return LinearConflict(outcome.weights)
+    if not isinstance(outcome, Nowhere):
+        return LinearBest(outcome.dual, outcome.weights)
     anywhere = least_cost(columns, [_ZERO] * objective.size, cost, check=check)
     if isinstance(anywhere, Endless):
         return LinearConflict(anywhere.weights)
-    return LinearFall(anywhere.dual, optimum.dual)
+    return LinearFall(anywhere.dual, outcome.dual)

@@ -115,17 +115,17 @@ def _on_flat(system: ConvexSystem, state: _State, budget: Budget) -> OptimumEvid
     keys = list(forms)
     rest = list(forms.values())
     try:
-        found = _least(objective, rest, budget, _NEAR_DEGREE if state.near else MAX_DEGREE, refuse=True)
+        kkt = _least(objective, rest, budget, _NEAR_DEGREE if state.near else MAX_DEGREE, refuse=True)
     except HighDegree as reason:
         if not state.near:
             raise
         near = _near(system, state, objective, forms, reason, budget)
         if near is not None:
             return near
-        found = _least(objective, rest, budget, MAX_DEGREE, refuse=True)
-    if found is not None:
-        weights = {keys[k]: m for k, m in found.multipliers.items()}
-        return _close(system, state, found.field, flat.lift(found.point), weights, unique=found.unique)
+        kkt = _least(objective, rest, budget, MAX_DEGREE, refuse=True)
+    if kkt is not None:
+        weights = {keys[k]: m for k, m in kkt.multipliers.items()}
+        return _close(system, state, kkt.field, flat.lift(kkt.point), weights, unique=kkt.unique)
     if is_linear_problem(objective, rest):
         return _linear(system, state, objective, forms, budget)
     return _without_multipliers(system, state, {i: forms[i] for i in keys}, budget)
@@ -161,16 +161,16 @@ def _linear(
 ) -> OptimumEvidence:
     """The exact answer to a linear problem for which floats proposed nothing that could be proved."""
     flat, keys, rationals = state.flat, list(forms), NumberField.rationals()
-    found = linear_optimum(objective, list(forms.values()), check=lambda: budget.check("optimum: simplex"))
-    if isinstance(found, LinearFall):
-        direction = Flat((_ZERO,) * len(system.names), flat.basis).lift(found.direction)
-        point = flat.lift(found.point)
+    outcome = linear_optimum(objective, list(forms.values()), check=lambda: budget.check("optimum: simplex"))
+    if isinstance(outcome, LinearFall):
+        direction = Flat((_ZERO,) * len(system.names), flat.basis).lift(outcome.direction)
+        point = flat.lift(outcome.point)
         return evidence_about(
             system, status=OptimumStatus.UNBOUNDED, field=rationals, faces=state.faces, point=point, direction=direction
         )
-    conflict = isinstance(found, LinearConflict)
-    point = flat.origin if isinstance(found, LinearConflict) else flat.lift(found.point)
-    weights: dict[int, Number] = {keys[k]: w for k, w in found.weights.items()}
+    conflict = isinstance(outcome, LinearConflict)
+    point = flat.origin if isinstance(outcome, LinearConflict) else flat.lift(outcome.point)
+    weights: dict[int, Number] = {keys[k]: w for k, w in outcome.weights.items()}
     return _close(system, state, rationals, point, weights, infeasible=conflict)
 
 
@@ -180,24 +180,24 @@ def _without_multipliers(
     """Phase one: infeasible, degenerate (a smaller flat) or unbounded."""
     size = len(state.flat.basis)
     extended, scales = violation_forms(list(forms.values()), size)
-    found = _least(height(size), extended, budget, _SIMPLE_DEGREE)
-    if found is None:
+    kkt = _least(height(size), extended, budget, _SIMPLE_DEGREE)
+    if kkt is None:
         contradiction = _contradiction(list(forms.values()), extended, scales)
         if contradiction is not None:
             point, rounded = contradiction
             rational: dict[int, Number] = {i: w for i, w in zip(forms, rounded, strict=True) if w}
             return _close(system, state, NumberField.rationals(), state.flat.lift(point), rational, infeasible=True)
-        found = _least(height(size), extended, budget, MAX_DEGREE)
-    if found is None:
+        kkt = _least(height(size), extended, budget, MAX_DEGREE)
+    if kkt is None:
         raise Unable("the largest violation of the constraints could not be minimised exactly")
-    violation, keys = sign(found.point[-1]), list(forms)
-    weights = {keys[k]: m * scales[k] for k, m in found.multipliers.items() if k < len(keys)}
-    point = state.flat.lift(found.point[:-1])
+    violation, keys = sign(kkt.point[-1]), list(forms)
+    weights = {keys[k]: m * scales[k] for k, m in kkt.multipliers.items() if k < len(keys)}
+    point = state.flat.lift(kkt.point[:-1])
     if violation > 0:
-        return _close(system, state, found.field, point, weights, infeasible=True)
+        return _close(system, state, kkt.field, point, weights, infeasible=True)
     if violation == 0:
         return _face(system, state, point, weights)
-    return _recede(system, state, found.field, point, budget)
+    return _recede(system, state, kkt.field, point, budget)
 
 
 def _contradiction(

@@ -115,10 +115,10 @@ def minimize(
     """
     system = read_system(constraints, objective, scale=scale)
     evidence = proved(system, budget=budget or Budget(), near=near)
-    found = _answer(atoms_of(constraints), _uniform(evidence))
+    optimum = _answer(atoms_of(constraints), _uniform(evidence))
     if evidence.status is OptimumStatus.NEAR_OPTIMAL:
-        return _near(found, constraints, objective, Fraction(scale))
-    return found
+        return _near(optimum, constraints, objective, Fraction(scale))
+    return optimum
 
 
 def maximize(
@@ -130,30 +130,30 @@ def maximize(
     near: bool = False,
 ) -> Optimum:
     """The maximum of a concave objective: minus the minimum of its negative, which the certificate is about."""
-    found = minimize(objective, constraints, scale=-Fraction(scale), budget=budget, near=near)
-    if found.value is None:
-        return found
-    return replace(found, value=-found.value, bound=None if found.bound is None else -found.bound)
+    optimum = minimize(objective, constraints, scale=-Fraction(scale), budget=budget, near=near)
+    if optimum.value is None:
+        return optimum
+    return replace(optimum, value=-optimum.value, bound=None if optimum.bound is None else -optimum.bound)
 
 
 BOUND, POINT = "bound", "point"
 """The labels of the certificates of a near optimum."""
 
 
-def _near(found: Optimum, constraints: Formula, objective: Poly, scale: Fraction) -> Optimum:
+def _near(optimum: Optimum, constraints: Formula, objective: Poly, scale: Fraction) -> Optimum:
     """The near optimum with its value and its proof: no point has a value below the bound, and one has this value."""
-    evidence = found.evidence
+    evidence = optimum.evidence
     ring, values = Ring.of(evidence.names), rational_numbers(evidence.point) or ()
     value = Fraction(evidence.objective.value(values))
     goal = scale.numerator * value.denominator * objective.convert(ring) - value.numerator * scale.denominator
     reached = conj((convert(constraints, ring), atom(goal, Relation.LE)))
     return replace(
-        found,
+        optimum,
         value=value,
         bound=evidence.bound,
-        active=tuple(i for i, (_, m) in enumerate(zip(found.constraints, found.multipliers, strict=False)) if m),
+        active=tuple(i for i, (_, m) in enumerate(zip(optimum.constraints, optimum.multipliers, strict=False)) if m),
         certificate=Certificate.bundle(
-            [(BOUND, found.certificate), (POINT, Certificate.witness(reached, evidence.names, values))]
+            [(BOUND, optimum.certificate), (POINT, Certificate.witness(reached, evidence.names, values))]
         ),
     )
 
@@ -174,13 +174,13 @@ def decide(conditions: Formula, *, budget: Budget) -> Decision:
     multipliers combine the constraints to a contradiction (up to facial reduction; see ``qe.convex.minimise``).
     Raises ``NotConvex``, and ``Unable`` when neither was proved.
     """
-    found = minimize(Ring.of(()).constant(0), conditions, budget=budget)
-    if found.status is OptimumStatus.INFEASIBLE:
-        return Decision(None, found.certificate)
-    if found.status is OptimumStatus.UNBOUNDED:
+    optimum = minimize(Ring.of(()).constant(0), conditions, budget=budget)
+    if optimum.status is OptimumStatus.INFEASIBLE:
+        return Decision(None, optimum.certificate)
+    if optimum.status is OptimumStatus.UNBOUNDED:
         raise Unable("a constant objective was found unbounded")
-    values = found.point.values() if found.attained else found.evidence.inner_point
-    return Decision(dict(zip(found.point, map(exact, values), strict=True)), found.certificate)
+    values = optimum.point.values() if optimum.attained else optimum.evidence.inner_point
+    return Decision(dict(zip(optimum.point, map(exact, values), strict=True)), optimum.certificate)
 
 
 def exact(value: Number) -> Exact:

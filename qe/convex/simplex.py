@@ -116,8 +116,8 @@ class _Tableau:
 
     def ray(self, entering: int) -> dict[int, Number]:
         """How the variables grow with one that nothing bounds."""
-        found = {v: -row[entering] for v, row in zip(self.basic, self.rows, strict=True) if row[entering]}
-        return {entering: _ONE, **found}
+        others = {v: -row[entering] for v, row in zip(self.basic, self.rows, strict=True) if row[entering]}
+        return {entering: _ONE, **others}
 
     def dual(self, artificial: Fraction) -> tuple[Number, ...]:
         """The multipliers of the rows, where an artificial variable costs ``artificial``."""

@@ -111,12 +111,12 @@ def _strictly_inside(system: ConvexSystem, x: Point, equations: Sequence[Vector]
         along = {i: [_dot(slopes[i], d) for d in solution.kernel] for i in active}
         along = {i: row for i, row in along.items() if not _vanishes(system, i, row, solution.kernel)}
         keys = sorted(along, key=lambda i: system.relations[i] is not FormRelation.LT)
-        found = alternative([along[i] for i in keys], len(solution.kernel), budget=budget)
-        if not isinstance(found, Balance):
+        outcome = alternative([along[i] for i in keys], len(solution.kernel), budget=budget)
+        if not isinstance(outcome, Balance):
             return _moved(
-                system, x, [_dot(found.direction, column) for column in zip(*solution.kernel, strict=True)], budget
+                system, x, [_dot(outcome.direction, column) for column in zip(*solution.kernel, strict=True)], budget
             )
-        link = _link(system, slopes, {keys[k]: w for k, w in found.weights.items()}, rows)
+        link = _link(system, slopes, {keys[k]: w for k, w in outcome.weights.items()}, rows)
         links.append(link)
         if any(r is FormRelation.LT and w for r, w in zip(system.relations, link.weights, strict=True)):
             return _Excluded(tuple(links))
@@ -162,8 +162,8 @@ def _moved(system: ConvexSystem, x: Point, step: Sequence[Number], budget: Budge
 
 
 def _holds(form: Quadratic, relation: FormRelation, point: Point) -> bool:
-    found = sign(form.value(point))
-    return found < 0 or (found == 0 and relation is not FormRelation.LT)
+    value_sign = sign(form.value(point))
+    return value_sign < 0 or (value_sign == 0 and relation is not FormRelation.LT)
 
 
 def _dot(u: Vector, v: Vector) -> Number:

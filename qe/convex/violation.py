@@ -73,8 +73,8 @@ def proposed(forms: Sequence[Quadratic]) -> tuple[tuple[Fraction, ...] | None, t
     if not proposal.residual < TRUSTED:
         return None, None
     if proposal.point[-1] > 0:
-        found = rounded_contradiction(proposal, forms, scales)
-        return None, None if found is None else found[1]
+        contradiction = rounded_contradiction(proposal, forms, scales)
+        return None, None if contradiction is None else contradiction[1]
     for denominator in _WITNESS_DENOMINATORS:
         point = tuple(Fraction(v).limit_denominator(denominator) for v in proposal.point[:size])
         if all(form.value(point) < 0 for form in forms):

@@ -53,14 +53,14 @@ def certified_roots(c: list[arb], bits: int, most: int | None = None) -> list[ar
     The roots come in pairs of conjugates; so one whose ball meets its mirror image and no other ball's is real. Where
     all are simple and not found, ``counted_roots`` may tell them apart.
     """
-    found = distinct_roots(c, bits, most)
-    if found is None:
+    roots = distinct_roots(c, bits, most)
+    if roots is None:
         return counted_roots(c, bits) if bits > EXACT_FROM and (most is None or most == len(c) - 1) else None
     real: list[arb] = []
-    for i, z in enumerate(found):
+    for i, z in enumerate(roots):
         if z.imag.contains(0):
             mirror = z.conjugate()
-            if any(mirror.overlaps(other) for j, other in enumerate(found) if j != i):
+            if any(mirror.overlaps(other) for j, other in enumerate(roots) if j != i):
                 return None
             real.append(z.real)
     real.sort(key=arb.mid)
@@ -72,8 +72,8 @@ def distinct_roots(c: list[arb], bits: int, most: int | None = None) -> list[acb
     them (None: its degree). The leading coefficient's ball does not contain zero.
     """
     if most is not None and most < len(c) - 1:
-        found = _clusters(c, bits)
-        return found if found is not None and len(found) == most else None
+        clusters = _clusters(c, bits)
+        return clusters if clusters is not None and len(clusters) == most else None
     # The tolerance is absolute, and half the bits: cancellation in the coefficients costs some. Roots that are large
     # for their coefficients do not reach it at any precision, and FLINT would try for ever: hence the bound on the
     # precision, and a second call without tolerance. ``FibreRoot.ball`` asks again with more bits where it needs them.
@@ -129,15 +129,15 @@ def _exact(z: acb) -> acb:
 def _discs(p: acb_poly, centres: list[acb]) -> list[acb]:
     """Squares around Smith's discs; infinite ones where centres coincide."""
     degree, lead = p.degree(), abs(p[p.degree()])
-    found: list[acb] = []
+    squares: list[acb] = []
     for i, z in enumerate(centres):
         apart = lead
         for j, other in enumerate(centres):
             if j != i:
                 apart = apart * abs(z - other)
         reach = arb(0, (degree * abs(p(z)) / apart).upper())
-        found.append(acb(z.real + reach, z.imag + reach))
-    return found
+        squares.append(acb(z.real + reach, z.imag + reach))
+    return squares
 
 
 def _merged(balls: list[acb]) -> list[acb]:

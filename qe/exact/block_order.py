@@ -40,8 +40,8 @@ class BlockOrder:
 
     def terms(self, poly: Poly) -> Terms:
         """The polynomial as one in the variables: exponents -> coefficient in the parameters; highest first."""
-        found = poly.collected(self.variables)
-        return dict(sorted(found.items(), key=lambda pair: self.order.key(pair[0]), reverse=True))
+        coefficients = poly.collected(self.variables)
+        return dict(sorted(coefficients.items(), key=lambda pair: self.order.key(pair[0]), reverse=True))
 
     def lead(self, poly: Poly) -> tuple[Exponents, Poly]:
         """The leading monomial in the variables of a polynomial other than 0, and its coefficient."""

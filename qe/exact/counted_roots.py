@@ -27,9 +27,9 @@ def counted_roots(c: list[arb], bits: int) -> list[arb] | None:
     if _discriminant(polynomial).contains(0):
         return None
     middle = fmpq_poly([x.mid().fmpq() for x in polynomial.coeffs()]).numer()
-    found = [_around(polynomial, lo, hi, bits) for lo, hi in isolate(middle)]
-    certain = [x for x in found if x is not None]
-    return certain if len(certain) == len(found) and all(a < b for a, b in pairwise(certain)) else None
+    balls = [_around(polynomial, lo, hi, bits) for lo, hi in isolate(middle)]
+    certain = [x for x in balls if x is not None]
+    return certain if len(certain) == len(balls) and all(a < b for a, b in pairwise(certain)) else None
 
 
 def _discriminant(polynomial: arb_poly) -> arb:

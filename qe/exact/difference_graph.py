@@ -62,7 +62,7 @@ class DifferenceGraph:
 
     def reasons(self, u: int, v: int, edges: int | None = None) -> list[Hashable]:
         """Those of the edges on a shortest path; ``edges``: among the first so many."""
-        found: list[Hashable] = []
+        reasons: list[Hashable] = []
         pending = [(u, v, len(self.edges) if edges is None else edges)]
         while pending:
             x, y, limit = pending.pop()
@@ -73,9 +73,9 @@ class DifferenceGraph:
                 since = since[1]
             assert since is not None
             start, end, _, reason = self.edges[since[0]]
-            found.append(reason)
+            reasons.append(reason)
             pending += [(x, start, since[0]), (end, y, since[0])]
-        return found
+        return reasons
 
     def potentials(self) -> list[int]:
         """Values of the variables that keep all bounds: how far each is from the nearest vertex."""

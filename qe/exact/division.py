@@ -68,10 +68,10 @@ def _terms(poly: Poly, places: Sequence[int]) -> Terms:
     return {tuple(e[i] for i in places): c for e, c in poly.terms()}
 
 
-def _joined(found: Terms, places: Sequence[int], ring: Ring) -> Poly:
+def _joined(coefficients: Terms, places: Sequence[int], ring: Ring) -> Poly:
     """The polynomial of such coefficients."""
     moved = {}
-    for exponents, c in found.items():
+    for exponents, c in coefficients.items():
         place = [0] * ring.size
         for i, k in zip(places, exponents, strict=True):
             place[i] = k

@@ -39,13 +39,13 @@ class Step:
     """One matrix. Columns: leading monomials of ``reducers`` (element, columns of the other terms), then all others.
 
     ``rows``: what is reduced, an element or (~number) one of the given polynomials, and its columns; ``skip`` terms at
-    the front are left out. ``found``: columns of the new elements behind the reducers' ones, leading one first.
+    the front are left out. ``supports``: columns of the new elements behind the reducers' ones, leading one first.
     """
 
     width: int
     reducers: tuple[tuple[int, Numbers], ...]
     rows: tuple[tuple[int, Numbers], ...]
-    found: tuple[Numbers, ...]
+    supports: tuple[Numbers, ...]
     skip: int = 0
 
 
@@ -76,9 +76,9 @@ class Trace:
         good = np.ones(len(primes), dtype=bool)
         for step in self.steps[:-1]:
             rest = _reduced(step, elements, inputs, modulus)
-            elements += _echelon(rest, step.found, modulus, good)
+            elements += _echelon(rest, step.supports, modulus, good)
         last = _reduced(self.steps[-1], elements, inputs, modulus)
-        tails = [_only(row, columns, good) for row, columns in zip(last.swapaxes(0, 1), self.steps[-1].found)]
+        tails = [_only(row, columns, good) for row, columns in zip(last.swapaxes(0, 1), self.steps[-1].supports)]
         return tails, good.tolist()
 
 
@@ -96,10 +96,10 @@ def _reduced(step: Step, elements: Sequence[Numbers], inputs: Sequence[Numbers],
     return table[len(step.reducers) :] % modulus
 
 
-def _echelon(rest: Numbers, found: Sequence[Numbers], modulus: Numbers, good: NDArray[np.bool_]) -> list[Numbers]:
+def _echelon(rest: Numbers, runs: Sequence[Numbers], modulus: Numbers, good: NDArray[np.bool_]) -> list[Numbers]:
     """The rows in reduced echelon form with the leading columns of the first run; primes with other ones are marked."""
     rows = rest.transpose(1, 0, 2).copy()
-    for j, columns in enumerate(found):
+    for j, columns in enumerate(runs):
         head = int(columns[0])
         best = j + int(np.argmax([np.count_nonzero(row[head]) for row in rows[j:]]))
         rows[[j, best]] = rows[[best, j]]
@@ -110,7 +110,7 @@ def _echelon(rest: Numbers, found: Sequence[Numbers], modulus: Numbers, good: ND
         factors = rows[:, head].copy()
         factors[j] = 0
         rows = (rows - factors[:, None] * rows[j]) % modulus
-    return [_only(row, columns, good) for row, columns in zip(rows, found, strict=True)]
+    return [_only(row, columns, good) for row, columns in zip(rows, runs, strict=True)]
 
 
 def _only(row: Numbers, columns: Numbers, good: NDArray[np.bool_]) -> Numbers:
@@ -251,7 +251,7 @@ class _Run:
         self,
         rows: Sequence[tuple[int, list[int]]],
         reducers: Mapping[int, tuple[int, list[int]]],
-        found: Sequence[Sequence[int]],
+        results: Sequence[Sequence[int]],
         skip: int = 0,
     ) -> None:
         """The step into the trace, with what these rows need alone."""
@@ -263,7 +263,7 @@ class _Run:
                 met.update(reducers[t][1])
         step, others = self._placed(rows, needed, met, skip)
         place = {m: k for k, m in enumerate(others)}
-        columns = tuple(np.array([place[m] for m in terms], dtype=np.int64) for terms in found)
+        columns = tuple(np.array([place[m] for m in terms], dtype=np.int64) for terms in results)
         self.trace.steps.append(Step(step.width, step.reducers, step.rows, columns, skip))
 
     def finish(self) -> None:
@@ -280,10 +280,10 @@ class _Run:
 
 def _heads(matrix: nmod_mat) -> list[int]:
     """The leading columns of a matrix in echelon form."""
-    found = []
+    heads = []
     for row in matrix.tolist():
         head = next((k for k, c in enumerate(row) if c), None)
         if head is None:
             break
-        found.append(head)
-    return found
+        heads.append(head)
+    return heads

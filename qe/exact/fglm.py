@@ -28,7 +28,7 @@ def changed_order(basis: Basis, order: MonomialOrder, variables: Sequence[int] |
     start = fmpq_mat(quotient.size, 1, [fmpq(i == 0) for i in range(quotient.size)])
     pending: dict[Exponents, fmpq_mat] = {(0,) * width: start}
     kept: list[Exponents] = []
-    found = []
+    elements = []
     leads: list[Exponents] = []
     while pending:
         monomial = min(pending, key=order.key)
@@ -45,8 +45,8 @@ def changed_order(basis: Basis, order: MonomialOrder, variables: Sequence[int] |
         leads.append(monomial)
         terms = {m: -c for m, c in zip(kept, relation, strict=True) if c} | {monomial: fmpq(1)}
         scale = lcm(*(int(c.q) for c in terms.values()))
-        found.append(context.from_dict({(*m, 0): int((c * scale).p) for m, c in terms.items()}))
-    return Basis(basis.ring, chosen, order, None, found, context)
+        elements.append(context.from_dict({(*m, 0): int((c * scale).p) for m, c in terms.items()}))
+    return Basis(basis.ring, chosen, order, None, elements, context)
 
 
 class _Rows:

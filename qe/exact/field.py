@@ -121,8 +121,8 @@ class FieldElement(SymPyForm):
     @property
     def coefficients(self) -> tuple[Fraction, ...]:
         """Coefficients of 1, theta, …, theta^(degree-1)."""
-        found = [to_fraction(c) for c in self.value.coeffs()]
-        return tuple(found + [Fraction(0)] * (self.field.degree - len(found)))
+        coefficients = [to_fraction(c) for c in self.value.coeffs()]
+        return tuple(coefficients + [Fraction(0)] * (self.field.degree - len(coefficients)))
 
     @property
     def is_rational(self) -> bool:

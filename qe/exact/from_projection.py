@@ -33,33 +33,33 @@ COUNTED_TO = 512
 def discriminant(f: Poly, variable: int) -> Poly:
     """The discriminant, remembered."""
     key = ("discriminant", f, variable)
-    found = f.ring.cache.get(key)
-    if found is None:
-        found = f.discriminant(variable)
-        f.ring.remember(key, found)
-    assert isinstance(found, Poly)
-    return found
+    remembered = f.ring.cache.get(key)
+    if remembered is None:
+        remembered = f.discriminant(variable)
+        f.ring.remember(key, remembered)
+    assert isinstance(remembered, Poly)
+    return remembered
 
 
 def resultant(f: Poly, g: Poly, variable: int) -> Poly:
     """The resultant, remembered."""
     key = ("resultant in", f, g, variable)
-    found = f.ring.cache.get(key)
-    if found is None:
-        found = f.resultant(g, variable)
-        f.ring.remember(key, found)
-    assert isinstance(found, Poly)
-    return found
+    remembered = f.ring.cache.get(key)
+    if remembered is None:
+        remembered = f.resultant(g, variable)
+        f.ring.remember(key, remembered)
+    assert isinstance(remembered, Poly)
+    return remembered
 
 
 def most_distinct(sign: SignAt, f: Poly, var: int, degree: int) -> int | None:
     """How many distinct complex roots f has at most over the point, where its degree in ``var`` is ``degree``; that
     many if the number is ``degree``. None if the projection does not tell.
     """
-    found = f.ring.cache.get(("discriminant", f, var))
-    if not isinstance(found, Poly) or degree < max(1, f.degree(var) - 1):
+    remembered = f.ring.cache.get(("discriminant", f, var))
+    if not isinstance(remembered, Poly) or degree < max(1, f.degree(var) - 1):
         return None
-    return degree - 1 if _vanishes(sign, found) else degree
+    return degree - 1 if _vanishes(sign, remembered) else degree
 
 
 def have_common_root(sign: SignAt, f: Poly, g: Poly, var: int) -> bool | None:
@@ -67,9 +67,9 @@ def have_common_root(sign: SignAt, f: Poly, g: Poly, var: int) -> bool | None:
     the projection does not tell. Without a kept degree only a False is true.
     """
     for pair in ((f, g), (g, f)):
-        found = f.ring.cache.get(("resultant in", *pair, var))
-        if isinstance(found, Poly):
-            return _vanishes(sign, found)
+        remembered = f.ring.cache.get(("resultant in", *pair, var))
+        if isinstance(remembered, Poly):
+            return _vanishes(sign, remembered)
     return None
 
 

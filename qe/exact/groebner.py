@@ -89,13 +89,13 @@ class Basis:
 
     def tails(self) -> list[dict[tuple[int, ...], fmpq]]:
         """For every element the normal form of its leading monomial: exponents -> coefficients."""
-        found = []
+        tails = []
         for g in self._internal:
             terms = iter(g.terms())
             lead = next(terms)[1]
             moved = ((tuple(int(k) // w for k, w in zip(e, self._scales, strict=False)), c) for e, c in terms)
-            found.append({e: fmpq(-c, lead) for e, c in moved})
-        return found
+            tails.append({e: fmpq(-c, lead) for e, c in moved})
+        return tails
 
     def rank(self, exponents: Sequence[int]) -> tuple[int, ...]:
         """A key by which monomials are sorted, exponents in the order of ``variables``: the larger the higher."""
@@ -206,10 +206,10 @@ def _found(
 
 
 def _by_buchberger(polys: list[fmpz_mpoly], context: fmpz_mpoly_ctx, limits: Limits) -> list[fmpz_mpoly] | None:
-    found, complete = fmpz_mpoly_vec(polys, context).buchberger_naive(
+    elements, complete = fmpz_mpoly_vec(polys, context).buchberger_naive(
         limits=(limits.elements, limits.terms, limits.bits)
     )
-    return list(found) if complete else None
+    return list(elements) if complete else None
 
 
 def _by_primes(polys: list[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly] | None:
@@ -218,10 +218,10 @@ def _by_primes(polys: list[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mp
 
     given = [{tuple(int(k) for k in e)[:-1]: int(c) for e, c in p.terms()} for p in polys]
     try:
-        found = modular_basis(given, context.nvars() - 1)
+        elements = modular_basis(given, context.nvars() - 1)
     except Unable:
         return None
-    return [context.from_dict({(*e, 0): c for e, c in g.items()}) for g in found]
+    return [context.from_dict({(*e, 0): c for e, c in g.items()}) for g in elements]
 
 
 def _weights(heavy: int, size: int) -> tuple[int, ...]:
@@ -254,9 +254,9 @@ def _inside(
     )
 
 
-def _interreduced(found: list[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
+def _interreduced(generators: list[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
     """The reduced basis: redundant leading monomials dropped, then every element reduced by the others."""
-    elements = [g for g in found if g]
+    elements = [g for g in generators if g]
     if any(g.total_degree() == 0 for g in elements):
         return [context.constant(1)]
     leads = [tuple(int(k) for k in g.monomial(0)) for g in elements]

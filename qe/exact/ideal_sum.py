@@ -52,10 +52,10 @@ def taken_apart(
 
 def graded_basis(polys: Sequence[Poly], variables: Sequence[int]) -> tuple[Poly, ...]:
     """``variables``: all of the ring, in the order in which bases are small. Raises ``Unable`` at a limit."""
-    found = groebner_basis(polys, variables=variables, limits=LIMITS)
-    if found is None:
+    basis = groebner_basis(polys, variables=variables, limits=LIMITS)
+    if basis is None:
         raise Unable("the Gröbner basis of an ideal grows past its limits")
-    return found.polys
+    return basis.polys
 
 
 class _Search:
@@ -86,10 +86,10 @@ class _Search:
     def reduced(self, p: fmpz_mpoly) -> fmpz_mpoly:
         if self.reducers is None:
             self.reducers = fmpz_mpoly_vec([*self.elements, *self.shared], self.context)
-        found = p.reduction_primitive_part(self.reducers)
-        if len(found) > MOST_TERMS:
+        remainder = p.reduction_primitive_part(self.reducers)
+        if len(remainder) > MOST_TERMS:
             raise Unable("taking the members of a sum of ideals apart grows past its limits")
-        return found
+        return remainder
 
     def add(self, p: fmpz_mpoly, side: int = 2, sugar: int = 0) -> None:
         """An element, and its pairs with those of another side (2: of neither ideal alone)."""
@@ -109,15 +109,15 @@ class _Search:
         self.sugars.append(sugar)
 
     def run(self, members: Sequence[Poly]) -> list[tuple[int, Poly]]:
-        left, found = dict(enumerate(members)), dict[int, tuple[int, Poly]]()
+        left, parts = dict(enumerate(members)), dict[int, tuple[int, Poly]]()
         for _ in range(MOST_PAIRS):
             self.tick()
             for k, g in list(left.items()):
                 if (part := self.part(g)) is not None:
-                    found[k] = part
+                    parts[k] = part
                     del left[k]
             if not left:
-                return [found[k] for k in range(len(members))]
+                return [parts[k] for k in range(len(members))]
             while not self.enlarged():
                 self.tick()
         raise Unable("taking the members of a sum of ideals apart takes too many steps")
@@ -135,8 +135,8 @@ class _Search:
             else:
                 places = dict(zip(self.variables, e, strict=True))
                 terms[tuple(places[i] for i in range(self.ring.size))] = int(c)
-        found = scale * g - self.ring.from_terms(terms)
-        return (scale, found) if scale > 0 else (-scale, -found)
+        member = scale * g - self.ring.from_terms(terms)
+        return (scale, member) if scale > 0 else (-scale, -member)
 
     def enlarged(self) -> bool:
         """Whether the next pair gives a new element."""

@@ -81,7 +81,7 @@ def _positive_roots(p: fmpz_poly) -> list[Interval]:
         return []
     k = _log2_root_bound(p)
     scale = fmpq(2) ** k
-    found: list[Interval] = []
+    roots: list[Interval] = []
     # entries: q whose roots in (0,1) are those of p in scale*(c/2^d, (c+1)/2^d)
     pending = [(_scaled(p, k), fmpz(0), 0)]
     while pending:
@@ -91,18 +91,18 @@ def _positive_roots(p: fmpz_poly) -> list[Interval]:
         if bound == 0:
             continue
         if bound == 1:
-            found.append((width * c, width * (c + 1)))
+            roots.append((width * c, width * (c + 1)))
             continue
         left = _halved(q)
         right = left(_SHIFT)
         if right[0] == 0:
             middle = width * (2 * c + 1) * _HALF
-            found.append((middle, middle))
+            roots.append((middle, middle))
             right = fmpz_poly(right.coeffs()[1:])
             left = left / fmpz_poly([-1, 1])
         pending.append((right, 2 * c + 1, depth + 1))
         pending.append((left, 2 * c, depth + 1))
-    return found
+    return roots
 
 
 def isolate(p: fmpz_poly) -> list[Interval]:

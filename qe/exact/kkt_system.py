@@ -230,11 +230,11 @@ def critical_point(
     if any(abs(p - q) > reach for p, q in zip(approximate, near, strict=True)) or not accept(approximate):
         return None
     try:
-        field, found = _recognise(newton, f, rest, max_degree, check)
+        field, coordinates = _recognise(newton, f, rest, max_degree, check)
     except HighDegree as reason:
         close = newton.at(NEAR_BITS) or limit
         raise HighDegree(str(reason), flat.lift([_middle(v) for v in close[: f.size]])) from None
-    return field, flat.lift(found)
+    return field, flat.lift(coordinates)
 
 
 def _middle(ball: arb) -> Fraction:
@@ -307,13 +307,13 @@ def _guess(lattice: FieldLattice, unknowns: Sequence[Digits], index: int) -> Fie
 
 
 def _elements(lattice: FieldLattice, unknowns: Sequence[Digits]) -> list[FieldElement] | None:
-    found: list[FieldElement] = []
+    elements: list[FieldElement] = []
     for digits in unknowns:
         value = element_candidate(lattice, digits)
         if value is None:
             return None
-        found.append(value)
-    return found
+        elements.append(value)
+    return elements
 
 
 def _stationary(

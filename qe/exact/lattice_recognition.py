@@ -131,12 +131,12 @@ def element_candidate(lattice: FieldLattice, digits: Digits) -> FieldElement | N
         with precision(2 * full + 32):
             theta = field.theta.ball(full)
             value = x * slope(theta)
-            found = lattice.relation(value, bits)
-            rest = value * found[0]
-            for a, v in zip(found[1:], _powers(theta, degree - 1), strict=True):
+            multiples = lattice.relation(value, bits)
+            rest = value * multiples[0]
+            for a, v in zip(multiples[1:], _powers(theta, degree - 1), strict=True):
                 rest += v * a
-            if found[0] != 0 and abs(rest) < arb(2) ** -(bits + _EXTRA // 2):
-                top = fmpq_poly([fmpq(-a, found[0]) for a in found[1:]])
+            if multiples[0] != 0 and abs(rest) < arb(2) ** -(bits + _EXTRA // 2):
+                top = fmpq_poly([fmpq(-a, multiples[0]) for a in multiples[1:]])
                 return FieldElement(field, top) * lattice.slope_inverse
         lattice.bits *= 2
     return None

@@ -147,14 +147,14 @@ class LinearBounds:
             ]
             weaker = [] if reason is None else [move for move in others if move[0] >= (_ZERO, _ZERO)]
             moves.append([*weaker, ((_ZERO, _ZERO), reason)])
-        found: set[Hashable] = set()
+        reasons: set[Hashable] = set()
         for choices in sorted(moves, key=lambda choices: choices[0][0]):
             (p, q), reason = next(
                 ((p, q), other) for (p, q), other in choices if (total[0] + p, total[1] + q) < (_ZERO, _ZERO)
             )
             total = total[0] + p, total[1] + q
-            found.add(reason)
-        return found
+            reasons.add(reason)
+        return reasons
 
     def side(self, x: int, bound: Fraction) -> int:
         """The sign of x - bound for the present value of x."""
@@ -186,7 +186,7 @@ class LinearBounds:
 
     def _broken(self, *, greedy: bool) -> tuple[int, Value, bool] | None:
         """A basic variable outside its bounds, the bound, and whether it has to grow."""
-        found: tuple[int, Value, bool] | None = None
+        broken: tuple[int, Value, bool] | None = None
         most = _ZERO
         for x in self.rows:
             value = self.values[x]
@@ -197,9 +197,9 @@ class LinearBounds:
             else:
                 continue
             size = abs(wanted[0] - value[0])
-            if found is None or (size > most if greedy else x < found[0]):
-                found, most = (x, wanted, up), size
-        return found
+            if broken is None or (size > most if greedy else x < broken[0]):
+                broken, most = (x, wanted, up), size
+        return broken
 
     def _move(self, x: int, value: Value) -> None:
         """Give a variable without a row this value, and the rows that use it theirs."""

@@ -64,10 +64,10 @@ def modular_basis(polys: Sequence[Terms], size: int, work: Work = WORK) -> list[
     for _ in range(MOST_TRIALS):
         try:
             trace = learned(given, monomials, next(primes), work.learning)
-            found = _lifted(trace, given, monomials, primes, work)
+            basis = _lifted(trace, given, monomials, primes, work)
         except Unlucky:
             continue
-        return [{e[:-1]: c for e, c in g.items()} for g in found]
+        return [{e[:-1]: c for e, c in g.items()} for g in basis]
     raise Unable("no prime suits a Gröbner basis")
 
 
@@ -109,10 +109,10 @@ def _lifted(
                 entries += row
         fractions = _reconstructed(residues, used)
         if fractions is not None:
-            found = _polynomials(trace, fractions, monomials)
-            if not _is_basis(found, given, monomials):
+            basis = _polynomials(trace, fractions, monomials)
+            if not _is_basis(basis, given, monomials):
                 raise Unlucky  # the fractions stand; it is the first prime that saw too little
-            return found
+            return basis
     raise Unable("the coefficients of a Gröbner basis grow past their limits")
 
 
@@ -126,14 +126,14 @@ def _reconstructed(residues: Sequence[Sequence[Sequence[int]]], primes: Sequence
         others = modulus // p
         weights.append(others * pow(others, -1, p))
     column = fmpz_mat(len(primes), 1, weights)
-    found = []
+    elements = []
     for rows in residues:
         combined = (fmpz_mat(len(rows), len(primes), [c for row in rows for c in row]) * column).entries()
         integers = _over_one_denominator([int(c) % modulus for c in combined], modulus)
         if integers is None:
             return None
-        found.append(integers)
-    return found
+        elements.append(integers)
+    return elements
 
 
 def _over_one_denominator(values: Sequence[int], modulus: int) -> list[int] | None:
@@ -169,17 +169,17 @@ def _fraction(value: int, modulus: int) -> tuple[int, int] | None:
 def _polynomials(
     trace: Trace, coefficients: Sequence[Sequence[int]], monomials: PackedMonomials
 ) -> list[dict[Exponents, int]]:
-    found = []
+    polys = []
     for head, tail, numbers in zip(trace.heads, trace.tails, coefficients, strict=True):
         terms = zip((head, *tail), numbers, strict=True)
-        found.append({monomials.exponents(m): c for m, c in terms if c})
-    return found
+        polys.append({monomials.exponents(m): c for m, c in terms if c})
+    return polys
 
 
-def _is_basis(found: Sequence[Terms], given: Sequence[Mapping[int, int]], monomials: PackedMonomials) -> bool:
+def _is_basis(candidates: Sequence[Terms], given: Sequence[Mapping[int, int]], monomials: PackedMonomials) -> bool:
     """Whether the candidates are a Groebner basis, over Q, and reduce all given polynomials to zero."""
     context = fmpz_mpoly_ctx.get(tuple(f"v{k}" for k in range(monomials.size)), "degrevlex")
-    elements = [context.from_dict(dict(g)) for g in found]
+    elements = [context.from_dict(dict(g)) for g in candidates]
     basis = fmpz_mpoly_vec(elements, context)
     for g in given:
         if context.from_dict({monomials.exponents(m): c for m, c in g.items()}).reduction_primitive_part(basis):

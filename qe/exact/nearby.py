@@ -42,8 +42,8 @@ def rational_between(lower: Fraction | RealAlgebraic | None, upper: Fraction | R
         if high is None:
             high = fmpq(1) if low < 0 else fmpq(low.ceil() + 2)
         if low < high:
-            found = simplest_between(low, high)
-            return Fraction(int(found.p), int(found.q))
+            simplest = simplest_between(low, high)
+            return Fraction(int(simplest.p), int(simplest.q))
         bits *= 2
 
 

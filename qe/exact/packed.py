@@ -25,13 +25,13 @@ class PackedMonomials:
 
     def packed(self, exponents: Sequence[int]) -> int:
         """The integer of a monomial. Raises ``Unable`` where a degree does not fit."""
-        total = found = 0
+        total = packed = 0
         for k, e in enumerate(exponents):
             total += e
-            found |= total << (self.bits * k)
+            packed |= total << (self.bits * k)
         if total >> (self.bits - 2):
             raise Unable("the degrees in a Gröbner basis grow past their limits")
-        return found
+        return packed
 
     def fields(self, monomial: int) -> int:
         """The exponents themselves, in fields: a divides b iff ``(fields(b) | guard) - fields(a)`` keeps ``guard``."""
@@ -39,11 +39,11 @@ class PackedMonomials:
 
     def exponents(self, monomial: int) -> Exponents:
         """The exponents of a monomial."""
-        found = self._known.get(monomial)
-        if found is None:
+        known = self._known.get(monomial)
+        if known is None:
             fields, mask = self.fields(monomial), (1 << self.bits) - 1
-            found = self._known[monomial] = tuple(fields >> (self.bits * k) & mask for k in range(self.size))
-        return found
+            known = self._known[monomial] = tuple(fields >> (self.bits * k) & mask for k in range(self.size))
+        return known
 
     def degree(self, monomial: int) -> int:
         """The degree."""

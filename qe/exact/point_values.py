@@ -66,11 +66,11 @@ def signs_around(point: Point, var: int, f: Poly, roots: list[FibreRoot]) -> lis
 
 def roots_between(f: Poly, var: int) -> list[Fraction | RealAlgebraic]:
     """The real roots in [0, 1], ascending, of a nonzero polynomial in variable ``var`` alone."""
-    found = []
+    roots = []
     for factor, _ in f.factors()[1]:
         p = factor.to_univariate(var)
-        found += [r for r in irreducible_roots(p) if r.compare_rational(fmpq(0)) >= 0 >= r.compare_rational(fmpq(1))]
-    return [r.as_fraction() if r.is_rational else r for r in sorted(found)]
+        roots += [r for r in irreducible_roots(p) if r.compare_rational(fmpq(0)) >= 0 >= r.compare_rational(fmpq(1))]
+    return [r.as_fraction() if r.is_rational else r for r in sorted(roots)]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,21 +110,21 @@ class Evaluation:
         """A ball around f, at FLINT's working precision."""
         if self._parent is not None and f.level < self.point.depth - 1 and isinstance(self.point.value, FibreRoot):
             return self._parent.enclose(f, bits)
-        found = self._known.get((f, bits))
-        if found is None:
+        ball = self._known.get((f, bits))
+        if ball is None:
             shared = isinstance(self.point.value, FibreRoot)
-            found = self._known[f, bits] = self._over_parent(f, bits) if shared else self._sum(f, bits)
-        return found
+            ball = self._known[f, bits] = self._over_parent(f, bits) if shared else self._sum(f, bits)
+        return ball
 
     def _over_parent(self, f: Poly, bits: int) -> arb:
         """The coordinates below are substituted once for all roots over them."""
         i, parent = self.point.depth - 1, self._parent
         assert parent is not None, "a root lies over a point"
-        found = parent._polynomials.get((f, bits))
-        if found is None:
-            found = arb_poly([parent.enclose(c, bits) for c in f.coefficients(i)])
-            parent._polynomials[f, bits] = found
-        return found(self._power(i, 1, bits))
+        polynomial = parent._polynomials.get((f, bits))
+        if polynomial is None:
+            polynomial = arb_poly([parent.enclose(c, bits) for c in f.coefficients(i)])
+            parent._polynomials[f, bits] = polynomial
+        return polynomial(self._power(i, 1, bits))
 
     def _sum(self, f: Poly, bits: int) -> arb:
         """Term by term: the lists of terms are made once for each polynomial, the powers once for each point."""
@@ -140,12 +140,12 @@ class Evaluation:
         return total
 
     def _power(self, i: int, k: int, bits: int) -> arb:
-        found = self._powers.get((i, k, bits))
-        if found is None:
+        power = self._powers.get((i, k, bits))
+        if power is None:
             value = self.point.coordinate(i)
             x = arb(value) if isinstance(value, fmpq) else self.point.ball(i, bits)
-            found = self._powers[i, k, bits] = x**k
-        return found
+            power = self._powers[i, k, bits] = x**k
+        return power
 
     def quotient(self, top: Poly, bottom: Poly, scale: Fraction, bits: int) -> Ball:
         """``scale * top / bottom`` in a ball at most 2^-bits wide; ``bottom`` does not vanish at the point."""

@@ -276,11 +276,11 @@ class Poly:
 
         The coefficients are not zero and free of these variables; highest term first.
         """
-        inside, found = tuple(indices), dict[tuple[int, ...], dict[tuple[int, ...], int]]()
+        inside, coefficients = tuple(indices), dict[tuple[int, ...], dict[tuple[int, ...], int]]()
         for exponents, c in self.terms():
             rest = tuple(0 if i in inside else k for i, k in enumerate(exponents))
-            found.setdefault(tuple(exponents[i] for i in inside), {})[rest] = c
-        return {key: self.ring.from_terms(terms) for key, terms in found.items()}
+            coefficients.setdefault(tuple(exponents[i] for i in inside), {})[rest] = c
+        return {key: self.ring.from_terms(terms) for key, terms in coefficients.items()}
 
     def coefficients_in(self, indices: Collection[int]) -> tuple[Poly, ...]:
         """The distinct coefficients, none zero, of the polynomial as one in the variables ``indices``.

@@ -168,10 +168,10 @@ def echelon(rows: Matrix) -> tuple[list[list[Number]], list[int]]:
     pivots: list[int] = []
     for column in range(len(work[0])):
         top = len(pivots)
-        found = next((r for r in range(top, len(work)) if work[r][column]), None)
-        if found is None:
+        pivot = next((r for r in range(top, len(work)) if work[r][column]), None)
+        if pivot is None:
             continue
-        work[top], work[found] = work[found], work[top]
+        work[top], work[pivot] = work[pivot], work[top]
         scale = 1 / work[top][column]
         work[top] = [entry * scale if entry else entry for entry in work[top]]
         for r, row in enumerate(work):

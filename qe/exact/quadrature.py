@@ -48,8 +48,8 @@ def _attempt(
             return _value(f, z) * _value(q, z).sqrt(analytic=analytic)
 
         ends = [acb(arb(_rational(t))) for t in over]
-        found = acb.integral(value, *ends, rel_tol=arb(_rational(rel)), abs_tol=arb(2) ** (-8 * bits)).real
-        total = abs(found)
+        integral = acb.integral(value, *ends, rel_tol=arb(_rational(rel)), abs_tol=arb(2) ** (-8 * bits)).real
+        total = abs(integral)
         if not total.is_finite():
             return Fraction(0), Fraction(1)
         low, high = lower_end(total), upper_end(total)

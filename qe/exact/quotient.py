@@ -48,19 +48,19 @@ def independent_sets(leads: Sequence[Exponents], size: int) -> Iterator[tuple[in
     if frozenset() in supports:
         return
     for count in range(size, -1, -1):
-        found = False
+        is_independent = False
         for chosen in combinations(range(size), count):
             if not any(support <= set(chosen) for support in supports):
-                found = True
+                is_independent = True
                 yield chosen
-        if found:
+        if is_independent:
             return
 
 
 def dimension(basis: Basis) -> int:
     """The dimension of the set of complex zeros in the space of the basis' variables; -1 where there are none."""
-    found = next(independent_sets(basis.leads, len(basis.variables)), None)
-    return -1 if found is None else len(found)
+    largest = next(independent_sets(basis.leads, len(basis.variables)), None)
+    return -1 if largest is None else len(largest)
 
 
 class Quotient:
@@ -85,18 +85,18 @@ class Quotient:
         if free:
             names = self.basis.ring.names
             raise PositiveDimensional([names[self.basis.variables[k]] for k in free])
-        found = {(0,) * size}
-        pending = list(found)
+        standard = {(0,) * size}
+        pending = list(standard)
         while pending:
             monomial = pending.pop()
             for k in range(size):
                 larger = _times(monomial, k)
-                if larger not in found and not self._is_leading(larger):
-                    found.add(larger)
+                if larger not in standard and not self._is_leading(larger):
+                    standard.add(larger)
                     pending.append(larger)
-            if len(found) > MOST_DIMENSIONS:
+            if len(standard) > MOST_DIMENSIONS:
                 raise Unable(f"the system has more than {MOST_DIMENSIONS} complex solutions")
-        return tuple(sorted(found, key=self.basis.rank))
+        return tuple(sorted(standard, key=self.basis.rank))
 
     def _is_leading(self, monomial: Exponents) -> bool:
         return any(all(a <= b for a, b in zip(lead, monomial, strict=True)) for lead in self._leads)
@@ -128,14 +128,14 @@ class Quotient:
     @cached_property
     def matrices(self) -> tuple[fmpq_mat, ...]:
         """Multiplication by each variable: column j holds the coordinates of variable*monomial_j."""
-        found = []
+        matrices = []
         for columns in self._columns:
             matrix = fmpq_mat(self.size, self.size)
             for j, monomial in enumerate(self.monomials):
                 for i, c in columns[monomial].items():
                     matrix[i, j] = c
-            found.append(matrix)
-        return tuple(found)
+            matrices.append(matrix)
+        return tuple(matrices)
 
     @cached_property
     def powers(self) -> tuple[fmpq_mat, ...]:
@@ -163,10 +163,10 @@ class Quotient:
     def coordinates(self, poly: Poly) -> list[fmpq]:
         """The coordinates of a polynomial: its normal form."""
         scale, rest = self.basis.reduce(poly)
-        found = [fmpq(0)] * self.size
+        coordinates = [fmpq(0)] * self.size
         for exponents, c in rest.terms():
-            found[self._place[tuple(exponents[i] for i in self.basis.variables)]] = fmpq(c, scale)
-        return found
+            coordinates[self._place[tuple(exponents[i] for i in self.basis.variables)]] = fmpq(c, scale)
+        return coordinates
 
     @cached_property
     def trace_form(self) -> fmpq_mat:
@@ -201,10 +201,10 @@ class Quotient:
         if not self.size:
             return []
         names = [self.basis.ring.names[i] for i in self.basis.variables]
-        found = zeros_of(self.matrices, self.traces, self.distinct, names)
-        if len(found) != self.signature():
-            raise InternalError(f"{len(found)} real zeros isolated, the signature says {self.signature()}")
-        return found
+        zeros = zeros_of(self.matrices, self.traces, self.distinct, names)
+        if len(zeros) != self.signature():
+            raise InternalError(f"{len(zeros)} real zeros isolated, the signature says {self.signature()}")
+        return zeros
 
 
 def signature(matrix: fmpq_mat) -> int:

@@ -288,10 +288,10 @@ class Fibre:
         enough = max(COUNTED_TO, 4 * bits)
         while True:
             with precision(bits + 16):
-                found = self._attempt(bits)
-            if found is not None:
-                self._roots, self._bits = found, bits
-                return found
+                roots = self._attempt(bits)
+            if roots is not None:
+                self._roots, self._bits = roots, bits
+                return roots
             if bits >= EXACT_FROM and not self.exact:
                 self._make_exact()
             else:
@@ -391,7 +391,7 @@ class FibreRoot:
         while shared is not None:
             roots, common = self.fibre.roots(bits), shared.roots(bits)
             places = [[k for k, x in enumerate(roots) if x.overlaps(y)] for y in common]
-            if all(len(found) == 1 for found in places):
+            if all(len(matches) == 1 for matches in places):
                 return [self.index] in places
             bits *= 2
         return False

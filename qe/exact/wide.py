@@ -148,29 +148,29 @@ class WidePoly(Poly):
         if self.total_degree == 1:
             return self._linear_terms()
         i = self.variables[-1]
-        found: list[SparseTerm] = []
+        terms: list[SparseTerm] = []
         for k, c in enumerate(self.coefficients(i)):
             below = c._terms if isinstance(c, WidePoly) else c.sparse_terms()
-            found += [((*powers, (i, k)) if k else powers, a) for powers, a in below]
-        return tuple(found)
+            terms += [((*powers, (i, k)) if k else powers, a) for powers, a in below]
+        return tuple(terms)
 
     def _linear_terms(self) -> tuple[SparseTerm, ...]:
-        rest, found = self.p, list[SparseTerm]()
+        rest, terms = self.p, list[SparseTerm]()
         for i in self.variables:
             slope = self.p.derivative(self.ring.slot(i))
             rest -= slope * self.ring._gens[self.ring.slot(i)]
-            found.append((((i, 1),), int(slope.leading_coefficient())))
-        return (*found, ((), int(rest.leading_coefficient()))) if rest else tuple(found)
+            terms.append((((i, 1),), int(slope.leading_coefficient())))
+        return (*terms, ((), int(rest.leading_coefficient()))) if rest else tuple(terms)
 
     def terms(self) -> list[tuple[tuple[int, ...], int]]:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
-        found = []
+        terms = []
         for powers, c in self.sparse_terms():
             own = [0] * self.ring.size
             for i, k in powers:
                 own[i] = k
-            found.append((tuple(own), c))
-        return sorted(found, key=lambda term: term[0][::-1], reverse=True)
+            terms.append((tuple(own), c))
+        return sorted(terms, key=lambda term: term[0][::-1], reverse=True)
 
     # --- in a ring of the variables that occur --------------------------------------------------
     def _compact(self, *others: Poly) -> tuple[tuple[int, ...], list[Poly]]:

@@ -59,7 +59,7 @@ def zeros_of(matrices: Sequence[fmpq_mat], traces: fmpq_mat, distinct: int, name
 
     weight = numerator(traces)
     tops = [numerator(traces * m) for m in matrices]
-    found: list[tuple[RealAlgebraic, Zero]] = []
+    zeros: list[tuple[RealAlgebraic, Zero]] = []
     for factor, _ in irreducible_factors(f.numer()):
         roots = irreducible_roots(factor)
         if not roots:
@@ -73,8 +73,8 @@ def zeros_of(matrices: Sequence[fmpq_mat], traces: fmpq_mat, distinct: int, name
         for root in roots:
             field = NumberField(root)
             point = {name: FieldElement(field, value) for name, value in zip(names, values, strict=True)}
-            found.append((root, Zero(point, int(multiplicity[0].p))))
-    return [zero for _, zero in sorted(found, key=lambda pair: pair[0])]
+            zeros.append((root, Zero(point, int(multiplicity[0].p))))
+    return [zero for _, zero in sorted(zeros, key=lambda pair: pair[0])]
 
 
 def _separating(matrices: Sequence[fmpq_mat], distinct: int) -> tuple[fmpq_mat, fmpq_poly]:
@@ -103,11 +103,11 @@ def _krylov(matrix: fmpq_mat, length: int) -> list[fmpq_mat]:
     """1, t, t^2, … as coordinate columns: 1 is the first monomial of the basis."""
     size = matrix.nrows()
     vector = fmpq_mat(size, 1, [fmpq(i == 0) for i in range(size)])
-    found = []
+    powers = []
     for _ in range(length):
-        found.append(vector)
+        powers.append(vector)
         vector = matrix * vector
-    return found
+    return powers
 
 
 def _inverse(value: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:

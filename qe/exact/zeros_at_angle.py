@@ -31,8 +31,8 @@ def zeros_at_angle(
         with precision(working):
             phi = arb(fmpq(angle.numerator, angle.denominator))
             at = [theta.ball(working), arb(0), phi.cos(), phi.sin()]
-            found = certified_roots([enclosed(c, at) for c in p.coefficients(var)], bits)
-            if found is not None:
-                return [ends(x) for x in found]
+            balls = certified_roots([enclosed(c, at) for c in p.coefficients(var)], bits)
+            if balls is not None:
+                return [ends(x) for x in balls]
         working *= 2
     return None

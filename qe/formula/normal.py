@@ -44,7 +44,10 @@ def nnf(formula: Formula, *, negate: bool = False) -> Formula:
         case Exists(variables, body) | ForAll(variables, body):
             quantify = exists if isinstance(formula, Exists) is not negate else forall
             return quantify(variables, nnf(body, negate=negate))
-    return neg(formula) if negate else formula
+        case Constant() | Atom() | RootAtom():
+            return neg(formula) if negate else formula
+        case _:
+            assert_never(formula)
 
 
 def rename_apart(formula: Formula, avoid: Iterable[str] = ()) -> Formula:

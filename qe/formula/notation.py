@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from operator import attrgetter
 from typing import Protocol
 
 from qe.exact.digits import digits as digits
@@ -49,14 +50,14 @@ class Notation:
     ``strict``: what follows a negation is bracketed, and so is ``and`` inside ``or``."""
 
     name: Callable[[str], str]
-    relation: Callable[[Relation], str]
     quantifier: Callable[[bool, tuple[str, ...]], str]
     root: Callable[[str, Relation, Poly, int], str]
-    conjunction: str
-    disjunction: str
-    negation: str
-    true: str
-    false: str
+    relation: Callable[[Relation], str] = attrgetter("value")
+    conjunction: str = " and "
+    disjunction: str = " or "
+    negation: str = "not "
+    true: str = "true"
+    false: str = "false"
     times: str = "*"
     power: Callable[[str, int], str] = "{}^{}".format
     brackets: tuple[str, str] = ("(", ")")

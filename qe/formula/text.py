@@ -27,14 +27,8 @@ def _notation(spelled: Callable[[str], str]) -> Notation:
 
     notation = Notation(
         name=spelled,
-        relation=lambda relation: relation.value,
         quantifier=quantifier,
         root=root,
-        conjunction=" and ",
-        disjunction=" or ",
-        negation="not ",
-        true="true",
-        false="false",
     )
     return notation
 

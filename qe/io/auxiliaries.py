@@ -97,26 +97,26 @@ class Auxiliaries:
 
     def names_in(self, case: Case) -> set[str]:
         """The variables that a term depends on."""
-        found: set[str] = set()
+        dependencies: set[str] = set()
         pending = [case.value.poly, *(factor for factor, _ in case.below)]
         names = {self.ring.names[i] for poly in pending for i in poly.variables}
         while names:
             name = names.pop()
-            found.add(name)
+            dependencies.add(name)
             if (auxiliary := self.made.get(name)) is not None:
-                names.update(set(auxiliary.definition.free) - found)
-        return found
+                names.update(set(auxiliary.definition.free) - dependencies)
+        return dependencies
 
     def agreements(self) -> list[Formula]:
         """Equal arguments outside a domain have equal values."""
-        found = []
+        agreements = []
         for (a, (f, left)), (b, (g, right)) in combinations(self.unknowns.items(), 2):
             if f == g:
                 same = atom(self.ring.var(a) - self.ring.var(b), Relation.EQ)
                 for one, other in product(left, right):
                     equal = self.compared((one,), Relation.EQ, (other,), Place().denied)
-                    found.append(implies(equal, same))
-        return found
+                    agreements.append(implies(equal, same))
+        return agreements
 
     # --- comparisons -----------------------------------------------------------------------------------------
     def compared(self, left: Cases, relation: Relation, right: Cases, place: Place) -> Formula:

@@ -61,13 +61,13 @@ def combinations(operands: Sequence[Cases]) -> Iterator[tuple[tuple[Formula, ...
 
 def _joined(left: Sequence[Formula], right: Sequence[Formula]) -> tuple[Formula, ...] | None:
     """The guards of both together, without those that say nothing; None where one is false or another's negation."""
-    found = dict.fromkeys(guard for guard in left if guard != TRUE)
+    guards = dict.fromkeys(guard for guard in left if guard != TRUE)
     for guard in right:
-        if guard == FALSE or neg(guard) in found:
+        if guard == FALSE or neg(guard) in guards:
             return None
         if guard != TRUE:
-            found[guard] = None
-    return None if FALSE in found else tuple(found)
+            guards[guard] = None
+    return None if FALSE in guards else tuple(guards)
 
 
 def combine(operands: Sequence[Cases], build: Callable[[Sequence[Case]], Case]) -> Cases:

@@ -209,10 +209,10 @@ def variables(names: object) -> Any:
 
     Typed as ``Any``, since what unpacks it says how many there are.
     """
-    found = arguments.names(names, "variables")
-    if not found:
+    listed = arguments.names(names, "variables")
+    if not listed:
         raise InputError("variables: at least one name expected")
-    made = tuple(Expression(s.Name(check_name(name), -1)) for name in found)
+    made = tuple(Expression(s.Name(check_name(name), -1)) for name in listed)
     return made[0] if len(made) == 1 and isinstance(names, str) and "," not in names else made
 
 

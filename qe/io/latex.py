@@ -69,12 +69,12 @@ def name(variable: str) -> str:
 
     The index of ``x_1`` looks like that of ``x1``, but is another text.
     """
-    found = _NAME.fullmatch(variable)
-    if found is None:
+    parts = _NAME.fullmatch(variable)
+    if parts is None:
         plain = variable.rstrip("'") or variable
         upright = "".join(_ESCAPES.get(c, c) for c in visible(plain))
         return rf"\mathrm{{{upright}}}{variable[len(plain) :]}"
-    letters, number, below, primes = found.groups()
+    letters, number, below, primes = parts.groups()
     if letters in _CAPITALS or (letters in GREEK and letters.islower()):
         base = "\\" + letters
     else:

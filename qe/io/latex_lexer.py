@@ -113,17 +113,17 @@ class _Source:
     def between(self, at: int, end: int) -> Iterator[Token]:
         """The tokens from one offset to another."""
         while at < end:
-            found = _TOKEN.match(self.text, at, end)
-            if found is None:
+            token = _TOKEN.match(self.text, at, end)
+            if token is None:
                 raise SyntaxFailure(f"'{visible(self.text[at])}' cannot be read in LaTeX", at)
-            kind, value, after = found.lastgroup, found.group(), found.end()
+            kind, value, after = token.lastgroup, token.group(), token.end()
             match kind:
                 case "FRAME":
-                    self.rows = found["FRAME"] == "cases" and value.startswith("\\begin")
+                    self.rows = token["FRAME"] == "cases" and value.startswith("\\begin")
                 case "SPACE" if "&" in value and self.rows:
                     raise SyntaxFailure("a choice between cases is written if c then a else b", at)
                 case "COMMAND":
-                    after = yield from self.command(found["COMMAND"], at, after)
+                    after = yield from self.command(token["COMMAND"], at, after)
                 case "LETTER":
                     after = yield from self.name(value, at, after)
                 case "NUMBER":
@@ -188,8 +188,8 @@ class _Source:
 
     def negated(self, at: int, after: int) -> Generator[Token, None, int]:
         """``\\not`` and the relation behind it; returns the offset behind both."""
-        found = _NOT.match(self.text, after)
-        sign = "" if found is None else found[1]
+        relation = _NOT.match(self.text, after)
+        sign = "" if relation is None else relation[1]
         if sign == "\\in":
             yield from self.put("NOTIN", "∉", at)
         elif sign in _NEGATED:
@@ -199,7 +199,7 @@ class _Source:
             yield from self.put("QUANTIFIER", "ex", at)
         else:
             raise SyntaxFailure("\\not cannot be read in LaTeX here", at)
-        return after if found is None else found.end()
+        return after if relation is None else relation.end()
 
     def closing(self, at: int) -> tuple[int, int]:
         """The offsets inside the braces, or around the one character, at this place."""
@@ -224,8 +224,8 @@ class _Source:
 
     def root(self, at: int, after: int) -> Generator[Token, None, int]:
         """``\\sqrt{t}`` or ``\\sqrt[n]{t}``: the power with exponent 1/n; for odd n, as in print, of all numbers."""
-        found = re.compile(r"\s*\[\s*([0-9]{1,4})\s*\]").match(self.text, after)
-        degree, inside = ("2", after) if found is None else (found[1], found.end())
+        index = re.compile(r"\s*\[\s*([0-9]{1,4})\s*\]").match(self.text, after)
+        degree, inside = ("2", after) if index is None else (index[1], index.end())
         if degree == "3":
             yield from self.function("cbrt", at)
             return (yield from self.group(inside))
@@ -277,8 +277,8 @@ class _Source:
 def _unescaped(word: str, at: int) -> str:
     """The name that is written with escapes, as ``x\\_1``: nothing else in it but letters, digits and ``_``."""
     plain = _ESCAPED.sub("", word)
-    name = _ESCAPED.sub(lambda found: found[1] or _MEANT[found[2]], word)
-    name = _NUMBERED.sub(lambda found: chr(int(found[1], 16)), name)
+    name = _ESCAPED.sub(lambda escape: escape[1] or _MEANT[escape[2]], word)
+    name = _NUMBERED.sub(lambda escape: chr(int(escape[1], 16)), name)
     if plain == word or not re.fullmatch(r"\w*", plain) or name.isdigit() or "\\" in name or "|" in name:
         raise SyntaxFailure(f"'{visible(word)}' cannot be read in LaTeX", at)
     return name

@@ -71,16 +71,16 @@ def lower(
     """
     parts = ordered([node])
     refuse_long(parts)
-    found = Names(fail, meet)
+    collected = Names(fail, meet)
     if not shared:
-        found.node(node, frozenset(), 0)
+        collected.node(node, frozenset(), 0)
     elif len(parts) > 1:
         contained = set(map(id, parts))
         shared = [part for part in shared if id(part) in contained]
     if total is not None and names is None:
-        total.bound = frozenset(found.bound)
-    listed = found.all() if names is None else list(dict.fromkeys(names))
-    reserve = found.special if names is None else 0
+        total.bound = frozenset(collected.bound)
+    listed = collected.all() if names is None else list(dict.fromkeys(names))
+    reserve = collected.special if names is None else 0
     while True:
         try:
             return _lowered(node, fail, listed, reserve, shared, total)
@@ -109,9 +109,9 @@ def _lowered(
 
 def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None) -> Value:
     """The polynomial over Q that ``term`` means, in the ring of its names."""
-    found = Names(fail, meet)
-    found.term(term, frozenset(), 0)
-    names = found.all()
+    collected = Names(fail, meet)
+    collected.term(term, frozenset(), 0)
+    names = collected.all()
     try:
         value = Lowering(Ring.of(names), fail, [], None).values.term(term)
     except Exhausted:

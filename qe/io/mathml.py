@@ -34,10 +34,10 @@ _AND, _OR = "∧", "∨"
 
 def name(variable: str) -> str:
     """A variable: ``x1`` as x with an index, Greek letters by name, long words upright."""
-    found = _NAME.fullmatch(variable)
-    if found is None:
+    parts = _NAME.fullmatch(variable)
+    if parts is None:
         return f"<mi>{escape(visible(variable))}</mi>"
-    letters, number, primes = found.groups()
+    letters, number, primes = parts.groups()
     text = _LETTERS.get(letters, escape(letters)) + "′" * len(primes)
     return f"<msub><mi>{text}</mi><mn>{number}</mn></msub>" if number else f"<mi>{text}</mi>"
 

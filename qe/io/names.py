@@ -60,7 +60,7 @@ class Renaming:
 def names_in(formula: Formula) -> list[str]:
     """Every name of a formula: those of its ring, and those that only quantifiers and root atoms mention."""
     ring = ring_of(formula)
-    found = dict.fromkeys(ring.names if ring is not None else ())
-    found.update(dict.fromkeys(a.variable for a in atoms(formula) if not isinstance(a, Atom)))
-    found.update(dict.fromkeys(bound_variables(formula)))
-    return list(found)
+    names = dict.fromkeys(ring.names if ring is not None else ())
+    names.update(dict.fromkeys(a.variable for a in atoms(formula) if not isinstance(a, Atom)))
+    names.update(dict.fromkeys(bound_variables(formula)))
+    return list(names)

@@ -156,7 +156,6 @@ def _notation(names: Renaming) -> Notation:
 
     notation = Notation(
         name=lambda name: names[name],
-        relation=lambda relation: relation.value,
         quantifier=lambda universal, variables: "",
         root=root,
         conjunction=" /\\ ",

@@ -120,11 +120,6 @@ def write(formula: Formula) -> str:
         relation=lambda relation: "<>" if relation is Relation.NE else relation.value,
         quantifier=quantifier,
         root=_no_root,
-        conjunction=" and ",
-        disjunction=" or ",
-        negation="not ",
-        true="true",
-        false="false",
         scope=("", ")"),
     )
     return formula.written(notation)

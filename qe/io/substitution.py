@@ -73,9 +73,9 @@ def _put(formula: Formula, i: int, top: Poly, bottom: Poly) -> Formula:
 
 
 def _names(term: s.Term) -> list[str]:
-    found = Names(_fail, lambda name, at: None)
-    found.term(term, frozenset(), 0)
-    return found.all()
+    collected = Names(_fail, lambda name, at: None)
+    collected.term(term, frozenset(), 0)
+    return collected.all()
 
 
 def _polynomial(term: s.Term) -> Value | None:

@@ -261,10 +261,10 @@ def expression_from(given: object) -> Any:
     """The SymPy expression that is given, as an object or a number, not as text."""
     import sympy
 
-    found = _basic(given, "a SymPy expression")
-    if not isinstance(found, sympy.Expr):
-        raise InputError(f"a SymPy expression expected, {shown(found)} found")
-    return found
+    expression = _basic(given, "a SymPy expression")
+    if not isinstance(expression, sympy.Expr):
+        raise InputError(f"a SymPy expression expected, {shown(expression)} found")
+    return expression
 
 
 def _basic(given: object, expected: str) -> Any:

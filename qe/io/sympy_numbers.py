@@ -43,10 +43,10 @@ def number_from_sympy(number: object) -> RealAlgebraic | None:
     if not isinstance(number, sympy.Expr) or not number.is_number or number.is_real is not True:
         return None
     try:
-        found = sympy.minimal_polynomial(number, sympy.Symbol("x"), polys=True)
+        minimal = sympy.minimal_polynomial(number, sympy.Symbol("x"), polys=True)
     except (sympy.polys.polyerrors.BasePolynomialError, RuntimeError):  # not algebraic, or SymPy cannot tell
         return None
-    coefficients = [int(c) for c in reversed(found.clear_denoms(convert=True)[1].all_coeffs())]
+    coefficients = [int(c) for c in reversed(minimal.clear_denoms(convert=True)[1].all_coeffs())]
     for digits in (30, 120, 480, 1920):
         value = decimal_of(number.evalf(digits))
         error = Fraction(1 + abs(value), 10 ** (digits - 5))

@@ -219,5 +219,5 @@ def _product(factors: list[s.Term]) -> s.Term:
 
 def signs(symbols: Iterable[Any]) -> dict[str, s.Node]:
     """What the assumptions of symbols say, by name."""
-    found = {symbol.name: assumption(symbol) for symbol in symbols}
-    return {name: node for name, node in found.items() if node is not None}
+    assumed = {symbol.name: assumption(symbol) for symbol in symbols}
+    return {name: node for name, node in assumed.items() if node is not None}

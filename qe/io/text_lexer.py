@@ -118,10 +118,10 @@ def tokens(text: str) -> Iterator[Token]:
     if end and text[end - 1] == ".":
         end -= 1  # a full stop
     while at < end:
-        found = match(text, at, end)
-        if found is None:
+        token = match(text, at, end)
+        if token is None:
             raise unknown_character(text, at)
-        kind, value = found.lastgroup, found.group()
+        kind, value = token.lastgroup, token.group()
         if kind == "NAME":
             yield from state.put(KEYWORDS.get(value, "NAME"), value, at)
         elif kind == "OPERATOR":
@@ -156,7 +156,7 @@ def tokens(text: str) -> Iterator[Token]:
             raise SyntaxFailure(f"'{value}' stands only behind the variables of a quantifier", at)
         elif kind != "SPACE":
             yield from state.put(str(kind), value, at)
-        at += len(value) if kind == "NUMBER" else len(found.group())
+        at += len(value) if kind == "NUMBER" else len(token.group())
         if kind != "SPACE":
             state.end = at
 
@@ -236,16 +236,16 @@ class State:
         if head[0] in "EA" and len(head) > 1:
             head = head[0]
         yield from self.put("QUANTIFIER", head, at)
-        for found in re.compile(rf"({_LIST})|,").finditer(value, value.index(head) + len(head)):
-            name = found[1]
+        for part in re.compile(rf"({_LIST})|,").finditer(value, value.index(head) + len(head)):
+            name = part[1]
             shown = "," if name is None else quoted_name(name, at) if name[0] == "`" else name
             self.note("NAME" if name else "COMMA")
-            yield Token("NAME" if name else "COMMA", shown, at + found.start())
+            yield Token("NAME" if name else "COMMA", shown, at + part.start())
 
     def goes_on(self, at: int) -> bool:
         """Whether another variable of the quantifier comes here, not its body."""
-        found = _NEXT_NAME.match(self.text, at)
-        return found is not None and found[1] not in KEYWORDS and found[1].lower() not in FUNCTIONS
+        following = _NEXT_NAME.match(self.text, at)
+        return following is not None and following[1] not in KEYWORDS and following[1].lower() not in FUNCTIONS
 
     def bounds_another(self, at: int) -> bool:
         """Whether another variable comes here with a condition of its own, as in ``∃ x > 0, y > 0: x*y = a``."""

@@ -55,7 +55,7 @@ class Total:
     def at(self, point: Mapping[str, Any]) -> list[tuple[str, Any, Any]]:
         """Function, argument and value of the unknowns at a point; not those whose argument is no quotient there, or
         is another one by their guards. Those whose guards are not decided at sight come last."""
-        found: list[tuple[str, Any, Any]] = []
+        certain: list[tuple[str, Any, Any]] = []
         doubtful: list[tuple[str, Any, Any]] = []
 
         def sign(poly: Poly) -> int | None:
@@ -77,8 +77,8 @@ class Total:
                     if all(bottom != 0 for bottom, _ in below):
                         for bottom, k in below:
                             value = value / bottom**k
-                        (found if holds else doubtful).append((function, value, point.get(name, Fraction(0))))
-        return found + doubtful
+                        (certain if holds else doubtful).append((function, value, point.get(name, Fraction(0))))
+        return certain + doubtful
 
     def begin(self) -> None:
         """Forget what an earlier attempt told."""

@@ -132,12 +132,12 @@ class Valuation(Auxiliaries):
             if not bottom:
                 raise TermError("division by zero")
             return self.times(left, terms.number(self.ring, 1 / bottom))
-        found = self.times(left, self.inverse(right))
+        quotient = self.times(left, self.inverse(right))
         if self.total is None:
-            return found
+            return quotient
         zero = self.zero(right)
         outside = [case for n in self.listed(left) for case in self.outside("/", n)]
-        return (*self.listed(found), *(c for case in outside for g in zero for c in cases.guarded(g, case)))
+        return (*self.listed(quotient), *(c for case in outside for g in zero for c in cases.guarded(g, case)))
 
     def inverse(self, value: Meaning) -> Cases:
         return tuple(
@@ -156,10 +156,10 @@ class Valuation(Auxiliaries):
             base = self.radical(base, exponent.denominator)
         k = abs(exponent.numerator)
         if isinstance(base, Value):
-            found: Meaning = terms.power(base, k)
+            result: Meaning = terms.power(base, k)
         else:
-            found = tuple(c for case in base for c in cases.guarded(case.guards, cases.power(case, k)))
-        return found if exponent >= 0 else self.over(terms.number(self.ring, 1), found)
+            result = tuple(c for case in base for c in cases.guarded(case.guards, cases.power(case, k)))
+        return result if exponent >= 0 else self.over(terms.number(self.ring, 1), result)
 
     # --- functions -------------------------------------------------------------------------------------------
     def apply(self, function: str, arguments: list[Meaning]) -> Meaning:
@@ -182,21 +182,21 @@ class Valuation(Auxiliaries):
 
     def signed(self, value: Meaning, relation: Relation) -> list[tuple[Formula, Formula]]:
         """The ways in which ``value relation 0`` can hold or not: the guards of a case, with and without it."""
-        found = []
+        ways = []
         for case in self.listed(value):
             holds = cases.holds(case._replace(guards=()), relation)
             fails = cases.holds(case._replace(guards=()), relation.negated)
-            found.append((conj((*case.guards, holds)), conj((*case.guards, fails))))
-        return found
+            ways.append((conj((*case.guards, holds)), conj((*case.guards, fails))))
+        return ways
 
     def choose(self, ways: list[tuple[Formula, Formula]], then: Meaning, other: Meaning) -> Meaning:
         """``then`` where the first of a pair holds, ``other`` where the second does."""
-        found: list[Case] = []
+        chosen: list[Case] = []
         for yes, no in ways:
             for guard, value in ((yes, then), (no, other)):
                 guards = guard.args if isinstance(guard, And) else (guard,)
-                found += [c for case in self.listed(value) for c in cases.guarded(guards, case)]
-        return self.simple(tuple(found))
+                chosen += [c for case in self.listed(value) for c in cases.guarded(guards, case)]
+        return self.simple(tuple(chosen))
 
     def choice(self, term: Choice) -> Meaning:
         loose = self.loose
@@ -214,16 +214,16 @@ class Valuation(Auxiliaries):
         """The root of a degree: not negative and of arguments that are not (``odd``: the only real one)."""
         if degree > terms.MAX_EXPONENT:
             raise TermError(f"a root of degree {degree} is above the limit of {terms.MAX_EXPONENT}")
-        found: list[Case] = []
+        roots: list[Case] = []
         for case in self.listed(value):
             inside = () if odd else (cases.holds(case._replace(guards=()), Relation.GE),)
             for guarded in cases.guarded(inside, case):
                 root = self.square_root(guarded) if degree == 2 else self.other_root(guarded, degree, odd)
-                found += [c for part in root for c in cases.guarded(guarded.guards, part)]
+                roots += [c for part in root for c in cases.guarded(guarded.guards, part)]
             if inside and self.total is not None:
                 negative = cases.holds(case, Relation.LT)
-                found += [c for part in self.outside("sqrt", case) for c in cases.guarded((negative,), part)]
-        return self.simple(tuple(found))
+                roots += [c for part in self.outside("sqrt", case) for c in cases.guarded((negative,), part)]
+        return self.simple(tuple(roots))
 
     def square_root(self, case: Case) -> Cases:
         """``sqrt(case)``: squares are taken out, and s^2 is a polynomial t for the one root s that may be left."""

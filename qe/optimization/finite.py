@@ -40,13 +40,13 @@ def listed(formula: Formula, variables: Sequence[str], budget: Budget) -> tuple[
     except Unable:
         budget.check("points")
         return ()
-    found: list[ExactPoint] = []
+    points: list[ExactPoint] = []
     for place in leaves(table, _holds):
-        if place.depth < len(variables) or any(k % 2 == 0 for k in place.path) or len(found) == MOST_POINTS:
+        if place.depth < len(variables) or any(k % 2 == 0 for k in place.path) or len(points) == MOST_POINTS:
             return ()
         values = coordinates(table, place)
-        found.append(ExactPoint({name: simplest(values[name]) for name in variables}))
-    return tuple(found)
+        points.append(ExactPoint({name: simplest(values[name]) for name in variables}))
+    return tuple(points)
 
 
 def _holds(cell: Cell) -> bool:

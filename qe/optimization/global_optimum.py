@@ -105,13 +105,13 @@ def best(sign: int, goal: Goal, *, budget: Budget | None = None, check: bool = F
     """
     limits = budget or Budget()
     values, unproved = goal.values(limits, check=check)
-    found, members = _found(sign, goal, unproved, limits)
+    optimum, members = _found(sign, goal, unproved, limits)
     if check:
-        limits.keep(replace(found, reason=UNPROVED))
+        limits.keep(replace(optimum, reason=UNPROVED))
     answer = goal.proved(values, limits, check=check)
     if answer.certificate is None:
-        return replace(found, answer=answer)
-    return replace(found, answer=answer, certificate=Certificate.bundle([("values", answer.certificate), *members]))
+        return replace(optimum, answer=answer)
+    return replace(optimum, answer=answer, certificate=Certificate.bundle([("values", answer.certificate), *members]))
 
 
 def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[GlobalOptimum, Members]:
@@ -139,7 +139,7 @@ def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[Globa
         points = points or listed(having, goal.variables, limits)
         place = exists((goal.value, *goal.variables), _place(goal, value))
         members += _proof_of(place, {**point, goal.value: value})
-    found = GlobalOptimum(
+    optimum = GlobalOptimum(
         status=OptimumStatus.OPTIMAL,
         value=value,
         attained=attained,
@@ -150,7 +150,7 @@ def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[Globa
         answer=answer,
         points=points,
     )
-    return found, members
+    return optimum, members
 
 
 def point_of(goal: Goal, value: Number, budget: Budget) -> Values:

@@ -120,10 +120,10 @@ class ParametricOptimum:
         place = replace(self._goal, conditions=conj((self._goal.conditions, *fixed)), polynomial=None)
         here = exists(self.parameters, conj((convert(self.values, self._goal.ring), *fixed)))
         taken = solve(here, Options(), budget).formula
-        found = fibre_of(self._table, list(given.values()), budget=budget)
-        if not found:
+        values = fibre_of(self._table, list(given.values()), budget=budget)
+        if not values:
             return GlobalOptimum(OptimumStatus.INFEASIBLE, None, None, {}, FALSE, taken, self.variable, self.answer)
-        end = found[0] if self._sign > 0 else found[-1]
+        end = values[0] if self._sign > 0 else values[-1]
         value, attained = (end.lower, end.lower_closed) if self._sign > 0 else (end.upper, end.upper_closed)
         if value is None:
             return GlobalOptimum(OptimumStatus.UNBOUNDED, None, None, {}, FALSE, taken, self.variable, self.answer)
@@ -174,7 +174,7 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
             cases = [(at, case) for at, case in cases if not case.attained]
             cases += _with_points(pieces, len(goal.parameters))
             cases.sort(key=lambda pair: pair[0])
-    found = ParametricOptimum(
+    optimum = ParametricOptimum(
         cases=tuple(case for _, case in cases),
         parameters=goal.parameters,
         values=taken,
@@ -186,12 +186,12 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
         _sign=sign,
     )
     if check:
-        limits.keep(replace(found, reason=UNPROVED))
+        limits.keep(replace(optimum, reason=UNPROVED))
     answer = goal.proved(values, limits, check=check)
     if answer.certificate is None:
-        return replace(found, answer=answer)
+        return replace(optimum, answer=answer)
     members = [("values", answer.certificate), ("cases", Certificate.cells(table))]
-    return replace(found, answer=answer, certificate=Certificate.bundle(members))
+    return replace(optimum, answer=answer, certificate=Certificate.bundle(members))
 
 
 def _by_value(pieces: Iterable[Piece], sign: int) -> Iterator[tuple[Number, Case]]:
@@ -199,8 +199,8 @@ def _by_value(pieces: Iterable[Piece], sign: int) -> Iterator[tuple[Number, Case
     for ranges, stack in groupby(pieces, key=lambda piece: piece.ranges[:-1]):
         values = list(stack)
         end = values[0 if sign > 0 else -1].ranges[-1]
-        found, closed = end.end(lower=sign > 0)
-        yield _place(values[0]), Case(ranges, found, found is not None and closed)
+        end_value, closed = end.end(lower=sign > 0)
+        yield _place(values[0]), Case(ranges, end_value, end_value is not None and closed)
 
 
 def _with_points(pieces: Iterable[Piece], size: int) -> Iterator[tuple[Number, Case]]:

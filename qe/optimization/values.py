@@ -93,10 +93,10 @@ class Goal:
 
     def values(self, budget: Budget, *, check: bool) -> tuple[Outcome, Answer]:
         """The values that are taken, as a formula in ``value`` and the parameters; nothing is proved yet."""
-        found = answered(self.taken, Options(certify=check), budget)
-        return found, replace(answer_to(self.taken, found), certificate=None, reason=UNPROVED if check else "")
+        outcome = answered(self.taken, Options(certify=check), budget)
+        return outcome, replace(answer_to(self.taken, outcome), certificate=None, reason=UNPROVED if check else "")
 
-    def proved(self, found: Outcome, budget: Budget, *, check: bool) -> Answer:
+    def proved(self, outcome: Outcome, budget: Budget, *, check: bool) -> Answer:
         """The values with their certificate."""
         options = Options(certify=check)
-        return answer_to(self.taken, proved(self.taken, found, options, budget))
+        return answer_to(self.taken, proved(self.taken, outcome, options, budget))

@@ -39,14 +39,14 @@ def described(
         region.answer = None if given is formula else _counted(formula, given)
         return region
     options = Options(order=names, certify=check)
-    found = answered(formula, options, budget)
-    region = Region.of(found.formula, names or found.order, budget=budget, limits=limits)
+    outcome = answered(formula, options, budget)
+    region = Region.of(outcome.formula, names or outcome.order, budget=budget, limits=limits)
     if check:
-        region.answer = replace(answer_to(formula, found), certificate=None, reason=UNPROVED)
+        region.answer = replace(answer_to(formula, outcome), certificate=None, reason=UNPROVED)
         region.reason = UNPROVED
         budget.keep(region)
         region.reason = ""
-    region.answer = answer_to(formula, proved(formula, found, options, budget))
+    region.answer = answer_to(formula, proved(formula, outcome, options, budget))
     return region
 
 

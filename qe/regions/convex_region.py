@@ -86,8 +86,8 @@ class ConvexRegion(Region):
 
     def _eliminated(self) -> Formula:
         shadow = self._shadow
-        found = shadow.eliminate(shadow.whole, self._current()) if shadow.hidden else shadow.conditions
-        return nnf(convert(found, Ring.of(self.order)))
+        formula = shadow.eliminate(shadow.whole, self._current()) if shadow.hidden else shadow.conditions
+        return nnf(convert(formula, Ring.of(self.order)))
 
     @property
     def table(self) -> CellTable:
@@ -166,14 +166,14 @@ class ConvexRegion(Region):
 
     def _bounded(self, variable: str) -> Interval:
         try:
-            found = self._range(variable, self._shadow.conditions)
+            interval = self._range(variable, self._shadow.conditions)
         except Unable as error:
             if not self._has_small_table(error):
                 raise
             return super()._bounded(variable)
-        if found is None:
+        if interval is None:
             raise InputError("an empty region has no bounds")
-        return found
+        return interval
 
     def _fibre(self, values: list[Number]) -> list[Interval]:
         if any(_rational(value) is None for value in values):
@@ -182,12 +182,12 @@ class ConvexRegion(Region):
             return super()._fibre(values)
         given = dict(zip(self.order, values, strict=False))
         try:
-            found = self._range(self.order[len(values)], self._under(given))
+            interval = self._range(self.order[len(values)], self._under(given))
         except Unable as error:
             if not self._has_small_table(error):
                 raise
             return super()._fibre(values)
-        return [] if found is None else [found]
+        return [] if interval is None else [interval]
 
     def _has_small_table(self, error: Unable) -> bool:
         """Whether the decomposition may take over from optimisation that could not prove its answer."""

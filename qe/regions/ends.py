@@ -42,20 +42,20 @@ def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float,
         wide = max(b * b - 4 * a * c, 0.0) ** 0.5
         pair = sorted(((-b - wide) / (2 * a), (-b + wide) / (2 * a)))
         return float(pair[root.k - 1])
-    found = numpy.roots(coefficients[::-1])
-    if not thin and _are_close(found):
+    roots = numpy.roots(coefficients[::-1])
+    if not thin and _are_close(roots):
         exact = [float(r) for r in _exact_roots(root.poly, values)]
         return exact[min(root.k, len(exact)) - 1] if exact else fallback
-    real: list[float] = sorted(float(z.real) for z in found if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
+    real: list[float] = sorted(float(z.real) for z in roots if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
     if thin:
         real = [b for a, b in zip([-numpy.inf, *real], real, strict=False) if b - a > 1e-5 * max(1.0, abs(b))]
     return real[min(root.k, len(real)) - 1] if real else fallback
 
 
-def _are_close(found: numpy.ndarray[Any, Any]) -> bool:
+def _are_close(roots: numpy.ndarray[Any, Any]) -> bool:
     """Whether two roots are so near to each other that floating point may not tell whether they are real."""
-    apart = numpy.abs(found[:, None] - found) + 9 * numpy.eye(len(found)) * (1 + abs(found))
-    return bool((apart < CLOSE * (1 + numpy.abs(found))).any())
+    apart = numpy.abs(roots[:, None] - roots) + 9 * numpy.eye(len(roots)) * (1 + abs(roots))
+    return bool((apart < CLOSE * (1 + numpy.abs(roots))).any())
 
 
 def _exact_roots(poly: Poly, values: Mapping[int, float]) -> list[RealAlgebraic]:

@@ -63,8 +63,8 @@ class SetOperations:
 
     def __ge__(self, other: object) -> bool:
         """Whether the other set is a subset of it."""
-        found: bool = _ways().compared("superset", self, other, None)
-        return found
+        answer: bool = _ways().compared("superset", self, other, None)
+        return answer
 
     def __eq__(self, other: object) -> bool:
         """Whether both are the same set of points; regions in other variables are not. The engine decides it."""
@@ -97,38 +97,38 @@ class SetOperations:
         In one to three variables (see ``qe.regions.planar`` and ``qe.regions.spatial``, which may take another variable
         for the first), and of sets that are seen to be convex in any number; otherwise raises ``Unable``.
         """
-        found: list[Self] = _ways().components(self, timeout)
-        return found
+        parts: list[Self] = _ways().components(self, timeout)
+        return parts
 
     def is_subset(self, other: object, *, timeout: float | None = None) -> bool:
         """Whether all points of the set are in the other one; so says ``a <= b``."""
-        found: bool = _ways().compared("subset", self, other, timeout)
-        return found
+        answer: bool = _ways().compared("subset", self, other, timeout)
+        return answer
 
     def is_disjoint(self, other: object, *, timeout: float | None = None) -> bool:
         """Whether the sets have no common point."""
-        found: bool = _ways().compared("disjoint", self, other, timeout)
-        return found
+        answer: bool = _ways().compared("disjoint", self, other, timeout)
+        return answer
 
     def equals(self, other: object, *, timeout: float | None = None) -> bool:
         """Whether both sets have the same points; so says ``a == b``."""
-        found: bool = _ways().compared("equal", self, other, timeout)
-        return found
+        answer: bool = _ways().compared("equal", self, other, timeout)
+        return answer
 
     def bounding_box(self, *, timeout: float | None = None) -> dict[str, Interval]:
         """The exact bounds of every variable; ``InputError`` for an empty set."""
-        found: dict[str, Interval] = _ways().bounding_box(self, timeout)
-        return found
+        box: dict[str, Interval] = _ways().bounding_box(self, timeout)
+        return box
 
     def project(self, variables: Any, *, timeout: float | None = None) -> Self:
         """The set of all values of some of the variables (in the order given) with which points of the set begin."""
-        found: Self = _ways().project(self, variables, timeout)
-        return found
+        shadow: Self = _ways().project(self, variables, timeout)
+        return shadow
 
     def section(self, values: Mapping[Any, Coordinate], *, timeout: float | None = None) -> Self:
         """The points of the set with these values of some variables, in the space of the other variables."""
-        found: Self = _ways().section(self, values, timeout)
-        return found
+        part: Self = _ways().section(self, values, timeout)
+        return part
 
     def distance(
         self, point: Mapping[Any, Coordinate] | Sequence[Coordinate], *, timeout: float | None = None
@@ -137,8 +137,8 @@ class SetOperations:
 
         Raises ``InputError`` for an empty set.
         """
-        found: Number = _ways().distance(self, point, timeout)
-        return found
+        distance: Number = _ways().distance(self, point, timeout)
+        return distance
 
     def exact_volume(self, *, timeout: float | None = None) -> Any:
         """The length, area or volume in closed form, as a SymPy expression.
@@ -154,21 +154,21 @@ class SetOperations:
         Random steps from variable to variable: every piece can be met, but no distribution is promised.
         Raises ``InputError`` for an empty set.
         """
-        found: dict[str, Number] = _ways().sample(self, seed, timeout)
-        return found
+        values: dict[str, Number] = _ways().sample(self, seed, timeout)
+        return values
 
     def find_instances(self, n: int, *, seed: int = 0, timeout: float | None = None) -> list[dict[str, Number]]:
         """Up to ``n`` different points of the set; fewer only where it has no more."""
-        found: list[dict[str, Number]] = _ways().instances(self, n, seed, timeout)
-        return found
+        points: list[dict[str, Number]] = _ways().instances(self, n, seed, timeout)
+        return points
 
     def _joined(self, way: str, other: object) -> Self:
-        found: Self = _ways().joined(way, self, other)
-        return found
+        joined: Self = _ways().joined(way, self, other)
+        return joined
 
     def _made(self, way: str, timeout: float | None) -> Self:
-        found: Self = getattr(_ways(), way)(self, timeout)
-        return found
+        made: Self = getattr(_ways(), way)(self, timeout)
+        return made
 
 
 def _ways() -> Any:

@@ -129,7 +129,7 @@ def connected_parts(cells: frozenset[Place], pairs: set[tuple[Place, Place]]) ->
     for cell, other in pairs:
         joined[cell].append(other)
         joined[other].append(cell)
-    left, found = set(cells), []
+    left, parts = set(cells), []
     for start in sorted(cells):
         if start not in left:
             continue
@@ -139,8 +139,8 @@ def connected_parts(cells: frozenset[Place], pairs: set[tuple[Place, Place]]) ->
             part |= new
             waiting += new
         left -= part
-        found.append(frozenset(part))
-    return found
+        parts.append(frozenset(part))
+    return parts
 
 
 def frontiers(table: CellTable, size: int, budget: Budget) -> dict[Place, frozenset[Place]]:
@@ -149,7 +149,7 @@ def frontiers(table: CellTable, size: int, budget: Budget) -> dict[Place, frozen
     base = {k: _beside(k, sections) for k in range(2 * sections + 1)}
     if size == 1:
         return {(k,): frozenset((j,) for j in near) for k, near in base.items()}
-    found: dict[Place, frozenset[Place]] = {}
+    closures: dict[Place, frozenset[Place]] = {}
     for k, near in base.items():
         budget.check("closures of cells", k)
         heights = len(stack_at(table, (k,)).sections)
@@ -160,8 +160,8 @@ def frontiers(table: CellTable, size: int, budget: Budget) -> dict[Place, frozen
                 last = 2 * len(stack_at(table, (j,)).sections)
                 low, high = (limits[t // 2],) * 2 if t % 2 else ends_of(limits, t // 2, last)
                 cells |= {(j, u) for u in range(max(low, 0), min(high, last) + 1)}
-            found[(k, t)] = frozenset(cells)
-    return found
+            closures[(k, t)] = frozenset(cells)
+    return closures
 
 
 def _beside(k: int, sections: int) -> list[int]:

@@ -116,21 +116,21 @@ class Region(SetOperations):
             return work()
         limits = self.limits if timeout is None else replace(self.limits, timeout=seconds(timeout))
         at_once = at_once and limits.timeout is not None
-        found, learned = perform(partial(self._learned, work), limits, at_once=at_once)
+        answer, learned = perform(partial(self._learned, work), limits, at_once=at_once)
         for learnt, value in learned.items():
             setattr(self, learnt, value)
-        return found
+        return answer
 
     def _learned(self, work: Callable[[], T], budget: Budget) -> tuple[T, dict[str, Any]]:
         """The answer, and what of the caches is new; perhaps in another process, of the region's copy there."""
         before = {cache: _known(getattr(self, cache)) for cache in _CACHES}
         self._budget = budget
         try:
-            found = work()
+            answer = work()
         finally:
             self._budget = None
         learned = {cache: getattr(self, cache) for cache in _CACHES}
-        return found, {cache: value for cache, value in learned.items() if _known(value) != before[cache]}
+        return answer, {cache: value for cache, value in learned.items() if _known(value) != before[cache]}
 
     def _current(self) -> Budget:
         """The budget of the question that is being answered."""
@@ -291,10 +291,9 @@ class Region(SetOperations):
     @property
     def proof(self) -> Certificate:
         """The certificate, beside that of the elimination of quantifiers where there is one."""
-        found = None if self.answer is None else self.answer.certificate
-        return (
-            self.certificate if found is None else Certificate.bundle([("formula", found), ("cells", self.certificate)])
-        )
+        formula = None if self.answer is None else self.answer.certificate
+        cells = self.certificate
+        return cells if formula is None else Certificate.bundle([("formula", formula), ("cells", cells)])
 
     def to_json(self) -> str:
         """The certificate's JSON, from which ``from_json`` restores the region."""

@@ -126,9 +126,9 @@ def _band(piece: Piece, spans: Sequence[Span]) -> Band:
     first, up = piece.ranges
     lo, hi = ends(piece, 0, {}, spans[0])
     xs = [lo] if first.is_point else list(lo + (hi - lo) * _inner_grid(SAMPLES))
-    found = [ends(piece, 1, {0: x}, spans[1]) for x in xs]
+    pairs = [ends(piece, 1, {0: x}, spans[1]) for x in xs]
     start, stop = (None if has is None else (x, has) for x, has in zip((lo, hi), _closed(first), strict=True))
-    return Band(xs, [low for low, _ in found], [high for _, high in found], *_closed(up), start, stop)
+    return Band(xs, [low for low, _ in pairs], [high for _, high in pairs], *_closed(up), start, stop)
 
 
 def _inner_grid(count: int) -> Any:
@@ -139,5 +139,5 @@ def _inner_grid(count: int) -> Any:
 def bands(region: Region) -> list[tuple[Sequence[float], Sequence[float], Sequence[float]]]:
     """A bounded region in two variables as areas between curves: values of the first variable, both ends over them."""
     nowhere = ((0.0, 0.0), (0.0, 0.0))  # every piece has ends of its own
-    found = [_band(piece, nowhere) for piece in region.cells if not piece.ranges[0].is_point]
-    return [(band.xs, band.low, band.high) for band in found]
+    listed = [_band(piece, nowhere) for piece in region.cells if not piece.ranges[0].is_point]
+    return [(band.xs, band.low, band.high) for band in listed]

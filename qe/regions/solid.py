@@ -106,15 +106,15 @@ def _size(lattices: Sequence[Array]) -> Array:
 def _lattice(piece: Piece, spans: Sequence[Span], counts: tuple[int, int, int]) -> Array:
     """Points of a piece, evenly spread between its ends in each variable: an array (nx, ny, nz, 3)."""
     nx, ny, nz = (1 if r.is_point else n for r, n in zip(piece.ranges, counts, strict=True))
-    found = np.empty((nx, ny, nz, 3))
+    points = np.empty((nx, ny, nz, 3))
     low, high = ends(piece, 0, {}, spans[0])
     for i, x in enumerate(_spread(low, high, nx)):
         low, high = ends(piece, 1, {0: x}, spans[1])
         for j, y in enumerate(_spread(low, high, ny)):
             bottom, top = ends(piece, 2, {0: x, 1: y}, spans[2])
-            found[i, j, :, 0], found[i, j, :, 1] = x, y
-            found[i, j, :, 2] = np.linspace(bottom, max(bottom, top), nz) if nz > 1 else bottom
-    return found
+            points[i, j, :, 0], points[i, j, :, 1] = x, y
+            points[i, j, :, 2] = np.linspace(bottom, max(bottom, top), nz) if nz > 1 else bottom
+    return points
 
 
 def _spread(low: float, high: float, count: int) -> Array:
@@ -157,7 +157,7 @@ class _Around:
 
     def covered(self, own: Piece, wall: Array, outwards: tuple[int, int]) -> NDArray[np.bool_]:
         """For each square of a block's wall (columns, rows, 3) whether another block lies just outside it."""
-        found = np.zeros((len(wall), wall.shape[1] - 1), dtype=bool)
+        inside = np.zeros((len(wall), wall.shape[1] - 1), dtype=bool)
         slack = SLACK * self.size[2]
         others = [piece for piece in self.pieces if piece is not own]
         probes = wall.copy()
@@ -166,8 +166,8 @@ class _Around:
             x = float(column[0, 0] + outwards[0] * SHIFT * self.size[0])
             y = float(column[0, 1] + outwards[1] * SHIFT * self.size[1])
             for low, high in self._above(others, x, y):
-                found[i] |= (column[:-1, 2] >= low - slack) & (column[1:, 2] <= high + slack)
-        return np.asarray(found[1:] & found[:-1])
+                inside[i] |= (column[:-1, 2] >= low - slack) & (column[1:, 2] <= high + slack)
+        return np.asarray(inside[1:] & inside[:-1])
 
     def touches(self, points: Array) -> bool:
         """Whether the middle of a sheet, a curve or a point lies on the border of a block."""
@@ -182,11 +182,11 @@ class _Around:
 
     def _above(self, pieces: Sequence[Piece], x: float, y: float) -> list[Span]:
         """The intervals of z over a place that belong to blocks."""
-        found = []
+        intervals = []
         for piece in pieces:
             low, high = ends(piece, 0, {}, self.spans[0])
             if low < x < high:
                 low, high = ends(piece, 1, {0: x}, self.spans[1])
                 if low < y < high:
-                    found.append(ends(piece, 2, {0: x, 1: y}, self.spans[2]))
-        return found
+                    intervals.append(ends(piece, 2, {0: x, 1: y}, self.spans[2]))
+        return intervals

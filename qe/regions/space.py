@@ -112,12 +112,12 @@ def direction(view: tuple[float, float]) -> Array:
 def _cut_faces(surface: Surface, order: tuple[str, ...], frame: Frame, size: Array) -> Any:
     """Which triangles lie in a plane of the frame."""
     corners = surface.vertices[surface.faces]
-    found = np.zeros(len(surface.faces), dtype=bool)
+    is_cut = np.zeros(len(surface.faces), dtype=bool)
     for axis, name in enumerate(order):
         for cut in frame.get(name, ()):
             if cut is not None:
-                found |= (np.abs(corners[:, :, axis] - cut) < 1e-5 * size[axis]).all(axis=1)
-    return found
+                is_cut |= (np.abs(corners[:, :, axis] - cut) < 1e-5 * size[axis]).all(axis=1)
+    return is_cut
 
 
 class _Drawn:

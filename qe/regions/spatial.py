@@ -107,8 +107,8 @@ class Space:
 
     def _touching(self, over: dict[Place, list[int]]) -> list[tuple[Place, Place]]:
         """Cells B and A of the plane with cells of the set over them, B in the closure of A; simple samples first."""
-        found = frontiers(self.table, 2, self.budget)
-        pairs = [(near, cell) for cell in over for near in found[cell] if near in over]
+        closures = frontiers(self.table, 2, self.budget)
+        pairs = [(near, cell) for cell in over for near in closures[cell] if near in over]
         return sorted(pairs, key=lambda pair: (sum(k % 2 for k in pair[0]), pair))
 
     def _meeting(self, near: Place, cell: Place, over: dict[Place, list[int]]) -> Iterator[tuple[Place, Place]]:
@@ -209,10 +209,10 @@ class Space:
     def _sample(self, place: Place) -> Point:
         """The sample point of a cell of the line or the plane."""
         if place not in self._samples:
-            found = root_place(self.table)
+            node = root_place(self.table)
             for position in place:
-                found = child(self.table, found, position)
-            self._samples[place] = found.point
+                node = child(self.table, node, position)
+            self._samples[place] = node.point
         return self._samples[place]
 
     def _is_special(self, near: Place) -> bool:
@@ -226,12 +226,12 @@ class Space:
 def _lacking(table: CellTable) -> tuple[Poly, ...]:
     """Coefficients whose common zeros need not be cells of their own (the projection of Lazard leaves some out)."""
     known = {f for level in table.factors for f in level}
-    found: dict[Poly, None] = {}
+    lacking: dict[Poly, None] = {}
     for f in table.factors[2]:
         coefficients = [c for c in f.coefficients(2) if c]
         if not any(c.is_constant for c in coefficients):
-            found |= {c: None for c in coefficients if any(g not in known for g, _ in c.factors()[1])}
-    return tuple(found)
+            lacking |= {c: None for c in coefficients if any(g not in known for g, _ in c.factors()[1])}
+    return tuple(lacking)
 
 
 # --- formulas of the components ------------------------------------------------------------------------------------
@@ -283,8 +283,8 @@ class Coordinates:
         z = ring.gen(2)
         moved = {i: ring.gen(i) + z * (sign * slope) for i, slope in enumerate(self.slant)}
 
-        def change(found: Atomic) -> Formula:
-            return atom(found.poly.compose(moved), found.relation)
+        def change(atomic: Atomic) -> Formula:
+            return atom(atomic.poly.compose(moved), atomic.relation)
 
         return map_atoms(convert(formula, ring), change)
 

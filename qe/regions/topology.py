@@ -81,9 +81,9 @@ def _is_convex(formula: Formula) -> bool:
 def _related(formula: Formula, relations: dict[Relation, Relation]) -> Formula:
     """The conditions with other relations; strict ones turn an equation into a contradiction."""
 
-    def change(found: Atomic) -> Formula:
-        if not isinstance(found, Atom) or (relations is _STRICT and found.relation is Relation.EQ):
+    def change(atomic: Atomic) -> Formula:
+        if not isinstance(atomic, Atom) or (relations is _STRICT and atomic.relation is Relation.EQ):
             return FALSE
-        return atom(found.poly, relations.get(found.relation, found.relation))
+        return atom(atomic.poly, relations.get(atomic.relation, atomic.relation))
 
     return map_atoms(formula, change)

@@ -54,14 +54,14 @@ def uprights(bands: Sequence[Band], height: float) -> Iterator[Upright]:
 
 def isolated(bands: Sequence[Band], height: float) -> list[tuple[float, float]]:
     """The pieces that are single points where no other piece ends."""
-    least, found = NEAR * height, []
+    least, points = NEAR * height, []
     for point in bands:
         if len(point.xs) == 1 and point.low == point.high:
             (x,), (y,) = point.xs, point.low
             beside = [part for side in _beside(bands, x) for part, _ in side]
             if not any(low - least <= y <= high + least for low, high in beside):
-                found.append((x, y))
-    return found
+                points.append((x, y))
+    return points
 
 
 def _beside(bands: Sequence[Band], x: float) -> tuple[list[tuple[Part, bool]], list[tuple[Part, bool]]]:

@@ -37,19 +37,19 @@ def walked(region: Region, random: Random, budget: Budget) -> Values | None:
 def different_points(region: Region, n: int, seed: int, budget: Budget) -> list[Values]:
     """Up to ``n`` different points, fewer only where there are no more; the same for the same seed."""
     random = Random(seed)
-    found: dict[tuple[Number, ...], Values] = {}
+    points: dict[tuple[Number, ...], Values] = {}
     misses = 0
-    while len(found) < n and misses < TRIES:
+    while len(points) < n and misses < TRIES:
         point = walked(region, random, budget)
         if point is None:
             return []
-        before = len(found)
-        found.setdefault(tuple(point.values()), point)
-        misses = 0 if len(found) > before else misses + 1
-    if len(found) < n and misses:  # few isolated points, perhaps, that are hard to meet
+        before = len(points)
+        points.setdefault(tuple(point.values()), point)
+        misses = 0 if len(points) > before else misses + 1
+    if len(points) < n and misses:  # few isolated points, perhaps, that are hard to meet
         for point in region.sample_points():
-            found.setdefault(tuple(simplest(value) for value in point.values()), point)
-    return list(islice(found.values(), n))
+            points.setdefault(tuple(simplest(value) for value in point.values()), point)
+    return list(islice(points.values(), n))
 
 
 def _value(offered: Interval, random: Random) -> Number:

@@ -34,7 +34,8 @@ def named(text: str) -> tuple[str, str]:
 
 
 def patched(before: str, change: str) -> str:
-    """The text with the lines marked with + put below the unmarked ones above them, each of which stands there once."""
+    """The text with the lines marked with + put below the others above them, each of which stands there once, and
+    without those marked with -."""
     lines, place = before.splitlines(), None
     for line in change.splitlines():
         if line.startswith("+"):
@@ -43,6 +44,9 @@ def patched(before: str, change: str) -> str:
             lines.insert(place, line[1:])
         else:
             (place,) = (k for k, old in enumerate(lines) if old == line[1:])
+            if line.startswith("-"):
+                del lines[place]
+                place -= 1
     return "\n".join(lines) + "\n"
 
 
@@ -94,6 +98,7 @@ def test_the_style_of_the_new_files(tree: Path) -> None:
 
 def test_a_change_that_fits_nowhere_is_seen() -> None:
     assert patched("a\nb\n", " a\n+c\n+d\n b\n+e") == "a\nc\nd\nb\ne\n"
+    assert patched("a\nb\n", "-a\n+c\n b\n+d") == "c\nb\nd\n"
     for before in ("b\n", "a\na\n"):
         with pytest.raises(ValueError):
             patched(before, " a\n+c")

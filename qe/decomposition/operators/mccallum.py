@@ -11,9 +11,10 @@ all that Brown–McCallum's does, its tables are proved by the latter's theorem.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from qe.decomposition.operators.lazard import LAZARD
-from qe.decomposition.operators.operator import Operator, multiple_roots
+from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.decomposition.operators.operator import multiple_roots
 from qe.exact.ring import Poly
 from qe.options import Projection
 
@@ -24,11 +25,4 @@ def of_one(f: Poly, variable: int) -> Iterator[Poly]:
     yield from multiple_roots(f, variable)
 
 
-MCCALLUM = Operator(
-    name=Projection.MCCALLUM,
-    source="McCallum 1998, Theorem 1",
-    of_one=of_one,
-    restricted=True,
-    otherwise=LAZARD,
-    proof=Projection.BROWN_MCCALLUM,
-)
+MCCALLUM = replace(BROWN_MCCALLUM, name=Projection.MCCALLUM, source="McCallum 1998, Theorem 1", of_one=of_one)

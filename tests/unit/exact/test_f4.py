@@ -85,9 +85,9 @@ def test_entries_where_the_first_prime_had_none_are_seen() -> None:
     trace = learned(given, monomials, PRIMES[0], 10**9)
     values = [[c for _, c in sorted(g.items(), reverse=True)] for g in given]
     for k, step in enumerate(trace.steps):
-        longest = max(range(len(step.found)), key=lambda j: len(step.found[j]))
-        shorter = [c[:-1] if j == longest else c for j, c in enumerate(step.found)]
-        steps = [*trace.steps[:k], replace(step, found=tuple(shorter)), *trace.steps[k + 1 :]]
+        longest = max(range(len(step.supports)), key=lambda j: len(step.supports[j]))
+        shorter = [c[:-1] if j == longest else c for j, c in enumerate(step.supports)]
+        steps = [*trace.steps[:k], replace(step, supports=tuple(shorter)), *trace.steps[k + 1 :]]
         with pytest.raises(Unlucky):
             Trace(steps, trace.heads, trace.tails).followed(values, PRIMES)
 
