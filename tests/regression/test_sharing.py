@@ -9,7 +9,7 @@ from qe.cli.smt import Solver
 from qe.errors import Unable
 from qe.formula.weight import written_out
 from qe.io import surface as s
-from qe.io.sharing import named, refuse_long
+from qe.io.sharing import named, ordered, refuse_long
 from qe.io.text import read
 from tests.tables import each
 
@@ -110,6 +110,6 @@ def test_names_make_a_tower_short() -> None:
     names = iter(f"b{k}" for k in range(100))
     found = named([tower(positive("x"), 40)], [], (), lambda: next(names))
     assert len(found.names) == len(found.definitions) > 5
-    refuse_long([*found.definitions, *found.nodes])
+    refuse_long(ordered([*found.definitions, *found.nodes]))
     with pytest.raises(Unable, match="written out"):
-        refuse_long([tower(positive("x"), 40)])
+        refuse_long(ordered([tower(positive("x"), 40)]))
