@@ -32,14 +32,9 @@ from tests.bezier.arm.test_choices import PLANAR, SKEW_WRIST, STILL
 from tests.bezier.arm.test_pose import SIX, SKEW_FREE, arm_of, at_the_pose_of, pairs_of
 from tests.bezier.arm.test_wrist import FLAT, FOLDED, PUMA, pairs_with
 from tests.certificates.restated import evidence_of, verdict_by
+from tests.certificates.test_inverse_position import accepted
 
 Payload = dict[str, Any]
-
-
-def accepted(payload: Any) -> bool:
-    verdict = verdict_by("joint positions", payload)
-    assert verdict.decided and (verdict.accepted or verdict.step.startswith("payload"))
-    return verdict.accepted
 
 
 def made(found: Inverse) -> Payload:

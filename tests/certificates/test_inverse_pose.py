@@ -28,15 +28,10 @@ from tests.bezier.arm.test_pose import BACKWARDS, SIX, at_the_pose_of, pairs_of
 from tests.bezier.arm.test_prismatic import ARMS, IDS, pair
 from tests.bezier.arm.test_wrist import PUMA, STANDARD
 from tests.certificates.restated import evidence_of, verdict_by
+from tests.certificates.test_inverse_position import accepted
 
 PLANAR, CYLINDER = load_arm("planar-3r"), load_arm("cylindrical")
 Change = Callable[[dict[str, Any]], object]
-
-
-def accepted(payload: Any) -> bool:
-    verdict = verdict_by("joint positions", payload)
-    assert verdict.decided and (verdict.accepted or verdict.step.startswith("payload"))
-    return verdict.accepted
 
 
 def made(found: Inverse) -> dict[str, Any]:

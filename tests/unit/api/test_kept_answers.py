@@ -73,6 +73,7 @@ def keeps(then: Callable[[], object], at: float, budget: Budget) -> object:
     end = time.monotonic() + at
     while time.monotonic() < end:
         budget.check("waiting")
+        time.sleep(0.002)
     budget.keep("first")
     budget.keep("last")
     return then()

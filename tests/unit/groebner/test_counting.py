@@ -21,6 +21,7 @@ from qe.groebner.segment import Segment
 from qe.groebner.signs import SignatureConditions
 from qe.groebner.trace_form import row_scales
 from qe.options import Budget
+from tests.enough import sized
 from tests.tables import each
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
@@ -88,20 +89,8 @@ def systems(draw: st.DrawFn) -> list[Poly]:
 POINTS = [(Fraction(a, 2), Fraction(b)) for a in (-2, 0, 3) for b in (-1, 0, 3)]
 
 
-@settings(max_examples=4)
-@given(systems())
+@sized(4, 50, systems())
 def test_the_count_is_that_of_isolation(polys: list[Poly]) -> None:
-    counts_agree(polys)
-
-
-@pytest.mark.deep
-@settings(max_examples=50)
-@given(systems())
-def test_the_count_is_that_of_isolation_often(polys: list[Poly]) -> None:
-    counts_agree(polys)
-
-
-def counts_agree(polys: list[Poly]) -> None:
     """At every point exactly one class, with the number of solutions that are isolated there."""
     try:
         found = qe.real_root_classification(polys, "x, y", "a, b", process=False)
