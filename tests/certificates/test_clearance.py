@@ -70,7 +70,7 @@ def test_atoms_of_the_sentence_cannot_be_changed(certificate: Certificate) -> No
             is_accepted = verify(Certificate(certificate.kind, everywhere["payload"])).accepted
             assert not (is_accepted and KINDS["clearance"][1](random.Random(0), everywhere)), node
             refused += not is_accepted
-    assert refused >= 8
+    assert refused >= 5
 
 
 def grown(polynomial: str) -> str:
