@@ -16,6 +16,7 @@ the coordinates are put in, and the numbers for what is left.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -34,7 +35,7 @@ from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.kernel.arithmetic.sturm import count_roots_between
-from qe.kernel.block import check_block
+from qe.kernel.block import block_goals, check_block
 from qe.kernel.boolean import Search, Theory
 from qe.kernel.derivation import limits_of
 from qe.kernel.linear_equation import Pivot, substituted
@@ -43,7 +44,7 @@ from qe.kernel.step import Claim
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Evidence, written
 from qe.proof.entry import Entry, Json, poly_to_text
-from qe.proving.lemma_list import EMPTY, Lemmas, Term
+from qe.proving.lemma_list import EMPTY, Lemmas, Term, with_cases
 
 System = Sequence[tuple[Terms, Relation]]
 Span = tuple[Fraction, Fraction, int | None]
@@ -143,11 +144,18 @@ class CurveSentence:
                 self._by_coefficients(lemmas, system, listed)
         try:
             theory = lemmas.only(range(len(lemmas.lemmas)))
-            evidence: Evidence = {"theory": self._with_cases(theory, spans)}
-            claim = Claim("signs", self.formula, FALSE, self.ring, Entry(evidence, ""), "")
-            check_block(claim, (), limits_of(budget or Budget(), RULES))
-        except CertificateRejected:  # not proved, or by products that are too long for the kernel
+        except CertificateRejected:  # products that are too long for the kernel
             return None
+        limits = limits_of(budget or Budget(), RULES)
+        evidence: Evidence = {"theory": self._with_cases(theory, spans)}
+        claim = Claim("signs", self.formula, FALSE, self.ring, Entry(evidence, ""), "")
+        try:
+            check_block(claim, (), limits)
+        except CertificateRejected:  # where comparisons have common factors, their signs have to be told apart, too
+            proved = with_cases(theory, block_goals(claim, ()), self.ring, limits)
+            if proved is None:
+                return None
+            evidence = {"theory": proved}
         return Certificate.step("signs", self.ring.names, self.formula, FALSE, evidence)
 
     def _with_cases(self, theory: Json, spans: Sequence[Sequence[Span]]) -> Json:
@@ -206,14 +214,18 @@ class CurveSentence:
     def _by_lines(self, lemmas: Lemmas, system: System, spans: Sequence[Span]) -> None:
         """The signs of the comparisons that the spans name."""
         named = {i for _, _, i in spans}
-        factors = dict.fromkeys(self.ends)
-        for i in range(len(system)) if None in named else sorted(i for i in named if i is not None):
-            terms, along = self._along(system[i])
-            unit, parts = along.factors() if along else (0, ())
-            if terms:
-                lemmas.identity([*terms, *([(-unit, parts)] if unit else [])])
-            factors |= dict.fromkeys(factor for factor, _ in parts)
-        lemmas.line(list(factors), self.ring.index["t"])
+        used = range(len(system)) if None in named else sorted(i for i in named if i is not None)
+        listed = [(terms, along) for terms, along in (self._along(system[i]) for i in used) if terms]
+        parts = [along.factors() if along else (0, ()) for _, along in listed]
+        often = Counter((*self.ends, *(factor for _, factors in parts for factor, _ in factors)))
+        signs = dict.fromkeys(self.ends)
+        for (terms, along), (unit, factors) in zip(listed, parts, strict=True):
+            if all(e == 1 and often[factor] == 1 for factor, e in factors) and factors:
+                unit, whole = along.normal()  # no other has a root of it: one sign says more than those of its factors
+                factors = ((whole, 1),)
+            lemmas.identity([*terms, *([(-unit, factors)] if unit else [])])
+            signs |= dict.fromkeys(factor for factor, _ in factors)
+        lemmas.line(list(signs), self.ring.index["t"])
 
     def _by_coefficients(self, lemmas: Lemmas, system: System, spans: Sequence[Span]) -> None:
         """The signs of Bernstein coefficients, and what they say."""
