@@ -4,17 +4,19 @@ A curve is x = P_x(t), y = P_y(t), ... for 0 <= t <= 1, polynomials over Q, or o
 by its polynomial and an interval. A sentence says that there is a point of the curve, between two parameters, at which
 one of several systems of comparisons holds.
 
-That it is false is proved in two steps: the coordinates are put in, and the signs of what they give are looked at.
-Over Q the irreducible factors of the comparisons and of the ends of the interval have no common roots, so their signs
-between all their real roots tell (lemma "line" of ``qe.kernel.signs``): there is a proof whenever the sentence is
-false. Over a number field a polynomial of degree n is, on [a, b], the sum of its Bernstein coefficients times
-(t - a)^k (b - t)^(n - k), up to a multiple of the generator's polynomial: an identity; and where the coefficients have
-one sign, it has that sign (Farouki, "The Bernstein polynomial basis", CAGD 2012, section 3). Signs of the coefficients,
-which are polynomials in the generator, are those on a line, too.
+That it is false is one step by signs. An identity says what a comparison is along the curve, up to multiples of the
+equations of the coordinates. Over Q: which irreducible factors it has; these and the ends of the interval have no
+common roots, so their signs between all their real roots tell (lemma "line" of ``qe.kernel.signs``): there is a proof
+whenever the sentence is false. Over a number field: a polynomial of degree n is, on [a, b], the sum of its Bernstein
+coefficients times (t - a)^k (b - t)^(n - k), up to a multiple of the generator's polynomial; and where the
+coefficients have one sign, it has that sign (Farouki, "The Bernstein polynomial basis", CAGD 2012, section 3). Signs
+of the coefficients, which are polynomials in the generator, are those on a line, too. That it is true needs a point:
+the coordinates are put in, and the numbers for what is left.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -27,17 +29,20 @@ from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Terms, rational
 from qe.certify.registry import RULES
+from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.kernel.arithmetic.sturm import count_roots_between
-from qe.kernel.block import block_goals
+from qe.kernel.block import block_goals, check_block
+from qe.kernel.boolean import Search, Theory
 from qe.kernel.derivation import limits_of
 from qe.kernel.linear_equation import Pivot, substituted
+from qe.kernel.signs import ANY, POSITIVE, read_polynomials
 from qe.kernel.step import Claim
 from qe.options import Budget
-from qe.proof.certificate import Certificate, written
+from qe.proof.certificate import Certificate, Evidence, written
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.lemma_list import EMPTY, Lemmas, Term, with_cases
 
@@ -124,27 +129,6 @@ class CurveSentence:
         place += [atom(e, Relation.EQ) for e in self.equations.values()]
         return exists(self.ring.names, conj((*place, disj(conj(map(self.comparison, s)) for s in self.systems))))
 
-    def put_in(self, formula: Formula) -> Iterator[tuple[str, Formula]]:
-        """A conjunction with the curve's coordinates put in, after each of them."""
-        claim = Claim("", TRUE, TRUE, self.ring, Entry({}, ""), "")
-        for name, equation in self.equations.items():
-            i = self.ring.index[name]
-            rest, lead = equation.coefficients(i)
-            kept = conj(part for part in conjuncts(formula) if part != atom(equation, Relation.EQ))
-            formula = substituted(Pivot(i, name, lead, rest, 1, kept), claim)
-            yield name, formula
-
-    def with_coordinates(self) -> tuple[Formula, Json]:
-        """The sentence about the parameters alone, and the step that leads to it."""
-        assert isinstance(self.formula, Exists)
-        body, solved = self.formula.body, list[Json]()
-        for name, formula in self.put_in(body):
-            if body != FALSE:  # it may be so before all coordinates are put in
-                body, (unit, normal) = formula, self.equations[name].normal()
-                solved.append([name, poly_to_text(normal), 1 if unit > 0 else -1])
-        after, evidence = exists(self.parameters, body), {"solved": solved, "theory": EMPTY}
-        return after, written("linear equation solved", (), self.formula, after, (), evidence)
-
     # --- proofs --------------------------------------------------------------------------------------------------
 
     def refuted(self, spans: Sequence[Sequence[Span]], budget: Budget | None = None) -> Certificate | None:
@@ -152,26 +136,59 @@ class CurveSentence:
         a comparison that fails on it. None where these do not prove it."""
         if self.formula == FALSE:  # no system has a solution anywhere
             return Certificate.derivation(self.ring.names, FALSE, [], FALSE)
-        after, first = self.with_coordinates()
-        if after == FALSE:
-            return Certificate.derivation(self.ring.names, self.formula, [first], FALSE)
         lemmas = Lemmas(self.ring)
         for system, listed in zip(self.systems, spans, strict=True):
             if self.theta is None:
                 self._by_lines(lemmas, system, listed)
             else:
                 self._by_coefficients(lemmas, system, listed)
-        claim = Claim("signs", after, FALSE, self.ring, Entry({"theory": None}, ""), "")
-        theory = lemmas.only(range(len(lemmas.lemmas)))
-        proved = with_cases(theory, block_goals(claim, ()), self.ring, limits_of(budget or Budget(), RULES))
-        if proved is None:
+        try:
+            theory = lemmas.only(range(len(lemmas.lemmas)))
+        except CertificateRejected:  # products that are too long for the kernel
             return None
-        steps = [first, written("signs", (), after, FALSE, (), {"theory": proved})]
-        return Certificate.derivation(self.ring.names, self.formula, steps, FALSE)
+        limits = limits_of(budget or Budget(), RULES)
+        evidence: Evidence = {"theory": self._with_cases(theory, spans)}
+        claim = Claim("signs", self.formula, FALSE, self.ring, Entry(evidence, ""), "")
+        try:
+            check_block(claim, (), limits)
+        except CertificateRejected:  # where comparisons have common factors, their signs have to be told apart, too
+            proved = with_cases(theory, block_goals(claim, ()), self.ring, limits)
+            if proved is None:
+                return None
+            evidence = {"theory": proved}
+        return Certificate.step("signs", self.ring.names, self.formula, FALSE, evidence)
+
+    def _with_cases(self, theory: Json, spans: Sequence[Sequence[Span]]) -> Json:
+        """The lemmas with the cases of the refutation: one system after the other is excluded, on one span after the
+        other."""
+        assert isinstance(theory, dict) and isinstance(self.formula, Exists)
+        polys = read_polynomials(Entry(theory["polynomials"], ""), self.ring)
+        search = Search(Theory(polys, (), limits_of(Budget(), {})), (self.formula.body,))
+        pieces = [conj(map(self.comparison, system)) for system in self.systems]
+        several, cases = len({*pieces} - {FALSE}) > 1, list[Json]()
+        for piece, listed in zip(pieces, spans, strict=True):
+            excluded: list[Json] = []
+            if several and piece != FALSE:
+                variable, signs = search.literal(piece)
+                excluded.append(8 * variable + (ANY & ~signs))
+            ends = listed[:-1] if self.theta is not None and piece != FALSE else ()
+            beyond = [polys.index(_above(self.ring.var("t"), high).normal()[1]) for _, high, _ in ends]
+            cases += [[0, [*excluded, 8 * number + POSITIVE]] for number in beyond]
+            cases += [[0, excluded]] if excluded else []
+        return {**theory, "cases": cases}
 
     def holds_at(self, t: Fraction) -> Certificate:
         """That it is true, since it holds at this parameter."""
-        after, first = self.with_coordinates()
+        assert isinstance(self.formula, Exists)
+        body, solved = self.formula.body, list[Json]()
+        claim = Claim("", TRUE, TRUE, self.ring, Entry({}, ""), "")
+        for name, equation in self.equations.items():
+            (rest, lead), (unit, normal) = equation.coefficients(self.ring.index[name]), equation.normal()
+            others = conj(part for part in conjuncts(body) if part != atom(equation, Relation.EQ))
+            body = substituted(Pivot(self.ring.index[name], name, lead, rest, 1, others), claim)
+            solved.append([name, poly_to_text(normal), 1 if unit > 0 else -1])
+        after, linear = exists(self.parameters, body), {"solved": solved, "theory": EMPTY}
+        first = written("linear equation solved", (), self.formula, after, (), linear)
         values: list[Json] = [str(t)]
         if self.generator:
             low, high = (str(_zero(end)) for end in self.generator[1:])
@@ -181,46 +198,60 @@ class CurveSentence:
         steps = [first, written("instance", (), after, TRUE, (), evidence)]
         return Certificate.derivation(self.ring.names, self.formula, steps, TRUE)
 
-    def _along(self, item: tuple[Terms, Relation]) -> Iterator[Poly]:
-        """The polynomial of a comparison along the curve, where that depends on the parameters."""
-        *_, (_, along) = self.put_in(self.comparison(item))
-        if isinstance(along, Atom):
-            yield along.poly
+    def _along(self, item: tuple[Terms, Relation]) -> tuple[list[Term], Poly]:
+        """Terms that add up to a polynomial in the parameters alone: a multiple of the comparison's, and multiples of
+        the equations of the coordinates."""
+        comparison = self.comparison(item)
+        if not isinstance(comparison, Atom):
+            return [], self.ring.constant(0)
+        scale, rest, listed = 1, comparison.poly, list[tuple[int, Poly, Poly]]()
+        for name, equation in self.equations.items():
+            factor, quotient, rest = _divided(rest, equation, self.ring.index[name])
+            scale, listed = scale * factor, [(c * factor, q, e) for c, q, e in listed]
+            listed += [(-1, quotient, equation)] if quotient else []
+        return [(scale, ((comparison.poly, 1),)), *((c, ((q, 1), (e, 1))) for c, q, e in listed)], rest
 
     def _by_lines(self, lemmas: Lemmas, system: System, spans: Sequence[Span]) -> None:
         """The signs of the comparisons that the spans name."""
         named = {i for _, _, i in spans}
         used = range(len(system)) if None in named else sorted(i for i in named if i is not None)
-        polys = [p for i in used for p in self._along(system[i])]
-        factors = [factor for p in polys for factor in _factored(lemmas, p)]
-        lemmas.line(list(dict.fromkeys((*self.ends, *factors))), self.ring.index["t"])
+        listed = [(terms, along) for terms, along in (self._along(system[i]) for i in used) if terms]
+        parts = [along.factors() if along else (0, ()) for _, along in listed]
+        often = Counter((*self.ends, *(factor for _, factors in parts for factor, _ in factors)))
+        signs = dict.fromkeys(self.ends)
+        for (terms, along), (unit, factors) in zip(listed, parts, strict=True):
+            if all(e == 1 and often[factor] == 1 for factor, e in factors) and factors:
+                unit, whole = along.normal()  # no other has a root of it: one sign says more than those of its factors
+                factors = ((whole, 1),)
+            lemmas.identity([*terms, *([(-unit, factors)] if unit else [])])
+            signs |= dict.fromkeys(factor for factor, _ in factors)
+        lemmas.line(list(signs), self.ring.index["t"])
 
     def _by_coefficients(self, lemmas: Lemmas, system: System, spans: Sequence[Span]) -> None:
         """The signs of Bernstein coefficients, and what they say."""
         signs = dict.fromkeys(self.generator)
         for low, high, i in spans:
-            if i is not None:
-                degree = self.curve.degree * max(map(sum, system[i][0]))
-                for poly in self._along(system[i]):
-                    signs.update(dict.fromkeys(self._coefficients(lemmas, poly, degree, (low, high))))
+            if i is not None and isinstance(self.comparison(system[i]), Atom):
+                degree = self.curve.degree * max(map(sum, system[i][0]), default=0)
+                signs |= dict.fromkeys(self._coefficients(lemmas, self._along(system[i]), degree, (low, high)))
         lemmas.line(list(signs), 0)
 
     def _coefficients(
-        self, lemmas: Lemmas, poly: Poly, degree: int, span: tuple[Fraction, Fraction]
+        self, lemmas: Lemmas, form: tuple[Sequence[Term], Poly], degree: int, span: tuple[Fraction, Fraction]
     ) -> Iterator[Poly]:
         """The irreducible factors of the coefficients on a span; with A = da t - na and B = nb - db t, which are not
         negative on it, w = na db - nb da: w t = na B + nb A, and w = db A + da B."""
         (na, da), (nb, db) = (end.as_integer_ratio() for end in span)
         t, i = self.ring.var("t"), self.ring.index["t"]
         w, from_low, to_high = nb * da - na * db, da * t - na, nb - db * t
-        scale, quotient, rest = _divided(poly, self.generator[0])
+        scale, quotient, rest = _divided(form[1], self.generator[0], 0)
         above, whole = nb * t + na, db * t + da
         powers = enumerate(rest.coefficients(i))
-        form = _total(self.ring, ((1, c * above**j * whole ** (degree - j)) for j, c in powers))
-        terms: list[Term] = [(-scale * w**degree, ((poly, 1),))]
+        total = _total(self.ring, ((1, c * above**j * whole ** (degree - j)) for j, c in powers))
+        terms: list[Term] = [(-c * scale * w**degree, parts) for c, parts in form[0]]
         if quotient:
             terms.append((w**degree, ((self.generator[0], 1), (quotient, 1))))
-        for k, c in enumerate(form.coefficients(i)):
+        for k, c in enumerate(total.coefficients(i)):
             if c:
                 unit, factors = c.factors()
                 basis = [(p, e) for p, e in ((from_low, k), (to_high, degree - k)) if e]
@@ -245,21 +276,13 @@ def _zero(linear: Poly) -> Fraction:
     return Fraction(-rest, lead)
 
 
-def _factored(lemmas: Lemmas, poly: Poly) -> list[Poly]:
-    """The irreducible factors, with the identity that makes the polynomial of them."""
-    unit, factors = poly.factors()
-    if factors != ((poly, 1),):
-        lemmas.identity(((1, ((poly, 1),)), (-unit, factors)))
-    return [factor for factor, _ in factors]
-
-
-def _divided(poly: Poly, p: Poly) -> tuple[int, Poly, Poly]:
-    """(c, q, r): c*poly = q*p + r with c > 0, and r of lower degree than p in the first variable."""
-    root, degree = poly.ring.gen(0), p.degree(0)
-    lead = p.leading(0).constant_value()
+def _divided(poly: Poly, p: Poly, i: int) -> tuple[int, Poly, Poly]:
+    """(c, q, r): c*poly = q*p + r with c > 0, and r of lower degree than p in a variable, whose power in p with the
+    highest exponent has a positive number as its coefficient."""
+    x, degree, lead = poly.ring.gen(i), p.degree(i), p.leading(i).constant_value()
     scale, quotient, rest = 1, poly.ring.constant(0), poly
-    while rest.degree(0) >= degree:
-        factor = rest.leading(0) * root ** (rest.degree(0) - degree)
+    while rest and rest.degree(i) >= degree:
+        factor = rest.leading(i) * x ** (rest.degree(i) - degree)
         scale, quotient, rest = scale * lead, quotient * lead + factor, rest * lead - factor * p
     return scale, quotient, rest
 
