@@ -19,7 +19,7 @@ from qe.proof.certificate import written
 from qe.proof.entry import Json
 from qe.proving.made import Made
 
-WORK, SHARE = 50_000, 0.25
+WORK, SHARE = 50_000, 0.5
 """Units of work for a decomposition, and the share of the time left that it may take."""
 
 
