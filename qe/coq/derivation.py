@@ -350,32 +350,6 @@ class _Steps:
         statement = f"entails {self.text.formulas(context)} (regular {self.text.poly(bottom)} {str(positive).lower()})"
         return self.text.lemma(statement, f"entails_same _ _ _ {lemma}", 1)
 
-    def guarded(self, claim: Claim, context: Context) -> str:
-        (entry,) = claim.evidence.fields("solved")[0].row("equation")
-        block, body = claim.block().variables, claim.block().body
-        pivot = pivot_of(entry, block, body, claim)
-        rest = tuple(v for v in block if v != pivot.name)
-        guard = atom(pivot.lead, Relation.NE)
-        one = conj((guard, body))
-        two = conj((atom(pivot.lead, Relation.EQ), atom(pivot.rest, Relation.EQ), pivot.others))
-        cases = disj((one, two))
-        known = outside(context, block)
-        goals = ((negation(cases), normal(body), *known), (negation(body), normal(cases), *known))
-        equation = pivot.equation, ((pivot.lead, self.ring.gen(pivot.x)), (pivot.rest,))
-        ps, identities, there, back = self.trees(None, goals, [equation])
-        split = self.lemma(known, body, cases, f"signs_equiv {ps} {identities} {there} {back} _ _ _", 2)
-        inner, image = Exists((pivot.name,), one), conj((guard, substituted(pivot, claim)))
-        outer = Exists(rest, inner) if rest else inner
-        middle, goal = Or((outer, Exists(block, two))), Or((exists(rest, image), Exists(block, two)))
-        solved = self.solved(known, inner, pivot, image, None)
-        lemmas = [
-            self.under(context, block, body, cases, split),
-            self.moved(context, exists(block, cases), middle),
-            self.at(context, middle, goal, (0, 0) if rest else (0,), inner, image, known, solved),
-            self.same(context, goal, claim.after),
-        ]
-        return self.chain(context, (claim.before, exists(block, cases), middle, goal, claim.after), lemmas)
-
     def point(self, claim: Claim, context: Context) -> str:
         before, after = existential(claim)
         order, numbers = claim.evidence.fields("order", "values")
@@ -470,7 +444,6 @@ _RULES: Mapping[str, Callable[[_Steps, Claim, Context], str]] = {
         _Steps.quantifiers,
     ),
     "linear equation solved": _Steps.linear,
-    "linear equation solved under a guard": _Steps.guarded,
     "elimination set": _Steps.elimination_set,
     "terms": _Steps.terms,
 }

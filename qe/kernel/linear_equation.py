@@ -1,10 +1,9 @@
-"""Rules "linear equation solved" and "linear equation solved under a guard" (Gauss).
+"""Rule "linear equation solved" (Gauss).
 
 THEOREM (Loos, Weispfenning 1993). Let a, b be polynomials without x, and f[-b/a] be f with a^d g(-b/a) in place of each
 g of degree d in x, times a once more where d is odd and the sign of a is not known (with the sign changed where it is
 negative). Then ex x (a*x + b = 0 and f) iff f[-b/a], if a /= 0 follows from what is known and from conjuncts of f
-without x, which f[-b/a] keeps; (a /= 0 and f[-b/a]) or ex x (a = 0 and b = 0 and f) in any case; and
-(a /= 0 or b = 0) and f, if x does not occur in f.
+without x, which f[-b/a] keeps; and (a /= 0 or b = 0) and f, if x does not occur in f.
 That conjuncts with x do not count is a side condition: 1 + a*x <= 0 implies a /= 0, but becomes a^2*(1 - b) <= 0.
 
 Evidence: ``solved``: [variable, equation, sign of a] in their order, the sign 1, -1, 0 (only known not to be zero) or
@@ -22,7 +21,7 @@ from qe.formula.syntax import Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.kernel.boolean import ByLemmas, Goal
 from qe.kernel.negation import negation
-from qe.kernel.step import Claim, Context, Limits, only, outside
+from qe.kernel.step import Claim, Context, only, outside
 from qe.kernel.substitution import mapped, quotient
 from qe.proof.entry import Entry, polynomial_from_json
 
@@ -48,21 +47,6 @@ def linear_goals(claim: Claim, context: Context) -> list[Goal]:
 
 
 check_linear = ByLemmas(linear_goals)
-
-
-def check_guarded_linear(claim: Claim, context: Context, limits: Limits) -> None:
-    """Both cases are compared with what stands after."""
-    (entry,) = only(claim, "solved")[0].row("equation")
-    block, body = claim.block().variables, claim.block().body
-    pivot = pivot_of(entry, block, body, claim)
-    if pivot.sign is not None:
-        raise claim.fail("expected an equation with a coefficient of unknown sign")
-    lead, rest = pivot.lead, pivot.rest
-    regular = conj((atom(lead, Relation.NE), substituted(pivot, claim)))
-    vanishing = conj((atom(lead, Relation.EQ), atom(rest, Relation.EQ), pivot.others))
-    left = tuple(v for v in block if v != pivot.name)
-    if claim.after != disj((exists(left, regular), exists(block, vanishing))):
-        raise claim.fail("not the two cases of the coefficient")
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,19 +84,6 @@ def pivot_of(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) ->
     return Pivot(x, name, lead, rest, sign if isinstance(sign, int) else None, others)
 
 
-def term(entry: Entry, names: Sequence[str], others: Formula, claim: Claim) -> Pivot:
-    """The substitution that an equation [variable, polynomial] gives whose coefficient is a number."""
-    variable, solved = entry.row("variable", "equation")
-    name, equation = variable.text(), polynomial_from_json(solved, claim.ring)
-    if name not in names:
-        raise variable.fail("expected a variable of the block")
-    x = claim.ring.index[name]
-    if equation.degree(x) != 1 or not equation.leading(x).is_constant:
-        raise solved.fail("expected an equation that is linear in the variable, with a number as its coefficient")
-    rest, lead = equation.coefficients(x)
-    return Pivot(x, name, lead, rest, 1 if lead.constant_value() > 0 else -1, others)
-
-
 def _solved(pivot: Pivot, claim: Claim) -> Formula:
     """What the equation leaves of the conjunction."""
     if pivot.sign is None:
@@ -132,7 +103,7 @@ def substituted(pivot: Pivot, claim: Claim) -> Formula:
             return given
         image = quotient(given.poly, x, -pivot.rest, lead)
         if degree % 2 and relation not in (Relation.EQ, Relation.NE):
-            image = image * (lead if pivot.sign in (0, None) else claim.ring.constant(pivot.sign or 1))
+            image = image * (pivot.sign or lead)
         return atom(image, relation)
 
     return conj(

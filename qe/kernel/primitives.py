@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from qe.kernel.block import check_block
 from qe.kernel.elimination_set import check_elimination_set
-from qe.kernel.linear_equation import check_guarded_linear, check_linear
+from qe.kernel.linear_equation import check_linear
 from qe.kernel.nested import check_converse, check_no_exception, check_steps
 from qe.kernel.open_block import check_inequations, check_open_block
 from qe.kernel.parts import check_parts
@@ -40,7 +40,6 @@ PRIMITIVES: Mapping[str, Check] = {
     "terms": check_terms,
     "root": check_root,
     "linear equation solved": check_linear,
-    "linear equation solved under a guard": check_guarded_linear,
     # test points
     "elimination set": check_elimination_set,
     # cylinders

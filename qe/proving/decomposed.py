@@ -19,8 +19,8 @@ from qe.proof.certificate import written
 from qe.proof.entry import Json
 from qe.proving.made import Made
 
-WORK, SHARE = 50_000, 0.25
-"""Units of work for a decomposition, and the share of the time left that it may take."""
+WORK = 50_000
+"""Units of work for a decomposition."""
 
 
 def decomposed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -33,7 +33,7 @@ def table(before: Formula, after: Formula, claim: Claim, limits: Limits) -> Json
     """The evidence of a decomposition for an equivalence; ``BudgetExceeded`` where it is too large."""
     if not after.is_quantifier_free or not set(before.free) >= set(after.free):
         raise claim.fail("an answer without quantifiers, and without other variables, expected")
-    certificate = certificate_for(before, after, Options(), limits.budget.share(SHARE).part(WORK))
+    certificate = certificate_for(before, after, Options(), limits.budget.part(WORK))
     if certificate is None:
         raise claim.fail("nothing to decompose")
     evidence: Json = certificate.single_step["evidence"]

@@ -18,7 +18,6 @@ from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, map_atoms, subformula
 from qe.kernel.block import block_goals, existential
 from qe.kernel.derivation import replaced
-from qe.kernel.linear_equation import term
 from qe.kernel.negation import normal
 from qe.kernel.open_block import generic
 from qe.kernel.root import root_goals
@@ -34,6 +33,7 @@ from qe.proving.decomposed import counted, decomposed, roots_by_signs
 from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
+from qe.proving.linear import guarded, term
 from qe.proving.made import FRESH, Made, by_lemmas, terms, value
 from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
@@ -273,6 +273,7 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "disjuncts with equations apart": distributed,
     "roots by signs": roots_by_signs,
     "rotation of the axes": turned,
+    "linear equation solved under a guard": guarded,
     "critical values of a universal block": decomposed,
     "comprehensive Gröbner system": counted,
 }

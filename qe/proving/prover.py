@@ -62,6 +62,7 @@ ELABORATED = (
     "degenerate truth set",
     "degree shift",
     "infinity first",
+    "linear equation solved under a guard",
     "linear form named",
     "roots by signs",
     "roots counted",

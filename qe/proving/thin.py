@@ -9,11 +9,12 @@ from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Not, Relation
 from qe.formula.traverse import conjuncts
 from qe.kernel.block import existential
-from qe.kernel.linear_equation import substituted, term
+from qe.kernel.linear_equation import substituted
 from qe.kernel.negation import negation, normal
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.terms import Quotient
 from qe.proof.entry import Entry, Json
+from qe.proving.linear import term
 from qe.proving.made import Made, at_number, by_signs
 
 

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from qe.kernel.linear_equation import check_guarded_linear, check_linear
+from qe.kernel.linear_equation import check_linear
 from tests.unit.certify.claims import NO_LEMMAS, objection
 
-RULE, GUARDED = check_linear, check_guarded_linear
+RULE = check_linear
 
 
 def by(*solved: list[Any]) -> dict[str, Any]:
@@ -69,19 +69,3 @@ def test_the_coefficient_may_be_known_outside_only_if_it_means_the_same() -> Non
     """y is bound: what is known of another y does not make the coefficient positive."""
     before, after = "ex x, y. y*x = b and x < c and y < a", "ex y. b < y*c and y < a"
     assert "do not exclude" in objection(RULE, before, after, by(["x", "x*y - b", 1]), "y > 0")
-
-
-def test_two_cases_of_a_coefficient() -> None:
-    before = "ex x. a*x = b and x > c"
-    after = "(a /= 0 and a*b > a^2*c) or (ex x. a = 0 and b = 0 and x > c)"
-    solved = {"solved": [["x", "a*x - b", None]]}
-    assert objection(GUARDED, before, after, solved) == ""
-    assert "two cases" in objection(
-        GUARDED, before, "(a /= 0 and b > a*c) or (ex x. a = 0 and b = 0 and x > c)", solved
-    )
-    assert "two cases" in objection(GUARDED, before, "a*b > a^2*c or (ex x. a = 0 and b = 0 and x > c)", solved)
-    assert "two cases" in objection(GUARDED, before, "(a /= 0 and a*b > a^2*c) or (ex x. a = 0 and x > c)", solved)
-    assert "two cases" in objection(GUARDED, before, "a /= 0 and a*b > a^2*c", solved)
-    assert "unknown sign" in objection(GUARDED, before, after, {"solved": [["x", "a*x - b", 0]]})
-    assert "expected [equation]" in objection(GUARDED, before, after, {"solved": [["x", "a*x - b", None]] * 2})
-    assert "expected [equation]" in objection(GUARDED, before, after, {"solved": []})
