@@ -22,24 +22,24 @@ CASE_WORK = 20_000
 
 def case_proofs(claim: Claim, options: Options, limits: Limits) -> Json:
     """Lemmas, or a certificate, for each case of a block over equations; None where neither is found."""
-    found: list[Json] = []
+    proofs: list[Json] = []
     try:
         for sentence in sentences(claim, limits.tick):
             theory = _lemmas(sentence, claim.ring, limits)
             if theory is not None:
-                found.append({"theory": theory})
+                proofs.append({"theory": theory})
                 continue
             proof = certificate_for(rename_apart(sentence), TRUE, options, limits.budget.part(CASE_WORK))
             if proof is None:
                 return None
             assert isinstance(proof.payload, dict)
-            found.append(proof.payload)
+            proofs.append(proof.payload)
     except CertificateRejected:
         return None
     except Unable:
         limits.budget.check("prove")
         return None
-    return found
+    return proofs
 
 
 def _lemmas(sentence: Formula, ring: Ring, limits: Limits) -> Json | None:
