@@ -59,9 +59,9 @@ def _move(direction: Entry, claim: Claim) -> tuple[str, dict[str, Fraction]]:
 
 
 def _at_zero(formula: Formula, names: list[str]) -> Formula:
-    def change(found: Atomic) -> Formula:
-        ring = found.poly.ring
-        return atom(found.poly.compose({ring.index[v]: ring.constant(0) for v in names}), found.relation)
+    def change(given: Atomic) -> Formula:
+        ring = given.poly.ring
+        return atom(given.poly.compose({ring.index[v]: ring.constant(0) for v in names}), given.relation)
 
     return map_atoms(formula, change)
 

@@ -28,12 +28,12 @@ class Part:
 def alternatives(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """The parts of a disjunction."""
     pieces, parts = only(claim, "pieces", "parts")
-    found, names = list[Part](), claim.block().variables
+    members, names = list[Part](), claim.block().variables
     for piece, steps in zip(pieces.items(), parts.items(), strict=True):
         body = formula_from_json(piece, claim.ring, quantified=True)
         end = limits.replay(steps, block_of(names, body, claim.ring), context, claim.ring)
-        found.append(Part(body, end, steps.value))
-    return by_alternatives(Made(claim, limits, claim.block(), context), names, found, claim.after)
+        members.append(Part(body, end, steps.value))
+    return by_alternatives(Made(claim, limits, claim.block(), context), names, members, claim.after)
 
 
 def by_alternatives(made: Made, names: Sequence[str], parts: Sequence[Part], after: Formula) -> list[Json]:
@@ -47,14 +47,14 @@ def by_alternatives(made: Made, names: Sequence[str], parts: Sequence[Part], aft
 
 def independent_parts(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """Parts of a conjunction without a common variable of the block."""
-    found, block = list[Part](), claim.block()
+    members, block = list[Part](), claim.block()
     beside = _beside(block.variables, block.body)
     for entry in only(claim, "pieces")[0].items():
         piece, together, steps = entry.fields("body", "together", "steps")
         body, known = formula_from_json(piece, claim.ring, quantified=True), beside if together.truth() else ()
         start = block_of(block.variables, conj((*known, body)), claim.ring)
-        found.append(Part(body, limits.replay(steps, start, context, claim.ring), steps.value, bool(known)))
-    return by_independent_parts(Made(claim, limits, block, context), block.variables, found, claim.after)
+        members.append(Part(body, limits.replay(steps, start, context, claim.ring), steps.value, bool(known)))
+    return by_independent_parts(Made(claim, limits, block, context), block.variables, members, claim.after)
 
 
 def by_independent_parts(made: Made, names: Sequence[str], parts: Sequence[Part], after: Formula) -> list[Json]:

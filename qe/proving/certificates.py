@@ -37,25 +37,25 @@ literature and of public threads none needed a decomposition in place of its ste
 
 
 def certificate_of(
-    asked: Formula, question: Formula, found: Outcome, log: RunLog, options: Options, budget: Budget
+    asked: Formula, question: Formula, outcome: Outcome, log: RunLog, options: Options, budget: Budget
 ) -> Proof:
     """The certificate that a method made if it is about this very question and answer; else one by a witness or by
     linear equations. Where one was asked for also: the derivation, or a decomposition if time allows.
 
     ``asked``: the formula of the caller; ``question``: the same with its root atoms counted and its variables renamed.
     """
-    problem, made = Block.of(question), found.certificate
-    if made is None and found.witness is not None and problem is not None and problem.is_flat and not problem.free:
-        made = witness_of(problem, found.witness)
+    problem, made = Block.of(question), outcome.certificate
+    if made is None and outcome.witness is not None and problem is not None and problem.is_flat and not problem.free:
+        made = witness_of(problem, outcome.witness)
     said = None if made is None else is_about(made, question)
-    if made is not None and said is not None and is_same(said, found.formula):
+    if made is not None and said is not None and is_same(said, outcome.formula):
         step = made.single_step
         assert isinstance(step["evidence"], dict)
-        return Proof(Certificate.step(str(step["rule"]), (), question, found.formula, step["evidence"]))
-    linear = substitution_certificate(question, found.formula)
+        return Proof(Certificate.step(str(step["rule"]), (), question, outcome.formula, step["evidence"]))
+    linear = substitution_certificate(question, outcome.formula)
     if linear is not None or not options.certify:
         return Proof(linear, reason="" if linear is not None else NOT_WANTED)
-    return derived_or_decomposed(asked, question, log, found.formula, options, budget)
+    return derived_or_decomposed(asked, question, log, outcome.formula, options, budget)
 
 
 def derived_or_decomposed(
@@ -81,9 +81,9 @@ def derived(asked: Formula, log: RunLog, answer: Formula, options: Options, budg
         from qe.proving.prover import proved
 
         derivation = put_together(without_clashes(asked), log.steps(), answer)
-        found = proved(derivation, answer, options, budget.share(PROOF_SHARE).part(CERTIFY_WORK))
-        missing = "" if found.certificate else f"no checked evidence for: {', '.join(found.unchecked)}"
-        return replace(found, reason=missing)
+        proof = proved(derivation, answer, options, budget.share(PROOF_SHARE).part(CERTIFY_WORK))
+        missing = "" if proof.certificate else f"no checked evidence for: {', '.join(proof.unchecked)}"
+        return replace(proof, reason=missing)
 
     return without_loss(made, lambda reason: Proof(None, (f"all ({reason})",), reason=reason))
 

@@ -34,9 +34,9 @@ def cofactors(
     """
     least = [max(t.total_degree, min(e.total_degree for e in generators)) for t in targets]
     variables = sorted({i for p in (*targets, *generators) for i in p.variables})
-    found: list[tuple[int, list[Poly]] | None] = [None] * len(targets)
+    solutions: list[tuple[int, list[Poly]] | None] = [None] * len(targets)
     for degree in range(min(least, default=0), max(least, default=-1) + SLACK + 1):
-        wanted = [k for k, low in enumerate(least) if found[k] is None and low <= degree <= low + SLACK]
+        wanted = [k for k, low in enumerate(least) if solutions[k] is None and low <= degree <= low + SLACK]
         budget.check("prove")
         columns = list(_columns(generators, variables, degree)) if wanted else []
         if len(columns) > MOST_UNKNOWNS:
@@ -44,10 +44,10 @@ def cofactors(
         solved = integer_combinations([terms for _, _, terms in columns], [dict(targets[k].terms()) for k in wanted])
         for k, solution in zip(wanted, solved, strict=True):
             if solution is not None:
-                found[k] = solution[0], _cofactors(columns, solution[1], generators)
+                solutions[k] = solution[0], _cofactors(columns, solution[1], generators)
     if not members:
-        return found
-    return [known or member(t, generators, budget) for known, t in zip(found, targets, strict=True)]
+        return solutions
+    return [known or member(t, generators, budget) for known, t in zip(solutions, targets, strict=True)]
 
 
 def _columns(generators: Sequence[Poly], variables: Sequence[int], degree: int) -> Iterator[Column]:

@@ -20,16 +20,16 @@ def roots_counted(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     before, after = existential(claim)
     made = Made(claim, limits, before, context)
     names = [name for name in claim.ring.names if name in after.bound - before.bound - {*before.free}]
-    for found in dict.fromkeys(a for a in atoms(before) if isinstance(a, RootAtom)):
+    for root in dict.fromkeys(a for a in atoms(before) if isinstance(a, RootAtom)):
         try:
-            counted = counted_roots(found, names)
+            counted = counted_roots(root, names)
         except IndexError:
             raise claim.fail("not enough names for the roots that are counted") from None
-        order = (*(v for v in found.free if v != found.variable), found.variable)  # its roots are those of one line
-        table = certificate_for(counted, found, Options(order=order), limits.budget)
+        order = (*(v for v in root.free if v != root.variable), root.variable)  # its roots are those of one line
+        table = certificate_for(counted, root, Options(order=order), limits.budget)
         if table is None:
             raise claim.fail("no decomposition shows what a comparison with a root means")
-        step = written("cells", (), counted, found, (), table.single_step["evidence"])
-        while found in {*atoms(made.current)}:
-            made.step("converse", found, counted, {"steps": [step]})
+        step = written("cells", (), counted, root, (), table.single_step["evidence"])
+        while root in {*atoms(made.current)}:
+            made.step("converse", root, counted, {"steps": [step]})
     return made.finished(after)

@@ -66,13 +66,13 @@ def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budg
     def said(values: Values) -> Json:
         return cells.said(values, holds_at(holds, dict(zip(names, values, strict=True))))
 
-    found = _stacks(levels, Point(ring), (), said)
+    stacks = _stacks(levels, Point(ring), (), said)
     return {
         "order": list(names),
         "bound": [str(int(not c.is_equation)) for c in conditions],
         "chains": [[[[k, poly_to_text(f)] for k, f in row] for row in rows] for rows in chains],
         "factors": [[poly_to_text(f.convert(outer)) for f in level] for level in levels],
-        "stacks": found,
+        "stacks": stacks,
         "points": [[str(v) for v in point] for point in cells.points],
         "weights": [[str(w) for w in row] for row in cells.weights],
         "regular": regular,
@@ -110,8 +110,8 @@ def _chains(
     """For each set that may be active a chain to polynomials whose common divisor vanishes in the walls alone."""
     outer = Ring.of(conditions[0].poly.ring.names[:free])
 
-    def enough(found: Sequence[Poly]) -> bool:
-        return bool(found) and all(f.convert(outer) in walls for f, _ in common(found).factors()[1])
+    def enough(polys: Sequence[Poly]) -> bool:
+        return bool(polys) and all(f.convert(outer) in walls for f, _ in common(polys).factors()[1])
 
     equations = [c.poly for c in conditions if c.is_equation]
     rows = []
@@ -154,9 +154,9 @@ class _Cells:
     def propose(self, values: Values, inside: bool) -> None:
         """A new point, or new weights, which may be wrong."""
         forms = [_form(over(c.matrix, values)) for c in self.conditions]
-        found, weights = proposed(forms)
-        if inside and found is not None:
-            self.points.append(tuple(found))
+        point, weights = proposed(forms)
+        if inside and point is not None:
+            self.points.append(tuple(point))
             self.recent[True].insert(0, len(self.points) - 1)
         elif not inside and weights is not None and are_weights(self.conditions, weights):
             self.weights.append(tuple(weights))

@@ -56,11 +56,11 @@ def member(target: Poly, generators: Sequence[Poly], budget: Budget) -> tuple[in
     if not search.run(reduced):
         return None
     row = [(k, target.ring.from_terms(factor)) for k, factor in factors.items() if factor]
-    number, found = search.combined(row, search.cofactors())
-    if sum(c.term_count() for c in found) > MOST_TERMS:
+    number, combination = search.combined(row, search.cofactors())
+    if sum(c.term_count() for c in combination) > MOST_TERMS:
         return None
     number *= -scale  # the target is what was taken away from it
-    return (number, found) if number > 0 else (-number, [-c for c in found])
+    return (number, combination) if number > 0 else (-number, [-c for c in combination])
 
 
 def _with_zeros(cofactors: Sequence[Poly], generators: Sequence[Poly]) -> list[Poly]:
@@ -159,19 +159,19 @@ class _Chain:
     def cofactors(self) -> list[tuple[int, list[Poly]]]:
         """For each polynomial (n, c) such that n times it is the sum of the c times those at the start."""
         zero, one = self.ring.constant(0), self.ring.constant(1)
-        found = [(1, [one if k == i else zero for k in range(self.given)]) for i in range(self.given)]
+        rows = [(1, [one if k == i else zero for k in range(self.given)]) for i in range(self.given)]
         for row in self.rows:
             content = sum((f * self.polys[k] for k, f in row), zero).normal()[0]
-            scale, total = self.combined(row, found)
-            found.append((content * scale, total))
-        return found
+            scale, total = self.combined(row, rows)
+            rows.append((content * scale, total))
+        return rows
 
-    def combined(self, row: Row, found: Sequence[tuple[int, list[Poly]]]) -> tuple[int, list[Poly]]:
+    def combined(self, row: Row, rows: Sequence[tuple[int, list[Poly]]]) -> tuple[int, list[Poly]]:
         """(n, c) such that n times the sum of a row is the sum of the c times the polynomials at the start."""
-        scale = lcm(*(found[k][0] for k, _ in row))
+        scale = lcm(*(rows[k][0] for k, _ in row))
         total = [self.ring.constant(0)] * self.given
         for k, f in row:
-            number, own = found[k]
+            number, own = rows[k]
             total = [t + f * c * (scale // number) for t, c in zip(total, own, strict=True)]
         return scale, total
 

@@ -79,8 +79,8 @@ class Points:
         ]
         others = [Attempt(c.point, c.guard, c.formula, frozenset(), TRUE, TRUE) for c in self.plan.candidates]
         known = {(t.point, t.guard, t.formula) for t in tried}
-        found = dict.fromkeys(self._tried(attempt) for attempt in (*infinities, *others))
-        return [t for t in found if (t.point, t.guard, t.formula) not in known]
+        others_tried = dict.fromkeys(self._tried(attempt) for attempt in (*infinities, *others))
+        return [t for t in others_tried if (t.point, t.guard, t.formula) not in known]
 
     def moved(self, formula: Formula) -> Formula:
         return moved(formula, self.ring)
@@ -140,16 +140,16 @@ class Points:
                 used.setdefault(k, []).append(conjuncts(condition))
         out = []
         for k, t in enumerate(tried):
-            found, point = used.get(k, []), needs.points.get(k, t.point)
-            tried_so = point is not None and point == t.point and all(implies(conj(c), t.guard) for c in found)
-            asked = found and not tried_so
-            guard = _common(found) if asked else t.guard
+            conditions, point = used.get(k, []), needs.points.get(k, t.point)
+            tried_so = point is not None and point == t.point and all(implies(conj(c), t.guard) for c in conditions)
+            asked = conditions and not tried_so
+            guard = _common(conditions) if asked else t.guard
             if asked and point is not None and not is_real(point, conj((guard, *conjuncts(t.formula)))):
                 # conditions that contradict themselves have nothing in common with the others, and need no point
-                impossible = [c for c in found if needs.is_impossible(c)]
+                impossible = [c for c in conditions if needs.is_impossible(c)]
                 kept |= dict.fromkeys(conj(c) for c in impossible)
-                found = [c for c in found if c not in impossible]
-                guard = _common(found) if found else t.guard
+                conditions = [c for c in conditions if c not in impossible]
+                guard = _common(conditions) if conditions else t.guard
             out.append(Tried(point, guard, t.formula, t.settled))
         return out + [Tried(None, condition, self.body, frozenset()) for condition in kept]
 
@@ -233,8 +233,8 @@ def _real(point: TestPoint) -> list[Formula]:
     """The conditions under which the point is one."""
     if not point.coefficients:
         return []
-    found = [atom(point.coefficients[-1], Relation.NE)]
+    conditions = [atom(point.coefficients[-1], Relation.NE)]
     if len(point.coefficients) == 3:
         c, b, a = point.coefficients
-        found.append(atom(b * b - 4 * (a * c), Relation.GE))
-    return found
+        conditions.append(atom(b * b - 4 * (a * c), Relation.GE))
+    return conditions

@@ -14,17 +14,17 @@ from qe.simplify.minima import minimum
 MOST_MONOMIALS, MOST_ALIKE, MOST_CORNERS = 24, 500, 4
 
 
-def as_squares(found: Lemmas, poly: Poly) -> None:
+def as_squares(theory: Lemmas, poly: Poly) -> None:
     """The polynomial as a constant and positive multiples of squares (or of even monomials)."""
     for sign in (1, -1):
         least = minimum(poly * sign)
         if least is not None:
-            _sum_of_squares(found, poly * sign, least.value, least.zeros)
+            _sum_of_squares(theory, poly * sign, least.value, least.zeros)
 
 
-def _sum_of_squares(found: Lemmas, poly: Poly, value: Fraction, zeros: Sequence[Poly]) -> None:
+def _sum_of_squares(theory: Lemmas, poly: Poly, value: Fraction, zeros: Sequence[Poly]) -> None:
     if all(not any(k % 2 for k in e) for e, _ in poly.terms()):
-        found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
+        theory.identity([(-1, ((poly, 1),)), *_monomials(poly)])
         return
     weights: list[Fraction] = []
     rest, scale = poly, 1
@@ -40,7 +40,7 @@ def _sum_of_squares(found: Lemmas, poly: Poly, value: Fraction, zeros: Sequence[
         return
     squares: list[Term] = [(int(w * scale), ((z, 2),)) for w, z in zip(weights, zeros, strict=True)]
     constant: list[Term] = [(rest.constant_value(), ())] if rest else []
-    found.identity([(-scale, ((poly, 1),)), *squares, *constant])
+    theory.identity([(-scale, ((poly, 1),)), *squares, *constant])
 
 
 def _square_coefficient(poly: Poly, x: int) -> int:
@@ -54,15 +54,15 @@ def _monomials(poly: Poly) -> list[Term]:
     return [(c, tuple((ring.gen(i), k) for i, k in enumerate(exponents) if k)) for exponents, c in poly.terms()]
 
 
-def ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
+def ranges(theory: Lemmas, polys: Iterable[Poly]) -> None:
     """Polynomials as sums of monomials in their variables; long ones where all coefficients have one sign."""
-    for poly in dict.fromkeys((*found.numbers, *polys)):
+    for poly in dict.fromkeys((*theory.numbers, *polys)):
         count = poly.term_count()
         if 1 < count <= MOST_MONOMIALS or (count <= MOST_ALIKE and len({c > 0 for _, c in poly.terms()}) == 1):
-            found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
+            theory.identity([(-1, ((poly, 1),)), *_monomials(poly)])
 
 
-def shifted(found: Lemmas, polys: dict[Poly, bool]) -> None:
+def shifted(theory: Lemmas, polys: dict[Poly, bool]) -> None:
     """Polynomials as sums of products of the distances of their variables from bounds: m*b + 2*b - 1 is
     m*(b - 1) + 2*(b - 1) + m + 1, positive where m and b - 1 are."""
     bounds: dict[int, list[Poly]] = {}
@@ -71,10 +71,10 @@ def shifted(found: Lemmas, polys: dict[Poly, bool]) -> None:
             bounds.setdefault(poly.variables[0], []).append(poly)
     for corner in islice(product(*bounds.values()), MOST_CORNERS if bounds else 0):
         for poly in polys:
-            _at_corner(found, poly, {x: line for x, line in zip(bounds, corner, strict=True) if poly.degree(x)})
+            _at_corner(theory, poly, {x: line for x, line in zip(bounds, corner, strict=True) if poly.degree(x)})
 
 
-def _at_corner(found: Lemmas, poly: Poly, lines: Mapping[int, Poly]) -> None:
+def _at_corner(theory: Lemmas, poly: Poly, lines: Mapping[int, Poly]) -> None:
     """scale * poly as a polynomial in these lines (u*x + v for x) and in the other variables."""
     ring, image, scale = poly.ring, poly, 1
     for x, line in lines.items():
@@ -84,4 +84,4 @@ def _at_corner(found: Lemmas, poly: Poly, lines: Mapping[int, Poly]) -> None:
     if lines and poly.total_degree > 1 and image.term_count() <= MOST_MONOMIALS:
         factors = [lines.get(i, ring.gen(i)) for i in range(ring.size)]
         terms = [(c, tuple((factors[i], k) for i, k in enumerate(e) if k)) for e, c in image.terms()]
-        found.identity([(-scale, ((poly, 1),)), *terms])
+        theory.identity([(-scale, ((poly, 1),)), *terms])

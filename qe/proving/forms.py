@@ -122,7 +122,7 @@ def _texts(letters: Mapping[str, Poly]) -> Json:
     return {name: poly_to_text(poly) for name, poly in letters.items()}
 
 
-def _renamed(found: Atomic, by: Mapping[int, Poly], made: Made) -> Formula:
-    if not isinstance(found, Atom):
+def _renamed(given: Atomic, by: Mapping[int, Poly], made: Made) -> Formula:
+    if not isinstance(given, Atom):
         raise made.claim.fail("no root atoms")
-    return atom(found.poly.compose(dict(by)), found.relation)
+    return atom(given.poly.compose(dict(by)), given.relation)

@@ -14,15 +14,15 @@ from qe.proof.entry import poly_to_text
 
 def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
     """The polynomials of comparisons that stand under no quantifier; whether one of them is an equation or not =."""
-    found: dict[Poly, bool] = {}
+    polys: dict[Poly, bool] = {}
     pending = list(formulas)
     while pending:
         formula = pending.pop()
         if isinstance(formula, Atom):
-            found[formula.poly] = found.get(formula.poly, False) or formula.relation in (Relation.EQ, Relation.NE)
+            polys[formula.poly] = polys.get(formula.poly, False) or formula.relation in (Relation.EQ, Relation.NE)
         elif not isinstance(formula, Exists | ForAll):
             pending += children(formula)
-    return dict(sorted(found.items(), key=lambda entry: poly_to_text(entry[0])))
+    return dict(sorted(polys.items(), key=lambda entry: poly_to_text(entry[0])))
 
 
 def is_hopeless(goal: Sequence[Formula]) -> bool:

@@ -43,15 +43,15 @@ class Lemmas:
         listed: list[Json] = []
         signs: list[tuple[int, tuple[tuple[int, bool], ...]]] = []
         for coefficient, powers in terms:
-            found: dict[Poly, int] = {}
+            exponents: dict[Poly, int] = {}
             for poly, exponent in powers:
                 if poly.is_constant:
                     coefficient *= poly.constant_value() ** exponent
                     continue
                 content, primitive = poly.normal()
                 coefficient *= content**exponent
-                found[primitive] = found.get(primitive, 0) + exponent
-            numbered = [(self.number(p), e) for p, e in found.items()]
+                exponents[primitive] = exponents.get(primitive, 0) + exponent
+            numbered = [(self.number(p), e) for p, e in exponents.items()]
             listed.append([digits(coefficient), [[i, e] for i, e in numbered]])
             signs.append((sign_bit(coefficient), tuple((i, e % 2 == 1) for i, e in numbered)))
         if (said := repr(listed)) in self.known:
@@ -109,10 +109,10 @@ def _cases(searches: Sequence[Refutation], polys: Sequence[Poly]) -> list[Json]:
 
 def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:
     """Sums that are 0, as lemmas over the ring."""
-    found = Lemmas(ring)
+    lemmas = Lemmas(ring)
     for terms in listed:
-        found.identity([(c, tuple((p.convert(ring), e) for p, e in powers)) for c, powers in terms])
-    return found.only(range(len(found.lemmas)))
+        lemmas.identity([(c, tuple((p.convert(ring), e) for p, e in powers)) for c, powers in terms])
+    return lemmas.only(range(len(lemmas.lemmas)))
 
 
 def _mentioned(lemma: Json) -> list[int]:

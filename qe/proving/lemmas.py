@@ -47,45 +47,45 @@ def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits, ideal: bool = Fa
     polys = polynomials_outside(f for goal in goals for f in goal)
     if len(polys) > MOST_POLYNOMIALS or any(map(is_hopeless, goals)):
         return None
-    found, pool = Lemmas(ring), dict[Poly, None]()
+    theory, pool = Lemmas(ring), dict[Poly, None]()
     given = {a.poly for a in _comparisons(goals) if a.relation is Relation.EQ}
     equations = [p for p, is_equation in polys.items() if is_equation]
     sure, perhaps = ([p for p in equations if (p in given) is k] for k in (True, False))
-    modulo = [lambda: _remainders(found, polys, sure), lambda: _ideals(found, goals, limits.budget)]
+    modulo = [lambda: _remainders(theory, polys, sure), lambda: _ideals(theory, goals, limits.budget)]
     stages: list[Callable[[], None]] = [
         lambda: None,
         *(modulo if ideal else ()),
-        lambda: _values(found, goals, polys),
-        lambda: _factors(found, polys, pool),
-        lambda: _pairs(found, polys, sure, pool, _reduced, _cancelled),
-        lambda: _pairs(found, polys, perhaps, pool, _reduced),
-        lambda: _pairs(found, polys, perhaps, pool, _cancelled),
-        lambda: _lines(found, polys),  # behind what identities alone give: those rest on no theorem
-        lambda: _expanded(found, polys),
-        lambda: _bounds(found, goals, limits),
-        lambda: _chained(found, polys),
+        lambda: _values(theory, goals, polys),
+        lambda: _factors(theory, polys, pool),
+        lambda: _pairs(theory, polys, sure, pool, _reduced, _cancelled),
+        lambda: _pairs(theory, polys, perhaps, pool, _reduced),
+        lambda: _pairs(theory, polys, perhaps, pool, _cancelled),
+        lambda: _lines(theory, polys),  # behind what identities alone give: those rest on no theorem
+        lambda: _expanded(theory, polys),
+        lambda: _bounds(theory, goals, limits),
+        lambda: _chained(theory, polys),
         *(() if ideal else modulo),
-        lambda: _remainders(found, polys, perhaps),
+        lambda: _remainders(theory, polys, perhaps),
     ]
     searches = [Refutation(goal, limits) for goal in goals]
     for stage, search in enumerate(stages):
-        count = len(found.lemmas)
+        count = len(theory.lemmas)
         limits.budget.check("prove")
         search()
-        if stage and count == len(found.lemmas):
+        if stage and count == len(theory.lemmas):
             continue
         for refutation in searches:
-            refutation.learn(tuple(found.numbers), found.facts)
+            refutation.learn(tuple(theory.numbers), theory.facts)
         if all(refutation.go_on(FEW_CASES, FEW_SPLITS) for refutation in searches):
             break
     if not all(refutation.go_on(NODES, NODES) for refutation in searches):
         return None
-    return found.only({k for refutation in searches for k in refutation.lemmas}, searches)
+    return theory.only({k for refutation in searches for k in refutation.lemmas}, searches)
 
 
-def _bounds(found: Lemmas, goals: Sequence[Goal], limits: Limits) -> None:
+def _bounds(theory: Lemmas, goals: Sequence[Goal], limits: Limits) -> None:
     """Linear combinations of comparisons, and of squares, by which the goals fail, one of a disjunction at a time."""
-    bounds = MonomialBounds(found.ring)
+    bounds = MonomialBounds(theory.ring)
     for goal in goals:
         parts = [part for f in goal for part in conjuncts(normal(f))]
         known = [a for a in parts if isinstance(a, Atom)]
@@ -95,12 +95,12 @@ def _bounds(found: Lemmas, goals: Sequence[Goal], limits: Limits) -> None:
         for case in cases[: max(1, MOST_BOUNDS // (len(known) + 1))]:
             conflict = bounds.conflict([*known, *case], limits.tick)
             if conflict is not None:
-                _combined_bounds(found, [a.poly for a in (*known, *case) if a in conflict], None in conflict)
+                _combined_bounds(theory, [a.poly for a in (*known, *case) if a in conflict], None in conflict)
                 if not case:
                     break
 
 
-def _combined_bounds(found: Lemmas, polys: Sequence[Poly], squares: bool) -> None:
+def _combined_bounds(theory: Lemmas, polys: Sequence[Poly], squares: bool) -> None:
     """A combination of the polynomials, with squares of monomials where these take part, that is constant."""
     first, *others = dict.fromkeys(polys)
     ring = first.ring
@@ -120,16 +120,16 @@ def _combined_bounds(found: Lemmas, polys: Sequence[Poly], squares: bool) -> Non
     terms = [(int(w * scale), powers) for w, powers in zip(weights, members, strict=True) if w]
     constants = [dict(p.terms()).get((0,) * ring.size, 0) for p in (first, *others)]
     total = sum((w * c for w, c in zip(weights, constants)), Fraction(0)) * scale
-    found.identity([*terms, (-int(total), ())] if total else terms)
+    theory.identity([*terms, (-int(total), ())] if total else terms)
 
 
-def _factors(found: Lemmas, polys: Iterable[Poly], pool: dict[Poly, None]) -> None:
+def _factors(theory: Lemmas, polys: Iterable[Poly], pool: dict[Poly, None]) -> None:
     """Factors, differences that are constant, and squares; what they are about joins the pool."""
-    _join(found, pool, [*polys, *(part for poly in polys for part in _factored(found, poly))])
+    _join(theory, pool, [*polys, *(part for poly in polys for part in _factored(theory, poly))])
 
 
 def _pairs(
-    found: Lemmas,
+    theory: Lemmas,
     polys: Iterable[Poly],
     equations: Iterable[Poly],
     pool: dict[Poly, None],
@@ -137,22 +137,22 @@ def _pairs(
 ) -> None:
     """Polynomials changed by equations, with what ``_factors`` says of what comes of them."""
     pairs = ((poly, equation) for equation in equations for poly in polys if poly != equation)
-    _join(found, pool, [part for pair in pairs for change in changes for part in change(found, *pair)])
+    _join(theory, pool, [part for pair in pairs for change in changes for part in change(theory, *pair)])
 
 
-def _join(found: Lemmas, pool: dict[Poly, None], polys: Iterable[Poly]) -> None:
+def _join(theory: Lemmas, pool: dict[Poly, None], polys: Iterable[Poly]) -> None:
     """Differences of these and of others in the pool that are constant, and their squares."""
     fresh = [p for p in dict.fromkeys(polys) if p not in pool]
     pool.update(dict.fromkeys(fresh))
-    _differences(found, pool)
+    _differences(theory, pool)
     for poly in fresh:
-        as_squares(found, poly)
+        as_squares(theory, poly)
 
 
-def _expanded(found: Lemmas, polys: dict[Poly, bool]) -> None:
+def _expanded(theory: Lemmas, polys: dict[Poly, bool]) -> None:
     """Sums of monomials, and of products of distances from bounds."""
-    ranges(found, polys)
-    shifted(found, polys)
+    ranges(theory, polys)
+    shifted(theory, polys)
 
 
 def _comparisons(goals: Iterable[Goal]) -> list[Atom]:
@@ -161,7 +161,7 @@ def _comparisons(goals: Iterable[Goal]) -> list[Atom]:
     return [part for part in parts if isinstance(part, Atom)]
 
 
-def _values(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
+def _values(theory: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> None:
     """Values of variables, which equations beside all else give, put into the others, all at once."""
     lines: dict[int, Poly] = {}
     for a in _comparisons(goals):
@@ -180,20 +180,20 @@ def _values(found: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> No
                 terms.append((-1, (((image * power - reduced).exact_divide(line), 1), (line, 1))))
                 image, scale = reduced, scale * power
         if terms:
-            found.identity([(scale, ((poly, 1),)), *terms, *([(-1, ((image, 1),))] if image else [])])
+            theory.identity([(scale, ((poly, 1),)), *terms, *([(-1, ((image, 1),))] if image else [])])
             if not image.is_constant:
-                _factored(found, image.normal()[1])
+                _factored(theory, image.normal()[1])
     for poly in list(polys) if lines else ():
-        _factored(found, poly)
+        _factored(theory, poly)
 
 
-def _chained(found: Lemmas, polys: dict[Poly, bool]) -> None:
+def _chained(theory: Lemmas, polys: dict[Poly, bool]) -> None:
     """Linear equations put into all others, also those that appear only then: a = 1 makes 3*x^2 - 2*x - a a product, a
     factor of which gives x, and so on. What may be zero is put in as if it were; the identities hold in any case."""
     pool = dict.fromkeys(polys)
     maybe = {p for p, is_equation in polys.items() if is_equation}
     for poly in list(polys):
-        parts = _factored(found, poly)
+        parts = _factored(theory, poly)
         pool.update(dict.fromkeys(parts))
         maybe.update(parts if poly in maybe else ())
     used: set[Poly] = set()
@@ -204,27 +204,27 @@ def _chained(found: Lemmas, polys: dict[Poly, bool]) -> None:
         equation = min(left, key=lambda p: (p.total_degree, p.term_count(), poly_to_text(p)))
         used.add(equation)
         for poly in [p for p in pool if p != equation]:
-            parts = _reduced(found, poly, equation)
+            parts = _reduced(theory, poly, equation)
             pool.update(dict.fromkeys(parts))
             maybe.update(parts if poly in maybe else ())
-    _join(found, {}, pool)
-    _lines(found, pool)
+    _join(theory, {}, pool)
+    _lines(theory, pool)
 
 
-def _factored(found: Lemmas, poly: Poly) -> list[Poly]:
+def _factored(theory: Lemmas, poly: Poly) -> list[Poly]:
     parts = [(f, e) for f, e in factor_list(poly) if not f.is_constant]
     if sum(e for _, e in parts) < 2:
         return [poly]
     content, primitive = prod((f**e for f, e in parts), start=poly.ring.constant(1)).normal()
     if primitive == poly:
-        found.identity([(content, ((poly, 1),)), (-1, tuple(parts))])
+        theory.identity([(content, ((poly, 1),)), (-1, tuple(parts))])
     return [f for f, _ in parts]
 
 
-def _reduced(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
+def _reduced(theory: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
     """lead^k * poly = r + s * equation, division in the first variable in which the equation is linear."""
     x = next((i for i in equation.variables if equation.degree(i) == 1 and equation.leading(i).is_constant), None)
-    if x is None or not poly.degree(x) or len(found.lemmas) > MOST_PAIRS:
+    if x is None or not poly.degree(x) or len(theory.lemmas) > MOST_PAIRS:
         return []
     rest, lead = equation.coefficients(x)
     if rest.term_count() > 3:
@@ -234,25 +234,25 @@ def _reduced(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
     quotient = (poly * scale - image).exact_divide(equation)
     powers: tuple[tuple[Poly, int], ...] = ((image, 1),) if image else ()
     terms: list[Term] = [(scale, ((poly, 1),)), (-1, ((quotient, 1), (equation, 1)))]
-    found.identity([*terms, (-1, powers)] if image else terms)
+    theory.identity([*terms, (-1, powers)] if image else terms)
     if image.is_constant:
         return []
     primitive = image.normal()[1]
-    return [primitive, *_factored(found, primitive)]
+    return [primitive, *_factored(theory, primitive)]
 
 
-def _cancelled(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
+def _cancelled(theory: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
     """a * poly = b * equation + r, where that makes a product r."""
     known = difference(poly, equation)
     if known is None:
         return []
     a, b, rest = known
-    found.identity([(a, ((poly, 1),)), (-b, ((equation, 1),)), (-1, ((rest, 1),))])
+    theory.identity([(a, ((poly, 1),)), (-b, ((equation, 1),)), (-1, ((rest, 1),))])
     primitive = rest.normal()[1]
-    return [primitive, *_factored(found, primitive)]
+    return [primitive, *_factored(theory, primitive)]
 
 
-def _differences(found: Lemmas, pool: Iterable[Poly]) -> None:
+def _differences(theory: Lemmas, pool: Iterable[Poly]) -> None:
     """u_j * p_i - u_i * p_j = constant for polynomials with one key, neighbours by value."""
     groups: dict[Poly, list[tuple[Fraction, int, int, Poly]]] = {}
     for poly in pool:
@@ -260,24 +260,24 @@ def _differences(found: Lemmas, pool: Iterable[Poly]) -> None:
         groups.setdefault(key, []).append((Fraction(constant, unit), unit, constant, poly))
     for members in groups.values():
         for (_, u, c, p), (_, v, d, q) in pairwise(sorted(members, key=lambda m: m[0])):
-            found.identity([(v, ((p, 1),)), (-u, ((q, 1),)), (u * d - v * c, ())])
+            theory.identity([(v, ((p, 1),)), (-u, ((q, 1),)), (u * d - v * c, ())])
 
 
-def _lines(found: Lemmas, polys: Iterable[Poly]) -> None:
+def _lines(theory: Lemmas, polys: Iterable[Poly]) -> None:
     """All polynomials in one variable alone, by variable."""
     groups: dict[int, list[Poly]] = {}
-    for poly in dict.fromkeys((*found.numbers, *polys)):
+    for poly in dict.fromkeys((*theory.numbers, *polys)):
         if len(poly.variables) == 1:
             for factor, _ in factor_list(poly):
                 groups.setdefault(poly.variables[0], []).append(factor)
     for x, members in groups.items():
-        found.line(list(dict.fromkeys(members)), x)
+        theory.line(list(dict.fromkeys(members)), x)
 
 
-def _remainders(found: Lemmas, polys: Iterable[Poly], equations: Iterable[Poly]) -> None:
+def _remainders(theory: Lemmas, polys: Iterable[Poly], equations: Iterable[Poly]) -> None:
     """Polynomials that are the same, up to a factor, where an equation holds, and such that vanish there."""
     for equation in equations:
-        basis = groebner_basis((equation,), variables=range(found.ring.size))
+        basis = groebner_basis((equation,), variables=range(theory.ring.size))
         alike: dict[Poly, list[tuple[Fraction, Poly]]] = {}
         lead = basis.leads[0] if basis is not None else ()
         for p in polys:
@@ -289,21 +289,21 @@ def _remainders(found: Lemmas, polys: Iterable[Poly], equations: Iterable[Poly])
             alike.setdefault(key, []).append((Fraction(unit, scale), p))
         for key, members in alike.items():
             for _, p in () if key else members:
-                found.identity([(1, ((p, 1),)), (-1, ((p.exact_divide(equation), 1), (equation, 1)))])
+                theory.identity([(1, ((p, 1),)), (-1, ((p.exact_divide(equation), 1), (equation, 1)))])
             for (u, p), (v, q) in pairwise(members) if key else ():
                 ratio = v / u
                 quotient = (p * ratio.numerator - q * ratio.denominator).exact_divide(equation)
                 terms: list[Term] = [(ratio.numerator, ((p, 1),)), (-ratio.denominator, ((q, 1),))]
-                found.identity([*terms, (-1, ((quotient, 1), (equation, 1)))])
+                theory.identity([*terms, (-1, ((quotient, 1), (equation, 1)))])
 
 
-def _ideals(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
+def _ideals(theory: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     """What follows from ideals that equations generate."""
-    _combinations(found, goals, budget)
-    _modulo(found, goals, budget)
+    _combinations(theory, goals, budget)
+    _modulo(theory, goals, budget)
 
 
-def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
+def _combinations(theory: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     """What stands on one side of an equivalence as a combination of the equations on the other, up to a multiple of an
     inequality there. Where these have a Gröbner basis, it says at once what is none."""
     if len(goals) != 2 or min(map(len, goals)) < 2:
@@ -311,10 +311,10 @@ def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     sides = [conjuncts(normal(goal[-2])) for goal in goals]
     for side, other in (sides, reversed(sides)):
         equations = [a.poly for a in side if isinstance(a, Atom) and a.relation is Relation.EQ]
-        generators = list(dict.fromkeys(_squarefree(found, p) for p in equations))
+        generators = list(dict.fromkeys(_squarefree(theory, p) for p in equations))
         if not generators:
             continue
-        basis = groebner_basis(generators, variables=range(found.ring.size), limits=BRIEF_BASIS)
+        basis = groebner_basis(generators, variables=range(theory.ring.size), limits=BRIEF_BASIS)
         known = {a.poly for a in side if isinstance(a, Atom)}
         wanted = [a for a in other if isinstance(a, Atom) and a.poly not in known]
         targets = list[tuple[Poly, ...]]()
@@ -327,7 +327,7 @@ def _combinations(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
             elif rest is not None:
                 pairs = (a for a in side if isinstance(a, Atom) and a.relation is not Relation.EQ)
                 targets += [(target.poly, a.poly) for a in pairs if rest == _remainder(a.poly, basis)]
-        _combined(found, targets, generators, budget, basis)
+        _combined(theory, targets, generators, budget, basis)
 
 
 def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
@@ -338,14 +338,14 @@ def _remainder(poly: Poly, basis: Basis | None) -> Poly | None:
     return rest.normal()[1] if rest else rest
 
 
-def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
+def _modulo(theory: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
     """Polynomials of disjunctions that are the same, up to a factor, where all equations beside them hold, and those
     that vanish there."""
     sides = [conjuncts(normal(goal[-2])) for goal in goals if len(goal) > 1]
     systems = [tuple(a.poly for a in side if isinstance(a, Atom) and a.relation is Relation.EQ) for side in sides]
     inside = polynomials_outside(f for side in sides for f in side if isinstance(f, Or))
     for system in dict.fromkeys(systems):
-        basis = groebner_basis(system, variables=range(found.ring.size)) if len(system) > 1 else None
+        basis = groebner_basis(system, variables=range(theory.ring.size)) if len(system) > 1 else None
         alike: dict[Poly, list[Poly]] = {}
         for p in inside if basis else ():
             rest = _remainder(p, basis)
@@ -353,11 +353,11 @@ def _modulo(found: Lemmas, goals: Sequence[Goal], budget: Budget) -> None:
                 alike.setdefault(rest, []).append(p)
         vanishing = [(p,) for key, members in alike.items() if not key for p in members]
         pairs = [pair for key, members in alike.items() if key for pair in pairwise(members)]
-        _combined(found, [*vanishing, *pairs], system, budget, basis)
+        _combined(theory, [*vanishing, *pairs], system, budget, basis)
 
 
 def _combined(
-    found: Lemmas,
+    theory: Lemmas,
     targets: Sequence[tuple[Poly, ...]],
     generators: Sequence[Poly],
     budget: Budget,
@@ -372,7 +372,7 @@ def _combined(
         if solution is not None:
             number, factors = solution
             terms: list[Term] = [(number * w, ((p, 1),)) for p, w in zip(of, by, strict=True)]
-            found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
+            theory.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
 
 
 def _weights(targets: tuple[Poly, ...], basis: Basis | None) -> list[int]:
@@ -384,10 +384,10 @@ def _weights(targets: tuple[Poly, ...], basis: Basis | None) -> list[int]:
     return [s * q.normal()[0], -t * p.normal()[0]]
 
 
-def _squarefree(found: Lemmas, poly: Poly) -> Poly:
+def _squarefree(theory: Lemmas, poly: Poly) -> Poly:
     """The product of the distinct factors, with lemmas that say so."""
-    parts = _factored(found, poly)
+    parts = _factored(theory, poly)
     whole = prod(parts, start=poly.ring.constant(1)).normal()[1]
     if whole != poly:
-        _factored(found, whole)
+        _factored(theory, whole)
     return whole

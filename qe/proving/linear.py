@@ -57,10 +57,10 @@ def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
     rest, lead = equation.coefficients(i)
     top, bottom = (-rest, lead) if lead.constant_value() > 0 else (rest, -lead)
 
-    def change(found: Atomic) -> Formula:
-        if not isinstance(found, Atom) or not found.poly.degree(i):
-            return found
-        return atom(found.poly.at_quotient(i, top, bottom), found.relation)
+    def change(given: Atomic) -> Formula:
+        if not isinstance(given, Atom) or not given.poly.degree(i):
+            return given
+        return atom(given.poly.at_quotient(i, top, bottom), given.relation)
 
     used = Atom(equation, Relation.EQ)
     return conj(map_atoms(c, change) for c in conjuncts(body) if c != used)

@@ -131,10 +131,10 @@ class Made:
             lemmas = refuting(goals, self.ring, self.limits) if goals else EMPTY
             return None if lemmas is None else (SIGNS, {"theory": lemmas})
 
-        found = Simplified(evidence, self.known, self.steps).inside(self.place(before), before, after, self.current)
-        if found is None:
+        changed = Simplified(evidence, self.known, self.steps).inside(self.place(before), before, after, self.current)
+        if changed is None:
             raise self.claim.fail("not shown that this was simplified to that")
-        self.current = found
+        self.current = changed
 
     def terms(
         self,
@@ -180,12 +180,12 @@ def _place(formula: Formula, part: Formula) -> Place | None:
     """The place nearest to the root."""
     level: list[tuple[Place, Formula]] = [((), formula)]
     while level:
-        for place, found in level:
-            if found == part or (
-                isinstance(found, And | Or) and isinstance(part, type(found)) and set(part.args) <= set(found.args)
+        for place, node in level:
+            if node == part or (
+                isinstance(node, And | Or) and isinstance(part, type(node)) and set(part.args) <= set(node.args)
             ):
                 return place
-        level = [((*place, k), child) for place, found in level for k, child in enumerate(children(found))]
+        level = [((*place, k), child) for place, node in level for k, child in enumerate(children(node))]
     return None
 
 

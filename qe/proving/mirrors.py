@@ -98,18 +98,18 @@ def _put(formula: Formula, terms: Mapping[str, Quotient], made: Made) -> Formula
     return map_atoms(formula, partial(_at, by=by, made=made))
 
 
-def _at(found: Atomic, by: Terms, made: Made) -> Formula:
-    if not isinstance(found, Atom):
+def _at(given: Atomic, by: Terms, made: Made) -> Formula:
+    if not isinstance(given, Atom):
         raise made.claim.fail("no mirror images of root atoms")
-    return atom(at_terms(found.poly, by), found.relation)
+    return atom(at_terms(given.poly, by), given.relation)
 
 
 def _images(entry: Entry, claim: Claim) -> Images:
     """What each moved variable is in the mirror."""
-    found: dict[str, Poly] = {}
+    images: dict[str, Poly] = {}
     for row in entry.items():
         variable, image, side = row.row("variable", "variable", "1 or -1")
         if not {variable.text(), image.text()} <= claim.ring.index.keys():
             raise row.fail("expected variables")
-        found[variable.text()] = claim.ring.var(image.text()) * side.integer(-1)
-    return found
+        images[variable.text()] = claim.ring.var(image.text()) * side.integer(-1)
+    return images

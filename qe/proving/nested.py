@@ -67,18 +67,18 @@ def proved_inside(run: Callable[[Limits], Json], limits: Limits, prove: Prove) -
 
     Raises as ``run`` and ``prove`` do.
     """
-    found: dict[int, list[Json]] = {}
+    proofs: dict[int, list[Json]] = {}
 
     def replay(entry: Entry, start: Formula, known: Context, ring: Ring) -> Formula:
         nested: object = entry.value
         if not isinstance(nested, Nested):
             raise CertificateRejected(entry.path, "no derivation")
-        answer, found[id(nested)] = prove(nested, start, known)
+        answer, proofs[id(nested)] = prove(nested, start, known)
         return answer
 
     def filled(value: object) -> Json:
         if isinstance(value, Nested):
-            return list(found[id(value)])
+            return list(proofs[id(value)])
         if isinstance(value, dict):
             return {name: filled(part) for name, part in value.items()}
         return [filled(part) for part in value] if isinstance(value, list) else value  # type: ignore[return-value]

@@ -60,12 +60,12 @@ class Numbered(Clauses):
 
     def clause(self, numbers: Iterable[int]) -> list[Literal]:
         """The literals with these numbers."""
-        found: dict[int, int] = {}
+        by_variable: dict[int, int] = {}
         for number in numbers:
             i, bit = self._meanings[abs(number)]
             signs = bit if number > 0 else NEGATIVE if self._boolean[i] else ANY & ~bit
-            found[i] = found.get(i, 0) | signs
-        return list(found.items())
+            by_variable[i] = by_variable.get(i, 0) | signs
+        return list(by_variable.items())
 
 
 def search(claim: Claim, refuted: Sequence[Sequence[Atom]], limits: Limits) -> Numbered:
@@ -139,19 +139,19 @@ def former_search(claim: Claim, limits: Limits) -> dict[str, Json]:
 
 def _numbered(formulas: Iterable[Formula]) -> list[Formula]:
     """The formulas to which the former rule gave numbers, in their order: p > 0, p < 0, p = 0 for a polynomial p."""
-    found: dict[Formula, None] = {}
+    listed: dict[Formula, None] = {}
 
     def visit(formula: Formula) -> None:
         if isinstance(formula, Atom):
-            found.update((Atom(formula.poly, r), None) for r in (Relation.GT, Relation.LT, Relation.EQ))
-        elif formula not in found:
-            found[formula] = None
+            listed.update((Atom(formula.poly, r), None) for r in (Relation.GT, Relation.LT, Relation.EQ))
+        elif formula not in listed:
+            listed[formula] = None
             for part in children(formula):
                 visit(part)
 
     for formula in formulas:
         visit(formula)
-    return list(found)
+    return list(listed)
 
 
 def _learnt(clauses: Sequence[Sequence[int]]) -> Iterator[list[int]]:
@@ -164,7 +164,7 @@ def _learnt(clauses: Sequence[Sequence[int]]) -> Iterator[list[int]]:
         if solver.solve():
             return
         lines = [line.split() for line in solver.get_proof() or ()]
-    found = [[int(word) for word in words[:-1]] for words in lines if words and words[0] != "d"]
-    if len(found) > MOST_LEARNT:
+    derived = [[int(word) for word in words[:-1]] for words in lines if words and words[0] != "d"]
+    if len(derived) > MOST_LEARNT:
         raise Unable(f"a refutation of more than {MOST_LEARNT} clauses")
-    yield from (clause for clause in found if clause)
+    yield from (clause for clause in derived if clause)

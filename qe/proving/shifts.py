@@ -58,18 +58,18 @@ def lower_first(made: Made, block: Exists, name: str, power: int) -> Exists:
     assert isinstance(whole, Exists)
     least = exists(block.variables, conj((lowered(whole.body, x, power), weak if power % 2 == 0 else TRUE)))
     lower(made, whole, least, name, power)
-    found = exists(block.variables, after)
-    made.simplified(least, found)
-    assert isinstance(found, Exists)
-    return found
+    smaller = exists(block.variables, after)
+    made.simplified(least, smaller)
+    assert isinstance(smaller, Exists)
+    return smaller
 
 
 def raised(made: Made, block: Exists, name: str, power: int) -> list[Json]:
     """Steps from what the block becomes by ``lower_first`` back to it."""
     lowering = Made(made.claim, made.limits, block)
-    found = lower_first(lowering, block, name, power)
-    made.simplified(made.current, found)
-    made.back(found, block, lowering)
+    smaller = lower_first(lowering, block, name, power)
+    made.simplified(made.current, smaller)
+    made.back(smaller, block, lowering)
     return made.steps
 
 
@@ -80,10 +80,10 @@ def elimination_set(claim: Claim, context: Context, limits: Limits) -> list[Json
     )
     assert isinstance(claim.evidence.value, dict)
     if has_roots_of_cubics(claim.evidence.value):
-        found = certificate_for(claim.before, claim.after, Options(), limits.budget)
-        if found is None:
+        table = certificate_for(claim.before, claim.after, Options(), limits.budget)
+        if table is None:
             raise points.fail("no decomposition takes the place of roots of cubics")
-        return [written("cells", (), claim.before, claim.after, (), found.single_step["evidence"])]
+        return [written("cells", (), claim.before, claim.after, (), table.single_step["evidence"])]
     evidence = {k: v for k, v in claim.evidence.value.items() if k != "exponent"}
     power = 1 if exponent.value is None else exponent.integer(1)
     if power == 1:
@@ -142,7 +142,7 @@ def lower(made: Made, block: Exists, low: Formula, name: str, power: int) -> Non
     made.moved(exists(names, at_y), low)
 
 
-def _put(found: Atomic, made: Made, by: dict[int, object]) -> Formula:
-    if not isinstance(found, Atom):
+def _put(given: Atomic, made: Made, by: dict[int, object]) -> Formula:
+    if not isinstance(given, Atom):
         raise made.claim.fail("no degree shift in root atoms")
-    return atom(found.poly.compose(by), found.relation)  # type: ignore[arg-type]
+    return atom(given.poly.compose(by), given.relation)  # type: ignore[arg-type]

@@ -40,9 +40,9 @@ Simplified = Callable[[Formula, Formula], Json]
 """A step of the rule "simplification" with its evidence; raises ``CertificateRejected`` where none is found."""
 
 
-def steps(block: Exists, found: Eliminated, answer: Formula, ring: Ring, by: Simplified, limits: Limits) -> list[Json]:
+def steps(block: Exists, result: Eliminated, answer: Formula, ring: Ring, by: Simplified, limits: Limits) -> list[Json]:
     """Steps from the block to the answer. Raises ``CertificateRejected`` where some of them cannot be proved."""
-    return _Steps(ring, by, limits).whole(block, found, answer)
+    return _Steps(ring, by, limits).whole(block, result, answer)
 
 
 class _Steps:
@@ -52,12 +52,12 @@ class _Steps:
     def moved(self, formula: Formula) -> Formula:
         return moved(formula, self.ring)
 
-    def whole(self, block: Exists, found: Eliminated, answer: Formula) -> list[Json]:
-        names, matrix, raw = block.variables, self.moved(found.matrix), self.moved(found.answer)
+    def whole(self, block: Exists, result: Eliminated, answer: Formula) -> list[Json]:
+        names, matrix, raw = block.variables, self.moved(result.matrix), self.moved(result.answer)
         begin = block_of(names, matrix, self.ring)
         return [
             *self.simplified(block, begin),
-            *self.traced(names, matrix, raw, found.trace),
+            *self.traced(names, matrix, raw, result.trace),
             *self.simplified(raw, answer),
         ]
 
@@ -111,27 +111,27 @@ class _Steps:
         if not isinstance(before, Exists):
             raise CertificateRejected("trace", "an existential block expected")
         ends = [self.moved(answer) for answer, _ in parts]
-        found: list[Part] = []
+        members: list[Part] = []
         for piece, end, (_, trace) in zip(pieces, ends, parts, strict=False):
-            found.append(Part(piece, end, list(self.traced(names, piece, end, trace))))
-        found += [Part(p, block_of(names, p, self.ring), []) for p in pieces[len(parts) :]]
-        return by_alternatives(self.made(before), [*names], found, disj(p.end for p in found))
+            members.append(Part(piece, end, list(self.traced(names, piece, end, trace))))
+        members += [Part(p, block_of(names, p, self.ring), []) for p in pieces[len(parts) :]]
+        return by_alternatives(self.made(before), [*names], members, disj(p.end for p in members))
 
     def made(self, before: Formula) -> Made:
         return Made(Claim("steps", before, before, self.ring, Entry({}, "evidence"), "step"), self.limits, before)
 
     def apart(self, before: Formula, names: Collection[str], body: Formula, trace: Apart) -> list[Json]:
         known = tuple(m for m in conjuncts(body) if not set(names) & set(m.free))
-        found: list[Part] = []
+        listed: list[Part] = []
         answers: list[Formula] = []
         for part in trace.parts:
             own, answer = self.moved(part.body), self.moved(part.answer)
             together = bool(known) and not isinstance(part.trace, Unchanged | Decided)
             given = conj((*known, own)) if together else own
-            found.append(Part(own, answer, list(self.traced(names, given, answer, part.trace)), together))
+            listed.append(Part(own, answer, list(self.traced(names, given, answer, part.trace)), together))
             answers.append(without(answer, known if together else ()))
         after = FALSE if FALSE in answers else conj((*known, *answers))
-        return by_independent_parts(self.made(before), [*names], found, after)
+        return by_independent_parts(self.made(before), [*names], listed, after)
 
     # --- elimination sets ----------------------------------------------------------------------
     def substituted(self, before: Formula, names: Collection[str], trace: Substituted) -> list[Json]:
@@ -186,10 +186,10 @@ class _Steps:
             return self.simplified(begin, FALSE) if point.needed else []
         simple = block_of(left, point.simple, self.ring)
         try:
-            found = self.simplified(begin, simple)
+            simplifying = self.simplified(begin, simple)
         except CertificateRejected:
-            found = [*self.simplified(begin, made), *self.simplified(made, simple)]
-        return [*found, *self.traced(left, point.simple, point.answer, point.trace)]
+            simplifying = [*self.simplified(begin, made), *self.simplified(made, simple)]
+        return [*simplifying, *self.traced(left, point.simple, point.answer, point.trace)]
 
     def open_block(self, before: Exists, points: Points, rest: Sequence[str]) -> list[Json]:
         """The set of one variable, then what openness in the others allows to leave out."""

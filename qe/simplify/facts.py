@@ -66,7 +66,7 @@ def _one_sided(key: Poly, gens: Mapping[int, Range]) -> Range:
 
     The sum is zero only where all terms are, so one term that is not zero keeps the end of the range open.
     """
-    signs = {i: _sign(found) for i, found in gens.items()}
+    signs = {i: _sign(known) for i, known in gens.items()}
     common, strict = 0, False
     for powers, coefficient in key.sparse_terms():
         sign, apart = (1 if coefficient > 0 else -1), True
@@ -82,10 +82,10 @@ def _one_sided(key: Poly, gens: Mapping[int, Range]) -> Range:
     return make(zero, None, strict, True) if common > 0 else make(None, zero, True, strict)
 
 
-def _sign(found: Range) -> tuple[int, bool]:
+def _sign(known: Range) -> tuple[int, bool]:
     """1 for a quantity >= 0, -1 for one <= 0, 0 where neither is known; and whether it is known not to be zero."""
-    above, below = found.lo is not None and found.lo >= 0, found.hi is not None and found.hi <= 0
-    return (1 if above else -1 if below else 0), not found.admits(Fraction(0))
+    above, below = known.lo is not None and known.lo >= 0, known.hi is not None and known.hi <= 0
+    return (1 if above else -1 if below else 0), not known.admits(Fraction(0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,10 +111,10 @@ class Facts:
 
     def known(self, key: Poly) -> Range:
         """The best range of a key: stored, inherent and enclosed from the ranges of its variables."""
-        found = meet(self.ranges.get(key, EVERYTHING), inherent(key))
+        best = meet(self.ranges.get(key, EVERYTHING), inherent(key))
         if self.ranges and variable_of(key) is None:
-            found = meet(found, self.enclose(key))
-        return found
+            best = meet(best, self.enclose(key))
+        return best
 
     def enclose(self, key: Poly) -> Range:
         """The range that follows term by term from the ranges of the variables."""

@@ -47,14 +47,14 @@ class Range:
 
     def signs(self, value: Fraction) -> frozenset[int]:
         """The possible signs of (quantity - value)."""
-        found = []
+        signs = []
         if self.lo is None or self.lo < value:
-            found.append(-1)
+            signs.append(-1)
         if self.admits(value):
-            found.append(0)
+            signs.append(0)
         if self.hi is None or self.hi > value:
-            found.append(1)
-        return frozenset(found)
+            signs.append(1)
+        return frozenset(signs)
 
 
 def make(

@@ -109,12 +109,12 @@ def _pieces(given: Atom, cuts: Sequence[RealAlgebraic], samples: Sequence[Fracti
     """
     own = set(roots_of(given.poly))
     size = given.poly.ring.size
-    found = set()
+    pieces = set()
     for k, sample in enumerate(samples):
         value = given.poly.evaluate([sample if i == index else Fraction(0) for i in range(size)])
         sign = (value > 0) - (value < 0)
         if given.relation.holds(sign):
-            found.add(2 * k)
+            pieces.add(2 * k)
         if k < len(cuts) and given.relation.holds(0 if cuts[k] in own else sign):
-            found.add(2 * k + 1)
-    return frozenset(found)
+            pieces.add(2 * k + 1)
+    return frozenset(pieces)
