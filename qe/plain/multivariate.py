@@ -98,6 +98,10 @@ class fmpz_mpoly(Polynomial):
         """The largest sum of exponents, -1 for zero."""
         return max((sum(self.ctx.unpacked(k)) for k in self.t), default=-1)
 
+    def is_constant(self) -> bool:
+        """Whether no variable occurs."""
+        return not any(self.t)
+
     def coeffs(self) -> list[int]:
         """The coefficients in the order of the terms."""
         return [self.t[k] for k in sorted(self.t, reverse=True)]
