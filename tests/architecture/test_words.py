@@ -13,7 +13,7 @@ import pytest
 from tests.architecture.test_rows import MODULES
 
 MOST = {
-    "found": 1_770,
+    "found": 1_350,
     "left": 450,
     "own": 300,
     "asked": 120,

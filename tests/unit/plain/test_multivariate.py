@@ -30,7 +30,7 @@ from tests.unit.plain.compared import factors, same, shown, terms
     lambda p, q, r: p.derivative(0),
     lambda p, q, r: p.primitive(),
     lambda p, q, r: p.content(),
-    lambda p, q, r: [p.degrees(), p.total_degree(), p.leading_coefficient(), len(p), p.coeffs()],
+    lambda p, q, r: [p.degrees(), p.total_degree(), p.is_constant(), p.leading_coefficient(), len(p), p.coeffs()],
     lambda p, q, r: [p == q, p == p * 1, bool(p), p - p == 0],
     lambda p, q, r: p.subs({0: 3}),
     lambda p, q, r: p.subs({2: 0}),
