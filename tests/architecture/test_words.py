@@ -13,11 +13,11 @@ import pytest
 from tests.architecture.test_rows import MODULES
 
 MOST = {
-    "found": 1_350,
-    "left": 450,
+    "found": 960,
+    "left": 440,
     "own": 300,
-    "asked": 120,
-    "turned": 75,
+    "asked": 90,
+    "turned": 68,
     "beside": 50,
     "settled": 45,
     "met": 40,
