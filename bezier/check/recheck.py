@@ -59,7 +59,7 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     plan, lines = restored(problem, certificate, stated)
     plan = replace(plan, checks={"all": verdict, **plan.checks})
     channel.event(Event("files", 0, None))
-    _check_files(plan, folder)
+    _check_files(plan, folder, certificate)
     _check_summary(plan, stated.summary, folder)
     return [f"{CERTIFICATE}: accepted", *lines, *_path_lines(plan)]
 
@@ -150,8 +150,9 @@ def _problem(folder: FilePath, stated: Stated) -> Problem:
 # --- comparing -----------------------------------------------------------------------------------------------------
 
 
-def _check_files(plan: Plan, folder: FilePath) -> None:
-    """Every data file says what follows from the plan, and there is no data file of another plan."""
+def _check_files(plan: Plan, folder: FilePath, certificate: Certificate) -> None:
+    """Every data file says what follows from the plan, and there is no data file of another plan. ``certificate``: that
+    of the folder, in the form of today."""
     expected = data_texts(plan)
     for name in DATA:
         file = folder / name
@@ -162,7 +163,8 @@ def _check_files(plan: Plan, folder: FilePath) -> None:
         if not file.exists():
             raise CertificateRejected(name, "missing")
         if name.endswith(".json"):
-            same_data(name, stored.table(file), stored.parsed(expected[name]))
+            stated = _data(json.loads(certificate.to_json())) if name == CERTIFICATE else stored.table(file)
+            same_data(name, stated, stored.parsed(expected[name]))
         else:
             same_rows(name, stored.text(file), expected[name])
 
