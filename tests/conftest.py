@@ -70,7 +70,7 @@ def work_stays_here(request: pytest.FixtureRequest) -> Iterator[None]:
 def workers_start_soon() -> Iterator[None]:
     """A worker loads what is loaded where it was asked: for callers the engine, in tests every module there is."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("qe.processes.worker.PACKAGES", ("qe.engine.",))
+        patch.setattr("qe.processes.worker.PACKAGES", ("qe.engine.", "qe.elimination."))
         yield
 
 
