@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from qe.expert.classification import check_classification
 from qe.expert.critical_values import check_critical_values
 from qe.expert.optimum import check_multipliers
+from qe.expert.rotation import check_rotation
 from qe.expert.sentences import stated
 from qe.expert.solutions import check_solutions
 from qe.kernel.step import Check
@@ -15,5 +16,6 @@ EXPERT: Mapping[str, Check] = {
     "classification": stated(check_classification),
     "critical values": check_critical_values,
     "multipliers": check_multipliers,
+    "rotation of the axes": check_rotation,
     "solutions": stated(check_solutions),
 }

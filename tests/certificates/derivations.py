@@ -53,6 +53,7 @@ CASES = {
     "gathered all": "all x. x > a or (all y. x*y > 1 or y > x)",
     "turned": "ex x, y. x^2 + y^2 = a and (x^2 + y^2)^2 > b",
     "turned vectors": "all x, y. x^2 + y^2 > a or (ex u, v. u = 2*x and v = 2*y and x*u + y*v > b)",
+    "turned inside": "ex u, v. u^2 + v^2 < a and (all x, y. x^2 + y^2 > b or u*x + v*y < 1)",
     "distributed": "ex x, y. x > b and (y = 3*x or x = 2*y + a)",
     "taken": "ex x, y. (a^2 + 1)*x^5 - y*x = b and y^2 > a",
     "taken far out": "ex x. b > 0 and b*x^4 + x > a",

@@ -39,7 +39,7 @@ from tests.unit.kernel import test_parts
 Path = tuple[str | int, ...]
 
 NEEDED = (
-    *("squares known", "turned vectors", "taken apart", "inequations", "nowhere", "translated", "sphere"),
+    *("squares known", "turned inside", "taken apart", "inequations", "nowhere", "translated", "sphere"),
     *("counterexample", "discs", "terms", "half-plane", "signs of forms", "redundant", "boundary", "distributed"),
     *("factors", "roots", "exchanged", "zeros", "gathered", "infinity", "alternatives", "named", "quadric", "chords"),
     "multipliers",
@@ -219,7 +219,7 @@ def sweep(seed: int, each: int) -> tuple[Counter[str], Counter[str]]:
 def test_every_entry_may_be_anything() -> None:
     said, offered = sweep(1, 5)
     assert set(offered) == {*RULES, *BROUGHT, "bundle"}
-    assert said["rejected"] > 150 and said["accepted"]
+    assert said["rejected"] > 120 and said["accepted"]
 
 
 @pytest.mark.deep
