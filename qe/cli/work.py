@@ -55,9 +55,7 @@ class Request:
         return {**self.settings, **order, "progress": channel.event, "check": self.certificate}
 
 
-def read_formula(
-    channel: Channel, source: Source, *, is_sentence: bool = False, solved: Sequence[str] = ()
-) -> Formula:
+def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False, solved: Sequence[str] = ()) -> Formula:
     """The formula of a source, to be ``solved`` for these; its size is the first thing to be known about the run.
 
     Raises ``InputError`` for free variables where a sentence is expected.

@@ -371,7 +371,6 @@ class _Steps:
         lemma = self.lemma(context, before, TRUE, f"entails_equiv _ _ {proof}")
         return self.via(context, claim, before, after, lemma)
 
-
     def terms(self, claim: Claim, context: Context) -> str:
         there, back, theory = claim.evidence.fields("there", "back", "theory")
         one, two = existential(claim)

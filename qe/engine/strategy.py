@@ -55,11 +55,17 @@ METHODS = {
     "cad": Listed("qe.elimination.cad", "Decomposition", "decomposition", choice=Method.CAD),
     "critical": Listed(
         "qe.elimination.critical.method",
-        "CriticalValues", "elimination by critical values", Stage.CRITICAL, Method.CRITICAL,
+        "CriticalValues",
+        "elimination by critical values",
+        Stage.CRITICAL,
+        Method.CRITICAL,
     ),
     "critical, convex universal": Listed(
         "qe.elimination.critical.method",
-        "ConvexUniversal", "elimination by critical values", Stage.CRITICAL, Method.CRITICAL,
+        "ConvexUniversal",
+        "elimination by critical values",
+        Stage.CRITICAL,
+        Method.CRITICAL,
     ),
     "convex": Listed("qe.elimination.convex", "ConvexOptimisation", "convex optimisation", Stage.CONVEX, Method.CONVEX),
     "witness": Listed(
@@ -69,7 +75,10 @@ METHODS = {
     "search": Listed("qe.elimination.search.method", "BooleanSearch", "the Boolean search", Stage.SEARCH),
     "cgs": Listed(
         "qe.elimination.cgs",
-        "ComprehensiveGroebner", "elimination by comprehensive Gröbner systems", Stage.CGS, Method.CGS,
+        "ComprehensiveGroebner",
+        "elimination by comprehensive Gröbner systems",
+        Stage.CGS,
+        Method.CGS,
     ),
     "coverings": Listed("qe.elimination.coverings", "Coverings", "coverings", choice=Method.COVERINGS),
     "infinity first": Listed(
@@ -81,6 +90,7 @@ METHODS = {
     "linear form named": Listed("qe.elimination.named_form", "NamedForm", "naming a linear form", Stage.NAMING),
 }
 """Every method by its name. Attempts of ``STRATEGY`` say when it is tried, with how much work at most."""
+
 
 class Scope(Enum):
     """What a method is shown: any question, where no block need be outermost; a block as it was asked, and again

@@ -29,9 +29,7 @@ def point_in_latex(point: Mapping[str, object]) -> str:
     return r",\ ".join(rf"\mathit{{{_escaped(name)}}} = {in_latex(value)}" for name, value in point.items())
 
 
-def optimum_in_latex(
-    status: str, value: object, points: Sequence[Mapping[str, object]], *, near: bool = False
-) -> str:
+def optimum_in_latex(status: str, value: object, points: Sequence[Mapping[str, object]], *, near: bool = False) -> str:
     """An optimum as notebooks set it: its value (``near``: one close to it), or why there is none, and points that
     have it."""
     if value is None:

@@ -47,9 +47,7 @@ def write(formula: Formula) -> str:
     prefix, body = _prefix(formula)
     if not isinstance(body, And | Or):
         return text
-    level, operator = (
-        (Level.AND, _NOTATION.conjunction) if isinstance(body, And) else (Level.OR, _NOTATION.disjunction)
-    )
+    level, operator = (Level.AND, _NOTATION.conjunction) if isinstance(body, And) else (Level.OR, _NOTATION.disjunction)
     joined = (r" \\" + f"\n{operator.strip()}\\; & ").join(
         arg.written(_NOTATION, level, last=False) for arg in body.args
     )

@@ -246,9 +246,7 @@ class TextParser(Parser):
     def radical(self) -> None:
         _, sign, at = self.advance()
         function = "cbrt" if sign == "∛" else "sqrt"
-        self.stack.append(
-            Waiting(PRIMARY, TERM, TERM | parser.SIMPLE, lambda part: s.Apply(function, [part], at))
-        )
+        self.stack.append(Waiting(PRIMARY, TERM, TERM | parser.SIMPLE, lambda part: s.Apply(function, [part], at)))
 
     infix = {  # noqa: RUF012
         **parser.INFIX,

@@ -125,9 +125,6 @@ def _check_implication(tried: Tried, whole: Formula, x: int, entry: Entry) -> No
 def _holds(member: Formula, guard: Formula, x: int) -> bool:
     """Whether the guard says that an equation, or one of several joined by "or", vanishes identically in x."""
     return any(
-        isinstance(e, Atom)
-        and e.relation is EQ
-        and e.poly.degree(x) > 0
-        and implies(guard, vanishing(e.poly, x))
+        isinstance(e, Atom) and e.relation is EQ and e.poly.degree(x) > 0 and implies(guard, vanishing(e.poly, x))
         for e in disjuncts(member)
     )

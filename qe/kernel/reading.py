@@ -96,9 +96,7 @@ def names_in(tree: Tree, params: Sequence[str]) -> Iterator[str]:
 class Reading:
     """The meaning of trees, where letters and variables stand for these polynomials, and variables have these names."""
 
-    def __init__(
-        self, language: Language, values: Mapping[str, Poly], names: Mapping[str, str], ring: Ring
-    ) -> None:
+    def __init__(self, language: Language, values: Mapping[str, Poly], names: Mapping[str, str], ring: Ring) -> None:
         self.language, self.values, self.names, self.ring = language, values, names, ring
         self.known: dict[tuple[str, tuple[int, ...]], Value] = {}
 
@@ -229,10 +227,10 @@ class Reading:
 
     def called(self, name: str, args: Sequence[Tree], numbers: Numbers) -> Value:
         match name, args:
-            case ("exists" | "forall"), [*binders, body]:
+            case (("exists" | "forall"), [*binders, body]):
                 names = [self.names[part] for b in binders for part in self.binder(b)]
                 return QUANTIFIERS[name](names, self.formula(body, numbers))
-            case ("all" | "any"), [listed]:
+            case (("all" | "any"), [listed]):
                 return JOINS[name](self.members(listed, numbers))
             case "sum", [listed]:
                 return sum(self.members(listed, numbers), self.ring.constant(0))

@@ -88,9 +88,7 @@ def root_goals(claim: Claim, context: Context) -> list[Goal]:
 check_root = ByLemmas(root_goals)
 
 
-def _changes(
-    poly: Poly, x: int, places: tuple[_Place, _Place], direction: int, claim: Claim
-) -> tuple[Formula, ...]:
+def _changes(poly: Poly, x: int, places: tuple[_Place, _Place], direction: int, claim: Claim) -> tuple[Formula, ...]:
     """That the polynomial has no two equal signs other than 0 at the places."""
     low, high = places
     if direction:

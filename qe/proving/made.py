@@ -252,5 +252,3 @@ def at_number(formula: Formula, x: int, value: Fraction | int) -> Formula:
 def equal(one: Poly, other: Poly) -> Atom:
     """That two different polynomials have the same value."""
     return Atom((one - other).normal()[1], Relation.EQ)
-
-

@@ -123,9 +123,7 @@ class _Turn:
                 raise made.claim.fail(f"{p} is not seen to turn")
             yield found
 
-    def fitting(
-        self, p: Poly, images: Sequence[tuple[Poly, Poly]], r: Poly, length: Poly
-    ) -> Iterator[list[Term]]:
+    def fitting(self, p: Poly, images: Sequence[tuple[Poly, Poly]], r: Poly, length: Poly) -> Iterator[list[Term]]:
         """That r^m*p is a combination of images modulo the length."""
         for m in range(MOST):
             for sign in (1, -1):

@@ -1,4 +1,5 @@
 """Critical values: blocks over bounded fibres are proved on open cells; altered evidence and false claims are not."""
+
 from __future__ import annotations
 
 import copy

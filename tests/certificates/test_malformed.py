@@ -59,6 +59,7 @@ OTHERS = [
 ]
 """Questions for rules that those of ``derivations`` do not need, with the method."""
 
+
 # --- certificates ------------------------------------------------------------------------------------------
 def first(make: Any) -> Data:
     """The first certificate that is found."""

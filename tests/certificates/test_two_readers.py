@@ -39,6 +39,7 @@ TABLES = [
     ("x^4 - x - 1 = 0 and y^2 < x", "x y", "EE"),
 ]
 
+
 def altered(rng: random.Random, text: str, count: int) -> Iterator[str]:
     """The certificate with other claims, other leaves of its data, and, of a derivation, other steps."""
     whole = json.loads(text)

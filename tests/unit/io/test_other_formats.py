@@ -123,7 +123,6 @@ def test_a_line_of_latex_had_no_brackets_around_a_quantifier_below_a_negation(fi
     assert "array" in written and latex.read(written) == formula
 
 
-
 PLAIN = st.from_regex(r"[A-Za-z][A-Za-z0-9_#&^~{}]{0,4}'?", fullmatch=True)
 
 

@@ -33,9 +33,7 @@ def test_nothing_near_infinity_leaves_the_block() -> None:
     three = "(ex x. x^2 < a and b > 0) or (ex x. x^2 < a and b = 0) or (ex x. x^2 < a and b < 0)"
     assert refused(RULE, block, three, by(["b > 0", "b = 0", "b < 0"])) == ""
     assert refused(RULE, block, three, by(["b > 0", "b <= 0"]))
-    assert refused(
-        RULE, block, "ex x. x^2 < a and b > 0", by(["b > 0", "b <= 0"])
-    )
+    assert refused(RULE, block, "ex x. x^2 < a and b > 0", by(["b > 0", "b <= 0"]))
 
 
 @pytest.mark.parametrize("cases", [["b > 0", "b < 0"], ["b > 0"], ["b > 0", "c <= 0"], []])

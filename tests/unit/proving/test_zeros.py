@@ -39,9 +39,7 @@ def test_what_the_others_imply_may_go(kept: str) -> None:
     ],
 )
 def test_conditions_that_hold_or_may_hold_where_both_are_zero_imply_nothing(kept: str) -> None:
-    assert refused(
-        RULE, f"ex x, y. {NOT_BOTH} and {kept}", f"ex x, y. {kept}"
-    )
+    assert refused(RULE, f"ex x, y. {NOT_BOTH} and {kept}", f"ex x, y. {kept}")
 
 
 @pytest.mark.parametrize(
