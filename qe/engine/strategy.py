@@ -197,7 +197,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
     Attempt(Scope.ASKED, "samples", on.curved_inequalities, PROBE),
     Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),
-    Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, SHORTCUT),
+    Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, 2 * SHORTCUT),
     Attempt(Scope.ASKED, "linear form named", on.several_parameters),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
     Attempt(Scope.OUTER, "parts first", on.solvable_equations, SHORTCUT),

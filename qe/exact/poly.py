@@ -305,6 +305,10 @@ class Poly:
     def gcd(self, other: Poly) -> Poly:
         return Poly(self.ring, self.p.gcd(self._lift(other)))
 
+    def remainder(self, other: Poly) -> Poly:
+        """What is left when multiples of another are subtracted as long as its leading term divides a term."""
+        return Poly(self.ring, divmod(self.p, self._lift(other))[1])
+
     def resultant(self, other: Poly, i: int) -> Poly:
         """The resultant with respect to variable ``i``; both need not contain it."""
         m, n = self.degree(i), other.degree(i)

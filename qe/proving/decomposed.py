@@ -19,7 +19,7 @@ from qe.proof.certificate import written
 from qe.proof.entry import Json
 from qe.proving.made import Made
 
-WORK = 10_000
+WORK = 50_000
 """Units of work for a decomposition."""
 
 

@@ -99,7 +99,8 @@ class Found:
 class ConvexUniversal:
     """Universal blocks in one or two parameters whose truth set is seen to be convex, or thin.
 
-    To be asked before preparation splits the conjuncts: the whole set has fewer boundary pieces.
+    To be asked before preparation splits the conjuncts. A block of few pieces is eliminated piece by piece, which
+    takes less time, gives shorter answers and shorter proofs; where one is not seen to be convex, as a whole.
     """
 
     name = "critical"
@@ -111,8 +112,10 @@ class ConvexUniversal:
 
     def run(self, problem: Block, context: Context) -> Outcome | None:
         """None where the set is not seen to be convex. Raises ``Unable`` where side conditions are not met."""
-        if len(problem.free) > FEW:
-            return self.apart(problem, context)
+        if len(problem.free) > FEW or len(pieces_of(problem)) > 1:
+            outcome = self.apart(problem, context)
+            if outcome is not None or len(problem.free) > FEW:
+                return outcome
         budget = context.budget
         negated = simplify(problem.positive, watch=budget.check)
         order = _order(problem.variables, negated, context.options)

@@ -251,13 +251,17 @@ def reduce(point: Point, p: Poly) -> tuple[Poly, int]:
 
 
 def pseudo_remainder(point: Point, a: Poly, b: Poly, i: int) -> tuple[Poly, int]:
-    """(r, s): lc(b)^e * a = q*b + r in variable i, with s the sign of lc(b)^e at the point."""
-    lead, n, power = b.leading(i), b.degree(i), 0
-    unit = b.ring.gen(i)
+    """(r, s): at the point r = s * (positive number) * (a - q*b) in variable i for some q; s is not 0."""
+    lead, n, unit = b.leading(i), b.degree(i), b.ring.gen(i)
+    if a and b.variables == (i,):  # in the coefficients of a, too, every step of this division is exact
+        power = max(0, a.degree(i) - n + 1)
+        return (a * lead**power).remainder(b), point.sign(lead) ** power
+    below, sign = point.below(i), 1
     while a and a.degree(i) >= n:
         point.check()
-        a, power = a * lead - a.leading(i) * b * unit ** (a.degree(i) - n), power + 1
-    return a, 1 if power % 2 == 0 else point.sign(lead)
+        a, s = reduce(below, a * lead - a.leading(i) * b * unit ** (a.degree(i) - n))
+        sign *= s * point.sign(lead)
+    return a, sign
 
 
 def trim(point: Point, p: Poly, i: int) -> Poly:
