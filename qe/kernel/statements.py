@@ -54,24 +54,6 @@ class Row:
         pairs = [zip(key.split(), word.split(), strict=True) for key, word in zip(self.data.get("for", {}), words)]
         return {mark: word for pair in pairs for mark, word in pair}
 
-    def relations(self, words: Sequence[str]) -> tuple[str, ...]:
-        """Those between the two sides of the block's comparisons, sorted, ``undirected``."""
-        marks = self.marks(words)
-        listed = re.findall(r"\{\w+\}|[<>/]=|[<>=]", self.data["block"])
-        return tuple(sorted(undirected(marks.get(relation.strip("{}"), relation)) for relation in listed))
-
-    def variables(self, words: Sequence[str]) -> int:
-        """How many the block binds."""
-        vectors, marks = self.table("vectors"), self.marks(words)
-        before = re.match(r"exists\(((\w+, )+)", self.data["block"])
-        binders = before[1].removesuffix(", ").split(", ") if before else []
-        return sum(_number(vectors[name], marks) if name in vectors else 1 for name in binders)
-
-
-def undirected(relation: str) -> str:
-    """The relation that is meant where a side may be any of the two."""
-    return relation.replace(">", "<")
-
 
 @cache
 def rows() -> Mapping[str, Row]:
@@ -113,24 +95,10 @@ class Theorem:
         """Those that a part binds."""
         return tuple(dict.fromkeys(name for names in self.bound.values() for name in names))
 
-    @property
-    def ring(self) -> Ring:
-        """Of the letters and variables themselves."""
-        return Ring.of((*self.letters, *self.variables))
-
     def formula(self, part: str, letters: Mapping[str, Poly], variables: Mapping[str, str], ring: Ring) -> Formula:
         """The block, what is given, or the answer, with polynomials for letters and names for variables."""
         values = {**letters, **{name: ring.var(other) for name, other in variables.items()}}
         return Reading(self.language, values, variables, ring).formula(self.trees[part], {})
-
-    def term(self, tree: Tree, letters: Mapping[str, Poly], ring: Ring) -> Poly:
-        """A term in the letters, with polynomials for them."""
-        return Reading(self.language, letters, {}, ring).term(tree, {})
-
-    def generic(self, part: str) -> Formula:
-        """A part with the letters and variables themselves."""
-        ring = self.ring
-        return self.formula(part, {name: ring.var(name) for name in self.letters}, {v: v for v in self.variables}, ring)
 
 
 @cache
@@ -142,7 +110,7 @@ def theorem(name: str, words: tuple[str, ...] = ()) -> Theorem | None:
     marks = row.marks(words)
     trees = {part: parsed(row.data.get(part, "true"), marks) for part in ("block", "given", "answer")}
     lets = dict(_let(key, text, marks) for key, text in {**row.table("fixed"), **row.table("let")}.items())
-    language = Language(lets, {key: _number(text, marks) for key, text in row.table("vectors").items()})
+    language = Language(lets, {key: number(text, marks) for key, text in row.table("vectors").items()})
     source, why, proof = (row.data.get(key, row.shared.get(key, "")) for key in ("source", "axiom", "proof"))
     return _with_names(Theorem(name, words, row.family, (), {}, trees, language, source, why, proof))
 
@@ -152,7 +120,7 @@ def _let(key: str, text: str, marks: Mapping[str, str]) -> tuple[str, Let]:
     return name, (tuple(p.strip() for p in params.rstrip(")").split(",") if p), parsed(text, marks))
 
 
-def _number(text: str, marks: Mapping[str, str]) -> int:
+def number(text: str, marks: Mapping[str, str]) -> int:
     """A number such as {n} + 1."""
     return Reading(Language(), {}, {}, Ring.of(())).number(parsed(text, marks), {})
 
