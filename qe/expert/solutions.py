@@ -21,9 +21,9 @@ from itertools import product as choices
 
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
+from qe.expert.arithmetic.convexity import inner
+from qe.expert.arithmetic.field import RootField
 from qe.expert.arithmetic.ideal import Ideal, TraceForms, product, terms_of
-from qe.expert.arithmetic.numbers import read_field, read_number
-from qe.expert.arithmetic.residue import Residue, RootField, add, of_rationals, scale
 from qe.expert.sentences import Sentence, is_point, renamed
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Relation
@@ -62,7 +62,7 @@ def check_solutions(evidence: Entry, limits: Limits) -> Sentence:
         point.check(equations, conditions, form)
     for i, one in enumerate(points):
         for other in points[:i]:
-            if one.low <= other.high and other.low <= one.high:
+            if one.field.low <= other.field.high and other.field.low <= one.field.high:
                 raise one.entry.fail("the interval of theta meets that of another solution")
     found = _count(equations, conditions, weights, equations_entry, limits.budget)
     if found != len(points):
@@ -108,9 +108,8 @@ class _Solution:
 
     def __init__(self, entry: Entry, size: int, budget: Budget) -> None:
         field, values = entry.fields("field", "values")
-        self.entry, self.field = entry, read_field(field, budget)
-        self.low, self.high = Fraction(self.field.a, self.field.unit), Fraction(self.field.b, self.field.unit)
-        self.values = [read_number(e, self.field) for e in values.items()]
+        self.entry, self.field = entry, RootField(field, budget)
+        self.values = [self.field.number(e) for e in values.items()]
         self.values_entry = values
         if len(self.values) != size:
             raise values.fail(f"expected {size} numbers, one for each variable")
@@ -118,40 +117,13 @@ class _Solution:
     def check(self, equations: Sequence[Poly], conditions: Sequence[tuple[Poly, str]], form: Sequence[int]) -> None:
         """That the equations, the conditions and the linear form have the values that they should have."""
         for p in equations:
-            if not value(p, self.values, self.field).is_zero:
+            if self.field.value(p, self.values):
                 raise self.values_entry.fail("the numbers do not satisfy an equation")
         for g, relation in conditions:
-            sign = self.field.sign(value(g, self.values, self.field))
-            if not _indicator(relation, sign):
+            if not Relation(relation).holds(self.field.sign(self.field.value(g, self.values))):
                 raise self.values_entry.fail("the numbers do not satisfy a condition")
-        total = of_rationals([Fraction(0)])
-        for c, v in zip(form, self.values, strict=True):
-            total = add(total, scale(v, Fraction(c)))
-        if total != _generator(self.field):
+        if self.field.reduced(inner(form, self.values)) != self.field.theta:
             raise self.values_entry.fail("the linear form has another value than the generator of the field")
-
-
-def _generator(field: RootField) -> Residue:
-    if field.degree == 1:
-        return of_rationals([Fraction(-field.p[0], field.p[1])])
-    return of_rationals([Fraction(0), Fraction(1)])
-
-
-def value(p: Poly, point: Sequence[Residue], field: RootField) -> Residue:
-    """A polynomial at a point."""
-    total = of_rationals([Fraction(0)])
-    for exponents, c in p.terms():
-        term = of_rationals([Fraction(c)])
-        for v, k in zip(point, exponents, strict=True):
-            for _ in range(k):
-                term = field.multiply(term, v)
-        total = add(total, term)
-    return total
-
-
-def _indicator(relation: str, sign: int) -> bool:
-    weights = INDICATORS[relation]
-    return weights[0] + weights[1] * sign + weights[2] * sign * sign == 1
 
 
 def _count(

@@ -15,7 +15,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, TRUE, Exists
 from qe.formula.traverse import map_atoms
-from qe.kernel.arithmetic.fibre import RationalFibre, fibre, values
+from qe.kernel.arithmetic.fibre import RationalFibre, fibre
 from qe.kernel.arithmetic.products import FactorLists
 from qe.kernel.arithmetic.triangular import Coordinate, Point
 from qe.kernel.block import existential
@@ -60,9 +60,7 @@ def _number(entry: Entry, ring: Ring, i: int, budget: Budget) -> Fraction | Coor
         check_value(poly, i, end)
     f = fibre(Point(budget=budget), poly, i)
     assert isinstance(f, RationalFibre)
-    if 0 in f.signs(values((ends[0], ends[1]))) or f.count_between(ends[0], ends[1]) != 1:
-        raise interval.fail("expected exactly one root between two ends that are no roots")
-    found = f.coordinate(ends[0], ends[1])
+    found = f.only_root(ends[0], ends[1])
     if found is None:
-        raise interval.fail("the root could not be represented")
+        raise interval.fail("expected exactly one root between two ends that are no roots")
     return found
