@@ -92,10 +92,9 @@ def relations_in(row: Row, words: Sequence[str]) -> tuple[str, ...]:
 
 
 def variables_in(row: Row, words: Sequence[str]) -> int:
-    """How many variables the block of a theorem binds; read off its text."""
+    """How many variables the block of a theorem binds."""
     vectors, marks = row.table("vectors"), row.marks(words)
-    before = re.match(r"exists\(((\w+, )+)", row.data["block"])
-    binders = before[1].removesuffix(", ").split(", ") if before else []
+    binders = row.table("bound")["block"].split()
     return sum(number(vectors[name], marks) if name in vectors else 1 for name in binders)
 
 
