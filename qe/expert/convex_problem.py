@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.expert.arithmetic.convexity import Quadratic, Row, inner
 from qe.expert.arithmetic.field import ONE, Number, RootField, constant
-from qe.expert.sentences import read_terms
+from qe.expert.sentences import read_list, read_terms
 from qe.formula.syntax import Relation
 from qe.kernel.limits import check_variables
 from qe.proof.entry import Entry
@@ -63,22 +62,6 @@ def _convex(entry: Entry, names: tuple[str, ...]) -> Quadratic:
     if not form.is_convex:
         raise entry.fail("a polynomial that is not convex")
     return form
-
-
-def read_numbers(entry: Entry, field: RootField, count: int) -> list[Number]:
-    """That many elements of the field."""
-    numbers = [field.number(e) for e in entry.items()]
-    if len(numbers) != count:
-        raise entry.fail(f"expected {count} numbers, found {len(numbers)}")
-    return numbers
-
-
-def read_row(entry: Entry, count: int) -> tuple[Fraction, ...]:
-    """That many rational numbers."""
-    row = tuple(e.rational() for e in entry.items())
-    if len(row) != count:
-        raise entry.fail(f"expected {count} numbers, found {len(row)}")
-    return row
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +136,8 @@ def check_faces(entry: Entry, problem: Problem, field: RootField) -> list[Equati
     derived: list[Equation] = []
     for face in entry.items():
         first, second, third = face.fields("weights", "derived", "point")
-        rows = [read_row(e, n) for e, n in ((first, len(problem.forms)), (second, len(derived)), (third, problem.size))]
+        sizes = ((first, len(problem.forms)), (second, len(derived)), (third, problem.size))
+        rows = [read_list(e, Entry.rational, n) for e, n in sizes]
         weights, extra, y = (list(map(constant, row)) for row in rows)
         derived += Place.of(problem, field, y).face(weights, extra, derived, first)
     return derived

@@ -39,14 +39,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.expert.arithmetic.convexity import Quadratic, inner, is_convex, rank
-from qe.expert.convex_problem import read_row
 from qe.expert.critical_points import active_sets, vanishing
 from qe.expert.open_cells import open_cells
 from qe.expert.regular_set import check_regular
+from qe.expert.sentences import read_list
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Atom, Exists, Formula, Relation
@@ -168,14 +169,11 @@ def are_weights(conditions: Sequence[Condition], weights: Row) -> bool:
 
 def common(polys: Sequence[Poly]) -> Poly:
     """The greatest common divisor."""
-    found = polys[0]
-    for p in polys[1:]:
-        found = found.gcd(p)
-    return found
+    return reduce(Poly.gcd, polys)
 
 
 def _check_bound(conditions: Sequence[Condition], free: int, entry: Entry) -> None:
-    weights = read_row(entry, len(conditions))
+    weights = read_list(entry, Entry.rational, len(conditions))
     if not are_weights(conditions, weights):
         raise entry.fail("a negative weight of an inequality")
     inner = [row[free:-1] for row in weighted(conditions, weights)[free:-1]]
@@ -237,10 +235,10 @@ class _Listed:
     def __init__(self, conditions: Sequence[Condition], free: int, points: Entry, weights: Entry) -> None:
         self.conditions = conditions
         size = conditions[0].poly.ring.size - free
-        self.points = [read_row(e, size) for e in points.items()]
+        self.points = [read_list(e, Entry.rational, size) for e in points.items()]
         self.sums = []
         for entry in weights.items():
-            row = read_row(entry, len(conditions))
+            row = read_list(entry, Entry.rational, len(conditions))
             if not are_weights(conditions, row):
                 raise entry.fail("a negative weight of an inequality")
             self.sums.append(weighted(conditions, row))

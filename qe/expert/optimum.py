@@ -33,11 +33,9 @@ from qe.expert.convex_problem import (
     Place,
     Problem,
     check_faces,
-    read_numbers,
     read_problem,
-    read_row,
 )
-from qe.expert.sentences import Sentence, is_point, read_terms, renamed, stated
+from qe.expert.sentences import Sentence, is_point, read_list, read_terms, renamed, stated
 from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
@@ -82,7 +80,7 @@ def check_optimum(entry: Entry, limits: Limits) -> Sentence:
     parts = dict(zip((*names, *optional), entry.fields(*names, optional=optional), strict=True))
     problem, field = read_problem(parts["problem"]), RootField(parts["field"], limits.budget)
     derived = check_faces(parts["faces"], problem, field)
-    place = Place.of(problem, field, read_numbers(parts["point"], field, problem.size))
+    place = Place.of(problem, field, read_list(parts["point"], field.number, problem.size))
     if status != "optimal":
         _absent(parts["inner"])
     if status == "unbounded":
@@ -90,11 +88,11 @@ def check_optimum(entry: Entry, limits: Limits) -> Sentence:
         _check_strict(place, parts["point"])
         _check_direction(problem, parts["direction"])
         return sentence(entry, limits.budget)
-    if read_numbers(parts["values"], field, len(problem.forms)) != place.values:
+    if read_list(parts["values"], field.number, len(problem.forms)) != place.values:
         raise parts["values"].fail("not the values of the constraints at the point")
-    weights = read_numbers(parts["multipliers"], field, len(problem.forms))
+    weights = read_list(parts["multipliers"], field.number, len(problem.forms))
     known = follow(place, parts["links"], derived)[0] if status == "infeasible" else derived
-    extra = read_numbers(parts["derived"], field, len(known))
+    extra = read_list(parts["derived"], field.number, len(known))
     if status == "infeasible":
         least = field.sign(place.weighted(weights, extra, known, parts["multipliers"]))
         if least < 0 or (least == 0 and not _on_strict(problem, weights)):
@@ -121,7 +119,7 @@ def sentence(entry: Entry, budget: Budget) -> Sentence:
         lower = conj((*conditions(entry, ring), _compared(entry, ring, below, "<")))
         return forall((below,), exists(names, lower)), TRUE
     field = RootField(parts["field"], budget)
-    numbers = [field.number(parts["value"]), *read_numbers(parts["point"], field, len(names))]
+    numbers = [field.number(parts["value"]), *read_list(parts["point"], field.number, len(names))]
     if parts["attained"].value is not True:
         above = disj((*map(neg, conditions(entry, ring)), _compared(entry, ring, value, ">")))
         near = exists(names, conj((*conditions(entry, ring), _compared(entry, ring, below, "<"))))
@@ -157,8 +155,8 @@ def follow(place: Place, entry: Entry, known: Sequence[Equation]) -> tuple[list[
     found, weights = list(known), list[Number]()
     for link in entry.items() if entry.value is not None else ():
         first, second = link.fields("weights", "derived")
-        weights = read_numbers(first, place.field, len(place.problem.forms))
-        found += place.face(weights, read_numbers(second, place.field, len(found)), found, first)
+        weights = read_list(first, place.field.number, len(place.problem.forms))
+        found += place.face(weights, read_list(second, place.field.number, len(found)), found, first)
     if entry.value is not None and not weights:
         raise entry.fail("expected at least one link")
     return found, weights
@@ -183,7 +181,7 @@ def _check_optimal(
     else:
         first, second = parts["inner"].fields("field", "point")
         inside = RootField(first, field.budget)
-        _check_strict(Place.of(problem, inside, read_numbers(second, inside, problem.size)), second)
+        _check_strict(Place.of(problem, inside, read_list(second, inside.number, problem.size)), second)
     if attained or _on_strict(problem, weights):
         _absent(parts["links"])
     else:
@@ -228,7 +226,7 @@ def _absent(entry: Entry) -> None:
 
 def _check_direction(problem: Problem, entry: Entry) -> None:
     """The theorem (unbounded)."""
-    d, origin = [exact(c) for c in read_row(entry, problem.size)], (*[0] * problem.size, 1)
+    d, origin = [exact(c) for c in read_list(entry, Entry.rational, problem.size)], (*[0] * problem.size, 1)
     for i, form in enumerate((problem.objective, *problem.forms)):
         slope = inner(form.gradient(origin), d)
         if any(inner(row, d) for row in form.hessian) or (slope >= 0 if i == 0 else slope > 0):

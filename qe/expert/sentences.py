@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import wraps
 from math import lcm
+from typing import TypeVar
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
@@ -20,6 +21,7 @@ from qe.kernel.renaming import is_same
 from qe.kernel.step import Check, Claim, Context, Limits
 from qe.proof.entry import Entry
 
+Read = TypeVar("Read")
 Sentence = tuple[Formula, Formula]
 """What stands before, and what after: equivalent for all values of the variables that are free in them."""
 
@@ -72,6 +74,14 @@ def _poly(coefficients: Sequence[int], x: Poly) -> Poly:
     for c in reversed(coefficients):
         total = total * x + c
     return total
+
+
+def read_list(entry: Entry, read: Callable[[Entry], Read], count: int) -> list[Read]:
+    """That many numbers, each read in this way."""
+    found = [read(e) for e in entry.items()]
+    if len(found) != count:
+        raise entry.fail(f"expected {count} numbers, found {len(found)}")
+    return found
 
 
 def read_terms(terms: Entry, names: Sequence[str], ring: Ring) -> tuple[Poly, int]:

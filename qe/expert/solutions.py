@@ -24,7 +24,7 @@ from qe.exact.ring import Poly, Ring
 from qe.expert.arithmetic.convexity import inner
 from qe.expert.arithmetic.field import RootField
 from qe.expert.arithmetic.ideal import Ideal, TraceForms, product, terms_of
-from qe.expert.sentences import Sentence, is_point, renamed
+from qe.expert.sentences import Sentence, is_point, read_list, renamed
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Relation
 from qe.kernel.step import Limits
@@ -52,11 +52,7 @@ def check_solutions(evidence: Entry, limits: Limits) -> Sentence:
     ring = Ring.of(names)
     equations = [e.polynomial(ring) for e in equations_entry.items()]
     conditions = [_condition(e, ring) for e in conditions_entry.items()]
-    weights = [_weight(e) for e in weights_entry.items()]
-    form = [_integer(e) for e in form_entry.items()]
-    for entry, numbers in ((weights_entry, weights), (form_entry, form)):
-        if len(numbers) != len(names):
-            raise entry.fail(f"expected {len(names)} integers, one for each variable")
+    weights, form = read_list(weights_entry, _weight, len(names)), read_list(form_entry, _integer, len(names))
     points = [_Solution(e, len(names), limits.budget) for e in listed.items()]
     for point in points:
         point.check(equations, conditions, form)
@@ -109,10 +105,7 @@ class _Solution:
     def __init__(self, entry: Entry, size: int, budget: Budget) -> None:
         field, values = entry.fields("field", "values")
         self.entry, self.field = entry, RootField(field, budget)
-        self.values = [self.field.number(e) for e in values.items()]
-        self.values_entry = values
-        if len(self.values) != size:
-            raise values.fail(f"expected {size} numbers, one for each variable")
+        self.values, self.values_entry = read_list(values, self.field.number, size), values
 
     def check(self, equations: Sequence[Poly], conditions: Sequence[tuple[Poly, str]], form: Sequence[int]) -> None:
         """That the equations, the conditions and the linear form have the values that they should have."""

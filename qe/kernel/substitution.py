@@ -37,7 +37,7 @@ def quotient(poly: Poly, x: int, top: Poly, bottom: Poly) -> Poly:
     parts = poly.coefficients(x)
     check_power(top, len(parts) - 1)
     check_power(bottom, len(parts) - 1)
-    result = poly.ring.constant(0)
-    for power, part in enumerate(parts):
-        result = result + part * top**power * bottom ** (len(parts) - 1 - power)
-    return result
+    value, scale = poly.ring.constant(0), poly.ring.constant(1)
+    for part in reversed(parts):
+        value, scale = part * scale + value * top, scale * bottom
+    return value

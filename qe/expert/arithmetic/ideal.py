@@ -198,7 +198,9 @@ class TraceForms:
         self.ideal, self.monomials = ideal, ideal.monomials()
         self._place = {e: k for k, e in enumerate(self.monomials)}
         self._matrices = [self._step(k) for k in range(ideal.size)]
-        self._products: dict[Exponents, fmpq_mat] = {}
+        size = len(self.monomials)
+        unit = fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
+        self._products = {(0,) * ideal.size: unit}
         traces = []
         for e in self.monomials:
             matrix = self._multiplication(e)
@@ -220,12 +222,8 @@ class TraceForms:
     def _multiplication(self, e: Exponents) -> fmpq_mat:
         if e not in self._products:
             self.ideal.check()
-            k = next((k for k, power in enumerate(e) if power), None)
-            if k is None:
-                size = len(self.monomials)
-                self._products[e] = fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
-            else:
-                self._products[e] = self._matrices[k] * self._multiplication((*e[:k], e[k] - 1, *e[k + 1 :]))
+            k = next(k for k, power in enumerate(e) if power)
+            self._products[e] = self._matrices[k] * self._multiplication((*e[:k], e[k] - 1, *e[k + 1 :]))
         return self._products[e]
 
     def signature(self, h: Mapping[Exponents, fmpq]) -> int:

@@ -11,6 +11,7 @@ from qe.errors import CertificateRejected
 from qe.expert import convex_problem as problems
 from qe.expert.arithmetic.field import RootField, constant
 from qe.expert.convex_problem import Place, read_problem
+from qe.expert.sentences import read_list
 from qe.proof.entry import Entry
 from tests.tables import each
 
@@ -99,9 +100,9 @@ def test_problems_that_are_not_convex(objective: Any, constraints: Any, names: l
 
 def test_numbers_and_rows_have_their_length() -> None:
     entry = Entry([["1"], ["0", "1"]], "point")
-    assert problems.read_numbers(entry, SQRT2, 2) == [*rational(1), ROOT]
+    assert read_list(entry, SQRT2.number, 2) == [*rational(1), ROOT]
     with pytest.raises(CertificateRejected, match="expected 3 numbers, found 2"):
-        problems.read_numbers(entry, SQRT2, 3)
-    assert problems.read_row(Entry(["1", "-2/3"], "row"), 2) == (1, Fraction(-2, 3))
+        read_list(entry, SQRT2.number, 3)
+    assert read_list(Entry(["1", "-2/3"], "row"), Entry.rational, 2) == [1, Fraction(-2, 3)]
     with pytest.raises(CertificateRejected, match="expected 1 numbers, found 2"):
-        problems.read_row(Entry(["1", "2"], "row"), 1)
+        read_list(Entry(["1", "2"], "row"), Entry.rational, 1)
