@@ -1,7 +1,7 @@
 """Numbers of Q(theta), where theta is the only root of an integer polynomial in an interval: polynomials in theta.
 
-Nothing is assumed about the polynomial but that: a number that is 0 modulo it is 0, and signs are those at the point
-theta, decided by the kernel.
+Nothing is assumed about the polynomial but that: a number that is 0 modulo it is 0, signs are those at the point theta,
+decided by the kernel, and a number that is 0 there in another way is refused.
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ class RootField:
     positive leading coefficient, and an interval with one root of it, or the root itself twice."""
 
     def __init__(self, entry: Entry, budget: Budget | None = None) -> None:
+        self._entry = entry
         polynomial, interval = entry.fields("minimal_polynomial", "interval")
         listed = [c.rational() for c in polynomial.items()]
         self.coefficients, self.budget = [c.numerator for c in listed], budget or Budget()
@@ -70,8 +71,14 @@ class RootField:
         return (fmpq_poly() + value) % self._minimal
 
     def sign(self, value: Number) -> int:
-        """The sign of the value at theta."""
-        return self._place.sign(from_univariate(LINE, 0, value.numer()))
+        """The sign of the value at theta; 0 only for the zero polynomial, so that a weight that is one is not positive.
+
+        ``CertificateRejected`` for another one that is 0 (the polynomial of theta is reducible then).
+        """
+        found = self._place.sign(from_univariate(LINE, 0, value.numer()))
+        if value and not found:
+            raise self._entry.fail("a number is 0 but not the zero polynomial: the minimal polynomial is reducible")
+        return found
 
     def value(self, p: Poly, point: Sequence[Number]) -> Number:
         """A polynomial at a point."""

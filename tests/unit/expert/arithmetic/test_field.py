@@ -79,17 +79,27 @@ def test_an_interval_has_two_ends(interval: list[str]) -> None:
 
 @each(
     (["-4", "0", "1"], "2", "2", [-1, 1], 1),
-    (["-4", "0", "1"], "2", "2", [-2, 1], 0),  # theta - 2 is 0, but not the zero polynomial
     (["10", "-2", "-5", "1"], "1", "3/2", [-1, 1], 1),  # (x^2 - 2)(x - 5) at sqrt 2
-    (["10", "-2", "-5", "1"], "1", "3/2", [-2, 0, 1], 0),
-    (["-1", "3", "-3", "1"], "0", "2", [-1, 1], 0),  # a triple root
     (["-2", "0", "1"], "-2", "-1", [0, 1], -1),
+    (["-2", "0", "1"], "1", "2", [-2, 0, 1], 0),  # the zero polynomial
 )
-def test_signs_where_the_polynomial_is_reducible(
-    polynomial: list[str], low: str, high: str, coefficients: list[int], sign: int
-) -> None:
+def test_signs(polynomial: list[str], low: str, high: str, coefficients: list[int], sign: int) -> None:
     here = field(polynomial, low, high)
     assert here.sign(number(here, *coefficients)) == sign
+
+
+@each(
+    (["-4", "0", "1"], "2", "2", [-2, 1]),
+    (["10", "-2", "-5", "1"], "1", "3/2", [-2, 0, 1]),
+    (["-1", "3", "-3", "1"], "0", "2", [-1, 1]),  # a triple root
+)
+def test_a_number_that_is_zero_but_not_the_zero_polynomial_has_no_sign(
+    polynomial: list[str], low: str, high: str, coefficients: list[int]
+) -> None:
+    """Else a weight that is not the zero polynomial would count as positive."""
+    here = field(polynomial, low, high)
+    with pytest.raises(CertificateRejected, match="reducible"):
+        here.sign(number(here, *coefficients))
 
 
 def test_close_numbers_are_told_apart() -> None:
