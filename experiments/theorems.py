@@ -26,7 +26,7 @@ from qe.formula.traverse import bound_variables
 from qe.kernel.statements import Theorem, rows, theorem
 from qe.proof.certificate import Certificate
 from qe.reference import decide as reference_decides
-from qe.rules.closed_forms import pattern, square_root
+from qe.rules.closed_forms import generic, pattern, square_root, term
 
 WITHOUT = ("cubic", "roots", "balls", "stability", "quadrics", "forms", "values", "critical")
 """The rules that the theorems justify, and the method that is slow here."""
@@ -71,7 +71,7 @@ def _instance(used: Theorem, rng: random.Random) -> Instance:
     for _ in range(TRIES):
         numbers = {name: ring.constant(rng.choice(NUMBERS)) for name in used.letters}
         for name, tree in roots.items():
-            root = square_root(used.term(tree, numbers, ring))
+            root = square_root(term(used, tree, numbers, ring))
             if root is None:
                 break
             numbers[name] = root * rng.choice((1, -1))
@@ -104,8 +104,8 @@ def tried(name: str, count: int, seed: int = 1) -> tuple[int, int]:
 
 def sentence(used: Theorem) -> Formula:
     """The theorem for all values of its letters."""
-    claim = iff(used.generic("block"), used.generic("answer"))
-    return forall(used.letters, implies(used.generic("given"), claim))
+    claim = iff(generic(used, "block"), generic(used, "answer"))
+    return forall(used.letters, implies(generic(used, "given"), claim))
 
 
 def proof(name: str, seconds: float = 600) -> Certificate:

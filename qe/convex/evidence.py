@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from qe.expert.optimum import PROBLEM, sentence
+from qe.expert.convex_problem import PROBLEM
+from qe.expert.optimum import sentence
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry

@@ -26,6 +26,7 @@ from itertools import product as choices
 
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
+from qe.expert.arithmetic.ideal import product
 from qe.expert.arithmetic.parametric import Case, Conditions, Terms, cases
 from qe.expert.arithmetic.parametric_forms import ParametricForms
 from qe.expert.sentences import Sentence, renamed
@@ -203,7 +204,7 @@ def _counts(case: Case, positive: Sequence[Terms]) -> dict[int | None, Formula]:
     forms = ParametricForms(case)
     products: list[Terms] = [{(0,) * case.size: case.where.ring.constant(1)}]
     for g in positive:  # (s + s^2)/2 is 1 for a positive sign s, and 0 for the others
-        products = [p for q in products for p in (_product(q, g), _product(_product(q, g), g))]
+        products = [p for q in products for p in (product(q, g), product(product(q, g), g))]
     rows = [forms.coefficients(forms.matrix(h)) if h else None for h in products]
     signatures = [_signatures(row, size) if row is not None else {0: TRUE} for row in rows]
     scale = 1 << len(positive)
@@ -213,15 +214,6 @@ def _counts(case: Case, positive: Sequence[Terms]) -> dict[int | None, Formula]:
         if not rest and 0 <= total <= size:  # no other combination occurs
             parts[total].append(conj([condition for _, condition in chosen]))
     return {k: disj(group) for k, group in parts.items()}
-
-
-def _product(a: Terms, b: Terms) -> Terms:
-    found: Terms = {}
-    for e, c in a.items():
-        for f, d in b.items():
-            place = tuple(i + j for i, j in zip(e, f, strict=True))
-            found[place] = found[place] + c * d if place in found else c * d
-    return {e: c for e, c in found.items() if c}
 
 
 def _signatures(coefficients: Sequence[Poly], size: int) -> dict[int, Formula]:

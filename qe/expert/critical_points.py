@@ -20,6 +20,7 @@ from itertools import combinations
 
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
+from qe.kernel.reading import determinant
 from qe.proof.entry import Entry
 
 MOST_SETS, MOST_TERMS, MOST_VARIABLES = 5_000, 200_000, 6
@@ -49,18 +50,7 @@ def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
         return []
     rows = [[f.derivative(i) for i in bound] for f in active]
     chosen = combinations(range(len(bound)), len(active))
-    return [d for columns in chosen if (d := determinant([[row[c] for c in columns] for row in rows]))]
-
-
-def determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
-    """By expansion along the first row."""
-    if len(rows) == 1:
-        return rows[0][0]
-    total = rows[0][0].ring.constant(0)
-    for c, entry in enumerate(rows[0]):
-        if entry:
-            total = total + (-1) ** c * entry * determinant([[*row[:c], *row[c + 1 :]] for row in rows[1:]])
-    return total
+    return [d for columns in chosen if (d := determinant([[row[c] for c in columns] for row in rows], active[0].ring))]
 
 
 def vanishing(start: Sequence[Poly], chain: Entry, free: int, ring: Ring) -> list[Poly]:

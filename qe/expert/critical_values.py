@@ -39,14 +39,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
-from qe.expert.arithmetic.convexity import is_convex, rank
-from qe.expert.convex_problem import read_row
+from qe.expert.arithmetic.convexity import Quadratic, inner, is_convex, rank
 from qe.expert.critical_points import active_sets, vanishing
 from qe.expert.open_cells import open_cells
 from qe.expert.regular_set import check_regular
+from qe.expert.sentences import read_list
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Atom, Exists, Formula, Relation
@@ -64,21 +65,14 @@ Row = Sequence[Fraction]
 
 
 @dataclass(frozen=True, slots=True)
-class Quadratic:
-    """A polynomial of degree at most 2 that is <= 0, or = 0: v^T M v for v, all variables and 1."""
+class Condition(Quadratic):
+    """That the polynomial is <= 0, or = 0."""
 
-    poly: Poly
-    matrix: tuple[tuple[Fraction, ...], ...]
     is_equation: bool
-
-    def value(self, point: Row) -> Fraction:
-        """The value at a point."""
-        v = (*point, Fraction(1))
-        return sum((a * b * m for a, row in zip(v, self.matrix) for b, m in zip(v, row) if m), Fraction(0))
 
     def holds(self, point: Row) -> bool:
         """Whether a point satisfies it."""
-        value = self.value(point)
+        value = self.value((*point, 1))
         return not value if self.is_equation else value <= 0
 
 
@@ -127,7 +121,7 @@ def is_strict(formula: Formula) -> bool:
     return any(isinstance(part, Atom) and part.relation in (Relation.LT, Relation.GT) for part in conjuncts(formula))
 
 
-def read_conditions(formula: Formula, ring: Ring, claim: Claim, *, strict: bool) -> list[Quadratic]:
+def read_conditions(formula: Formula, ring: Ring, claim: Claim, *, strict: bool) -> list[Condition]:
     """The conjuncts as convex conditions, strict ones as weak; ``CertificateRejected`` where one is none."""
     found = []
     down, up = (Relation.LT, Relation.GT) if strict else (Relation.LE, Relation.GE)
@@ -138,25 +132,14 @@ def read_conditions(formula: Formula, ring: Ring, claim: Claim, *, strict: bool)
         poly = -poly if part.relation is up else poly
         if poly.total_degree > (1 if part.relation is Relation.EQ else 2):
             raise claim.fail("expected inequalities of degree at most 2, and linear equations")
-        condition = Quadratic(poly, _matrix(poly), part.relation is Relation.EQ)
-        if not is_convex([row[:-1] for row in condition.matrix[:-1]]):
+        condition = Condition(poly, Quadratic.of(poly, 1, Fraction).matrix, part.relation is Relation.EQ)
+        if not condition.is_convex:
             raise claim.fail("an inequality is not convex")
         found.append(condition)
     return found
 
 
-def _matrix(poly: Poly) -> tuple[tuple[Fraction, ...], ...]:
-    size = poly.ring.size + 1
-    matrix = [[Fraction(0)] * size for _ in range(size)]
-    for exponents, coefficient in poly.terms():
-        places = [i for i, e in enumerate((*exponents, 2 - sum(exponents))) for _ in range(e)]
-        i, j = places
-        matrix[i][j] += Fraction(coefficient, 2)
-        matrix[j][i] += Fraction(coefficient, 2)
-    return tuple(map(tuple, matrix))
-
-
-def weighted(conditions: Sequence[Quadratic], weights: Row) -> list[list[Fraction]]:
+def weighted(conditions: Sequence[Condition], weights: Row) -> list[list[Fraction]]:
     """The matrix of a weighted sum."""
     size = range(len(conditions[0].matrix))
     pairs = [(w, c.matrix) for w, c in zip(weights, conditions, strict=True) if w]
@@ -167,8 +150,8 @@ def over(matrix: Sequence[Row], values: Row) -> list[list[Fraction]]:
     """The matrix of the polynomial in the other variables, with values for the first ones."""
     free, size = len(values), len(matrix)
     v = (*values, *(Fraction(0),) * (size - free - 1), Fraction(1))
-    folded = [sum((a * m for a, m in zip(v, row, strict=True) if a and m), Fraction(0)) for row in matrix]
-    constant = sum((a * b for a, b in zip(v, folded, strict=True)), Fraction(0))
+    folded = [inner(v, row) + Fraction(0) for row in matrix]
+    constant = inner(v, folded) + Fraction(0)
     rows = [[*matrix[i][free : size - 1], folded[i]] for i in range(free, size - 1)]
     return [*rows, [*(row[-1] for row in rows), constant]]
 
@@ -179,21 +162,18 @@ def is_positive(matrix: Sequence[Row]) -> bool:
     return is_convex(matrix) and rank(matrix) == rank(inner) + 1
 
 
-def are_weights(conditions: Sequence[Quadratic], weights: Row) -> bool:
+def are_weights(conditions: Sequence[Condition], weights: Row) -> bool:
     """Whether those of inequalities are not negative."""
     return all(w >= 0 or c.is_equation for w, c in zip(weights, conditions, strict=True))
 
 
 def common(polys: Sequence[Poly]) -> Poly:
     """The greatest common divisor."""
-    found = polys[0]
-    for p in polys[1:]:
-        found = found.gcd(p)
-    return found
+    return reduce(Poly.gcd, polys)
 
 
-def _check_bound(conditions: Sequence[Quadratic], free: int, entry: Entry) -> None:
-    weights = read_row(entry, len(conditions))
+def _check_bound(conditions: Sequence[Condition], free: int, entry: Entry) -> None:
+    weights = read_list(entry, Entry.rational, len(conditions))
     if not are_weights(conditions, weights):
         raise entry.fail("a negative weight of an inequality")
     inner = [row[free:-1] for row in weighted(conditions, weights)[free:-1]]
@@ -227,7 +207,7 @@ def read_lists(entry: Entry, ring: Ring, limits: Limits) -> FactorLists:
     return found
 
 
-def _surfaces(conditions: Sequence[Quadratic], free: int, chains: Entry, limits: Limits) -> list[list[Poly]]:
+def _surfaces(conditions: Sequence[Condition], free: int, chains: Entry, limits: Limits) -> list[list[Poly]]:
     """For each set of conditions that may be active: polynomials in the parameters that vanish over critical points."""
     ring = conditions[0].poly.ring
     equations = [c.poly for c in conditions if c.is_equation]
@@ -252,13 +232,13 @@ def padded(values: Row, ring: Ring) -> tuple[Fraction, ...]:
 class _Listed:
     """Points and weights, each read once, and what they show at a sample."""
 
-    def __init__(self, conditions: Sequence[Quadratic], free: int, points: Entry, weights: Entry) -> None:
+    def __init__(self, conditions: Sequence[Condition], free: int, points: Entry, weights: Entry) -> None:
         self.conditions = conditions
         size = conditions[0].poly.ring.size - free
-        self.points = [read_row(e, size) for e in points.items()]
+        self.points = [read_list(e, Entry.rational, size) for e in points.items()]
         self.sums = []
         for entry in weights.items():
-            row = read_row(entry, len(conditions))
+            row = read_list(entry, Entry.rational, len(conditions))
             if not are_weights(conditions, row):
                 raise entry.fail("a negative weight of an inequality")
             self.sums.append(weighted(conditions, row))

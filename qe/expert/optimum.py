@@ -6,10 +6,7 @@ before); that the objective is below every number somewhere; or which number is 
 which point alone takes it.
 
 THEOREMS. Let f and the inequality forms p_i be convex quadratic polynomials and the equations linear.
-(face) Weights w >= 0 on inequalities, any on equations, and a point y with grad L(y) = 0 and L(y) >= 0 for
-L = sum w_i p_i + sum v_k e_k: every feasible x has 0 >= L(x) = L(y) + (x-y)^T H_L (x-y)/2 >= 0, hence H_i(x-y) = 0 and
-p_i(x) = 0 wherever w_i > 0, which gives further linear equations e_k (Borwein–Wolkowicz 1981).
-(link) The same with weights and y in a number field, and w_i p_i(y) = 0 for all i.
+(face) See ``convex_problem``: rational ones; then links, which have their weights in the field, at the point itself.
 (optimal) A feasible x* with multipliers of the right signs, complementary, stationary for f + L: f(x) >= f(x*) for all
 feasible x (Karush 1939, Kuhn–Tucker 1951). With all strict constraints strict at x* it is attained; otherwise, given
 one point where they are strict, f(x*) is the infimum and, being approached along a segment, not more.
@@ -23,49 +20,37 @@ Nothing is shared with the producer of such certificates except the format.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
-from qe.expert.arithmetic.convexity import Row, rank
-from qe.expert.arithmetic.numbers import read_field, read_number
-from qe.expert.arithmetic.residue import Residue, RootField, add, scale
+from qe.expert.arithmetic.convexity import Row, inner, rank
+from qe.expert.arithmetic.field import Number, RootField
 from qe.expert.convex_problem import (
+    PROBLEM,
+    RELATIONS,
     Equation,
+    Numbers,
+    Place,
     Problem,
-    Weighting,
-    as_fraction,
-    check_signs,
-    check_stationary,
-    rational,
-    read_numbers,
+    check_faces,
     read_problem,
-    read_row,
-    slope_at,
-    tangents,
-    value_at,
-    weighted_value,
 )
-from qe.expert.sentences import Sentence, is_point, read_terms, renamed, stated
+from qe.expert.sentences import Sentence, is_point, read_list, read_terms, renamed, stated
 from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
+from qe.kernel.arithmetic.sturm import exact
 from qe.kernel.block import existential
 from qe.kernel.limits import check_variables
 from qe.kernel.step import Claim, Context, Limits
 from qe.options import Budget
 from qe.proof.entry import Entry
 
-PROBLEM = ("variables", "minimise", "constraints")
-RELATIONS = {"<=": Relation.LE, "<": Relation.LT, "=": Relation.EQ}
-"""The relations of constraints."""
-
 _KEYS = {
     "optimal": ("multipliers", "derived", "values", "value", "attained", "unique"),
     "infeasible": ("multipliers", "derived", "values"),
     "unbounded": ("direction",),
 }
-_Q = RootField([0, 1], Fraction(0), Fraction(0), "rationals")
 
 
 def check_multipliers(claim: Claim, context: Context, limits: Limits) -> None:
@@ -93,28 +78,27 @@ def check_optimum(entry: Entry, limits: Limits) -> Sentence:
     names = ("problem", "status", "field", "faces", "point", *_KEYS[status])
     optional = ("inner", "links")
     parts = dict(zip((*names, *optional), entry.fields(*names, optional=optional), strict=True))
-    problem = read_problem(parts["problem"])
-    field = read_field(parts["field"], limits.budget)
-    derived = _check_faces(parts["faces"], problem)
-    point = read_numbers(parts["point"], field, problem.size)
+    problem, field = read_problem(parts["problem"]), RootField(parts["field"], limits.budget)
+    derived = check_faces(parts["faces"], problem, field)
+    place = Place.of(problem, field, read_list(parts["point"], field.number, problem.size))
     if status != "optimal":
         _absent(parts["inner"])
     if status == "unbounded":
         _absent(parts["links"])
-        _check_feasible(problem, field, point, parts["point"])
+        _check_strict(place, parts["point"])
         _check_direction(problem, parts["direction"])
         return sentence(entry, limits.budget)
-    values = _check_values(problem, field, point, parts["values"])
-    multipliers = read_numbers(parts["multipliers"], field, len(problem.forms))
-    check_signs(problem, field, multipliers, parts["multipliers"].path, "multiplier")
-    place = _Place(problem, field, point, values, entry.path)
+    if read_list(parts["values"], field.number, len(problem.forms)) != place.values:
+        raise parts["values"].fail("not the values of the constraints at the point")
+    weights = read_list(parts["multipliers"], field.number, len(problem.forms))
+    known = follow(place, parts["links"], derived)[0] if status == "infeasible" else derived
+    extra = read_list(parts["derived"], field.number, len(known))
     if status == "infeasible":
-        known = place.follow(parts["links"], derived)[0]
-        total = Weighting(multipliers, known, read_numbers(parts["derived"], field, len(known)))
-        place.check_contradiction(total)
+        least = field.sign(place.weighted(weights, extra, known, parts["multipliers"]))
+        if least < 0 or (least == 0 and not _on_strict(problem, weights)):
+            raise parts["multipliers"].fail("the weighted sum does not contradict the constraints")
     else:
-        total = Weighting(multipliers, derived, read_numbers(parts["derived"], field, len(derived)))
-        place.check_optimal(total, parts)
+        _check_optimal(place, weights, extra, derived, parts)
     return sentence(entry, limits.budget)
 
 
@@ -134,8 +118,8 @@ def sentence(entry: Entry, budget: Budget) -> Sentence:
     if status == "unbounded":
         lower = conj((*conditions(entry, ring), _compared(entry, ring, below, "<")))
         return forall((below,), exists(names, lower)), TRUE
-    field = read_field(parts["field"], budget)
-    numbers = [read_number(parts["value"], field), *read_numbers(parts["point"], field, len(names))]
+    field = RootField(parts["field"], budget)
+    numbers = [field.number(parts["value"]), *read_list(parts["point"], field.number, len(names))]
     if parts["attained"].value is not True:
         above = disj((*map(neg, conditions(entry, ring)), _compared(entry, ring, value, ">")))
         near = exists(names, conj((*conditions(entry, ring), _compared(entry, ring, below, "<"))))
@@ -166,171 +150,73 @@ def _compared(entry: Entry, ring: Ring, bound: str, relation: str, names: Sequen
     return atom(poly - scale * ring.gen(ring.index[bound]), Relation(relation))
 
 
-# --- faces over Q ----------------------------------------------------------------------------------------------
+def follow(place: Place, entry: Entry, known: Sequence[Equation]) -> tuple[list[Equation], Numbers]:
+    """Check the links, each by (face), and return all equations known after them, and the weights of the last."""
+    found, weights = list(known), list[Number]()
+    for link in entry.items() if entry.value is not None else ():
+        first, second = link.fields("weights", "derived")
+        weights = read_list(first, place.field.number, len(place.problem.forms))
+        found += place.face(weights, read_list(second, place.field.number, len(found)), found, first)
+    if entry.value is not None and not weights:
+        raise entry.fail("expected at least one link")
+    return found, weights
 
 
-def _check_faces(entry: Entry, problem: Problem) -> list[Equation]:
-    """Check every face and return the equations derived by all of them, in order; their numbers are rational."""
-    derived: list[Equation] = []
-    for face in entry.items():
-        first, second, third = face.fields("weights", "derived", "point")
-        weights = rational(read_row(first, len(problem.forms)))
-        total = Weighting(weights, list(derived), rational(read_row(second, len(derived))))
-        y = rational(read_row(third, problem.size))
-        check_signs(problem, _Q, weights, first.path, "weight")
-        check_stationary(problem, _Q, y, total, face.path)
-        values = [value_at(f, y, _Q) for f in problem.forms]
-        if _Q.sign(weighted_value(_Q, y, values, total)) < 0:
-            raise CertificateRejected(third.path, "the weighted sum is negative there")
-        found: list[Equation] = []
-        for w, form, relation, value in zip(weights, problem.forms, problem.relations, values, strict=True):
-            if relation != "=" and not w.is_zero:
-                found += tangents(form, y, _Q, value)
-        if not found:
-            raise face.fail("a face without positive weights")
-        derived += found
-    return derived
+def _check_optimal(
+    place: Place, weights: Numbers, extra: Numbers, derived: Sequence[Equation], parts: dict[str, Entry]
+) -> None:
+    """The theorem (optimal), and what is claimed beyond it."""
+    problem, field, entry = place.problem, place.field, parts["multipliers"]
+    place.weighted(weights, extra, derived, entry, with_objective=True)
+    attained = place.satisfies_strictly(parts["point"])
+    for i, (w, value) in enumerate(zip(weights, place.values, strict=True)):
+        if w and value:
+            raise CertificateRejected(f"{entry.path}[{i}]", "a multiplier on a constraint that is not active")
+    if field.number(parts["value"]) != field.reduced(problem.objective.value(place.point)):
+        raise parts["value"].fail("not the value of the objective at the point")
+    if parts["attained"].value is not attained:
+        raise parts["attained"].fail(f"expected {str(attained).lower()} at this point")
+    if attained:
+        _absent(parts["inner"])
+    else:
+        first, second = parts["inner"].fields("field", "point")
+        inside = RootField(first, field.budget)
+        _check_strict(Place.of(problem, inside, read_list(second, inside.number, problem.size)), second)
+    if attained or _on_strict(problem, weights):
+        _absent(parts["links"])
+    else:
+        known = [*derived, *place.tangent(problem.objective, field.reduced(0)), *place.tangents(weights)]
+        if not _on_strict(problem, follow(place, parts["links"], known)[1]):
+            raise parts["links"].fail("no strict constraint has a positive multiplier, or weight in the last link")
+    _check_unique(place, weights, derived, parts["unique"])
 
 
-def _check_values(problem: Problem, field: RootField, point: list[Residue], entry: Entry) -> list[Residue]:
-    stated = read_numbers(entry, field, len(problem.forms))
-    for i, (form, claim) in enumerate(zip(problem.forms, stated, strict=True)):
-        if not add(value_at(form, point, field), scale(claim, Fraction(-1))).is_zero:
-            raise CertificateRejected(f"{entry.path}[{i}]", "not the value of the constraint at the point")
-    return stated
+def _on_strict(problem: Problem, weights: Numbers) -> bool:
+    """Whether a strict constraint has a weight that is not zero, and so positive."""
+    return any(r == "<" and w for r, w in zip(problem.relations, weights))
 
 
-# --- at the point ----------------------------------------------------------------------------------------------
+def _check_unique(place: Place, weights: Numbers, derived: Sequence[Equation], entry: Entry) -> None:
+    """Another minimum x* + d: H_f d = 0, equations stay and, where m_i > 0, H_i d = 0 and grad p_i(x*).d = 0."""
+    if entry.value is False:
+        return
+    if entry.value is not True:
+        raise entry.fail("expected true or false")
+    problem = place.problem
+    rows: list[Row] = [*problem.objective.hessian, *(e[:-1] for e in derived)]
+    for w, form, relation in zip(weights, problem.forms, problem.relations, strict=True):
+        slope = form.gradient(place.point)
+        if relation == "=":
+            rows.append(slope)
+        elif w:
+            rows += [*form.hessian, slope] if place.field.degree == 1 else form.hessian
+    if rank([place.field.reduced(c)[0] for c in row] for row in rows) < problem.size:
+        raise entry.fail("uniqueness does not follow")
 
 
-class _Place:
-    """A problem at one point, with the values of its forms there."""
-
-    def __init__(
-        self, problem: Problem, field: RootField, point: list[Residue], values: list[Residue], path: str
-    ) -> None:
-        self.problem, self.field, self.point, self.values, self.path = problem, field, point, values, path
-
-    def check_contradiction(self, total: Weighting) -> None:
-        """The theorem (infeasible)."""
-        check_stationary(self.problem, self.field, self.point, total, f"{self.path}.multipliers")
-        least = self.field.sign(weighted_value(self.field, self.point, self.values, total))
-        if least < 0 or (least == 0 and not self._on_strict(total.weights)):
-            reason = "the weighted sum does not contradict the constraints"
-            raise CertificateRejected(f"{self.path}.multipliers", reason)
-
-    def check_optimal(self, total: Weighting, parts: dict[str, Entry]) -> None:
-        """The theorem (optimal), and what is claimed beyond it."""
-        problem, field = self.problem, self.field
-        check_stationary(problem, field, self.point, total, f"{self.path}.multipliers", with_objective=True)
-        attained = True
-        for i, (value, relation) in enumerate(zip(self.values, problem.relations, strict=True)):
-            sign = field.sign(value)
-            if sign > 0 or (sign and relation == "="):
-                raise CertificateRejected(f"{self.path}.values[{i}]", "the point violates the constraint")
-            attained = attained and not (relation == "<" and sign == 0)
-        self._check_complementary(total.weights, f"{self.path}.multipliers", "multiplier")
-        stated = read_number(parts["value"], field)
-        if not add(value_at(problem.objective, self.point, field), scale(stated, Fraction(-1))).is_zero:
-            raise parts["value"].fail("not the value of the objective at the point")
-        if parts["attained"].value is not attained:
-            raise parts["attained"].fail(f"expected {str(attained).lower()} at this point")
-        if attained:
-            _absent(parts["inner"])
-            _absent(parts["links"])
-        else:
-            _check_inner(problem, parts["inner"], self.field.budget)
-            self._check_not_attained(total, parts)
-        self._check_unique(total, parts["unique"])
-
-    def _check_not_attained(self, total: Weighting, parts: dict[str, Entry]) -> None:
-        """The theorem (not attained)."""
-        if self._on_strict(total.weights):
-            _absent(parts["links"])
-            return
-        if parts["links"].value is None:
-            reason = (
-                "not proved: no strict constraint has a positive multiplier, and there are no links that exclude one"
-            )
-            raise parts["attained"].fail(reason)
-        known = [*total.equations, *tangents(self.problem.objective, self.point, self.field)]
-        _, last = self.follow(parts["links"], known + self._tangents(total.weights))
-        if not self._on_strict(last):
-            raise parts["links"].fail("no strict constraint has a positive weight in the last link")
-
-    def follow(self, entry: Entry, known: list[Equation]) -> tuple[list[Equation], list[Residue]]:
-        """Check the links, each by (link), and return all equations known after them, and the weights of the last."""
-        found, weights = list(known), list[Residue]()
-        for link in entry.items() if entry.value is not None else ():
-            first, second = link.fields("weights", "derived")
-            weights = read_numbers(first, self.field, len(self.problem.forms))
-            total = Weighting(weights, found, read_numbers(second, self.field, len(found)))
-            check_signs(self.problem, self.field, weights, first.path, "weight")
-            self._check_complementary(weights, first.path, "weight")
-            check_stationary(self.problem, self.field, self.point, total, link.path)
-            if self.field.sign(weighted_value(self.field, self.point, self.values, total)) < 0:
-                raise link.fail("the weighted sum is negative at the point")
-            further = self._tangents(weights)
-            if not further:
-                raise link.fail("a link without positive weights")
-            found = found + further
-        if entry.value is not None and not weights:
-            raise entry.fail("expected at least one link")
-        return found, weights
-
-    def _tangents(self, weights: Sequence[Residue]) -> list[Equation]:
-        found: list[Equation] = []
-        for w, form, relation in zip(weights, self.problem.forms, self.problem.relations, strict=True):
-            if relation != "=" and not w.is_zero:
-                found += tangents(form, self.point, self.field)
-        return found
-
-    def _on_strict(self, weights: Sequence[Residue]) -> bool:
-        """Whether a strict constraint has a weight that is not zero, and so positive."""
-        return any(r == "<" and not w.is_zero for r, w in zip(self.problem.relations, weights, strict=True))
-
-    def _check_complementary(self, weights: Sequence[Residue], path: str, what: str) -> None:
-        for i, (w, value) in enumerate(zip(weights, self.values, strict=True)):
-            if not w.is_zero and not value.is_zero:
-                raise CertificateRejected(f"{path}[{i}]", f"a {what} on a constraint that is not active")
-
-    def _check_unique(self, total: Weighting, entry: Entry) -> None:
-        """Another minimum x* + d: H_f d = 0, equations stay and, where m_i > 0, H_i d = 0 and grad p_i(x*).d = 0."""
-        if entry.value is False:
-            return
-        if entry.value is not True:
-            raise entry.fail("expected true or false")
-        problem = self.problem
-        rows: list[Row] = [*problem.objective.hessian, *(_fractions(e.row) for e in total.equations)]
-        for m, form, relation in zip(total.weights, problem.forms, problem.relations, strict=True):
-            if relation == "=":
-                rows.append(form.gradient)
-            elif not m.is_zero:
-                rows += form.hessian
-                if self.field.degree == 1:
-                    rows.append(_fractions(slope_at(form, self.point)))
-        if rank(rows) < problem.size:
-            raise entry.fail("uniqueness does not follow")
-
-
-def _fractions(row: Sequence[Residue]) -> Row:
-    return tuple(as_fraction(a) for a in row)
-
-
-def _check_feasible(problem: Problem, field: RootField, point: list[Residue], entry: Entry) -> None:
-    for i, (form, relation) in enumerate(zip(problem.forms, problem.relations, strict=True)):
-        sign = field.sign(value_at(form, point, field))
-        if (relation == "=" and sign) or sign > 0 or (relation == "<" and sign == 0):
-            raise CertificateRejected(entry.path, f"the point violates constraint {i + 1}")
-
-
-def _check_inner(problem: Problem, entry: Entry, budget: Budget) -> None:
-    if entry.value is None:
-        raise entry.fail("missing: a point that satisfies the strict constraints")
-    first, second = entry.fields("field", "point")
-    field = read_field(first, budget)
-    point = read_numbers(second, field, problem.size)
-    _check_feasible(problem, field, point, second)
+def _check_strict(place: Place, entry: Entry) -> None:
+    if not place.satisfies_strictly(entry):
+        raise entry.fail("the point violates a strict constraint")
 
 
 def _absent(entry: Entry) -> None:
@@ -339,14 +225,11 @@ def _absent(entry: Entry) -> None:
 
 
 def _check_direction(problem: Problem, entry: Entry) -> None:
-    d = read_row(entry, problem.size)
-
-    def along(row: Row) -> Fraction:
-        return sum((a * b for a, b in zip(row, d, strict=True)), Fraction(0))
-
-    if any(along(row) for row in problem.objective.hessian) or along(problem.objective.gradient) >= 0:
-        raise entry.fail("the objective does not fall along it")
-    for i, (form, relation) in enumerate(zip(problem.forms, problem.relations, strict=True)):
-        slope = along(form.gradient)
-        if any(along(row) for row in form.hessian) or slope > 0 or (slope and relation == "="):
-            raise entry.fail(f"it leaves constraint {i + 1}")
+    """The theorem (unbounded)."""
+    d, origin = [exact(c) for c in read_list(entry, Entry.rational, problem.size)], (*[0] * problem.size, 1)
+    for i, form in enumerate((problem.objective, *problem.forms)):
+        slope = inner(form.gradient(origin), d)
+        if any(inner(row, d) for row in form.hessian) or (slope >= 0 if i == 0 else slope > 0):
+            raise entry.fail(f"it leaves constraint {i}" if i else "the objective does not fall along it")
+        if slope and i and problem.relations[i - 1] == "=":
+            raise entry.fail(f"it leaves constraint {i}")

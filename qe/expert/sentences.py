@@ -10,16 +10,18 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import wraps
 from math import lcm
+from typing import TypeVar
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
-from qe.expert.arithmetic.residue import Residue, RootField
+from qe.expert.arithmetic.field import Number, RootField
 from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import Formula, Relation
 from qe.kernel.renaming import is_same
 from qe.kernel.step import Check, Claim, Context, Limits
 from qe.proof.entry import Entry
 
+Read = TypeVar("Read")
 Sentence = tuple[Formula, Formula]
 """What stands before, and what after: equivalent for all values of the variables that are free in them."""
 
@@ -47,25 +49,24 @@ def renamed(wanted: Sequence[str], names: Sequence[str]) -> list[str]:
     return found
 
 
-def is_point(names: Sequence[str], values: Sequence[Residue], field: RootField, ring: Ring) -> Formula:
+def is_point(names: Sequence[str], values: Sequence[Number], field: RootField, ring: Ring) -> Formula:
     """That variables have these values in the field, whose generator is named by its polynomial and interval.
 
     The last variable of the ring stands for that.
     """
-    if all(len(value.coefficients) <= 1 for value in values):
-        return conj(_is(ring, name, value, ()) for name, value in zip(names, values, strict=True))
     root = ring.gen(ring.size - 1)
-    low, high = (Fraction(end, field.unit) for end in (field.a, field.b))
-    parts = [atom(_poly(field.p, root), Relation.EQ)]
-    parts += [atom(low.denominator * root - low.numerator, Relation.GE)]
-    parts += [atom(high.denominator * root - high.numerator, Relation.LE)]
-    parts += [_is(ring, name, value, (root,)) for name, value in zip(names, values, strict=True)]
-    return exists((ring.names[-1],), conj(parts))
+    numbers = [_is(ring, name, value, root) for name, value in zip(names, values, strict=True)]
+    if all(value.degree() <= 0 for value in values):
+        return conj(numbers)
+    parts = [atom(_poly(field.coefficients, root), Relation.EQ)]
+    parts += [atom(field.low.denominator * root - field.low.numerator, Relation.GE)]
+    parts += [atom(field.high.denominator * root - field.high.numerator, Relation.LE)]
+    return exists((ring.names[-1],), conj((*parts, *numbers)))
 
 
-def _is(ring: Ring, name: str, value: Residue, root: Sequence[Poly]) -> Formula:
-    number = _poly(value.coefficients, *root) if root else ring.constant(sum(value.coefficients))
-    return atom(value.denominator * ring.gen(ring.index[name]) - number, Relation.EQ)
+def _is(ring: Ring, name: str, value: Number, root: Poly) -> Formula:
+    number = _poly([int(c) for c in value.numer().coeffs()], root)
+    return atom(int(value.denom()) * ring.var(name) - number, Relation.EQ)
 
 
 def _poly(coefficients: Sequence[int], x: Poly) -> Poly:
@@ -75,14 +76,27 @@ def _poly(coefficients: Sequence[int], x: Poly) -> Poly:
     return total
 
 
+def read_list(entry: Entry, read: Callable[[Entry], Read], count: int) -> list[Read]:
+    """That many numbers, each read in this way."""
+    found = [read(e) for e in entry.items()]
+    if len(found) != count:
+        raise entry.fail(f"expected {count} numbers, found {len(found)}")
+    return found
+
+
 def read_terms(terms: Entry, names: Sequence[str], ring: Ring) -> tuple[Poly, int]:
-    """(p, c) such that the terms, [rational coefficient, exponents of the names], add up to p/c with c > 0."""
+    """(p, c) such that the terms, [rational coefficient, exponents of the names], of degree at most 2, add up to p/c
+    with c > 0."""
     found: dict[tuple[int, ...], Fraction] = {}
     for term in terms.items():
-        coefficient, exponents = term.row("coefficient", "exponents")
-        powers = [0] * ring.size
-        for name, exponent in zip(names, exponents.items(), strict=True):
-            powers[ring.index[name]] = exponent.integer()
-        found[tuple(powers)] = coefficient.rational()
+        first, second = term.row("coefficient", "exponents")
+        coefficient, exponents, powers = first.rational(), [e.integer() for e in second.items()], [0] * ring.size
+        if len(exponents) != len(names) or sum(exponents) > 2:
+            raise second.fail(f"expected {len(names)} exponents of sum at most 2")
+        for name, exponent in zip(names, exponents, strict=True):
+            powers[ring.index[name]] = exponent
+        if not coefficient or tuple(powers) in found:
+            raise term.fail("a zero coefficient or a repeated term")
+        found[tuple(powers)] = coefficient
     scale = lcm(*(c.denominator for c in found.values()))
     return ring.from_terms({powers: int(c * scale) for powers, c in found.items()}), scale

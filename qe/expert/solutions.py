@@ -21,10 +21,10 @@ from itertools import product as choices
 
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
+from qe.expert.arithmetic.convexity import inner
+from qe.expert.arithmetic.field import RootField
 from qe.expert.arithmetic.ideal import Ideal, TraceForms, product, terms_of
-from qe.expert.arithmetic.numbers import read_field, read_number
-from qe.expert.arithmetic.residue import Residue, RootField, add, of_rationals, scale
-from qe.expert.sentences import Sentence, is_point, renamed
+from qe.expert.sentences import Sentence, is_point, read_list, renamed
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Relation
 from qe.kernel.step import Limits
@@ -52,17 +52,13 @@ def check_solutions(evidence: Entry, limits: Limits) -> Sentence:
     ring = Ring.of(names)
     equations = [e.polynomial(ring) for e in equations_entry.items()]
     conditions = [_condition(e, ring) for e in conditions_entry.items()]
-    weights = [_weight(e) for e in weights_entry.items()]
-    form = [_integer(e) for e in form_entry.items()]
-    for entry, numbers in ((weights_entry, weights), (form_entry, form)):
-        if len(numbers) != len(names):
-            raise entry.fail(f"expected {len(names)} integers, one for each variable")
+    weights, form = read_list(weights_entry, _weight, len(names)), read_list(form_entry, _integer, len(names))
     points = [_Solution(e, len(names), limits.budget) for e in listed.items()]
     for point in points:
         point.check(equations, conditions, form)
     for i, one in enumerate(points):
         for other in points[:i]:
-            if one.low <= other.high and other.low <= one.high:
+            if one.field.low <= other.field.high and other.field.low <= one.field.high:
                 raise one.entry.fail("the interval of theta meets that of another solution")
     found = _count(equations, conditions, weights, equations_entry, limits.budget)
     if found != len(points):
@@ -108,50 +104,19 @@ class _Solution:
 
     def __init__(self, entry: Entry, size: int, budget: Budget) -> None:
         field, values = entry.fields("field", "values")
-        self.entry, self.field = entry, read_field(field, budget)
-        self.low, self.high = Fraction(self.field.a, self.field.unit), Fraction(self.field.b, self.field.unit)
-        self.values = [read_number(e, self.field) for e in values.items()]
-        self.values_entry = values
-        if len(self.values) != size:
-            raise values.fail(f"expected {size} numbers, one for each variable")
+        self.entry, self.field = entry, RootField(field, budget)
+        self.values, self.values_entry = read_list(values, self.field.number, size), values
 
     def check(self, equations: Sequence[Poly], conditions: Sequence[tuple[Poly, str]], form: Sequence[int]) -> None:
         """That the equations, the conditions and the linear form have the values that they should have."""
         for p in equations:
-            if not value(p, self.values, self.field).is_zero:
+            if self.field.value(p, self.values):
                 raise self.values_entry.fail("the numbers do not satisfy an equation")
         for g, relation in conditions:
-            sign = self.field.sign(value(g, self.values, self.field))
-            if not _indicator(relation, sign):
+            if not Relation(relation).holds(self.field.sign(self.field.value(g, self.values))):
                 raise self.values_entry.fail("the numbers do not satisfy a condition")
-        total = of_rationals([Fraction(0)])
-        for c, v in zip(form, self.values, strict=True):
-            total = add(total, scale(v, Fraction(c)))
-        if total != _generator(self.field):
+        if self.field.reduced(inner(form, self.values)) != self.field.theta:
             raise self.values_entry.fail("the linear form has another value than the generator of the field")
-
-
-def _generator(field: RootField) -> Residue:
-    if field.degree == 1:
-        return of_rationals([Fraction(-field.p[0], field.p[1])])
-    return of_rationals([Fraction(0), Fraction(1)])
-
-
-def value(p: Poly, point: Sequence[Residue], field: RootField) -> Residue:
-    """A polynomial at a point."""
-    total = of_rationals([Fraction(0)])
-    for exponents, c in p.terms():
-        term = of_rationals([Fraction(c)])
-        for v, k in zip(point, exponents, strict=True):
-            for _ in range(k):
-                term = field.multiply(term, v)
-        total = add(total, term)
-    return total
-
-
-def _indicator(relation: str, sign: int) -> bool:
-    weights = INDICATORS[relation]
-    return weights[0] + weights[1] * sign + weights[2] * sign * sign == 1
 
 
 def _count(

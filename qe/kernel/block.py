@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from qe.formula.build import disj, exists
-from qe.formula.syntax import FALSE, Exists, ForAll, Formula
+from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import disjuncts
 from qe.kernel.boolean import ByLemmas, Goal, equivalence
 from qe.kernel.negation import negation, normal
@@ -39,14 +39,6 @@ def existential(claim: Claim) -> tuple[Formula, Formula]:
     """Both sides, or both sides negated where a universal block stands before; negations in the atoms."""
     change = negation if isinstance(claim.before, ForAll) else normal
     return change(claim.before), change(claim.after)
-
-
-def refuted_block(claim: Claim) -> Exists:
-    """The block of a sentence that is claimed to be false (or true, if it is universal: then that of its negation)."""
-    before, after = existential(claim)
-    if not isinstance(before, Exists) or before.free or not before.body.is_quantifier_free or after != FALSE:
-        raise claim.fail("expected a sentence of one block, which is false")
-    return before
 
 
 def opened(piece: Formula, names: Sequence[str], claim: Claim) -> Formula:

@@ -14,10 +14,11 @@ Evidence: none.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 
 from qe.formula.build import conj, disj, exists, forall
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or
+from qe.formula.traverse import connected
 from qe.kernel.negation import normal
 from qe.kernel.renaming import shape
 from qe.kernel.step import Claim, Context, Limits, only
@@ -60,7 +61,8 @@ def _quantified(kind: type[Exists | ForAll], names: Iterable[str], body: Formula
         for part, mine in zip(parts, alone, strict=True)
     ]
     shared = block.difference(*alone)
-    return join(quantify(sorted(names), join(members)) for names, members in _connected(shared, inner))
+    single, groups = connected(inner, lambda part: frozenset(shared.intersection(part.free)))
+    return join((*single, *(quantify(sorted(names), join(members)) for names, members in groups)))
 
 
 def _opened(
@@ -76,21 +78,6 @@ def _opened(
         else:
             opened.append(part)
     return names, opened
-
-
-def _connected(names: set[str], parts: Sequence[Formula]) -> Iterator[tuple[set[str], list[Formula]]]:
-    """The parts, together where they share variables of the block: with these variables."""
-    groups: list[tuple[set[str], list[Formula]]] = []
-    for part in parts:
-        seen, members = names & set(part.free), [part]
-        apart = []
-        for others, listed in groups:
-            if others & seen:
-                seen, members = seen | others, listed + members
-            else:
-                apart.append((others, listed))
-        groups = [*apart, (seen, members)]
-    yield from groups
 
 
 def unordered(formula: Formula) -> object:

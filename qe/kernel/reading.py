@@ -27,7 +27,6 @@ PRODUCTS = 1_000_000
 RELATIONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "=", ast.NotEq: "/="}
 QUANTIFIERS = {"exists": exists, "forall": forall}
 JOINS = {"all": conj, "any": disj}
-RESERVED = {"true", "false", "range", "dot", "det", "sum", *QUANTIFIERS, *JOINS}
 
 Tree = ast.expr
 Value = Poly | Formula | tuple[Any, ...]
@@ -49,16 +48,6 @@ class Language:
         """The names of the components of a vector; the name itself where it is none."""
         return tuple(f"{name}{k}" for k in range(self.vectors[name])) if name in self.vectors else (name,)
 
-    def reached(self, start: Tree) -> Iterator[Let]:
-        """A text and those that it names."""
-        pending: list[Let] = [((), start)]
-        seen = set[str]()
-        for params, tree in pending:
-            yield params, tree
-            names = [name for name in names_in(tree, params) if name in self.lets and name not in seen]
-            seen.update(names)
-            pending += [self.lets[name] for name in dict.fromkeys(names)]
-
 
 def parsed(text: str, marks: Mapping[str, str]) -> Tree:
     """The tree of a text with words for its marks."""
@@ -71,26 +60,6 @@ def parsed(text: str, marks: Mapping[str, str]) -> Tree:
 def _tree(text: str) -> Tree:
     text = re.sub(r"(?<![<>!=/])=(?!=)", "==", text.replace("/=", "!=").replace("^", "**"))
     return ast.parse(" ".join(text.split()), mode="eval").body
-
-
-@cache
-def _nodes(tree: Tree) -> tuple[ast.AST, ...]:
-    """All nodes of a tree, which nobody changes; theorems of a file share theirs."""
-    return tuple(ast.walk(tree))
-
-
-def binders_in(tree: Tree) -> Iterator[str]:
-    """The names that quantifiers bind."""
-    for node in _nodes(tree):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in QUANTIFIERS:
-            yield from (arg.id for arg in node.args[:-1] if isinstance(arg, ast.Name))
-
-
-def names_in(tree: Tree, params: Sequence[str]) -> Iterator[str]:
-    """The names of variables, letters and what is let, but not of numbers."""
-    places = [node.target for node in _nodes(tree) if isinstance(node, ast.comprehension)]
-    others = {*RESERVED, *params, *(place.id for place in places if isinstance(place, ast.Name))}
-    return (node.id for node in _nodes(tree) if isinstance(node, ast.Name) and node.id not in others)
 
 
 class Reading:

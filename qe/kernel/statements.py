@@ -2,12 +2,12 @@
 
 A file has a ``family``, a ``source`` and a list ``theorem``. Each has a ``name``, the quantified ``block``, what is
 ``given``, the ``answer`` (all as in ``qe.kernel.reading``), and ``proof`` (a file with derivations of it) or ``axiom``
-(why it is believed). ``let`` names terms and formulas, each of which may use the others; ``fixed`` has terms for
-letters that are not needed. ``vectors`` says how many components a letter or variable has, c[0], c[1], ...: a
-quantifier binds them all. ``for`` has words for marks such as {low}: there is one theorem for each choice. A key of
-several marks has words for each of them; "2-12" stands for the numbers from 2 to 12. For the engine alone are
-``parameters``, the least number of them with which it is used, and ``dense``: every condition has all variables of the
-block.
+(why it is believed). ``letters`` names what polynomials stand for, and ``bound`` what a part binds. ``let`` names terms
+and formulas, each of which may use the others; ``fixed`` has terms for letters that are not needed. ``vectors`` says
+how many components a letter or variable has, c[0], c[1], ...: a quantifier binds them all. ``for`` has words for marks
+such as {low}: there is one theorem for each choice. A key of several marks has words for each of them; "2-12" stands
+for the numbers from 2 to 12. For the engine alone are ``parameters``, the least number of them with which it is used,
+and ``dense``: every condition has all variables of the block.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from itertools import product
@@ -24,7 +24,7 @@ from typing import Any
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
-from qe.kernel.reading import Language, Let, Reading, Tree, binders_in, names_in, parsed
+from qe.kernel.reading import Language, Let, Reading, Tree, parsed
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,24 +53,6 @@ class Row:
         """The word of each mark."""
         pairs = [zip(key.split(), word.split(), strict=True) for key, word in zip(self.data.get("for", {}), words)]
         return {mark: word for pair in pairs for mark, word in pair}
-
-    def relations(self, words: Sequence[str]) -> tuple[str, ...]:
-        """Those between the two sides of the block's comparisons, sorted, ``undirected``."""
-        marks = self.marks(words)
-        listed = re.findall(r"\{\w+\}|[<>/]=|[<>=]", self.data["block"])
-        return tuple(sorted(undirected(marks.get(relation.strip("{}"), relation)) for relation in listed))
-
-    def variables(self, words: Sequence[str]) -> int:
-        """How many the block binds."""
-        vectors, marks = self.table("vectors"), self.marks(words)
-        before = re.match(r"exists\(((\w+, )+)", self.data["block"])
-        binders = before[1].removesuffix(", ").split(", ") if before else []
-        return sum(_number(vectors[name], marks) if name in vectors else 1 for name in binders)
-
-
-def undirected(relation: str) -> str:
-    """The relation that is meant where a side may be any of the two."""
-    return relation.replace(">", "<")
 
 
 @cache
@@ -113,24 +95,11 @@ class Theorem:
         """Those that a part binds."""
         return tuple(dict.fromkeys(name for names in self.bound.values() for name in names))
 
-    @property
-    def ring(self) -> Ring:
-        """Of the letters and variables themselves."""
-        return Ring.of((*self.letters, *self.variables))
-
     def formula(self, part: str, letters: Mapping[str, Poly], variables: Mapping[str, str], ring: Ring) -> Formula:
         """The block, what is given, or the answer, with polynomials for letters and names for variables."""
-        values = {**letters, **{name: ring.var(other) for name, other in variables.items()}}
-        return Reading(self.language, values, variables, ring).formula(self.trees[part], {})
-
-    def term(self, tree: Tree, letters: Mapping[str, Poly], ring: Ring) -> Poly:
-        """A term in the letters, with polynomials for them."""
-        return Reading(self.language, letters, {}, ring).term(tree, {})
-
-    def generic(self, part: str) -> Formula:
-        """A part with the letters and variables themselves."""
-        ring = self.ring
-        return self.formula(part, {name: ring.var(name) for name in self.letters}, {v: v for v in self.variables}, ring)
+        names = {name: variables[name] for name in self.bound.get(part, ())}
+        values = {**letters, **{name: ring.var(other) for name, other in names.items()}}
+        return Reading(self.language, values, names, ring).formula(self.trees[part], {})
 
 
 @cache
@@ -142,9 +111,19 @@ def theorem(name: str, words: tuple[str, ...] = ()) -> Theorem | None:
     marks = row.marks(words)
     trees = {part: parsed(row.data.get(part, "true"), marks) for part in ("block", "given", "answer")}
     lets = dict(_let(key, text, marks) for key, text in {**row.table("fixed"), **row.table("let")}.items())
-    language = Language(lets, {key: _number(text, marks) for key, text in row.table("vectors").items()})
-    source, why, proof = (row.data.get(key, row.shared.get(key, "")) for key in ("source", "axiom", "proof"))
-    return _with_names(Theorem(name, words, row.family, (), {}, trees, language, source, why, proof))
+    language = Language(lets, {key: number(text, marks) for key, text in row.table("vectors").items()})
+    keys = ("source", "axiom", "proof", "letters")
+    source, why, proof, letters = (row.data.get(key, row.shared.get(key, "")) for key in keys)
+    bound = {part: _names(text, language) for part, text in row.table("bound").items()}
+    used = Theorem(name, words, row.family, _names(letters, language), bound, trees, language, source, why, proof)
+    if len({*used.letters, *used.variables}) < len(used.letters) + len(used.variables):
+        raise InputError(f"theorems: {name}: a name is used twice")
+    return used
+
+
+def _names(text: str, language: Language) -> tuple[str, ...]:
+    """The names in a text, those of the components for a vector."""
+    return tuple(part for name in text.split() for part in language.parts(name))
 
 
 def _let(key: str, text: str, marks: Mapping[str, str]) -> tuple[str, Let]:
@@ -152,23 +131,6 @@ def _let(key: str, text: str, marks: Mapping[str, str]) -> tuple[str, Let]:
     return name, (tuple(p.strip() for p in params.rstrip(")").split(",") if p), parsed(text, marks))
 
 
-def _number(text: str, marks: Mapping[str, str]) -> int:
+def number(text: str, marks: Mapping[str, str]) -> int:
     """A number such as {n} + 1."""
     return Reading(Language(), {}, {}, Ring.of(())).number(parsed(text, marks), {})
-
-
-def _with_names(used: Theorem) -> Theorem:
-    """The theorem with its letters and variables, as they stand in the text."""
-    language = used.language
-    reached = {part: list(language.reached(tree)) for part, tree in used.trees.items()}
-    bound = {
-        part: tuple(n for _, tree in trees for name in binders_in(tree) for n in language.parts(name))
-        for part, trees in reached.items()
-    }
-    variables = {name for names in bound.values() for name in names}
-    occurring = dict.fromkeys(n for trees in reached.values() for params, tree in trees for n in names_in(tree, params))
-    parts = [n for name in occurring if name not in language.lets for n in language.parts(name)]
-    letters = tuple(n for n in parts if n not in variables)
-    if len(set(letters)) < len(letters) or any(len(set(names)) < len(names) for names in bound.values()):
-        raise InputError(f"theorems: {used.name}: a name is used twice")
-    return replace(used, letters=letters, bound=bound)

@@ -22,7 +22,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Atom, Atomic, Formula, Relation
 from qe.formula.traverse import map_atoms
-from qe.kernel.limits import check_power
+from qe.kernel.substitution import quotient
 
 EQ, NE, LT, LE, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.LE, Relation.GT, Relation.GE
 
@@ -91,22 +91,10 @@ def _at(f: Poly, relation: Relation, x: int, point: TestPoint) -> Formula:
     if not f.degree(x):
         return atom(f, relation)
     if len(point.coefficients) == 2:
-        return _at_quotient(f.coefficients(x), relation, point)
+        b, a = point.coefficients
+        value = quotient(f, x, -b, a)
+        return atom(value * a if f.degree(x) % 2 and relation not in (EQ, NE) else value, relation)
     return _at_quadratic(list(f.coefficients(x)), relation, point)
-
-
-def _at_quotient(parts: tuple[Poly, ...], relation: Relation, point: TestPoint) -> Formula:
-    b, a = point.coefficients
-    degree = len(parts) - 1
-    check_power(a, degree)
-    check_power(b, degree)
-    value = parts[degree]
-    scale = a
-    for part in reversed(parts[:degree]):
-        value = part * scale - value * b
-        scale = scale * a
-    odd = degree % 2 and relation not in (EQ, NE)
-    return atom(value * a if odd else value, relation)
 
 
 def _at_quadratic(parts: list[Poly], relation: Relation, point: TestPoint) -> Formula:

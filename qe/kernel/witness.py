@@ -13,8 +13,9 @@ from fractions import Fraction
 
 from qe.exact.ring import Ring
 from qe.formula.build import convert
-from qe.formula.syntax import TRUE, And, Atom, Constant, Exists, Formula, Not, Or
-from qe.kernel.arithmetic.fibre import RationalFibre, fibre, values
+from qe.formula.syntax import FALSE, TRUE, Exists
+from qe.formula.traverse import map_atoms
+from qe.kernel.arithmetic.fibre import RationalFibre, fibre
 from qe.kernel.arithmetic.products import FactorLists
 from qe.kernel.arithmetic.triangular import Coordinate, Point
 from qe.kernel.block import existential
@@ -40,7 +41,8 @@ def check_instance(claim: Claim, context: Context, limits: Limits) -> None:
     sample = Sample(FactorLists(ring, ()), Point(budget=limits.budget), {}, [], (0,))
     for i, entry in enumerate(listed):
         sample = sample.extended(_number(entry, ring, i, limits.budget), [], alone=True)
-    if not _holds(convert(claim.plain(before.body), ring), sample):
+    body = convert(claim.plain(before.body), ring)
+    if map_atoms(body, lambda a: TRUE if a.relation.holds(sample.sign(a.poly)) else FALSE) != TRUE:
         raise numbers.fail("the values do not satisfy the formula")
 
 
@@ -58,24 +60,7 @@ def _number(entry: Entry, ring: Ring, i: int, budget: Budget) -> Fraction | Coor
         check_value(poly, i, end)
     f = fibre(Point(budget=budget), poly, i)
     assert isinstance(f, RationalFibre)
-    if 0 in f.signs(values((ends[0], ends[1]))) or f.count_between(ends[0], ends[1]) != 1:
-        raise interval.fail("expected exactly one root between two ends that are no roots")
-    found = f.coordinate(ends[0], ends[1])
+    found = f.only_root(ends[0], ends[1])
     if found is None:
-        raise interval.fail("the root could not be represented")
+        raise interval.fail("expected exactly one root between two ends that are no roots")
     return found
-
-
-def _holds(formula: Formula, sample: Sample) -> bool:
-    match formula:
-        case Constant(value):
-            return value
-        case Atom(poly, relation):
-            return relation.holds(sample.sign(poly))
-        case Not(arg):
-            return not _holds(arg, sample)
-        case And(args):
-            return all(_holds(a, sample) for a in args)
-        case Or(args):
-            return any(_holds(a, sample) for a in args)
-    raise AssertionError(f"no quantifiers and root atoms are let in: {formula}")

@@ -19,7 +19,7 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.expert.critical_points import active_sets
 from qe.expert.critical_values import (
-    Quadratic,
+    Condition,
     are_weights,
     common,
     is_positive,
@@ -105,7 +105,7 @@ def _table(after: Formula, outer: Ring, strict: bool, claim: Claim, options: Opt
 
 
 def _chains(
-    conditions: Sequence[Quadratic], free: int, walls: set[Poly], claim: Claim, budget: Budget
+    conditions: Sequence[Condition], free: int, walls: set[Poly], claim: Claim, budget: Budget
 ) -> list[list[Row]]:
     """For each set that may be active a chain to polynomials whose common divisor vanishes in the walls alone."""
     outer = Ring.of(conditions[0].poly.ring.names[:free])
@@ -126,7 +126,7 @@ def _chains(
 class _Cells:
     """Points of the block and weights that exclude it, the last one used first."""
 
-    def __init__(self, conditions: Sequence[Quadratic], claim: Claim, budget: Budget) -> None:
+    def __init__(self, conditions: Sequence[Condition], claim: Claim, budget: Budget) -> None:
         self.conditions, self.claim, self.budget = conditions, claim, budget
         self.points: list[Values] = []
         self.weights: list[Values] = []

@@ -12,12 +12,13 @@ from qe.expert.solutions import check_solutions
 from qe.formula.build import atom, conj, convert, disj, exists, map_children
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Exists, Formula, Relation
-from qe.kernel.block import existential, refuted_block
+from qe.kernel.block import existential
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.options import Options
 from qe.proof.certificate import written
 from qe.proof.entry import Json
 from qe.proving.made import Made
+from qe.proving.search import refuted_block
 
 WORK = 50_000
 """Units of work for a decomposition."""

@@ -18,12 +18,13 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import convert
 from qe.formula.syntax import TRUE, Atom, ForAll
-from qe.kernel.block import existential, refuted_block
+from qe.kernel.block import existential
 from qe.kernel.negation import negation
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.proof.cells_json import cells_to_json
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, formula_from_json
+from qe.proving.search import refuted_block
 
 
 def covering(claim: Claim, context: Context, limits: Limits) -> list[Json]:

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from qe.errors import CertificateRejected, Unable
 from qe.extras import lacking
-from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.syntax import FALSE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import children
-from qe.kernel.block import refuted_block
+from qe.kernel.block import existential
 from qe.kernel.boolean import Search, Theory
 from qe.kernel.clauses import Clauses, Literal
 from qe.kernel.signs import ANY, NEGATIVE, POSITIVE, ZERO
@@ -19,6 +19,14 @@ from qe.proving.unit_propagation import Clauses as Propositional
 
 MOST_LEARNT = 20_000
 BITS = (POSITIVE, NEGATIVE, ZERO)
+
+
+def refuted_block(claim: Claim) -> Exists:
+    """The block of a sentence that is claimed to be false (or true, if it is universal: then that of its negation)."""
+    before, after = existential(claim)
+    if not isinstance(before, Exists) or before.free or not before.body.is_quantifier_free or after != FALSE:
+        raise claim.fail("expected a sentence of one block, which is false")
+    return before
 
 
 class Numbered(Clauses):

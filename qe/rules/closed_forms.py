@@ -7,6 +7,7 @@ block are held against those of the theorem one by one; the letters stand for wh
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -19,7 +20,8 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
-from qe.kernel.statements import Row, Theorem, rows, theorem, undirected
+from qe.kernel.reading import Reading, Tree
+from qe.kernel.statements import Row, Theorem, number, rows, theorem
 from qe.proof.entry import Json, poly_to_text
 from qe.rules.block_context import BlockContext, Found, Rule, rule
 from qe.rules.step import StepKind
@@ -77,8 +79,39 @@ def patterns(
         for row in rows().values()
         if row.family in families and row.data.get("parameters", 0) <= parameters
         for words in row.choices(sizes)
-        if row.relations(words) == relations and row.variables(words) == variables
+        if relations_in(row, words) == relations and variables_in(row, words) == variables
     )
+
+
+def relations_in(row: Row, words: Sequence[str]) -> tuple[str, ...]:
+    """Those between the two sides of the comparisons of a theorem's block, sorted, ``undirected``; read off its text,
+    as a theorem is chosen before it is read."""
+    marks = row.marks(words)
+    listed = re.findall(r"\{\w+\}|[<>/]=|[<>=]", row.data["block"])
+    return tuple(sorted(undirected(marks.get(relation.strip("{}"), relation)) for relation in listed))
+
+
+def variables_in(row: Row, words: Sequence[str]) -> int:
+    """How many variables the block of a theorem binds."""
+    vectors, marks = row.table("vectors"), row.marks(words)
+    binders = row.table("bound")["block"].split()
+    return sum(number(vectors[name], marks) if name in vectors else 1 for name in binders)
+
+
+def undirected(relation: str) -> str:
+    """The relation that is meant where a side may be any of the two."""
+    return relation.replace(">", "<")
+
+
+def generic(used: Theorem, part: str) -> Formula:
+    """A part of a theorem about its letters and variables themselves."""
+    ring = Ring.of((*used.letters, *used.variables))
+    return used.formula(part, {name: ring.var(name) for name in used.letters}, {v: v for v in used.variables}, ring)
+
+
+def term(used: Theorem, tree: Tree, letters: Letters, ring: Ring) -> Poly:
+    """A term in the letters of a theorem, with polynomials for them."""
+    return Reading(used.language, letters, {}, ring).term(tree, {})
 
 
 @cache
@@ -86,7 +119,7 @@ def pattern(name: str, words: tuple[str, ...]) -> Pattern:
     """The pattern of a theorem."""
     used = theorem(name, words)
     assert used is not None
-    block = used.generic("block")
+    block = generic(used, "block")
     assert isinstance(block, Exists) and block.ring is not None
     indices = [block.ring.index[v] for v in block.variables]
     parts = [part for part in conjuncts(block.body) if isinstance(part, Atom)]
@@ -177,7 +210,7 @@ def _completed(
     block = match.formula("block")
     if not isinstance(block, Exists) or set(conjuncts(block.body)) != set(conjuncts(body)):
         return
-    roots = {name: square_root(match.theorem.term(tree, whole, body.ring)) for name, tree in given.roots.items()}
+    roots = {name: square_root(term(match.theorem, tree, whole, body.ring)) for name, tree in given.roots.items()}
     if None not in roots.values():
         for signs in product((1, -1), repeat=len(roots)):
             signed = {name: root * s for (name, root), s in zip(roots.items(), signs, strict=True) if root is not None}

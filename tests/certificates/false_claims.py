@@ -25,7 +25,7 @@ from qe.elimination.cad import certificate_for
 from qe.engine.run import solve
 from qe.errors import InputError, QEError, Unable
 from qe.exact.ring import Poly, Ring
-from qe.expert.optimum import RELATIONS
+from qe.expert.convex_problem import RELATIONS
 from qe.expert.sentences import read_terms
 from qe.formula.build import atom, conj, exists, forall
 from qe.formula.evaluate import substituted

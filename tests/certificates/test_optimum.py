@@ -182,7 +182,7 @@ def test_digest_of_a_certificate_in_memory_is_not_needed() -> None:
         (["-2", "0", "1"], ["1", "2"], True),
         (["-2", "0", "1"], ["-2", "2"], False),  # two roots
         (["-2", "0", "1"], ["2", "3"], False),  # none
-        (["4", "0", "-4", "0", "1"], ["1", "2"], False),  # a double root does not change the sign
+        (["4", "0", "-4", "0", "1"], ["1", "2"], True),  # a double root, but the only one
         (["2", "0", "-1"], ["7/5", "3/2"], False),  # not normalised
         (["-4", "0", "2"], ["7/5", "3/2"], False),  # not primitive
         (["-2"], ["1", "2"], False),

@@ -45,10 +45,10 @@ KNOWN = 3 + 3
 @pytest.mark.parametrize(
     ("constraints", "links", "step"),
     [
-        ("x >= 0 and y > 0 and y < 1", None, f"{PLACE}.attained"),
+        ("x >= 0 and y > 0 and y < 1", None, f"{PLACE}.links"),
         ("x >= 0 and y > 0 and y < 1", [], f"{PLACE}.links"),
-        # -y + (y - 1) has no slope, but the second condition is not active
-        ("x >= 0 and y > 0 and y < 1", [link(numbers(0, 1, 1), KNOWN)], f"{PLACE}.links[0].weights[2]"),
+        # -y + (y - 1) has no slope, but is negative, as the second condition is not active
+        ("x >= 0 and y > 0 and y < 1", [link(numbers(0, 1, 1), KNOWN)], f"{PLACE}.links[0].weights"),
         # 2*(-y) + (2*y) with a negative weight for 2*y >= 0
         (
             "x >= 0 and y > 0 and y < 1 and x + 2*y >= 0",

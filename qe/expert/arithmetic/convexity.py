@@ -1,61 +1,62 @@
-"""Quadratic forms for the checker: reading, convexity by LDL^T, rank; rational arithmetic only."""
+"""Quadratic polynomials for the checker: their matrices, values, gradients, convexity by LDL^T, rank; exact numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
+from typing import Any
 
-from qe.kernel.limits import check_variables
-from qe.proof.entry import Entry
+from flint import fmpq
 
-Row = tuple[Fraction, ...]
+from qe.exact.ring import Poly
+
+Row = Sequence[Any]
+"""Numbers of one kind, or of kinds that may be multiplied with each other."""
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
-    """x^T H x / 2 + b.x + c."""
+class Quadratic:
+    """A polynomial p of degree at most 2 over a number: v^T M v for v, its variables and 1."""
 
-    hessian: tuple[Row, ...]
-    gradient: Row
-    constant: Fraction
+    poly: Poly
+    matrix: tuple[tuple[Any, ...], ...]
 
+    @staticmethod
+    def of(poly: Poly, scale: int = 1, number: Callable[[int, int], Any] = fmpq) -> Quadratic:
+        """poly/scale, which is of degree at most 2."""
+        size = poly.ring.size + 1
+        matrix = [[number(0, 1)] * size for _ in range(size)]
+        for exponents, coefficient in poly.terms():
+            i, j = (i for i, e in enumerate((*exponents, 2 - sum(exponents))) for _ in range(e))
+            matrix[i][j] += number(coefficient, 2 * scale)
+            matrix[j][i] += number(coefficient, 2 * scale)
+        return Quadratic(poly, tuple(map(tuple, matrix)))
 
-def read_form(entry: Entry, size: int) -> Form:
-    """A polynomial of degree at most 2 as a list of [coefficient, exponents]; no term twice, none zero."""
-    check_variables(size)
-    hessian = [[Fraction(0)] * size for _ in range(size)]
-    gradient, constant = [Fraction(0)] * size, Fraction(0)
-    seen: set[tuple[int, ...]] = set()
-    for term in entry.items():
-        parts = list(term.items())
-        if len(parts) != 2:
-            raise term.fail("expected [coefficient, exponents]")
-        coefficient = parts[0].rational()
-        exponents = tuple(e.integer() for e in parts[1].items())
-        if len(exponents) != size or sum(exponents) > 2:
-            raise parts[1].fail(f"expected {size} exponents of sum at most 2")
-        if not coefficient or exponents in seen:
-            raise term.fail("a zero coefficient or a repeated term")
-        seen.add(exponents)
-        occurring = [k for k, e in enumerate(exponents) for _ in range(e)]
-        if not occurring:
-            constant = coefficient
-        elif len(occurring) == 1:
-            gradient[occurring[0]] = coefficient
-        else:
-            i, j = occurring
-            hessian[i][j] += coefficient
-            hessian[j][i] += coefficient
-    return Form(tuple(map(tuple, hessian)), tuple(gradient), constant)
+    @property
+    def is_convex(self) -> bool:
+        """Whether it is convex in its variables."""
+        return is_convex([row[:-1] for row in self.matrix[:-1]])
 
+    @property
+    def hessian(self) -> list[Row]:
+        """The matrix of second derivatives."""
+        return [[2 * c for c in row[:-1]] for row in self.matrix[:-1]]
 
-def is_linear(form: Form) -> bool:
-    """Whether the form has no quadratic part."""
-    return not any(any(row) for row in form.hessian)
+    def value(self, v: Row) -> Any:
+        """The value at a point, which ends with 1."""
+        return inner(v, (inner(row, v) for row in self.matrix))
+
+    def gradient(self, v: Row) -> Row:
+        """The derivatives at a point, which ends with 1."""
+        return [2 * inner(row, v) for row in self.matrix[:-1]]
 
 
-def is_convex(matrix: Sequence[Sequence[Fraction]]) -> bool:
+def inner(a: Iterable[Any], b: Iterable[Any]) -> Any:
+    """The sum of the products of entries; 0 where all of these are."""
+    return sum(x * y for x, y in zip(a, b, strict=True) if x and y)
+
+
+def is_convex(matrix: Sequence[Row]) -> bool:
     """Whether a symmetric matrix is positive semidefinite: symmetric elimination, one diagonal entry at a time.
 
     A zero diagonal entry of a positive semidefinite matrix forces a zero row; a positive one is eliminated, and the
@@ -76,7 +77,7 @@ def is_convex(matrix: Sequence[Sequence[Fraction]]) -> bool:
     return True
 
 
-def rank(rows: Sequence[Sequence[Fraction]]) -> int:
+def rank(rows: Iterable[Row]) -> int:
     """The rank of a rational matrix."""
     work, found = [list(row) for row in rows if any(row)], 0
     while work:

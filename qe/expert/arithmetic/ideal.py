@@ -10,9 +10,12 @@ minus that of those with h < 0, each counted once.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from heapq import heapify, heappop, heappush
 from itertools import combinations
+from operator import mul
+from typing import Any
 
 from flint import fmpq, fmpq_mat
 
@@ -41,14 +44,70 @@ def terms_of(p: Poly) -> Terms:
     return {tuple(map(int, e)): fmpq(int(c)) for e, c in p.terms()}
 
 
-def product(a: Mapping[Exponents, fmpq], b: Mapping[Exponents, fmpq]) -> Terms:
-    """The product of two polynomials."""
-    found: Terms = {}
+def product(a: Mapping[Exponents, Any], b: Mapping[Exponents, Any]) -> dict[Exponents, Any]:
+    """The product of two polynomials, whose coefficients are of one kind."""
+    found: dict[Exponents, Any] = {}
     for e, c in a.items():
         for f, d in b.items():
             place = tuple(i + j for i, j in zip(e, f, strict=True))
-            found[place] = found.get(place, fmpq(0)) + c * d
+            found[place] = found[place] + c * d if place in found else c * d
     return {e: c for e, c in found.items() if c}
+
+
+def key(e: Exponents, weights: Sequence[int] = ()) -> tuple[int, Exponents]:
+    """The smaller the higher: degree reverse lexicographic; weights of the variables are 1 where none are given."""
+    return -(sum(map(mul, weights, e)) if weights else sum(e)), e[::-1]
+
+
+def is_finite(leads: Sequence[Exponents], size: int) -> bool:
+    """Whether there are finitely many complex zeros: a power of every variable is a leading monomial, or 1."""
+    return size == len({k for lead in leads for k in range(size) if lead[k] == sum(lead)})
+
+
+def monomials_below(leads: Sequence[Exponents], size: int, most: int) -> list[Exponents]:
+    """Those that no leading monomial divides, where ``is_finite`` holds. Raises ``Unable`` for too many."""
+    start = (0,) * size
+    pending = [] if start in leads else [start]
+    found = set(pending)
+    while pending:
+        e = pending.pop()
+        for larger in ((*e[:k], e[k] + 1, *e[k + 1 :]) for k in range(size)):
+            if larger not in found and not any(divides(lead, larger) for lead in leads):
+                found.add(larger)
+                pending.append(larger)
+        if len(found) > most:
+            raise Unable(f"a system has more than {most} complex solutions")
+    return list(found)
+
+
+@dataclass
+class Pairs:
+    """Members of a basis, by their numbers, whose S-polynomials are to be reduced, and those for which that is done."""
+
+    weights: tuple[int, ...] = ()
+    pending: list[tuple[tuple[int, Exponents], int, int]] = field(default_factory=list)
+    done: set[tuple[int, int]] = field(default_factory=set)
+
+    def add(self, lead: Exponents, leads: Sequence[Exponents]) -> None:
+        """A further member of the basis with the others."""
+        for k, other in enumerate(leads):
+            degree, rest = key(tuple(map(max, lead, other)), self.weights)
+            heappush(self.pending, ((-degree, rest), k, len(leads)))
+
+    def next(self, leads: Sequence[Exponents], check: Callable[[], None]) -> tuple[int, int] | None:
+        """The next pair; not needed (Buchberger) are those whose leading monomials have no common variable, or whose
+        least common multiple a third one divides, both pairs with which are done."""
+        while self.pending:
+            check()
+            _, i, j = heappop(self.pending)
+            self.done.add((i, j))
+            top = tuple(map(max, leads[i], leads[j]))
+            others = (k for k, lead in enumerate(leads) if k not in (i, j) and divides(lead, top))
+            if any(map(min, leads[i], leads[j])) and not any(
+                {(min(i, k), max(i, k)), (min(j, k), max(j, k))} <= self.done for k in others
+            ):
+                return i, j
+        return None
 
 
 class Ideal:
@@ -66,48 +125,33 @@ class Ideal:
 
     def key(self, e: Exponents) -> tuple[int, Exponents]:
         """The smaller the higher."""
-        return -sum(w * k for w, k in zip(self.weights, e, strict=True)), e[::-1]
+        return key(e, self.weights)
 
-    # --- the basis ---------------------------------------------------------------------------
+    @property
+    def leads(self) -> list[Exponents]:
+        """The leading monomials of the basis."""
+        return [lead for lead, _ in self.basis]
+
     def _complete(self, polys: list[Terms]) -> None:
-        pairs: list[tuple[tuple[int, Exponents], int, int]] = []
-        done: set[tuple[int, int]] = set()
+        pairs = Pairs(self.weights)
         for p in sorted(polys, key=lambda p: max(map(sum, p))):
             self._add(self.remainder(p), pairs)
-        while pairs:
-            self.check()
-            _, i, j = heappop(pairs)
-            done.add((i, j))
-            (a, f), (b, g) = self.basis[i], self.basis[j]
+        while (pair := pairs.next(self.leads, self.check)) is not None:
+            (a, f), (b, g) = (self.basis[k] for k in pair)
             top = tuple(map(max, a, b))
-            if not any(x and y for x, y in zip(a, b, strict=True)) or self._is_covered(top, i, j, done):
-                continue
             difference = product({over(top, a): fmpq(1)}, f)
             for e, c in product({over(top, b): fmpq(1)}, g).items():
                 difference[e] = difference.get(e, fmpq(0)) - c
             self._add(self.remainder({e: c for e, c in difference.items() if c}), pairs)
 
-    def _is_covered(self, top: Exponents, i: int, j: int, done: set[tuple[int, int]]) -> bool:
-        """Buchberger's second criterion: a third leading monomial divides, and both pairs with it are done."""
-        for k, (lead, _) in enumerate(self.basis):
-            if k not in (i, j) and divides(lead, top):
-                pairs = (min(i, k), max(i, k)), (min(j, k), max(j, k))
-                if pairs[0] in done and pairs[1] in done:
-                    return True
-        return False
-
-    def _add(self, p: Terms, pairs: list[tuple[tuple[int, Exponents], int, int]]) -> None:
+    def _add(self, p: Terms, pairs: Pairs) -> None:
         if not p:
             return
         lead = min(p, key=self.key)
-        head, number = p[lead], len(self.basis)
-        if number >= MOST_ELEMENTS:
+        if len(self.basis) >= MOST_ELEMENTS:
             raise Unable("the Gröbner basis of a system grows past the limits of the checker")
-        for k, (other, _) in enumerate(self.basis):
-            top = tuple(map(max, lead, other))
-            degree, rest = self.key(top)
-            heappush(pairs, ((-degree, rest), k, number))
-        self.basis.append((lead, {e: c / head for e, c in p.items()}))
+        pairs.add(lead, self.leads)
+        self.basis.append((lead, {e: c / p[lead] for e, c in p.items()}))
 
     def remainder(self, p: Mapping[Exponents, fmpq]) -> Terms:
         """The normal form of a polynomial."""
@@ -139,31 +183,12 @@ class Ideal:
 
     @property
     def is_finite(self) -> bool:
-        """Whether there are finitely many complex zeros: a power of every variable is a leading monomial, or 1."""
-        pure = {k for lead, _ in self.basis for k in range(self.size) if lead[k] == sum(lead)}
-        return len(pure) == self.size
+        """Whether there are finitely many complex zeros."""
+        return is_finite(self.leads, self.size)
 
     def monomials(self) -> list[Exponents]:
         """Those that no leading monomial divides. ``is_finite`` must hold."""
-        leads = [lead for lead, _ in self.basis]
-        start = (0,) * self.size
-        if any(not any(lead) for lead in leads):
-            return []
-        found, pending = {start}, [start]
-        while pending:
-            e = pending.pop()
-            for larger in _larger(e):
-                if larger not in found and not any(divides(lead, larger) for lead in leads):
-                    found.add(larger)
-                    pending.append(larger)
-            if len(found) > MOST_DIMENSIONS:
-                raise Unable(f"a system has more than {MOST_DIMENSIONS} complex solutions")
-        return sorted(found, key=self.key, reverse=True)
-
-
-def _larger(e: Exponents) -> Iterator[Exponents]:
-    for k in range(len(e)):
-        yield (*e[:k], e[k] + 1, *e[k + 1 :])
+        return sorted(monomials_below(self.leads, self.size, MOST_DIMENSIONS), key=self.key, reverse=True)
 
 
 class TraceForms:
@@ -173,7 +198,9 @@ class TraceForms:
         self.ideal, self.monomials = ideal, ideal.monomials()
         self._place = {e: k for k, e in enumerate(self.monomials)}
         self._matrices = [self._step(k) for k in range(ideal.size)]
-        self._products: dict[Exponents, fmpq_mat] = {}
+        size = len(self.monomials)
+        unit = fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
+        self._products = {(0,) * ideal.size: unit}
         traces = []
         for e in self.monomials:
             matrix = self._multiplication(e)
@@ -195,12 +222,8 @@ class TraceForms:
     def _multiplication(self, e: Exponents) -> fmpq_mat:
         if e not in self._products:
             self.ideal.check()
-            k = next((k for k, power in enumerate(e) if power), None)
-            if k is None:
-                size = len(self.monomials)
-                self._products[e] = fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
-            else:
-                self._products[e] = self._matrices[k] * self._multiplication((*e[:k], e[k] - 1, *e[k + 1 :]))
+            k = next(k for k, power in enumerate(e) if power)
+            self._products[e] = self._matrices[k] * self._multiplication((*e[:k], e[k] - 1, *e[k + 1 :]))
         return self._products[e]
 
     def signature(self, h: Mapping[Exponents, fmpq]) -> int:

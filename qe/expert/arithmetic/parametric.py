@@ -14,12 +14,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from heapq import heappop, heappush
 from math import lcm, prod
 
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
-from qe.expert.arithmetic.ideal import Ideal, divides, over, terms_of
+from qe.expert.arithmetic.ideal import Ideal, Pairs, divides, is_finite, key, monomials_below, over, terms_of
 
 Exponents = tuple[int, ...]
 Terms = dict[Exponents, Poly]
@@ -102,32 +101,19 @@ class Case:
     basis: tuple[tuple[Exponents, Terms], ...]
 
     @property
-    def is_unit(self) -> bool:
-        """Whether there is no complex solution."""
-        return any(not any(lead) for lead, _ in self.basis)
+    def leads(self) -> list[Exponents]:
+        """The leading monomials."""
+        return [lead for lead, _ in self.basis]
 
     @property
     def is_finite(self) -> bool:
         """Whether there are finitely many complex solutions."""
-        pure = {k for lead, _ in self.basis for k in range(self.size) if lead[k] == sum(lead)}
-        return self.is_unit or len(pure) == self.size
+        return is_finite(self.leads, self.size)
 
     @cached_property
     def monomials(self) -> list[Exponents]:
         """Those that no leading monomial divides, 1 first. ``is_finite`` must hold."""
-        leads = [lead for lead, _ in self.basis]
-        start = (0,) * self.size
-        found, pending = ({start}, [start]) if not self.is_unit else (set[Exponents](), list[Exponents]())
-        while pending:
-            e = pending.pop()
-            for k in range(self.size):
-                larger = (*e[:k], e[k] + 1, *e[k + 1 :])
-                if larger not in found and not any(divides(lead, larger) for lead in leads):
-                    found.add(larger)
-                    pending.append(larger)
-            if len(found) > MOST_ELEMENTS:
-                raise Unable(f"a case has more than {MOST_ELEMENTS} complex solutions")
-        return sorted(found, key=key, reverse=True)
+        return sorted(monomials_below(self.leads, self.size, MOST_ELEMENTS), key=key, reverse=True)
 
     def remainder(self, p: Terms, *, whole: bool = True) -> tuple[Poly, Terms]:
         """(s, r) with s p = r modulo the basis, s a product of leading coefficients and positive integers.
@@ -166,26 +152,18 @@ class Case:
         return scale, {**done, **rest}
 
 
-def key(e: Exponents) -> tuple[int, Exponents]:
-    """The smaller the higher."""
-    return -sum(e), e[::-1]
-
-
-Pair = tuple[tuple[int, Exponents], int, int]
-
-
 @dataclass(frozen=True)
 class _Task:
     """A case under way: what is still to be added, and the pairs whose S-polynomials are to be reduced."""
 
     case: Case
     queue: tuple[Terms, ...]
-    pairs: list[Pair] = field(default_factory=list)
-    done: set[tuple[int, int]] = field(default_factory=set)
+    pairs: Pairs = field(default_factory=Pairs)
 
     def within(self, where: Conditions) -> _Task:
         """The same under more conditions."""
-        return _Task(replace(self.case, where=where), self.queue, list(self.pairs), set(self.done))
+        pairs = Pairs((), list(self.pairs.pending), set(self.pairs.done))
+        return _Task(replace(self.case, where=where), self.queue, pairs)
 
 
 def cases(polys: Sequence[Terms], size: int, where: Conditions) -> Iterator[Case]:
@@ -209,44 +187,27 @@ def cases(polys: Sequence[Terms], size: int, where: Conditions) -> Iterator[Case
 
 def _run(task: _Task) -> tuple[_Task, Poly | None]:
     """The task when it is done, or when it has to know whether a factor vanishes."""
-    case, queue, pairs, done = task.case, list(task.queue), task.pairs, task.done
-    while queue or pairs:
+    case, queue, pairs = task.case, list(task.queue), task.pairs
+    while True:
         case.where.tick()
         if not queue:
-            _, i, j = heappop(pairs)
-            done.add((i, j))
-            if not _is_needless(case, i, j, done):
-                queue.append(_s_polynomial(case, i, j))
-            continue
+            pair = pairs.next(case.leads, case.where.tick)
+            if pair is None:
+                return _Task(case, ()), None
+            queue.append(_s_polynomial(case, *pair))
         p = _tidied(case.remainder(queue.pop(0), whole=False)[1], case.where)
         if not p:
             continue
         lead = min(p, key=key)
         factor = case.where.undecided(p[lead])
         if factor is not None:
-            return _Task(case, (p, *queue), pairs, done), factor
+            return _Task(case, (p, *queue), pairs), factor
         if not any(lead):
-            return _Task(replace(case, basis=((lead, p),)), (), [], done), None
-        number = len(case.basis)
-        if number >= MOST_ELEMENTS:
+            return _Task(replace(case, basis=((lead, p),)), ()), None
+        if len(case.basis) >= MOST_ELEMENTS:
             raise Unable("a Gröbner basis with parameters grows past the limits of the checker")
-        for k, (other, _) in enumerate(case.basis):
-            degree, rest = key(tuple(map(max, lead, other)))
-            heappush(pairs, ((-degree, rest), k, number))
+        pairs.add(lead, case.leads)
         case = replace(case, basis=(*case.basis, (lead, p)))
-    return _Task(case, (), [], done), None
-
-
-def _is_needless(case: Case, i: int, j: int, done: set[tuple[int, int]]) -> bool:
-    """Buchberger's criteria: leading monomials without a common variable, or a third one with both pairs done."""
-    (a, _), (b, _) = case.basis[i], case.basis[j]
-    if not any(x and y for x, y in zip(a, b, strict=True)):
-        return True
-    top = tuple(map(max, a, b))
-    return any(
-        k not in (i, j) and divides(lead, top) and {(min(i, k), max(i, k)), (min(j, k), max(j, k))} <= done
-        for k, (lead, _) in enumerate(case.basis)
-    )
 
 
 def _s_polynomial(case: Case, i: int, j: int) -> Terms:

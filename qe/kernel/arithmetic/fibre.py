@@ -81,9 +81,11 @@ class RationalFibre:
         """The number of distinct real roots."""
         return count_real_roots(self.p)
 
-    def count_between(self, low: Fraction, high: Fraction) -> int:
-        """The number of distinct real roots in (low, high); neither end is a root."""
-        return count_roots_between(self.p, low, high, self.check)
+    def only_root(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
+        """The root in (low, high), if it is the only one and neither end is a root."""
+        if 0 in self.signs(values((low, high))) or count_roots_between(self.p, low, high, self.check) != 1:
+            return None
+        return self.coordinate(low, high)
 
     def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
         """The root between low and high, if exactly one irreducible factor changes sign there and only once."""

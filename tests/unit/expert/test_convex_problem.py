@@ -9,14 +9,15 @@ import pytest
 
 from qe.errors import CertificateRejected
 from qe.expert import convex_problem as problems
-from qe.expert.arithmetic.numbers import read_field
-from qe.expert.arithmetic.residue import Residue, of_rationals
-from qe.expert.convex_problem import Equation, Weighting, read_problem
+from qe.expert.arithmetic.field import RootField, constant
+from qe.expert.convex_problem import Place, read_problem
+from qe.expert.sentences import read_list
 from qe.proof.entry import Entry
 from tests.tables import each
 
-SQRT2 = read_field(Entry({"minimal_polynomial": ["-2", "0", "1"], "interval": ["1", "2"]}, "field"), None)
-ROOT = of_rationals([Fraction(0), Fraction(1)])
+SQRT2 = RootField(Entry({"minimal_polynomial": ["-2", "0", "1"], "interval": ["1", "2"]}, "field"))
+ROOT = SQRT2.theta
+HERE = Entry(None, "here")
 
 
 def terms(*pairs: tuple[list[int], str]) -> list[Any]:
@@ -34,90 +35,63 @@ LINE = terms(([1, 0], "1"), ([0, 1], "-2"), ([0, 0], "1"))  # x - 2 y + 1
 SADDLE = terms(([1, 1], "1"))
 
 
-def number(value: Residue) -> Fraction:
-    return problems.as_fraction(value)
+def rational(*values: Fraction | int) -> list[Any]:
+    return [constant(Fraction(v)) for v in values]
 
 
-def test_values_and_gradients() -> None:
-    form = problem(SKEW).objective
-    at = problems.rational([Fraction(2), Fraction(-3, 2)])
-    # 4 - 3 + 27/4 - 10 + 7 and (2x + y - 5, x + 6y)
-    assert number(problems.value_at(form, at, SQRT2)) == Fraction(19, 4)
-    assert [number(s) for s in problems.slope_at(form, at)] == [Fraction(-5, 2), -7]
+def at(given: problems.Problem, *values: Any) -> Place:
+    return Place.of(given, SQRT2, [constant(Fraction(v)) if isinstance(v, Fraction | int) else v for v in values])
 
 
-def test_irrational_points() -> None:
-    form = problem(DISC).objective
-    assert number(problems.value_at(form, [ROOT, ROOT], SQRT2)) == 0
-    assert problems.slope_at(form, [ROOT, ROOT]) == [of_rationals([Fraction(0), Fraction(2)])] * 2
-    assert problems.along((Fraction(3), Fraction(0)), [ROOT, ROOT], Fraction(1)) == of_rationals(
-        [Fraction(1), Fraction(3)]
-    )
+def test_values() -> None:
+    """4 - 3 + 27/4 - 10 + 7, and the disc at (sqrt 2, sqrt 2)."""
+    assert at(problem(LINE, (SKEW, "<=")), 2, Fraction(-3, 2)).values == rational(Fraction(19, 4))
+    assert at(problem(LINE, (DISC, "<=")), ROOT, ROOT).values == rational(0)
 
 
 def test_tangents() -> None:
     """At (2, 0) the disc gives 2x = 4, 2y = 0 and 4x = 8; a value of 5 there moves the last one."""
-    form, at = problem(DISC).objective, problems.rational([Fraction(2), Fraction(0)])
-    found = problems.tangents(form, at, SQRT2)
-    assert [([number(a) for a in e.row], number(e.rhs)) for e in found] == [([2, 0], 4), ([0, 2], 0), ([4, 0], 8)]
-    moved = problems.tangents(form, at, SQRT2, of_rationals([Fraction(5)]))
-    assert [number(e.rhs) for e in moved] == [4, 0, 3]
-
-
-def weighting(*weights: int, equations: list[Equation] = [], extra: list[int] = []) -> Weighting:
-    def made(values: Any) -> list[Residue]:
-        return problems.rational([Fraction(v) for v in values])
-
-    return Weighting(made(weights), equations, made(extra))
-
-
-def equation(row: list[int], rhs: int) -> Equation:
-    return Equation(tuple(problems.rational([Fraction(a) for a in row])), of_rationals([Fraction(rhs)]))
+    place = at(problem(LINE, (DISC, "<="), (DISC, "<="), (LINE, "=")), 2, 0)
+    found = [[SQRT2.reduced(c)[0] for c in e] for e in place.tangent(place.problem.forms[0], constant(Fraction(5)))]
+    assert found == [[2, 0, -4], [0, 2, 0], [4, 0, -3]]
+    assert len(place.tangents(rational(1, 0, 1))) == 3  # of what has no weight, and of equations, nothing is said
 
 
 def test_stationary_points() -> None:
-    """x + y on the disc of radius 2 is stationary at (-sqrt 2, -sqrt 2); here with weights over the rationals."""
-    given = problem(terms(([1, 0], "4")), (DISC, "<="), (LINE, "="))
-    at = problems.rational([Fraction(-2), Fraction(0)])
-    problems.check_stationary(given, SQRT2, at, weighting(1, 0), "at", with_objective=True)
-    with pytest.raises(CertificateRejected, match="coordinate 1"):
-        problems.check_stationary(given, SQRT2, at, weighting(1, 0), "at")
-    with pytest.raises(CertificateRejected, match="coordinate 1"):
-        problems.check_stationary(given, SQRT2, at, weighting(2, 0), "at", with_objective=True)
-    tilted = weighting(1, 0, equations=[equation([0, 1], 0)], extra=[1])
+    """4*x on the disc of radius 2 is stationary at (-2, 0)."""
+    place = at(problem(terms(([1, 0], "4")), (DISC, "<="), (LINE, "=")), -2, 0)
+
+    def weighted(*weights: int, known: Any = (), objective: bool = True) -> Any:
+        rows = [rational(*row) for row in known]
+        return place.weighted(rational(*weights), rational(*[1] * len(known)), rows, HERE, with_objective=objective)
+
+    weighted(1, 0)
+    for wrong in (lambda: weighted(1, 0, objective=False), lambda: weighted(2, 0)):
+        with pytest.raises(CertificateRejected, match="coordinate 1"):
+            wrong()
     with pytest.raises(CertificateRejected, match="coordinate 2"):
-        problems.check_stationary(given, SQRT2, at, tilted, "at", with_objective=True)
-    joined = weighting(1, 1, equations=[equation([-1, 2], 0)], extra=[1])
-    problems.check_stationary(given, SQRT2, at, joined, "at", with_objective=True)
-    empty = weighting(1, 0, equations=[equation([0, 0], 1)], extra=[1])
+        weighted(1, 0, known=[[0, 1, 0]])
+    assert weighted(1, 1, known=[[-1, 2, 0]]) == rational(1)[0]  # of the line -1, and 2 of the equation
     with pytest.raises(CertificateRejected, match="an empty equation"):
-        problems.check_stationary(given, SQRT2, at, empty, "at", with_objective=True)
-
-
-def test_weighted_values() -> None:
-    at = problems.rational([Fraction(3), Fraction(1)])
-    total = weighting(2, 5, equations=[equation([1, 1], 1), equation([7, 7], 7)], extra=[10, 0])
-    values = problems.rational([Fraction(1), Fraction(-2)])
-    assert number(problems.weighted_value(SQRT2, at, values, total)) == 2 - 10 + 10 * 3
+        weighted(1, 0, known=[[0, 0, -1]])
 
 
 def test_signs_of_weights() -> None:
-    given = problem(LINE, (DISC, "<="), (LINE, "="), (LINE, "<"))
-    negative, zero = of_rationals([Fraction(1), Fraction(-1)]), of_rationals([Fraction(0)])  # 1 - sqrt 2
-    problems.check_signs(given, SQRT2, [ROOT, negative, zero], "weights", "multiplier")
-    for place, weights in enumerate(([negative, zero, zero], [zero, zero, negative])):
-        with pytest.raises(CertificateRejected, match=r"a negative multiplier of an inequality") as error:
-            problems.check_signs(given, SQRT2, weights, "weights", "multiplier")
-        assert error.value.step == f"weights[{2 * place}]"
+    place = at(problem(LINE, (DISC, "<="), (LINE, "="), (LINE, "<")), 0, 0)
+    negative = SQRT2.reduced(1 - ROOT)
+    for where, weights in ((0, [negative, *rational(0, 0)]), (2, [*rational(0, 0), negative])):
+        with pytest.raises(CertificateRejected, match="a negative weight of an inequality") as error:
+            place.weighted(weights, [], [], HERE)
+        assert error.value.step == f"here[{where}]"
 
 
 @each(
-    (SADDLE, [], ["x", "y"], "the objective is not convex"),
-    (LINE, [(SADDLE, "<=")], ["x", "y"], "a constraint that is not convex"),
+    (SADDLE, [], ["x", "y"], "not convex"),
+    (LINE, [(SADDLE, "<=")], ["x", "y"], "not convex"),
     (LINE, [(DISC, "=")], ["x", "y"], "a nonlinear equation"),
     (LINE, [(DISC, ">=")], ["x", "y"], "expected <=, < or ="),
-    (LINE, [], ["x", "x"], "distinct names"),
-    (LINE, [], ["x", ""], "distinct names"),
+    (LINE, [], ["x", "x"], "listed twice"),
+    (LINE, [], ["x", ""], "without a name"),
 )
 def test_problems_that_are_not_convex(objective: Any, constraints: Any, names: list[str], reason: str) -> None:
     with pytest.raises(CertificateRejected, match=reason):
@@ -126,9 +100,9 @@ def test_problems_that_are_not_convex(objective: Any, constraints: Any, names: l
 
 def test_numbers_and_rows_have_their_length() -> None:
     entry = Entry([["1"], ["0", "1"]], "point")
-    assert problems.read_numbers(entry, SQRT2, 2) == [of_rationals([Fraction(1)]), ROOT]
+    assert read_list(entry, SQRT2.number, 2) == [*rational(1), ROOT]
     with pytest.raises(CertificateRejected, match="expected 3 numbers, found 2"):
-        problems.read_numbers(entry, SQRT2, 3)
-    assert problems.read_row(Entry(["1", "-2/3"], "row"), 2) == (1, Fraction(-2, 3))
+        read_list(entry, SQRT2.number, 3)
+    assert read_list(Entry(["1", "-2/3"], "row"), Entry.rational, 2) == [1, Fraction(-2, 3)]
     with pytest.raises(CertificateRejected, match="expected 1 numbers, found 2"):
-        problems.read_row(Entry(["1", "2"], "row"), 1)
+        read_list(Entry(["1", "2"], "row"), Entry.rational, 1)

@@ -108,3 +108,24 @@ def test_another_infimum_is_not_proved(old: str, new: str) -> None:
     verdict = verify(Certificate.step("multipliers", (), before, after, evidence))
     assert verdict.decided and not verdict.accepted
     assert verdict.step in ("payload.steps[0].before", "payload.steps[0].after")
+
+
+def test_a_weight_that_is_zero_at_a_root_of_a_reducible_polynomial_is_not_positive() -> None:
+    """With theta = sqrt 2, 1*x + (theta^2 - 1)*(-x) + (theta^2 - 2)*(x - 1) is 0 and says nothing of x < 1."""
+
+    def condition(relation: str, *terms: list[Any]) -> dict[str, Any]:
+        return {"terms": list(terms), "relation": relation}
+
+    strict = condition("<", ["1", [1]], ["-1", [0]])
+    constraints = [condition("<=", ["1", [1]]), condition("<=", ["-1", [1]]), strict]
+    evidence = {
+        "problem": {"variables": ["x"], "minimise": [], "constraints": constraints},
+        "status": "infeasible",
+        "field": {"minimal_polynomial": ["10", "-2", "-5", "1"], "interval": ["1", "3/2"]},
+        "faces": [],
+        "point": [["0"]],
+        "multipliers": [["1"], ["-1", "0", "1"], ["-2", "0", "1"]],
+        "derived": [],
+        "values": [["0"], ["0"], ["-1"]],
+    }
+    assert "reducible" in objection("multipliers", "ex x. x <= 0 and -x <= 0 and x < 1", "false", evidence)

@@ -20,7 +20,7 @@ Patch = Callable[[pytest.MonkeyPatch], None]
 
 def _parts_apart(m: pytest.MonkeyPatch) -> None:
     """Parts that share a variable are taken apart."""
-    m.setattr(quantifiers, "_connected", lambda names, parts: [(names & {*p.free}, [p]) for p in parts])
+    m.setattr(quantifiers, "connected", lambda parts, names: ((), [(names(p), (p,)) for p in parts]))
 
 
 def _over_both(m: pytest.MonkeyPatch) -> None:

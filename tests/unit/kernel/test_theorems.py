@@ -17,12 +17,21 @@ from qe.formula.build import conj, exists, neg
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import conjuncts
 from qe.kernel.negation import negation
-from qe.kernel.statements import Theorem, rows, theorem, undirected
+from qe.kernel.statements import Theorem, rows, theorem
 from qe.kernel.step import Claim, Context
 from qe.kernel.theorem import check_theorem
 from qe.proof.certificate import Kind
 from qe.proof.entry import Entry, Json, poly_to_text
-from qe.rules.closed_forms import matches, pattern, square_root
+from qe.rules.closed_forms import (
+    generic,
+    matches,
+    pattern,
+    relations_in,
+    square_root,
+    term,
+    undirected,
+    variables_in,
+)
 from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS, limits
 
@@ -53,7 +62,7 @@ class Case:
         a, b, f, g = (RING.var(name) for name in "abfg")
         zero = dict.fromkeys(self.letters, RING.constant(0))
         self.letters = {**zero, "c": f, "k": g, "b0": 2 * a * f, "e": f * (a * a - b * b), "m": -g}
-        root = square_root(used.term(tree, self.letters, RING))  # type: ignore[arg-type]
+        root = square_root(term(used, tree, self.letters, RING))  # type: ignore[arg-type]
         assert root is not None
         self.letters[name] = root
 
@@ -238,8 +247,8 @@ def test_what_the_text_of_a_block_says_is_what_the_block_has(name: str) -> None:
     for words in row.choices(SIZES):
         known = pattern(name, words)
         relations = (undirected(condition.relation.value) for condition in known.conditions)
-        assert row.relations(words) == tuple(sorted(relations))
-        assert row.variables(words) == len(known.variables)
+        assert relations_in(row, words) == tuple(sorted(relations))
+        assert variables_in(row, words) == len(known.variables)
 
 
 def test_proofs_that_are_stored_are_accepted() -> None:
@@ -261,7 +270,7 @@ def test_a_statement_that_is_none() -> None:
     used = theorem(NAMES[0], next(rows()[NAMES[0]].choices()))
     assert used is not None
     with pytest.raises(InputError):
-        replace(used, letters=()).generic("block")
+        generic(replace(used, letters=()), "block")
 
 
 def test_an_answer_names_the_axioms_that_it_needs() -> None:

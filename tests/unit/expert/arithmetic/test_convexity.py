@@ -11,10 +11,13 @@ from hypothesis import strategies as st
 
 from qe.errors import CertificateRejected
 from qe.exact.quadratic_form import Definiteness, definiteness, independent_rows
-from qe.expert.arithmetic.convexity import is_convex, is_linear, rank, read_form
+from qe.exact.ring import Ring
+from qe.expert.arithmetic.convexity import Quadratic, is_convex, rank
+from qe.expert.sentences import read_terms
 from qe.proof.entry import Entry
 from tests.tables import each
 
+RING = Ring.of(("x", "y"))
 SMALL = st.integers(-3, 3).map(Fraction)
 
 
@@ -58,14 +61,16 @@ def test_rank_agrees_with_the_engine(rows):
 
 
 @given(st.dictionaries(st.sampled_from([e for e in product(range(3), repeat=2) if sum(e) <= 2]), SMALL.filter(bool)))
-def test_a_form_has_the_values_of_its_terms(terms):
-    form = read_form(Entry([[str(c), list(e)] for e, c in terms.items()], "form"), 2)
+def test_a_quadratic_polynomial_has_the_values_and_slopes_of_its_terms(terms):
+    entry = Entry([[str(c), list(e)] for e, c in terms.items()], "form")
+    form = Quadratic.of(*read_terms(entry, RING.names, RING), Fraction)
     for x, y in product((Fraction(-2), Fraction(1, 3), Fraction(5)), repeat=2):
-        point = (x, y)
-        value = form.constant + sum(b * v for b, v in zip(form.gradient, point, strict=True))
-        value += sum(form.hessian[i][j] * point[i] * point[j] for i in range(2) for j in range(2)) / 2
-        assert value == sum(c * x ** e[0] * y ** e[1] for e, c in terms.items())
-    assert is_linear(form) == (max((sum(e) for e in terms), default=0) <= 1)
+        point = (x, y, 1)
+        assert form.value(point) == sum(c * x ** e[0] * y ** e[1] for e, c in terms.items())
+        along_x = sum(c * e[0] * x ** max(e[0] - 1, 0) * y ** e[1] for e, c in terms.items())
+        assert form.gradient(point)[0] == along_x
+        further = (x + 1, y, 1)
+        assert form.value(further) - form.value(point) - along_x == form.hessian[0][0] / 2
 
 
 @each(
@@ -79,4 +84,4 @@ def test_a_form_has_the_values_of_its_terms(terms):
 )
 def test_what_is_no_form_is_refused(terms):
     with pytest.raises(CertificateRejected):
-        read_form(Entry(terms, "form"), 2)
+        read_terms(Entry(terms, "form"), RING.names, RING)
