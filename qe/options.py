@@ -69,12 +69,11 @@ class Stage(Enum):
     inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
     them. ``SHIFT``: x^k is named x. ``GENERIC``: inequations that remove no interior are
     dropped. ``CANCELLING``: multiples of equations are subtracted. ``SPLITTING``: an equation that factors gives
-    cases. ``EARLY``: small blocks that say equations are eliminated before what stands beside them. ``INFINITY``,
-    ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: truth at infinity first; critical values; convex optimisation;
-    comprehensive Gröbner systems; polynomial witnesses. ``ROOTS``: one polynomial of degree 3 or more by signs of
-    Hermite's forms. ``NAMING``: a linear form that curved conditions look at gets a
-    name. ``REDUNDANT``: parts of an answer that make no difference are dropped. ``SHORTENING``: a last look for a
-    shorter or constant answer, these parts included.
+    cases. ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: truth at infinity first; critical values;
+    convex optimisation; comprehensive Gröbner systems; polynomial witnesses. ``ROOTS``: one polynomial of degree 3 or
+    more by signs of Hermite's forms. ``NAMING``: a linear form that curved conditions look at gets a name.
+    ``REDUNDANT``: parts of an answer that make no difference are dropped. ``SHORTENING``: a last look for a shorter or
+    constant answer, these parts included.
     """
 
     EQUATIONS = "equations"
@@ -104,7 +103,6 @@ class Stage(Enum):
     GENERIC = "generic"
     CANCELLING = "cancelling"
     SPLITTING = "splitting"
-    EARLY = "early"
     INFINITY = "infinity"
     ROOTS = "roots"
     NAMING = "naming"

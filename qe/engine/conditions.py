@@ -97,11 +97,6 @@ def definitions(problem: Block, options: Options) -> str | None:
     return "an equation may define a variable" if may_define(problem.formula) else None
 
 
-def solvable_equations(problem: Block, options: Options) -> str | None:
-    """Where equations may prepare what stands with them."""
-    return None if Stage.EQUATIONS in options.without else "equations prepare the other parts"
-
-
 def case_count(problem: Block) -> int:
     """The disjunctions in a sentence of one block that may be searched; 0 for any other."""
     if problem.free or not problem.is_flat:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from qe.elimination.protocol import Context, Outcome
-from qe.engine.early import early_parts, equations
 from qe.engine.local import WORK, without_locals
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.formula.block import Block
-from qe.formula.build import conj, convert, exists
+from qe.formula.build import conj, convert
 from qe.formula.features import features
-from qe.formula.syntax import TRUE, Constant, Formula
+from qe.formula.syntax import TRUE, And, Exists, Formula
 from qe.options import Options, Stage
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
@@ -99,29 +98,12 @@ class LocalVariables:
         return Outcome(shorter.formula, back=back)
 
 
-class PartsFirst:
-    """Parts that amount to equations are eliminated first: these prepare the others (``qe.engine.early``)."""
-
-    name = "parts first"
-
-    def suits(self, problem: Block, options: Options) -> str | None:
-        return "small blocks about the same variables" if early_parts(problem.dual.body) is not None else None
-
-    def run(self, problem: Block, context: Context) -> Outcome | None:
-        dual, parts = problem.dual, early_parts(problem.dual.body)
-        if parts is None or context.decide is None:
-            return None
-        early = context.decide(parts[0], context.options, context.budget)
-        if not isinstance(early.formula, Constant) and not any(equations(early.formula, dual.variables)):
-            context.log.switch(self.name, "they give no equations")
-            return None
-        to_dual(problem, context.log)
-        context.log.take_up(tuple(early.log.steps()))
-
-        def back(rest: Outcome) -> Outcome:
-            answer = problem.asked(rest.formula)
-            if problem.universal:
-                context.log.step("negation normal form", negated(rest.formula), answer)
-            return Outcome(answer, rest.witness)
-
-        return Outcome(exists(dual.variables, conj((early.formula, parts[1]))), back=back)
+def gathered_block(formula: Formula) -> Block | None:
+    """The existential block of a conjunction together with the conditions that preparation moved out of it."""
+    args = formula.args if isinstance(formula, And) else (formula,)
+    blocks = [a for a in args if isinstance(a, Exists)]
+    if len(blocks) != 1:
+        return None
+    rest = [a for a in args if a is not blocks[0]]
+    body = conj((*rest, blocks[0].body))
+    return Block(blocks[0].variables, body) if body.is_quantifier_free else None

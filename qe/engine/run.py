@@ -14,8 +14,7 @@ from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome
 from qe.engine.constant import Start
-from qe.engine.early import gathered_block
-from qe.engine.reductions import lifted_values, to_dual
+from qe.engine.reductions import gathered_block, lifted_values, to_dual
 from qe.engine.shortening import shortened
 from qe.engine.strategy import SPARE, Attempt, Scope, Spare, alone, attempts, chosen_alone, complete
 from qe.errors import Unable
@@ -191,9 +190,6 @@ class _Run:
 
     def eliminated(self, problem: Block) -> Outcome:
         """The block without quantifiers."""
-        outcome = None if problem.is_flat else self.first_outcome(Scope.OUTER, problem)
-        if outcome is not None:
-            return outcome
         reduced = self.reduced(problem)
         if not isinstance(reduced, Block):
             return Outcome(reduced, {} if reduced == (FALSE if problem.universal else TRUE) else None)
@@ -258,9 +254,7 @@ class _Run:
         """An outcome without what a method left quantified, and short where that is worth a look."""
         formula = outcome.formula
         if outcome.back is not None:
-            whole = attempt.scope is Scope.QUESTION
-            rest = self.outcome(formula) if whole else self.outcome_at_length(formula, Block.of(formula))
-            return outcome.back(rest)
+            return outcome.back(self.outcome(formula))
         if not formula.is_quantifier_free and attempt.scope is not Scope.INNER:
             if problem.formula in subformulas(formula):  # conditions around it would not change what comes next
                 raise alone(name)

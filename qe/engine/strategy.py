@@ -45,7 +45,6 @@ METHODS = {
     "local variables": Listed(
         "qe.engine.reductions", "LocalVariables", "eliminating local variables", Stage.MINISCOPING
     ),
-    "parts first": Listed("qe.engine.reductions", "PartsFirst", "eliminating small parts first", Stage.EARLY),
     "vs": Listed(
         "qe.elimination.vs.method", "VirtualSubstitution", "virtual substitution", Stage.SUBSTITUTION, Method.VS
     ),
@@ -95,7 +94,7 @@ METHODS = {
 class Scope(Enum):
     """What a method is shown: any question, where no block need be outermost; a block as it was asked, and again
     prepared; the prepared question, one block with conditions outside; one block over a quantifier-free body; such a
-    block inside another; a block with blocks inside, before these are tried and after.
+    block inside another; a block with blocks inside.
     """
 
     QUESTION = "question"
@@ -103,12 +102,7 @@ class Scope(Enum):
     PREPARED = "prepared"
     BLOCK = "block"
     INNER = "inner block"
-    OUTER = "outer block"
     NESTED = "nested"
-
-
-REDUCING = Scope.QUESTION, Scope.OUTER
-"""Where questions are reduced to others; these are then for the method that the caller chose."""
 
 
 def any_outcome(outcome: Outcome, problem: Block) -> bool:
@@ -200,7 +194,6 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, 2 * SHORTCUT),
     Attempt(Scope.ASKED, "linear form named", on.several_parameters),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
-    Attempt(Scope.OUTER, "parts first", on.solvable_equations, SHORTCUT),
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),
     Attempt(Scope.BLOCK, "critical", on.convex_conditions, FIRST),
     Attempt(Scope.BLOCK, "vs", on.low_degrees, FIRST, complete_if_closed, shorten=True),
@@ -236,7 +229,7 @@ def attempts(scope: Scope, problem: Block, options: Options) -> Iterator[tuple[A
     for attempt in STRATEGY:
         if attempt.scope is not scope:
             continue
-        if options.method is not Method.AUTO and scope not in REDUCING:
+        if options.method is not Method.AUTO and scope is not Scope.QUESTION:  # reduced, it is still for that method
             if attempt.listed.choice is not options.method or attempt.method in seen:
                 continue
             seen.add(attempt.method)

@@ -10,7 +10,7 @@ from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula
 from qe.rules.lift import Solve
 from qe.rules.rewrite import rewrite
-from qe.rules.tree import Lifted, Pending
+from qe.rules.tree import Lifted, solved
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,5 +41,4 @@ class Change:
 
     def node(self, variables: tuple[str, ...], body: Formula) -> Lifted:
         """The block at the values, still to be reduced."""
-        rest = tuple(name for name in variables if name not in self.values)
-        return Lifted(self.lifts, Pending(rest, self.image(body)))
+        return solved(self.lifts, variables, self.image(body))

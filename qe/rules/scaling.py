@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from fractions import Fraction
-
-from qe.exact.ring import Poly
 from qe.formula.features import is_short
 from qe.formula.syntax import Formula
 from qe.formula.traverse import atoms, bound_variables, conjuncts
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.change import Change
-from qe.rules.nullspace import kernel_vector, occurring
+from qe.rules.nullspace import homogeneous_weights
 from qe.rules.step import StepKind
 from qe.rules.tree import Any
 
@@ -29,15 +25,13 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
     inner = frozenset(bound_variables(body))
     if not is_short(body, _TERMS) or inner & set(body.free) or all(a.poly.total_degree < 2 for a in atoms(body)):
         return None
-    weights = find_weights(body, frozenset(variables) | inner)
-    if weights is None:
-        return None
+    weights = homogeneous_weights(body, frozenset(variables) | inner)
     known = context.facts.extended(conjuncts(body))
     ring = next(atoms(body)).poly.ring
     candidates = []
     for name in variables:
         index = ring.index[name]
-        if name in inner or not weights.get(index):
+        if name in inner or name not in weights:
             continue
         signs = known.signs(ring.gen(index))
         degree = max(a.poly.degree(index) for a in atoms(body))
@@ -51,22 +45,7 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
     nodes = tuple(Change.to_number(name, value, ring).node(variables, body) for value in values)
     proof = {
         "variable": name,
-        "weights": [(ring.names[i], w) for i, w in weights.items() if w],
+        "weights": [*weights.items()],
         "values": values,
     }
     return Found(StepKind.SCALING, f"{name} in {sorted(signs)}", Any(nodes), proof)
-
-
-def find_weights(body: Formula, names: frozenset[str]) -> dict[int, Fraction] | None:
-    """Weights, not all 0, on the named variables that make every polynomial homogeneous; None if there are none.
-
-    One row per pair of terms of a polynomial: the weights annihilate the differences of exponents.
-    """
-    polys, columns = occurring(body, names)
-    return kernel_vector(columns, (row for poly in polys for row in _differences(poly, columns)))
-
-
-def _differences(poly: Poly, columns: Sequence[int]) -> Iterator[list[Fraction]]:
-    exponents = [e for e, _ in poly.terms()]
-    for other in exponents[1:]:
-        yield [Fraction(other[i] - exponents[0][i]) for i in columns]

@@ -15,35 +15,28 @@ from collections.abc import Sequence
 from qe.exact.ring import format_poly
 from qe.formula.build import conj
 from qe.formula.syntax import TRUE, Atom, Formula, Relation
-from qe.formula.traverse import bound_variables, conjuncts
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.closed_forms import matches
 from qe.rules.lift import Lift, Solve
 from qe.rules.step import StepKind
-from qe.rules.takes_value import TakesValue
-from qe.rules.tree import Lifted, Pending
+from qe.rules.takes_value import TakesValue, looked_at_once
+from qe.rules.tree import solved
 
 
 def square_alone(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first variable of a block of several that it applies to."""
     if len(variables) < 2 or body.ring is None:
         return None
-    parts, inner = conjuncts(body), bound_variables(body)
-    for name in variables:
-        having = [part for part in parts if name in part.free]
-        if len(having) != 1 or name in inner or not isinstance(having[0], Atom):
-            continue
-        solved = _solved(name, having[0], [body.ring.index[v] for v in variables if v != name])
-        if solved is None:
-            continue
-        condition, lift = solved
-        rest = tuple(v for v in variables if v != name)
-        node = Lifted((lift,), Pending(rest, conj(condition if part is having[0] else part for part in parts)))
-        return Found(StepKind.SQUARE_ALONE, f"{name} in {format_poly(having[0].poly)}", node, {"variable": name})
+    for name, part, before, after in looked_at_once(variables, body):
+        found = _least(name, part, [body.ring.index[v] for v in variables if v != name])
+        if found is not None:
+            condition, lift = found
+            node = solved([lift], variables, conj((*before, condition, *after)))
+            return Found(StepKind.SQUARE_ALONE, f"{name} in {format_poly(part.poly)}", node, {"variable": name})
     return None
 
 
-def _solved(name: str, part: Atom, others: Sequence[int]) -> tuple[Formula, Lift] | None:
+def _least(name: str, part: Atom, others: Sequence[int]) -> tuple[Formula, Lift] | None:
     """What takes the place of the condition, and the way back, where the other variables do not get higher degrees."""
     for match in matches((StepKind.SQUARE_ALONE.value,), (name,), part):
         k, l, m = (match.letters[letter] for letter in "klm")

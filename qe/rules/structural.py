@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.normal import nnf
 from qe.formula.syntax import Atom, Constant, Formula, Or, Relation
@@ -14,7 +13,7 @@ from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
 from qe.rules.linear import Pivot, choose_pivot, defining, substitute
 from qe.rules.step import StepKind
-from qe.rules.tree import All, Any, Leaf, Lifted, Node, Pending
+from qe.rules.tree import All, Any, Leaf, Node, Pending, solved
 from qe.simplify.facts import Facts
 
 
@@ -43,32 +42,23 @@ def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockC
 
 def linear_equation(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem of ``qe.rules.linear`` on the cheapest pivots that need no guard, all in a row."""
-    rules: list[Solve] = []
-    solved_by: list[tuple[str, Poly, int | None]] = []
-    details: list[str] = []
+    pivots: list[Solved] = []
     while not isinstance(body, Constant):
         context.budget.check("prepare")
         parts = conjuncts(body)
         pivot = _pivot(parts, variables, context)
-        solved = None if pivot is None or pivot.guarded else _solved(parts, pivot)
-        if pivot is None or solved is None:
+        after = None if pivot is None or pivot.guarded else _without(parts, pivot)
+        if pivot is None or after is None:
             break
-        details.append(_described(parts, pivot))
-        solved_by.append(_evidence(parts, pivot))
-        rules.append(Solve(pivot.name, -pivot.rest, pivot.lead, Fraction(0) if pivot.alone else None))
+        pivots.append((pivot, parts[pivot.position]))
         variables = tuple(v for v in variables if v != pivot.name)
-        body = solved
-    if not rules:
-        return None
-    node = Lifted(tuple(rules), Pending(variables, body))
-    return Found(StepKind.LINEAR, ", ".join(details), node, {"solved": solved_by})
+        body = after
+    return _found(pivots, variables, body)
 
 
 def definitions(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The same for equations that do nothing but define a variable, all in a row (``qe.rules.linear.definitions``)."""
-    rules: list[Solve] = []
-    details: list[str] = []
-    solved_by: list[tuple[str, Poly, int | None]] = []
+    solved_for: list[Solved] = []
     while not isinstance(body, Constant):
         context.budget.check("prepare")
         parts = conjuncts(body)
@@ -78,17 +68,29 @@ def definitions(variables: tuple[str, ...], body: Formula, context: BlockContext
         after = substitute(others, pivots[0]) if pivots and not pivots[0].alone else others
         if not pivots or after is None:
             break
-        details += [_described(parts, pivot) for pivot in pivots]
-        solved_by += [_evidence(parts, pivot) for pivot in pivots]
-        rules += [Solve(pivot.name, -pivot.rest, pivot.lead) for pivot in pivots]
+        solved_for += [(pivot, parts[pivot.position]) for pivot in pivots]
         body = after
-    if not rules:
+    return _found(solved_for, variables, body)
+
+
+Solved = tuple[Pivot, Formula]
+"""A variable that is solved for, and its equation."""
+
+
+def _found(pivots: Sequence[Solved], variables: Sequence[str], body: Formula) -> Found | None:
+    """The block without the variables that were solved for; None where there are none."""
+    if not pivots:
         return None
-    kept = tuple(v for v in variables if v not in {rule.variable for rule in rules})
-    return Found(StepKind.LINEAR, ", ".join(details), Lifted(tuple(rules), Pending(kept, body)), {"solved": solved_by})
+    node = solved([_value(pivot) for pivot, _ in pivots], variables, body)
+    return Found(StepKind.LINEAR, _described(pivots), node, _evidence(pivots))
 
 
-def _solved(parts: Sequence[Formula], pivot: Pivot) -> Formula | None:
+def _value(pivot: Pivot) -> Solve:
+    """The way back: where the variable occurs nowhere else, it may be 0 where its coefficient is."""
+    return Solve(pivot.name, -pivot.rest, pivot.lead, Fraction(0) if pivot.alone else None)
+
+
+def _without(parts: Sequence[Formula], pivot: Pivot) -> Formula | None:
     """What an equation without guard leaves of the conjunction."""
     others = _others(parts, pivot)
     if not pivot.alone:
@@ -108,12 +110,10 @@ def guarded_linear_equation(variables: tuple[str, ...], body: Formula, context: 
     replaced = substitute(others, pivot)
     if replaced is None or not context.may_split(StepKind.GUARDED_LINEAR, 2):
         return None
-    remaining = tuple(v for v in variables if v != pivot.name)
-    rule = Solve(pivot.name, -pivot.rest, pivot.lead)
-    regular = Lifted((rule,), Pending(remaining, conj((_nonzero(pivot), replaced))))
+    regular = solved([_value(pivot)], variables, conj((_nonzero(pivot), replaced)))
     vanishing = (atom(pivot.lead, Relation.EQ), atom(pivot.rest, Relation.EQ), others)
-    node = Any((regular, Pending(variables, conj(vanishing))))
-    return Found(StepKind.GUARDED_LINEAR, _described(parts, pivot), node, {"solved": [_evidence(parts, pivot)]})
+    node, one = Any((regular, Pending(variables, conj(vanishing)))), [(pivot, parts[pivot.position])]
+    return Found(StepKind.GUARDED_LINEAR, _described(one), node, _evidence(one))
 
 
 def solvable_disjuncts(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
@@ -153,17 +153,13 @@ def _others(parts: Sequence[Formula], pivot: Pivot) -> Formula:
     return conj(p for k, p in enumerate(parts) if k != pivot.position)
 
 
-def _evidence(parts: Sequence[Formula], pivot: Pivot) -> tuple[str, Poly, int | None]:
-    """The variable, the equation and what is known of the sign of its coefficient."""
-    equation = parts[pivot.position]
-    assert isinstance(equation, Atom)
-    return pivot.name, equation.poly, pivot.sign
+def _evidence(pivots: Sequence[Solved]) -> dict[str, object]:
+    """The variables, their equations and what is known of the signs of their coefficients."""
+    return {"solved": [(pivot.name, part.poly, pivot.sign) for pivot, part in pivots if isinstance(part, Atom)]}
 
 
-def _described(parts: Sequence[Formula], pivot: Pivot) -> str:
-    equation = parts[pivot.position]
-    text = format_poly(equation.poly) if isinstance(equation, Atom) else "?"
-    return f"{pivot.name} from {text} = 0"
+def _described(pivots: Sequence[Solved]) -> str:
+    return ", ".join(f"{pivot.name} from {part}" for pivot, part in pivots)
 
 
 def _nonzero(pivot: Pivot) -> Formula:

@@ -9,6 +9,7 @@ Lift: a root of p, or a power of two that is large enough.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -21,8 +22,9 @@ from qe.formula.traverse import bound_variables, conjuncts
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Assignment, Value, sign_at
 from qe.rules.step import StepKind
-from qe.rules.tree import Lifted, Pending
+from qe.rules.tree import solved
 
+Parts = tuple[Formula, ...]
 _WANTED = {Relation.GT: 1, Relation.GE: 1, Relation.LT: -1, Relation.LE: -1}
 
 
@@ -53,28 +55,27 @@ class TakesValue:
         return point.extend(sections[0].value).number(len(others))
 
 
-def _mentions(part: Formula, name: str) -> bool:
-    return name in part.free
+def looked_at_once(variables: Sequence[str], body: Formula) -> Iterator[tuple[str, Atom, Parts, Parts]]:
+    """Every variable of the block that one comparison alone has, as a conjunct: with that, and what stands before and
+    after it."""
+    parts, inner = conjuncts(body), set(bound_variables(body))
+    for name in variables:
+        having = [k for k, part in enumerate(parts) if name in part.free]
+        if len(having) == 1 and name not in inner and isinstance(part := parts[having[0]], Atom):
+            yield name, part, parts[: having[0]], parts[having[0] + 1 :]
 
 
 def drop_what_can_be_met(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first variable of the block that it applies to."""
-    parts, inner = conjuncts(body), set(bound_variables(body))
-    for name in variables:
-        where = [k for k, part in enumerate(parts) if _mentions(part, name)]
-        if len(where) != 1 or name in inner:
-            continue
-        condition = parts[where[0]]
-        others = [part for k, part in enumerate(parts) if k != where[0]]
-        if isinstance(condition, Atom) and _is_met(condition, name, others, context):
-            rest = tuple(v for v in variables if v != name)
-            rule = TakesValue(name, condition.poly, condition.relation)
-            node = Lifted((rule,), Pending(rest, conj(others)))
+    for name, condition, before, after in looked_at_once(variables, body):
+        others = before + after
+        if _is_met(condition, name, others, context):
+            node = solved([TakesValue(name, condition.poly, condition.relation)], variables, conj(others))
             return Found(StepKind.TAKES_VALUE, f"{name} in {format_poly(condition.poly)}", node, {"variable": name})
     return None
 
 
-def _is_met(given: Atom, name: str, others: list[Formula], context: BlockContext) -> bool:
+def _is_met(given: Atom, name: str, others: Parts, context: BlockContext) -> bool:
     """Whether the theorem applies; its leading coefficient is looked at where the other conjuncts hold."""
     index = given.poly.ring.index[name]
     lead = given.poly.leading(index)

@@ -6,7 +6,7 @@ Every node stands for a formula (``formula``) and for the block's variables that
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from qe.errors import Unable
@@ -124,6 +124,12 @@ class All:
 
 Node = Leaf | Pending | Lifted | Perturbed | Any | All
 NEVER = Leaf((), FALSE)
+
+
+def solved(rules: Sequence[Lift], variables: Sequence[str], body: Formula) -> Lifted:
+    """The block without the variables to which the rules give values, still to be reduced."""
+    gone = {rule.variable for rule in rules}
+    return Lifted(tuple(rules), Pending(tuple(v for v in variables if v not in gone), body))
 
 
 def leaves(node: Node) -> tuple[Leaf, ...]:

@@ -15,11 +15,11 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 
 from qe.exact.ring import Poly
-from qe.formula.build import conj, exists, forall
+from qe.formula.block import Block
+from qe.formula.build import conj, exists
 from qe.formula.evaluate import truth_under
-from qe.formula.normal import nnf
 from qe.formula.syntax import Atom, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import atoms, conjuncts
+from qe.formula.traverse import atoms
 from qe.rules.block_context import BlockContext
 from qe.rules.step import StepKind
 
@@ -31,15 +31,13 @@ Pattern = frozenset[int]
 
 def without_implied_zeros(formula: Exists | ForAll, context: BlockContext) -> Exists | ForAll:
     """The block without the disjunctions about zeros that follow from its other conjuncts; dually for ``all``."""
-    universal = isinstance(formula, ForAll)
+    block = Block(formula.variables, formula.body, isinstance(formula, ForAll))
     if StepKind.ZEROS not in context.enabled:
         return formula
-    parts = conjuncts(nnf(formula.body, negate=True) if universal else formula.body)
-    kept = needed(parts)
-    if len(kept) == len(parts):
+    kept = needed(block.conditions)
+    if len(kept) == len(block.conditions):
         return formula
-    body = conj(kept)
-    after = forall(formula.variables, nnf(body, negate=True)) if universal else exists(formula.variables, body)
+    after = block.asked(exists(formula.variables, conj(kept)))
     if not isinstance(after, Exists | ForAll):
         return formula
     context.step(StepKind.ZEROS.value, formula, after)

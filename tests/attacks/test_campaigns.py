@@ -7,7 +7,7 @@ import random
 import pytest
 
 from qe.certify.registry import RULES as CHECKERS
-from qe.engine.strategy import REDUCING, STRATEGY
+from qe.engine.strategy import STRATEGY, Scope
 from qe.io.text import read
 from qe.proving.elaborators import ELABORATORS
 from qe.proving.primitive_names import BY_SIGNS
@@ -41,7 +41,7 @@ def checked(counts: Counts, fired: int, claims: int) -> None:
 def test_every_rule_has_an_attacker_and_every_method_its_questions() -> None:
     assert {*RULES, *FORMER, *PRIMITIVES} == set(ATTACKED)
     assert {rule for rules in PRIMITIVES.values() for rule in rules} <= {*ELABORATORS, *BY_SIGNS}
-    assert set(METHODS) == {attempt.load().name for attempt in STRATEGY if attempt.scope not in REDUCING}
+    assert set(METHODS) == {attempt.load().name for attempt in STRATEGY if attempt.scope is not Scope.QUESTION}
 
 
 @pytest.mark.parametrize("rule", ATTACKED)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 
@@ -20,7 +20,8 @@ from qe.api.input import read_formula
 from qe.elimination.protocol import Context
 from qe.exact.ring import Poly
 from qe.formula.build import conj
-from qe.formula.syntax import And, Formula, Or, Relation
+from qe.formula.syntax import And, Atom, Formula, Or, Relation
+from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
@@ -107,7 +108,14 @@ def any_sign(m: pytest.MonkeyPatch) -> None:
 
 def only_equations(m: pytest.MonkeyPatch) -> None:
     """Only equations count as conditions on the variable."""
-    m.setattr(takes_value, "_mentions", lambda part, name: part.relation is Relation.EQ and name in part.free)
+
+    def looked_at(variables: tuple[str, ...], body: Formula) -> Iterator[tuple[object, ...]]:
+        parts = conjuncts(body)
+        for k, part in enumerate(parts):
+            if isinstance(part, Atom) and part.relation is Relation.EQ:
+                yield next(v for v in variables if v in part.free), part, parts[:k], parts[k + 1 :]
+
+    m.setattr(takes_value, "looked_at_once", looked_at)
 
 
 def wrong_side(m: pytest.MonkeyPatch) -> None:

@@ -83,7 +83,7 @@ def any_exponent(m: pytest.MonkeyPatch) -> None:
 
 def any_weights(m: pytest.MonkeyPatch) -> None:
     """Polynomials count as homogeneous for equal weights."""
-    m.setattr(scaling, "find_weights", lambda body, names: {k: Fraction(1) for k in range(2)})
+    m.setattr(scaling, "homogeneous_weights", lambda body, names: dict.fromkeys(body.ring.names[:2], Fraction(1)))
     m.setattr(block, "RULES", (block_context.rule(scaling.fix_scale, StepKind.SCALING),))
 
 
@@ -95,7 +95,7 @@ def one_value(m: pytest.MonkeyPatch) -> None:
 
 def any_direction(m: pytest.MonkeyPatch) -> None:
     """Polynomials count as constant along a direction."""
-    m.setattr(translation, "kernel_vector", lambda columns, rows: {k: Fraction(1) for k in columns})
+    m.setattr(translation, "constant_direction", lambda body, names: dict.fromkeys(sorted(names), Fraction(1)))
     m.setattr(block, "RULES", (block_context.rule(translation.fix_origin, StepKind.TRANSLATION),))
 
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.engine.strategy import REDUCING, Attempt
+from qe.engine.strategy import Attempt, Scope
 from qe.formula.evaluate import holds_at
 from tests.tables import each
 
@@ -55,7 +55,7 @@ def test_what_no_equation_binds_has_points_between_zeros(text: str, monkeypatch:
     loaded, load = set[str](), Attempt.load
 
     def seen(attempt: Attempt) -> object:
-        loaded.update({attempt.method} if attempt.scope not in REDUCING else ())
+        loaded.update({attempt.method} if attempt.scope is not Scope.QUESTION else ())
         return load(attempt)
 
     monkeypatch.setattr(Attempt, "load", seen)

@@ -21,7 +21,7 @@ from qe.formula.build import atom, conj
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import Atomic, Formula
 from qe.formula.traverse import conjuncts, disjuncts, has_root_atoms, map_atoms
-from qe.rules.nullspace import derivative_rows, kernel_vector, occurring
+from qe.rules.nullspace import constant_direction
 
 MOST_PIECES = 4
 """A body of more disjuncts is not taken apart."""
@@ -58,14 +58,11 @@ def taken_apart(variables: Sequence[str], body: Formula, most: int) -> tuple[Pie
 def _piece(whole: Formula, variables: frozenset[str]) -> Piece:
     body, steps = whole, []
     while True:
-        polys, columns = occurring(body, frozenset(body.free) - variables)
-        if len(columns) < 2:
+        parameters = frozenset(body.free) - variables
+        found = constant_direction(body, parameters) if len(parameters) > 1 else {}
+        if not found:
             break
-        found = kernel_vector(columns, (row for poly in polys for row in derivative_rows(poly, columns)))
-        if found is None:
-            break
-        names = polys[0].ring.names
-        direction = _whole({names[i]: w for i, w in found.items() if w})
+        direction = _whole(found)
         name = min(direction, key=lambda v: (direction[v], v))
         if direction[name] < 0:
             direction = {v: -w for v, w in direction.items()}

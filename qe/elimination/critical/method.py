@@ -193,12 +193,6 @@ def by_critical_values(variables: Sequence[str], body: Formula, context: Context
     return Found(whole, parameters, tuple(parts))
 
 
-def _degree(formula: Formula, variables: Sequence[str]) -> int:
-    """The highest degree of one of the variables."""
-    named = [(p, p.ring.index[v]) for p in polynomials(formula) for v in variables if v in p.ring.index]
-    return max((p.degree(i) for p, i in named), default=0)
-
-
 def _logged(
     formula: Formula, body: Formula, parameters: tuple[str, ...], found: list[Disjunct], context: Context, start: float
 ) -> Formula:

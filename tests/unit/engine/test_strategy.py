@@ -11,7 +11,7 @@ import qe
 from qe.certify.registry import RULES
 from qe.engine.conditions import convex_conditions
 from qe.engine.run import solve
-from qe.engine.strategy import METHODS, REDUCING, STRATEGY, Attempt, Listed, Scope, attempts
+from qe.engine.strategy import METHODS, STRATEGY, Attempt, Listed, Scope, attempts
 from qe.formula.block import Block
 from qe.formula.syntax import TRUE, Formula
 from qe.io import formats
@@ -77,7 +77,7 @@ def test_a_method_asked_for_is_alone(name: str, monkeypatch: pytest.MonkeyPatch)
     load = Attempt.load
 
     def seen(attempt: Attempt) -> object:
-        loaded.extend([attempt.method] if attempt.scope not in REDUCING else [])
+        loaded.extend([attempt.method] if attempt.scope is not Scope.QUESTION else [])
         return load(attempt)
 
     monkeypatch.setattr(Attempt, "load", seen)
