@@ -22,7 +22,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
-from bezier.arm.choices import Known
+from bezier.arm.choices import AtPlace, Exact
 from bezier.arm.critical import AlongCurve, Number, S
 from bezier.arm.elimination import Geometry, Vector
 from bezier.arm.inverse import Solution, geometry_of
@@ -125,24 +125,24 @@ class VerticalArm:
 
     def label(self, solution: Solution) -> Label:
         """The signs of a solution of ``bezier.arm.inverse.solve``, exactly."""
-        first, _, third = solution.quotients
-        return self._side(solution, first), self._elbow(solution, third)
+        first, _, third = solution.exact
+        return self._side(first), self._elbow(third)
 
-    def _side(self, solution: Solution, first: Known | None) -> int:
-        if first is None:
+    def _side(self, exact: Exact | None) -> int:
+        if not isinstance(exact, AtPlace):
             return 0
-        here, field = solution.place.point, self.geometry.arm.field
+        first, here, field = exact.known, exact.place.point, self.geometry.arm.field
         point = [variable(here.ring, name, field) for name in "xyz"]
         x, y, _ = self.geometry.based(point)
         (ex, ey), (c, s) = self.along, (Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in first)
         return here.sign((c * (ex * x + ey * y) + s * (ex * y - ey * x)).top) * here.sign(first[0].bottom)
 
-    def _elbow(self, solution: Solution, third: Known | None) -> int:
+    def _elbow(self, exact: Exact | None) -> int:
         if self.turns == (False, False):
             return 1
-        if third is None:
+        if not isinstance(exact, AtPlace):
             return 0
-        f, here, field = self.geometry.v, solution.place.point, self.geometry.arm.field
+        third, f, here, field = exact.known, self.geometry.v, exact.place.point, self.geometry.arm.field
         values = [Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in third]
         if not self.turns[1]:
             total = values[0] + constant(here.ring, dot(f[0][:2], f[1][:2]), field) * Ratio(third[0].bottom, 1, field)

@@ -36,7 +36,8 @@ from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import ArmChain, read_chain, read_number, read_surd
 from bezier.certify.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
 from bezier.certify.branch import coefficients, read_curve
-from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, constant_sign, dot
+from bezier.certify.nested_roots import NO_ROOT, Nested, Root, nested
+from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, combined, constant_sign, dot
 from qe.errors import Unable
 from qe.expert.sentences import Sentence, stated
 from qe.formula.build import conj, disj, forall, implies
@@ -124,26 +125,31 @@ class _Along:
     def of(plane: _Plane, target: list[Polynomial], entry: Entry) -> _Along:
         x, y, z = target
         w = x * x + y * y + Polynomial.of([-(plane.offset * plane.offset)])
+        key = frozenset({Root(nested(w))})
+
+        def number(value: Surd) -> Nested:
+            return nested(Polynomial.of([value]))
+
+        def split(whole: Nested) -> Split:
+            return whole.terms.get(NO_ROOT, Polynomial()), whole.terms.get(key, Polynomial())
+
         a, c = plane.centre
-        height = z + Polynomial.of([-c])
-        d = _plus(_times((Polynomial.of([-a]), UNIT), (Polynomial.of([-a]), UNIT), w), (height * height, Polynomial()))
-        quality: Split | None
-        match plane.turns[1:]:
-            case (True, True):
-                rest = _plus(d, (Polynomial.of([-plane.rest]), Polynomial()))
-                quality = _plus((Polynomial.of([plane.size]), Polynomial()), _scaled(_times(rest, rest, w), -ONE))
-            case (True, False):
-                quality = _plus(d, (Polynomial.of([-plane.size]), Polynomial()))
-            case (False, True):
-                r, up = plane.line
-                across = (height.by(r) + Polynomial.of([a * up]), Polynomial.of([-up]))
-                quality = _plus((Polynomial.of([plane.size]), Polynomial()), _scaled(_times(across, across, w), -ONE))
-            case _:
-                quality = None
-        norm = None if quality is None else _norm(quality, w)
+        across, height = Nested({key: UNIT}) - number(a), nested(z) - number(c)
+        d = across * across + height * height
+        quality: Nested | None = None
+        if plane.turns[1:] == (True, True):
+            rest = d - number(plane.rest)
+            quality = number(plane.size) - rest * rest
+        elif plane.turns[1]:
+            quality = d - number(plane.size)
+        elif plane.turns[2]:
+            r, up = plane.line
+            rest = height.by(r) - across.by(up)
+            quality = number(plane.size) - rest * rest
+        norm = None if quality is None else _norm(split(quality), w)
         if not w or (norm is not None and not norm):
             raise Unable(f"{entry.path}: the whole curve is on the first axis or along a border")
-        return _Along(x, y, w, d, quality, norm, plane)
+        return _Along(x, y, w, split(d), None if quality is None else split(quality), norm, plane)
 
     def labels(self, s: Fraction) -> list[Label]:
         """Of the solutions where neither W nor N vanishes."""
@@ -244,13 +250,7 @@ def _target(chain: ArmChain, points: list[tuple[Fraction, ...]]) -> list[Polynom
     """The curve in the frame of the first joint."""
     rows, shift = back(chain.constants[0])
     curve = [Polynomial.of(map(Surd.rational, row)) for row in coefficients(points)]
-    result = list[Polynomial]()
-    for row, o in zip(rows, shift, strict=True):
-        total = Polynomial.of([o])
-        for factor, part in zip(row, curve, strict=True):
-            total = total + part.by(factor)
-        result.append(total)
-    return result
+    return [combined(row, curve) + Polynomial.of([o]) for row, o in zip(rows, shift, strict=True)]
 
 
 def _cut(along: _Along, listed: Entry, budget: Budget) -> tuple[list[_Between], list[Fraction]]:
@@ -354,21 +354,8 @@ def _direction(along: _Along, s: Fraction) -> tuple[Surd, Surd, int]:
     return x.at(s), y.at(s), k
 
 
-def _plus(a: Split, b: Split) -> Split:
-    return a[0] + b[0], a[1] + b[1]
-
-
-def _scaled(a: Split, factor: Surd) -> Split:
-    return a[0].by(factor), a[1].by(factor)
-
-
-def _times(a: Split, b: Split, w: Polynomial) -> Split:
-    even = a[0] * b[0] + a[1] * b[1] * w
-    return even, a[0] * b[1] + a[1] * b[0]
-
-
 def _norm(a: Split, w: Polynomial) -> Polynomial:
-    return _times(a, (a[0], -a[1]), w)[0]
+    return a[0] * a[0] - a[1] * a[1] * w
 
 
 def _column(rows: Sequence[Triple]) -> Triple:

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bezier.arm.inverse import solve
-from bezier.arm.inverse_evidence import _parameter, _roots, inverse_certificate
+from bezier.arm.inverse_evidence import _box, _over, _parameter, _wider, inverse_certificate
 from bezier.arm.kinematics import position
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from bezier.arm.roots_of_squares import square_roots
@@ -166,9 +166,10 @@ def test_the_angle_that_t_misses_cannot_hide_a_solution() -> None:
     assert payload["turn"] != ["1", "0"] and payload["count"] == 4
     others = [s for s in found.solutions if abs(s.angles[2] or 0) < 3.1]
     turn = (Fraction(1), Fraction(0))
-    t = [_parameter(s, turn, 100) for s in others]
-    roots = list(_roots(t, t, others, 100, 30))
-    assert len(roots) == 3
+    t = sorted(_parameter(s, turn, 100) for s in others)
+    around = [_wider((v, v), 100) for v in t]
+    roots = _over(around, [_parameter(s, turn, 100) for s in others], [_box(s, 30) for s in others])
+    assert len(roots) == 3 and all(root["solutions"] for root in roots)
     assert not accepted({**payload, "turn": ["1", "0"], "count": 3, "roots": roots})
 
 
