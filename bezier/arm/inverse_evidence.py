@@ -7,9 +7,10 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.arm.choices import Choice, Value
-from bezier.arm.evidence import POSITIONS, arm_json, surd_json
+from bezier.arm.evidence import POSITIONS
 from bezier.arm.inverse import Inverse, Solution
-from bezier.arm.pose import chain_of, first_three, is_family, motion_of, roots_of, surds
+from bezier.arm.pose import first_three, is_family, motion_of
+from bezier.arm.roots_of_squares import arm_json, chain_of, roots_of, surd_json, surds
 from bezier.certify.arm_rows import read_circle
 from bezier.certify.inverse_pose import centre
 from qe.errors import Unable

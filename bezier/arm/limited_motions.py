@@ -28,7 +28,8 @@ from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.study import Place, Stretch, Study, is_wide, sample_between
-from bezier.arm.vertical import Label, vertical_arm
+from bezier.arm.vertical import vertical_arm
+from bezier.certify.joint_motions import Label
 from qe.errors import InternalError, Unable
 
 Parts = Sequence[tuple[int, Branch]]

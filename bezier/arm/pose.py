@@ -14,21 +14,19 @@ each two, these zeros and θ1 = π decide.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import partial
 from itertools import pairwise
-from math import lcm
 from typing import Any
 
 from bezier.arm.choices import BITS, MOST_BITS, Choice, Exact, Value
 from bezier.arm.elimination import TURNS
-from bezier.arm.evidence import arm_json
 from bezier.arm.inverse import Inverse, Solution, exact_number, listed, solution_of
 from bezier.arm.model import Arm, Matrix, motion, product
-from bezier.arm.roots_of_squares import square_roots
-from bezier.certify.arm_rows import ArmChain, read_chain
+from bezier.arm.roots_of_squares import chain_of, roots_of, surds, zeros_among
+from bezier.certify.arm_rows import ArmChain
 from bezier.certify.families import Arcs, Position, arcs_of, arcs_over
 from bezier.certify.inverse_pose import (
     ORIGIN,
@@ -43,7 +41,6 @@ from bezier.certify.inverse_pose import (
     wrist,
 )
 from bezier.certify.inverse_position import positions_of
-from bezier.certify.joint_limits import rational_product
 from bezier.certify.nested_roots import NO_ROOT, JointValue, Nested, Place, Root, nested, square, turn_between, turn_by
 from bezier.certify.square_roots import (
     ONE,
@@ -53,18 +50,13 @@ from bezier.certify.square_roots import (
     Surd,
     Triple,
     back,
-    enclosure,
     is_motion,
-    tarski,
 )
 from bezier.certify.three_joints import Positions
 from bezier.curves.scalar import rational
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
-from qe.exact.algebraic import RealAlgebraic, real_roots
-from qe.exact.balls import precision
 from qe.exact.nearby import rational_between
 from qe.exact.point_values import Ball, angle
-from qe.exact.ring import Ring
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 
@@ -131,21 +123,10 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
     return Inverse(arm, numbers, result, tuple(n for n in names if n in free), cases, rows)
 
 
-@lru_cache(maxsize=64)
-def chain_of(arm: Arm) -> ArmChain:
-    """The arm in the numbers of the checker."""
-    return read_chain(Entry(arm_json(arm), "arm"))
-
-
 def motion_of(point: Sequence[Any], rotation: Sequence[Sequence[Any]]) -> Motion:
     """The pose in these numbers. Raises ``Unable`` for numbers that are no sums of square roots."""
     a, b, c = (surds(row) for row in rotation)
     return (a, b, c), surds(point)
-
-
-def surds(numbers: Sequence[Any]) -> Triple:
-    """Sums of square roots. Raises ``Unable`` for other numbers."""
-    return tuple(Surd.of(square_roots(v).items()) for v in numbers)
 
 
 def _named(names: Sequence[str], values: Sequence[Any], is_wrist: bool) -> str:
@@ -161,59 +142,6 @@ def _named(names: Sequence[str], values: Sequence[Any], is_wrist: bool) -> str:
     if free[0] == 0:
         return f"the axes of {names[4]} and {names[5]} meet on the axis of {names[0]}"
     return f"the axis of {names[5]} is parallel to those of {names[1]}, {names[2]} and {names[3]}"
-
-
-# --- real roots ------------------------------------------------------------------------------------------------------
-@dataclass(frozen=True, eq=False)
-class RootPlace(Place):
-    """A real root that is known to any number of digits."""
-
-    root: RealAlgebraic
-
-    def around(self, bits: int) -> tuple[Fraction, Fraction]:
-        return self.root.interval(bits)
-
-
-def roots_of(p: Polynomial) -> list[RootPlace]:
-    """The real roots, ascending, of a polynomial that is not zero, in disjoint intervals whose ends are no roots."""
-    places = zeros_among([p])
-    if not places or all(d == 1 for c in p for d, _ in c.terms):
-        return places
-    near = [place for place in places if _may_vanish(p, place.around(APPARENT))]
-    if len(near) != tarski(p, p.one):
-        near = [place for place in near if not place.value(p).sign()]
-    return [replace(place, modulus=p.by(p[-1].inverse())) for place in near]
-
-
-def _may_vanish(p: Polynomial, x: tuple[Fraction, Fraction]) -> bool:
-    with precision(APPARENT):
-        return bool(enclosure(p, x).contains(0))
-
-
-def zeros_among(polynomials: Iterable[Polynomial]) -> list[RootPlace]:
-    """The real roots of polynomials and of their conjugates, likewise."""
-    ring, roots, bits = Ring.of(("t",)), set[RealAlgebraic](), 40
-    for p in polynomials:
-        norm = rational_product(p)
-        below = lcm(*(c.denominator for c in norm))
-        whole = ring.from_terms({(k,): int(c * below) for k, c in enumerate(norm) if c})
-        roots |= {*real_roots(whole.to_univariate(0))}
-    ordered = sorted(roots)
-    while True:
-        ends = [_around(root, bits) for root in ordered]
-        if all(a[1] < b[0] for a, b in pairwise(ends)):
-            return list(map(_place, ordered, ends))
-        bits *= 2
-
-
-def _around(root: RealAlgebraic, bits: int) -> tuple[Fraction, Fraction]:
-    low, high = root.interval(bits)
-    return (low - Fraction(1, 1 << bits), high + Fraction(1, 1 << bits)) if root.is_rational else (low, high)
-
-
-def _place(root: RealAlgebraic, between: tuple[Fraction, Fraction]) -> RootPlace:
-    *rest, lead = root.minimal_polynomial
-    return RootPlace(Polynomial((*(Surd.rational(Fraction(c, lead)) for c in rest), ONE)), between, root)
 
 
 # --- three parallel axes ---------------------------------------------------------------------------------------------

@@ -1,14 +1,66 @@
-"""Numbers as sums of square roots: what certificates about arms, and poses, are in."""
+"""Arms, numbers and real roots as the checker of arms has them: in sums of square roots."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache, reduce
+from itertools import pairwise
+from math import lcm
+from operator import mul
 from typing import Any
 
+from bezier.arm.model import Angle, Arm
+from bezier.certify.arm_rows import ArmChain, read_chain
+from bezier.certify.nested_roots import Place
+from bezier.certify.square_roots import ONE, Polynomial, Surd, Triple, enclosure, primes
 from bezier.curves.scalar import rational
 from qe.errors import Unable
-from qe.exact.algebraic import RealAlgebraic, irreducible_roots
+from qe.exact.algebraic import RealAlgebraic, irreducible_roots, real_roots
 from qe.exact.algebraic_text import square_part
+from qe.exact.balls import precision
+from qe.exact.ring import Ring
+from qe.proof.entry import Entry, Json
+
+APPARENT = 400
+"""So many binary places show of most numbers that they are not 0."""
+
+
+def arm_json(arm: Arm) -> Json:
+    """The rows of an arm, exactly: angles as twelfths of pi or as [cosine, sine]."""
+    rows: list[Json] = [
+        {
+            "a": str(row.a),
+            "alpha": _angle(row.alpha),
+            "d": str(row.d),
+            "theta": _angle(row.theta),
+            "joint": None if row.joint is None else row.joint.motion.value,
+        }
+        for row in arm.rows
+    ]
+    return {"convention": arm.convention.value, "rows": rows}
+
+
+def _angle(angle: Angle) -> Json:
+    return angle.twelfths if angle.twelfths is not None else [str(angle.cosine), str(angle.sine)]
+
+
+def surd_json(value: Any) -> Json:
+    """A sum of square roots as [factor, number under the root]."""
+    return [[str(q), d] for d, q in sorted(square_roots(value).items()) if q]
+
+
+@lru_cache(maxsize=64)
+def chain_of(arm: Arm) -> ArmChain:
+    """The arm in the numbers of the checker."""
+    return read_chain(Entry(arm_json(arm), "arm"))
+
+
+def surds(numbers: Sequence[Any]) -> Triple:
+    """Sums of square roots. Raises ``Unable`` for other numbers."""
+    return tuple(Surd.of(square_roots(v).items()) for v in numbers)
+
 
 Terms = dict[int, Fraction]
 
@@ -45,3 +97,64 @@ def _root(square: Fraction) -> tuple[int, Fraction]:
     whole = square.numerator * square.denominator
     outside = square_part(whole)
     return whole // outside**2, Fraction(outside, square.denominator)
+
+
+# --- real roots ------------------------------------------------------------------------------------------------------
+@dataclass(frozen=True, eq=False)
+class RootPlace(Place):
+    """A real root that is known to any number of digits."""
+
+    root: RealAlgebraic
+
+    def around(self, bits: int) -> tuple[Fraction, Fraction]:
+        return self.root.interval(bits)
+
+
+def roots_of(p: Polynomial) -> list[RootPlace]:
+    """The real roots, ascending, of a polynomial that is not zero, in disjoint intervals whose ends are no roots."""
+    _, *others = conjugates(p)
+    if not others:
+        return zeros_among([p])
+    near = [place for place in zeros_among([p]) if _may_vanish(p, place)]
+    # one of the conjugates vanishes there: p, if no other one does
+    listed = [p_at for p_at in near if not any(_may_vanish(q, p_at) for q in others) or not p_at.value(p).sign()]
+    return [replace(place, modulus=p.by(p[-1].inverse())) for place in listed]
+
+
+def conjugates(p: Polynomial) -> list[Polynomial]:
+    """What changes of the signs of square roots make of it, itself first; their product is rational."""
+    listed = [p]
+    for prime in sorted({prime for c in p for d, _ in c.terms for prime in primes(d)}):
+        listed += [Polynomial(tuple(c.conjugate(prime) for c in q)) for q in listed]
+    return listed
+
+
+def _may_vanish(p: Polynomial, place: Place) -> bool:
+    with precision(APPARENT):
+        return bool(enclosure(p, place.around(APPARENT)).contains(0))
+
+
+def zeros_among(polynomials: Iterable[Polynomial]) -> list[RootPlace]:
+    """The real roots of polynomials and of their conjugates, likewise."""
+    ring, roots, bits = Ring.of(("t",)), set[RealAlgebraic](), 40
+    for p in polynomials:
+        norm = [c.terms[0][1] if c else Fraction(0) for c in reduce(mul, conjugates(p))]
+        below = lcm(*(c.denominator for c in norm))
+        whole = ring.from_terms({(k,): int(c * below) for k, c in enumerate(norm) if c})
+        roots |= {*real_roots(whole.to_univariate(0))}
+    ordered = sorted(roots)
+    while True:
+        ends = [_around(root, bits) for root in ordered]
+        if all(a[1] < b[0] for a, b in pairwise(ends)):
+            return list(map(_place, ordered, ends))
+        bits *= 2
+
+
+def _around(root: RealAlgebraic, bits: int) -> tuple[Fraction, Fraction]:
+    low, high = root.interval(bits)
+    return (low - Fraction(1, 1 << bits), high + Fraction(1, 1 << bits)) if root.is_rational else (low, high)
+
+
+def _place(root: RealAlgebraic, between: tuple[Fraction, Fraction]) -> RootPlace:
+    *rest, lead = root.minimal_polynomial
+    return RootPlace(Polynomial((*(Surd.rational(Fraction(c, lead)) for c in rest), ONE)), between, root)
