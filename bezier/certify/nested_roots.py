@@ -171,18 +171,13 @@ class Nested:
         if side == 0:
             yield Nested({})
         elif side > 0:
-            root = frozenset({Root(self)})
-            yield from (Nested({root: number}) for number in (-self.one, self.one))
-
-    @property
-    def one(self) -> Number:
-        """The number 1 of the kind that this number, which is not 0, is made of."""
-        return next(iter(self.terms.values())).one
+            root, one = frozenset({Root(self)}), self.unit.terms[NO_ROOT]
+            yield from (Nested({root: number}) for number in (-one, one))
 
     @property
     def unit(self) -> Nested:
-        """The same."""
-        return nested(self.one)
+        """The number 1 of the kind that this number, which is not 0, is made of."""
+        return nested(next(iter(self.terms.values())).one)
 
 
 def nested(value: Number) -> Nested:
