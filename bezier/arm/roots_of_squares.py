@@ -66,31 +66,29 @@ Terms = dict[int, Fraction]
 
 
 def square_roots(value: Any) -> Terms:
-    """The number as a sum of factors times square roots of squarefree numbers, from a field of at most two square
-    roots. Raises ``Unable`` where it is none.
+    """The number as a sum of factors times square roots of squarefree numbers. Raises ``Unable`` where it is none.
 
-    With c the mean of a number and its conjugates, it is c plus what it differs from c by (degree 2), or plus its half
-    sums with each conjugate, less c (degree 4): in such a field their squares are rational.
+    Half the sum of it and a conjugate has those terms that the change of signs between these two leaves, and so a
+    smaller degree; every term of a number of degree more than 2 is in one of these. If all of them are such sums, so is
+    the number: their sum is half of it, as often as there are others, and half the sum of these.
     """
     number = rational(value)
     if number is not None:
         return {1: number} if number else {}
     a: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
-    conjugates = irreducible_roots(a.poly)
-    refused = Unable("certificates of joint positions are for coordinates that are sums of square roots")
-    if a.degree not in (2, 4) or len(conjugates) != a.degree:
-        raise refused
-    mean = Fraction(-a.minimal_polynomial[-2], a.degree * a.minimal_polynomial[-1])
-    parts = [a - mean] if a.degree == 2 else [(a + b) * Fraction(1, 2) - mean for b in conjugates if b != a]
-    result = {1: mean}
-    for x in parts:
-        square = rational(x * x)
-        if square is None:
+    if a.degree == 2:
+        mean = Fraction(-a.minimal_polynomial[1], 2 * a.minimal_polynomial[2])
+        d, q = _root(rational((a - mean) * (a - mean)) or Fraction(0))
+        return {**({1: mean} if mean else {}), d: q if a > mean else -q}
+    conjugates, result = irreducible_roots(a.poly), Terms()
+    refused = Unable("poses, and certificates of joint positions, are for coordinates that are sums of square roots")
+    if len(conjugates) < a.degree:
+        raise refused  # some are not real
+    for half in ((a + b) * Fraction(1, 2) for b in conjugates if b != a):
+        if 2 * half.degree > a.degree:
             raise refused
-        if square:
-            d, q = _root(square)
-            result[d] = result.get(d, Fraction(0)) + (q if x > 0 else -q)
-    return {d: q for d, q in result.items() if q}
+        result |= square_roots(half)
+    return result
 
 
 def _root(square: Fraction) -> tuple[int, Fraction]:

@@ -247,3 +247,15 @@ def test_a_large_square_under_a_square_root() -> None:
 def test_coordinates_as_square_roots() -> None:
     assert square_roots(read_exact("44*sqrt(2) + 8*sqrt(293) + 120")) == {1: 120, 2: 44, 293: 8}
     assert square_roots(read_exact("1/3*sqrt(8) - 1/7")) == {1: Fraction(-1, 7), 2: Fraction(2, 3)}
+    assert square_roots(read_exact("sqrt(2) + sqrt(3)/2 + sqrt(5) + 90")) == {1: 90, 2: 1, 3: Fraction(1, 2), 5: 1}
+    quotient = square_roots(read_exact("1/(sqrt(2) + sqrt(3) + 1)"))
+    assert quotient == {1: Fraction(1, 2), 2: Fraction(1, 4), 6: Fraction(-1, 4)}
+
+
+@pytest.mark.parametrize(
+    "coefficients", [[-2, 0, 0, 1], [2, 0, -4, 0, 1], [1, -3, 0, 1], [-2, 0, 0, 0, 1], [-1, -1, 0, 0, 1]]
+)
+def test_numbers_that_are_no_sums_of_square_roots(coefficients: list[int]) -> None:
+    """A number without other real conjugates is no empty sum."""
+    with pytest.raises(Unable, match="sums of square roots"):
+        square_roots(RealAlgebraic.by_index(coefficients, 0))
