@@ -7,13 +7,15 @@ Where the others can follow is the set of angles (or lengths) at which a polynom
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor, pi
+from typing import Protocol
 
-from bezier.arm.elimination import TURNS, Quotient
+from bezier.arm.elimination import Quotient
 from bezier.arm.model import Joint, JointKind
+from bezier.certify.families import arcs_of
 from qe.errors import InternalError, Unable
 from qe.exact.point_values import Ball, Evaluation, angle, pi_ends, roots_above, signs_around
 from qe.exact.ring import Poly
@@ -63,12 +65,40 @@ class Value:
         return None if self.pair is None else self.pair[1].ends
 
 
-def value_of(here: Evaluation, quotients: Known, bits: int) -> Value:
-    """A joint at a point: from its cosine and sine, or from its length alone."""
-    if len(quotients) == 1:
-        return Value(quotients[0].at(here, bits))
-    pair = quotients[0].at(here, bits), quotients[1].at(here, bits)
-    return Value(angle(*pair, bits), pair)
+class Exact(Protocol):
+    """The exact value of a joint."""
+
+    def value(self, bits: int = BITS) -> Value:
+        """The angle or the length, with intervals at most about 2^-bits wide."""
+
+    def has_no_sine(self) -> bool:
+        """Whether the sine of an angle is 0."""
+
+    def length_side(self, limit: Fraction) -> int:
+        """The sign of a length minus a limit."""
+
+
+@dataclass(frozen=True, eq=False)
+class AtPlace(Exact):
+    """Of a joint at a point: its cosine and sine, or its length alone."""
+
+    place: Evaluation
+    known: Known
+
+    def value(self, bits: int = BITS) -> Value:
+        if len(self.known) == 1:
+            return Value(self.known[0].at(self.place, bits))
+        pair = self.known[0].at(self.place, bits), self.known[1].at(self.place, bits)
+        return Value(angle(*pair, bits), pair)
+
+    def has_no_sine(self) -> bool:
+        return self.place.point.sign(self.known[1].top) == 0
+
+    def length_side(self, limit: Fraction) -> int:
+        length = self.known[0]
+        scale, below = length.scale, self.place.point.sign(length.bottom)
+        top = length.top * (scale.numerator * limit.denominator)
+        return below * self.place.point.sign(top - length.bottom * (limit.numerator * scale.denominator))
 
 
 MOST_BITS = 4096
@@ -76,7 +106,7 @@ MOST_RADIANS = 25
 """Limits of joints that turn: four full turns. Larger ones may be degrees."""
 
 
-def allowed(joint: Joint, here: Evaluation, known: Known) -> bool:
+def allowed(joint: Joint, exact: Exact) -> bool:
     """Whether the angle, or one that differs from it by full turns, lies in the closed interval of the limits.
 
     The limits are rational numbers of radians. cos and sin of a rational number other than 0 are transcendental
@@ -87,10 +117,10 @@ def allowed(joint: Joint, here: Evaluation, known: Known) -> bool:
         return True
     least, most = joint.limits
     if joint.motion is JointKind.PRISMATIC:
-        return length_side(here, known[0], least) >= 0 >= length_side(here, known[0], most)
+        return exact.length_side(least) >= 0 >= exact.length_side(most)
     if most - least >= 7:  # more than a full turn
         return True
-    return any(side(here, known, k, least) >= 0 and side(here, known, k, most) <= 0 for k in full_turns(joint.limits))
+    return any(side(exact, k, least) >= 0 and side(exact, k, most) <= 0 for k in full_turns(joint.limits))
 
 
 def full_turns(limits: tuple[Fraction, Fraction]) -> range:
@@ -100,69 +130,34 @@ def full_turns(limits: tuple[Fraction, Fraction]) -> range:
     return range(floor(least / turn) - 2, ceil(most / turn) + 2)
 
 
-def side(here: Evaluation, known: Known, turns: int, limit: Fraction) -> int:
+def side(exact: Exact, turns: int, limit: Fraction) -> int:
     """The sign of an angle, full turns added, minus a limit (rad). Raises ``Unable`` if they agree to 4096 places."""
     bits = 64
     while bits <= MOST_BITS:
-        low, high = value_of(here, known, bits).ends
+        low, high = exact.value(bits).ends
         pi_low, pi_high = pi_ends(bits + 16)
         low += 2 * turns * (pi_low if turns > 0 else pi_high)
         high += 2 * turns * (pi_high if turns > 0 else pi_low)
         if low > limit or high < limit:
             return 1 if low > limit else -1
         # the sine vanishes, and the interval around 0 tells that the cosine is 1
-        if limit == 0 and turns == 0 and here.point.sign(known[1].top) == 0:
+        if limit == 0 and turns == 0 and exact.has_no_sine():
             return 0
         bits *= 2
     raise Unable(f"an angle agrees with a limit of its joint to {MOST_BITS} binary places")
 
 
-def length_side(here: Evaluation, length: Quotient, limit: Fraction) -> int:
-    """The sign of a length minus a limit."""
-    scale, below = length.scale, here.point.sign(length.bottom)
-    top = length.top * (scale.numerator * limit.denominator)
-    return below * here.point.sign(top - length.bottom * (limit.numerator * scale.denominator))
-
-
-@dataclass(frozen=True, eq=False)
-class RangeEnd:
-    """An exact value of a joint at which a range ends."""
-
-    place: Evaluation
-    known: Known
-
-    def value(self, bits: int = BITS) -> Value:
-        """The angle or the length, with intervals at most about 2^-bits wide."""
-        return value_of(self.place, self.known, bits)
-
-
-Arc = tuple[RangeEnd | None, RangeEnd | None]
+Arc = tuple[Exact | None, Exact | None]
 """All angles from one on the way round to the other, or all lengths between two; both ends belong to it, and may be
 one. None: there is no end on this side."""
 
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """A joint that can be chosen, by its place in the arm; ``arcs``: which values are possible, None for all.
-    ``zeros``: where a sign was found to vanish, ends among others."""
+    """A joint that can be chosen, by its place in the arm; ``arcs``: which values are possible, None for all."""
 
     joint: int
     arcs: tuple[Arc, ...] | None = None
-    zeros: tuple[RangeEnd, ...] = ()
-
-    def backwards(self, count: int) -> Choice:
-        """The same of an arm of so many joints that is read from the hand to the base: all turn the other way."""
-        joint = count - 1 - self.joint
-        if self.arcs is None:
-            return Choice(joint)
-        ends = {e: RangeEnd(e.place, backwards(e.known)) for arc in self.arcs for e in arc if e is not None}
-        return Choice(joint, tuple((ends[b], ends[a]) for a, b in self.arcs if a and b))
-
-
-def backwards(known: Known) -> Known:
-    """Cosine and sine of the opposite angle."""
-    cosine, sine = known
-    return cosine, replace(sine, scale=-sine.scale)
 
 
 @dataclass(frozen=True)
@@ -170,7 +165,7 @@ class Edge:
     """Where a range of values between the limits of a joint ends: at ``end``, full turns added, or at a ``limit``;
     nowhere where both are None."""
 
-    end: RangeEnd | None = None
+    end: Exact | None = None
     turns: int = 0
     limit: Fraction | None = None
 
@@ -185,21 +180,6 @@ class Edge:
 Span = tuple[Edge, Edge]
 
 
-def arcs_of(marks: Sequence[RangeEnd | None], at: Sequence[bool], after: Sequence[bool]) -> tuple[Arc, ...] | None:
-    """The closed set of angles that has marks, the way round, where ``at`` says so, and what lies after one, where
-    ``after`` does; None for the whole circle, if marks there are."""
-    if all(after):
-        return None
-    result, n = list[Arc](), len(marks)
-    for i in range(n):
-        if at[i] and not after[i - 1]:
-            j = i
-            while after[j % n]:
-                j += 1
-            result.append((marks[i], marks[j % n]))
-    return tuple(result)
-
-
 def not_negative(
     here: Evaluation, p: Poly, var: int, known: Known, motion: JointKind = JointKind.REVOLUTE
 ) -> tuple[Arc, ...] | None:
@@ -209,7 +189,7 @@ def not_negative(
     if roots is None:
         return None
     signs = [s > 0 for s in signs_around(here.point, var, p, roots)]
-    ends = [RangeEnd(here.extend(root), known) for root in roots]
+    ends = [AtPlace(here.extend(root), known) for root in roots]
     if motion is JointKind.PRISMATIC:
         if not roots:
             return None if signs[0] else ()
@@ -219,25 +199,6 @@ def not_negative(
     if not roots:
         return None if signs[0] else ()
     return arcs_of(ends, [True] * len(ends), signs[1:])
-
-
-def zeros(here: Evaluation, p: Poly, var: int, known: Known) -> tuple[RangeEnd, ...]:
-    """The values of a joint at which p vanishes; none where it vanishes everywhere."""
-    return tuple(RangeEnd(here.extend(root), known) for root in roots_above(here.point, var, p) or ())
-
-
-def by_turns(
-    attempt: Callable[[tuple[Fraction, Fraction]], tuple[Poly, Known]], here: Evaluation, var: int, full: int
-) -> tuple[Arc, ...] | None:
-    """``not_negative`` of a polynomial that ``attempt`` gives for cosine and sine of φ, of degree ``full`` in t where
-    it does not vanish at the angle that t misses."""
-    for turn in TURNS:
-        p, known = attempt(turn)
-        coefficients = p.coefficients(var)
-        signs = [here.point.sign(c) for c in coefficients]
-        if (len(signs) > full and signs[full]) or not any(signs):
-            return not_negative(here, p, var, known)
-    raise InternalError("a polynomial of degree four has more than four roots")
 
 
 def spans(joint: Joint, choice: Choice) -> tuple[Span, ...]:
@@ -262,8 +223,8 @@ def _lengths(joint: Joint, choice: Choice) -> Iterator[Span]:
         yield ends[0], ends[1]
 
 
-def _length(end: RangeEnd | None, limit: Fraction, infinite: int) -> int:
-    return infinite if end is None else length_side(end.place, end.known[0], limit)
+def _length(end: Exact | None, limit: Fraction, infinite: int) -> int:
+    return infinite if end is None else end.length_side(limit)
 
 
 def _angles(joint: Joint, choice: Choice) -> Iterator[Span]:
@@ -279,19 +240,15 @@ def _angles(joint: Joint, choice: Choice) -> Iterator[Span]:
     least, most = joint.limits
     for turns in full_turns(joint.limits):
         for (low, high), wrap in zip(arcs, wraps, strict=True):
-            if _side(low, turns, most) > 0 or _side(high, turns + wrap, least) < 0:
+            if side(low, turns, most) > 0 or side(high, turns + wrap, least) < 0:
                 continue
             yield (
-                Edge(low, turns) if _side(low, turns, least) >= 0 else Edge(limit=least),
-                Edge(high, turns + wrap) if _side(high, turns + wrap, most) <= 0 else Edge(limit=most),
+                Edge(low, turns) if side(low, turns, least) >= 0 else Edge(limit=least),
+                Edge(high, turns + wrap) if side(high, turns + wrap, most) <= 0 else Edge(limit=most),
             )
 
 
-def _side(end: RangeEnd, turns: int, limit: Fraction) -> int:
-    return side(end.place, end.known, turns, limit)
-
-
-def _is_before(one: RangeEnd, other: RangeEnd) -> bool:
+def _is_before(one: Exact, other: Exact) -> bool:
     """Whether the first of two different angles in (-pi, pi] is the smaller one; they are the same only as objects."""
     bits = BITS
     while one is not other:

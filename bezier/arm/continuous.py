@@ -18,15 +18,15 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 
-from bezier.arm.critical import AlongCurve, Number, S
+from bezier.arm.critical import Number
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.model import Arm
-from bezier.arm.ratio import Ratio
-from bezier.arm.vertical import Label, SignsAlong, vertical_arm
+from bezier.arm.vertical import SignsAlong, vertical_arm
+from bezier.certify.joint_motions import Between, Label, joined
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import sign
 from qe.errors import InternalError
 from qe.exact.nearby import rational_between
+from qe.proof.entry import Entry
 
 MOST_LISTED = 64
 """Motions that are listed; all are counted."""
@@ -128,7 +128,7 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier]) -> ContinuousMoti
     plane = vertical_arm(arm)
     if plane is None:
         return None
-    listed = [SignsAlong.of(plane, AlongCurve(arm, curve)) for curve in curves.values()]
+    listed = [SignsAlong.of(plane, curve) for curve in curves.values()]
     arcs, junctions = list[Arcs](), list[Junction]()
     for k, along in enumerate(listed):
         places = along.places
@@ -138,7 +138,7 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier]) -> ContinuousMoti
                 before = (listed[k - 1], Fraction(1)) if i == 0 else (along, low)
                 last, s = arcs[-1], before[1]
                 arcs.append(_arcs(along, k, low, high))
-                junctions.append(_junction(before, (along, low), last, arcs[-1], s))
+                junctions.append(_junction(before, along, last, arcs[-1], s))
             else:
                 arcs.append(_arcs(along, k, low, high))
     return ContinuousMotions(arm, tuple(listed), tuple(arcs), tuple(junctions))
@@ -146,39 +146,22 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier]) -> ContinuousMoti
 
 def _arcs(along: SignsAlong, curve: int, low: Number, high: Number) -> Arcs:
     sample = rational_between(low, high)
-    result = solve(along.along.arm, along.along.curve.point(sample)).solutions
-    labels = tuple(along.plane.label(solution) for solution in result)
-    if len(set(labels)) != len(labels) or set(labels) != along.labels(sample):
+    result = solve(along.arm.geometry.arm, along.curve.point(sample)).solutions
+    labels = tuple(along.arm.label(solution) for solution in result)
+    if len(set(labels)) != len(labels) or set(labels) != {*along.signs.labels(sample)}:
         raise InternalError("the solutions of an arm contradict the signs that tell them apart")
     return Arcs(curve, low, high, sample, labels, result)
 
 
-def _junction(
-    before: tuple[SignsAlong, Number], after: tuple[SignsAlong, Number], one: Arcs, other: Arcs, s: Number
-) -> Junction:
+def _junction(before: tuple[SignsAlong, Number], after: SignsAlong, one: Arcs, other: Arcs, s: Number) -> Junction:
     along, at = before
-    vanishes, empty = along.has_no_square(at), along.empty_sides(at)
-    on_axis = vanishes and sign(along.plane.offset) == 0
-    turns = {_turn(before, after)} if on_axis else {1, -1} if vanishes else {1}
-    passes = frozenset(
-        (a, b) for a in one.labels for b in other.labels if a[0] * b[0] in turns and (a[1] == b[1] or a[0] in empty)
-    )
-    return Junction(one.curve, s, passes, on_axis, bool(empty) or (vanishes and not on_axis))
+    between = along.between(at) if at in along.places else NOTHING
+    if along is not after:
+        between = joined(along.signs, after.signs, Entry(None, "the next curve"))
+    plane = along.arm.plane
+    passes = frozenset((a, b) for a in one.labels for b in other.labels if between.goes_on(plane, a, b))
+    on_axis = between.vanishes and not plane.offset
+    return Junction(one.curve, s, passes, on_axis, bool(between.empty) or (between.vanishes and not on_axis))
 
 
-def _turn(before: tuple[SignsAlong, Number], after: tuple[SignsAlong, Number]) -> int:
-    """1 or -1 if the direction of (x, y) is the same or the opposite one before and after the axis, else 0."""
-    x, y, k = before[0].direction(before[1])
-    if before == after:
-        return -1 if k % 2 else 1
-    u, v, _ = after[0].direction(after[1])
-    a, b, c, d = (_read(p, s) for (_, s), p in ((before, x), (before, y), (after, u), (after, v)))
-    here = before[0].along.place(Fraction(0))
-    across, along = (here.sign(p.top) for p in (a * d - b * c, a * c + b * d))
-    return 0 if across else along if k % 2 == 0 else -along
-
-
-def _read(p: Ratio, s: Number) -> Ratio:
-    """p at an end of a curve."""
-    assert s in (0, 1), "curves join at their ends"
-    return Ratio(p.top.compose({S: p.top.ring.constant(int(s == 1))}), p.bottom, p.field)
+NOTHING = Between(False, frozenset(), 1)

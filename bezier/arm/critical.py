@@ -13,13 +13,12 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
-from math import comb
 
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, Reduction
 from bezier.arm.inverse import geometry_of
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant, reduced
+from bezier.certify.branch import powers
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly, rational
 from qe.errors import InputError, Unable
@@ -165,13 +164,3 @@ class AlongCurve:
         """The other roots of the minimal polynomial of the generator: all real, as the fields of arms are."""
         theta = self.arm.field.theta
         return [w for w in irreducible_roots(theta.poly) if w != theta] if self.arm.field.degree > 1 else []
-
-
-def powers(b: list[Fraction]) -> list[Fraction]:
-    """The coefficients of 1, s, s², … of a polynomial given by its Bernstein coefficients."""
-    n = len(b) - 1
-    differences, row = [b[0]], b
-    for _ in range(n):
-        row = [y - x for x, y in pairwise(row)]
-        differences.append(row[0])
-    return [comb(n, k) * d for k, d in enumerate(differences)]

@@ -7,49 +7,26 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from math import ceil, floor, tau
-from typing import Any
 
 from bezier.arm.continuous import ContinuousMotions
-from bezier.arm.critical import Number, S
+from bezier.arm.critical import Number
 from bezier.arm.follow import SPARE, Branch, chain_of, curve_powers
 from bezier.arm.joint_path import JointPath, Run
-from bezier.arm.model import Angle, Arm
+from bezier.arm.model import Arm
 from bezier.arm.motion_chain import ProvedPiece
-from bezier.arm.roots_of_squares import square_roots
+from bezier.arm.roots_of_squares import arm_json
 from bezier.arm.vertical import SignsAlong
 from bezier.certify import branch as checked
 from bezier.certify import inverse_position, joint_motions
+from bezier.certify.square_roots import ONE, Polynomial, Surd, divided
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded, CertificateRejected, Unable
-from qe.exact.balls import precision
-from qe.exact.field import FieldElement, NumberField
-from qe.exact.ring import Poly
-from qe.exact.sample import Point
 from qe.expert.sentences import Sentence
 from qe.kernel.verdict import Verdict
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry, Json
-
-
-def arm_json(arm: Arm) -> Json:
-    """The rows of an arm, exactly: angles as twelfths of pi or as [cosine, sine]."""
-    rows: list[Json] = [
-        {
-            "a": str(row.a),
-            "alpha": _angle(row.alpha),
-            "d": str(row.d),
-            "theta": _angle(row.theta),
-            "joint": None if row.joint is None else row.joint.motion.value,
-        }
-        for row in arm.rows
-    ]
-    return {"convention": arm.convention.value, "rows": rows}
-
-
-def _angle(angle: Angle) -> Json:
-    return angle.twelfths if angle.twelfths is not None else [str(angle.cosine), str(angle.sine)]
 
 
 def curve_json(curve: Bezier) -> Json:
@@ -105,10 +82,6 @@ def _keeps(tubes: checked.Tubes, curve: int, piece: ProvedPiece) -> bool:
 ATTEMPTS = (16, 40, 100, 250)
 """Binary places of the intervals around what is special: more where such places lie close together."""
 
-PRECISIONS = (128, 512, 2048)
-
-Coefficients = list[FieldElement]
-
 
 def motions_certificate(motions: ContinuousMotions) -> Certificate:
     """The certificate that these are all continuous motions, accepted by the checker. Raises ``Unable`` where there is
@@ -119,7 +92,7 @@ def motions_certificate(motions: ContinuousMotions) -> Certificate:
         for bits in ATTEMPTS:
             yield {
                 "arm": arm_json(motions.arm),
-                "curves": [curve_json(signs.along.curve) for signs in motions.curves],
+                "curves": [curve_json(signs.curve) for signs in motions.curves],
                 "places": [[_place(s, factor, bits) for s, factor in places] for places in factors],
                 "solutions": [len(arcs.labels) for arcs in motions.arcs],
                 "through": [len(junction.passes) for junction in motions.junctions],
@@ -172,60 +145,29 @@ def _place(s: Number, factor: Json, bits: int) -> Json:
 
 def _factor(signs: SignsAlong, s: Number) -> Json:
     """A polynomial with a simple zero at s that divides W, N and A as often as they vanish there; None for N itself."""
-    field = signs.along.arm.field
     if isinstance(s, Fraction):
-        return _written([field.rational(-s), field.rational(1)])
-    here = signs.along.place(s)
-    quality = signs.quality
-    norm = None if quality is None else quality.norm.top
-    if norm is not None and not signs.has_no_square(s) and _is_apparent(here, norm.derivative(S)):
+        return _written(Polynomial((Surd.rational(-s), ONE)))
+    here, quality, norm = signs.at(s), signs.signs.quality, signs.signs.norm
+    if norm is not None and not signs.vanishes(s)[0] and here.value(norm.derivative).sign():
         return None
-    result = [field.rational(c) for c in s.minimal_polynomial]
-    for p in (signs.square, norm, None if quality is None else quality.even.top):
-        while p and here.sign(p) == 0:
-            result = _common_factor(result, _coefficients(p, field))
-            p = p.derivative(S)
+    result = Polynomial(tuple(map(Surd.rational, s.minimal_polynomial)))
+    for p in (signs.signs.w, norm, None if quality is None else quality[0]):
+        while p and not here.value(p).sign():
+            result = _common_factor(result, p)
+            p = p.derivative
     return _written(result)
 
 
-def _is_apparent(here: Point, p: Poly) -> bool:
-    """Whether balls show that p does not vanish: exact zero tests take long where degrees are high."""
-    reduced = here.reduce(p)
-    for bits in PRECISIONS:
-        with precision(bits):
-            if not here.enclose(reduced, bits).contains(0):
-                return True
-    return False
-
-
-def _coefficients(p: Poly, field: NumberField) -> Coefficients:
-    """Of a polynomial in w and s, from degree 0 up."""
-    return [field.element([c.constant_value() for c in part.coefficients(0)]) for part in p.coefficients(S)]
-
-
-def _common_factor(a: Coefficients, b: Coefficients) -> Coefficients:
+def _common_factor(a: Polynomial, b: Polynomial) -> Polynomial:
     """The greatest common divisor, by Euclid's algorithm with leading coefficient 1."""
     while b:
-        over = b[-1].inverse()
-        b = [c * over for c in b]
-        rest = list(a)
-        while len(rest) >= len(b):
-            lead = rest.pop()
-            for k in range(1, len(b)):
-                rest[-k] = rest[-k] - lead * b[-k - 1]
-        while rest and not rest[-1]:
-            rest.pop()
-        a, b = b, rest
+        b = b.by(b[-1].inverse())
+        a, b = b, divided(a, b)[1]
     return a
 
 
-def _written(p: Coefficients) -> Json:
-    return [surd_json(c) for c in p]
-
-
-def surd_json(value: Any) -> Json:
-    """A sum of square roots as [factor, number under the root]."""
-    return [[str(q), d] for d, q in sorted(square_roots(value).items()) if q]
+def _written(p: Polynomial) -> Json:
+    return [[[str(q), d] for d, q in c.terms] for c in p]
 
 
 ALL = "all continuous joint motions"

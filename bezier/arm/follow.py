@@ -16,11 +16,11 @@ from functools import lru_cache
 from operator import attrgetter
 
 from bezier.arm.choices import Value
-from bezier.arm.critical import powers
 from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, JointKind
 from bezier.arm.motion_chain import MotionChain, ProvedPiece
+from bezier.certify.branch import powers
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
 from qe.exact.point_values import pi_ends

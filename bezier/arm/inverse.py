@@ -15,7 +15,7 @@ from itertools import combinations
 from numbers import Integral
 from typing import Any
 
-from bezier.arm.choices import BITS, Choice, Known, Value, allowed, not_negative, spans, value_of, zeros
+from bezier.arm.choices import BITS, AtPlace, Choice, Exact, Value, allowed, not_negative, spans
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Quotient, Reduction, T
 from bezier.arm.kinematics import position
 from bezier.arm.model import Arm, JointKind
@@ -49,9 +49,8 @@ class Solution:
     """Two solutions meet here."""
     allowed: bool
     """Whether it keeps the limits of the joints."""
-    place: Evaluation
-    """The exact point that it was read from."""
-    quotients: tuple[Known | None, ...]
+    exact: tuple[Exact | None, ...]
+    """Of each joint, None where it is free."""
     choices: tuple[Choice, ...] = ()
     """The joints of a family that can be chosen, independently of each other, and which of their values are
     possible: exactly for these there are positions. Other free joints follow them, and their limits are left
@@ -68,8 +67,8 @@ class Solution:
 
     def refined(self, joint: int, bits: int) -> Value | None:
         """The value of a joint with intervals at most about 2^-bits wide."""
-        known = self.quotients[joint]
-        return None if known is None else value_of(self.place, known, bits)
+        exact = self.exact[joint]
+        return None if exact is None else exact.value(bits)
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,14 +226,12 @@ def exact_number(value: Any, what: str) -> Fraction | RealAlgebraic:
     return algebraic
 
 
-def solution_of(
-    arm: Arm, here: Evaluation, known: Sequence[Known | None], multiple: bool, choices: Sequence[Choice]
-) -> Solution:
-    """The solution at an exact point whose joints have these values there, within their limits or not."""
-    values = tuple(None if k is None else value_of(here, k, BITS) for k in known)
-    keeps = all(k is None or allowed(joint, here, k) for joint, k in zip(arm.joints, known, strict=True))
+def solution_of(arm: Arm, exact: Sequence[Exact | None], multiple: bool, choices: Sequence[Choice]) -> Solution:
+    """The solution whose joints have these values, within their limits or not."""
+    values = tuple(None if k is None else k.value() for k in exact)
+    keeps = all(k is None or allowed(joint, k) for joint, k in zip(arm.joints, exact, strict=True))
     keeps = keeps and all(spans(arm.joints[choice.joint], choice) for choice in choices)
-    return Solution(values, multiple, keeps, here, tuple(known), tuple(choices))
+    return Solution(values, multiple, keeps, tuple(exact), tuple(choices))
 
 
 def _at_root(
@@ -255,11 +252,10 @@ def _at_root(
 
 def _solution(arm: Arm, here: Evaluation, reduction: Reduction, ends: tuple[bool, bool], multiple: bool) -> Solution:
     """``ends``: whether the first joint, and the last one, can be chosen."""
-    first, second, last = reduction.values
     turns = reduction.kappa is not None and here.point.sign(reduction.kappa) == 0
     free = (ends[0], turns, ends[1])
-    known = tuple(None if f else k for f, k in zip(free, (first, second, last), strict=True))
-    return solution_of(arm, here, known, multiple, [Choice(k) for k in range(3) if free[k]])
+    exact = [None if f else AtPlace(here, k) for f, k in zip(free, reduction.values, strict=True)]
+    return solution_of(arm, exact, multiple, [Choice(k) for k in range(3) if free[k]])
 
 
 def _isolated(here: Point, reduction: Reduction) -> list[FibreRoot] | None:
@@ -285,9 +281,8 @@ def _family(arm: Arm, values: Evaluation, reduction: Reduction, on_axis: bool) -
     square = reduction.square
     known = reduction.values[2]
     arcs = None if square is None else not_negative(values, square, t, known, last.motion)
-    marks = () if square is None else zeros(values, square, t, known)
     choices = [Choice(k) for k, free in enumerate((on_axis, turns)) if free]
-    return solution_of(arm, values, (None, None, None), False, [*choices, Choice(2, arcs, marks)])
+    return solution_of(arm, (None, None, None), False, [*choices, Choice(2, arcs)])
 
 
 def confirm(arm: Arm, reduction: Reduction, point: Sequence[Ratio]) -> None:

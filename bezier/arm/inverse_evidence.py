@@ -7,14 +7,15 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.arm.choices import Choice, Value
-from bezier.arm.elimination import TURNS
-from bezier.arm.evidence import POSITIONS, arm_json, surd_json
-from bezier.arm.inverse import Inverse, Solution, geometry_of, solve
-from bezier.arm.model import JointKind
-from bezier.arm.wrist import centre_at, wrist_of
+from bezier.arm.evidence import POSITIONS
+from bezier.arm.inverse import Inverse, Solution
+from bezier.arm.pose import first_three, is_family, motion_of
+from bezier.arm.roots_of_squares import arm_json, chain_of, roots_of, surd_json, surds
+from bezier.certify.arm_rows import read_circle
+from bezier.certify.inverse_pose import centre
 from qe.errors import Unable
 from qe.proof.certificate import Certificate
-from qe.proof.entry import Json
+from qe.proof.entry import Entry, Json
 
 ATTEMPTS = ((100, 30), (260, 90), (800, 300))
 """Binary places of t, and of the boxes: more where solutions lie close together."""
@@ -39,34 +40,42 @@ def inverse_certificate(answer: Inverse) -> Certificate:
 
 def _payloads(answer: Inverse, bits: int, places: int) -> Iterator[dict[str, Json]]:
     """What lists the solutions: over roots of the equation in t for one φ after the other, or alone."""
-    wrist = wrist_of(answer.arm) if answer.rotation else None
-    if answer.rotation and wrist is None:
-        yield {"solutions": [_box(s, places) for s in answer.solutions]}
-        return
-    arm, place = (answer.arm, answer.point) if wrist is None else (wrist.first, centre_at(wrist, answer))
-    positions = solve(arm, place).solutions if wrist is not None else answer.solutions
-    if any(s.values[:3] == (None, None, None) for s in positions):
-        yield from _over_marks(answer, positions[0], bits, places)
-        return
-    moves = geometry_of(arm).moves_last and arm.joints[2].motion is not JointKind.PRISMATIC
-    turns = TURNS if moves else (None,)
-    for turn in turns:
-        t = [_parameter(s, turn, bits) for s in positions], [_parameter(s, turn, bits) for s in answer.solutions]
-        if turn is None or all(abs(v) <= FAR for v in t[0]):
-            written: Json = None if turn is None else [str(v) for v in turn]
-            yield {"turn": written, "roots": list(_roots(*t, answer.solutions, bits, places))}
+    chain, place, pose = chain_of(answer.arm), surds(answer.point), None
+    boxes: list[Json] = [_box(s, places) for s in answer.solutions]
+    if answer.rotation:
+        pose = motion_of(answer.point, answer.rotation)
+        if centre(chain) is None:
+            yield {"solutions": boxes}
+            return
+    for written, positions in first_three(chain, place, pose):
+        roots = roots_of(positions.equation) if positions.equation else []
+        around = [_wider(root.around(bits + 20), bits) for root in roots]
+        if written is not None and any(max(abs(v) for v in ends) > FAR for ends in around):
+            continue
+        if is_family(positions, roots):
+            yield {"turn": written, "marks": [list(map(str, ends)) for ends in around], "solutions": boxes}
+            continue
+        turn = None if written is None else read_circle(Entry(written, "turn"))
+        t = [_parameter(s, turn, bits) for s in answer.solutions]
+        yield {"turn": written, "roots": _over(around, t, boxes)}
 
 
-def _over_marks(answer: Inverse, family: Solution, bits: int, places: int) -> Iterator[dict[str, Json]]:
-    """Where the third joint can be chosen alone: intervals around its ends, and around other zeros of m²."""
-    width = Fraction(1, 1 << bits)
-    for turn in TURNS:
-        ends = [end for choice in family.choices for end in choice.zeros]
-        t = sorted({round(_tangent(end.value(bits + 20), turn) / width) for end in ends})
-        if all(abs(k) * width <= FAR for k in t):
-            marks: list[Json] = [[str((k - 4) * width), str((k + 4) * width)] for k in t]
-            solutions: list[Json] = [_box(s, places) for s in answer.solutions]
-            yield {"turn": [str(v) for v in turn], "marks": marks, "solutions": solutions}
+def _over(around: Sequence[tuple[Fraction, Fraction]], t: Sequence[Fraction], boxes: Sequence[Json]) -> Json:
+    """The roots, each with the boxes of the solutions whose t is there."""
+    return [
+        {
+            "low": str(low),
+            "high": str(high),
+            "solutions": [box for box, v in zip(boxes, t, strict=True) if low <= v <= high],
+        }
+        for low, high in around
+    ]
+
+
+def _wider(ends: tuple[Fraction, Fraction], bits: int) -> tuple[Fraction, Fraction]:
+    """Short numbers around an interval."""
+    middle = round(sum(ends) / 2 * (1 << bits))
+    return Fraction(middle - 4, 1 << bits), Fraction(middle + 4, 1 << bits)
 
 
 def _parameter(solution: Solution, turn: tuple[Fraction, Fraction] | None, bits: int) -> Fraction:
@@ -84,24 +93,8 @@ def _tangent(value: Value, turn: tuple[Fraction, Fraction]) -> Fraction:
     return sine / (1 + cosine) if 1 + cosine > Fraction(1, FAR**3) else Fraction(FAR * FAR)
 
 
-def _roots(
-    roots: Sequence[Fraction], t: Sequence[Fraction], solutions: Sequence[Solution], bits: int, places: int
-) -> Iterator[Json]:
-    """Intervals around the roots, each with the solutions whose t is there."""
-    width, low = Fraction(1, 1 << bits), None
-    for root in sorted(roots):
-        if low is not None and root - low <= width:
-            continue  # two with the same last joint
-        low, middle = root, round(root * (1 << bits)) * width
-        boxes: list[Json] = [_box(s, places) for s, v in zip(solutions, t, strict=True) if abs(v - root) <= width]
-        yield {"low": str(middle - 4 * width), "high": str(middle + 4 * width), "solutions": boxes}
-
-
 def _box(solution: Solution, places: int) -> Json:
-    boxes: list[Json] = [
-        None if known is None else _of(solution.refined(k, places + 20), places)
-        for k, known in enumerate(solution.quotients)
-    ]
+    boxes: list[Json] = [None if exact is None else _of(exact.value(places + 20), places) for exact in solution.exact]
     if not solution.choices:
         return boxes
     chosen: list[Json] = [[c.joint, _arcs(c, places)] for c in solution.choices]

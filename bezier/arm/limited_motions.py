@@ -22,15 +22,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import tau
 
-from bezier.arm.choices import Known, full_turns, length_side, side
+from bezier.arm.choices import AtPlace, Exact, full_turns, side
 from bezier.arm.continuous import ContinuousMotion, ContinuousMotions
 from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.study import Place, Stretch, Study, is_wide, sample_between
-from bezier.arm.vertical import Label, vertical_arm
+from bezier.arm.vertical import vertical_arm
+from bezier.certify.joint_motions import Label
 from qe.errors import InternalError, Unable
-from qe.exact.point_values import Evaluation
 
 Parts = Sequence[tuple[int, Branch]]
 
@@ -95,16 +95,12 @@ def _judged(arm: Arm, studies: Sequence[Study], parts: Parts, turns: Sequence[in
 def _broken_at(
     arm: Arm, solution: Solution, near: Sequence[float], turns: Sequence[int]
 ) -> Iterator[tuple[Joint, Fraction]]:
-    for joint, known, value, close, more in zip(
-        arm.joints, solution.quotients, solution.values, near, turns, strict=True
-    ):
-        assert known is not None and value is not None, "a branch determines every joint"
+    for joint, exact, value, close, more in zip(arm.joints, solution.exact, solution.values, near, turns, strict=True):
+        assert exact is not None and value is not None, "a branch determines every joint"
         around = more if value.pair is None else round((close - float(value)) / tau) + more
         for limit, wanted in zip(joint.limits or (), (1, -1), strict=False):
-            if joint.motion is JointKind.PRISMATIC:
-                here = length_side(solution.place, known[0], limit)
-            else:
-                here = side(solution.place, known, around, limit)
+            slides = joint.motion is JointKind.PRISMATIC
+            here = exact.length_side(limit) if slides else side(exact, around, limit)
             if here == -wanted:
                 yield joint, limit
 
@@ -252,30 +248,32 @@ def _broken(
 
 def _readings(arm: Arm, solution: Solution) -> tuple[Reading, ...]:
     result = []
-    for joint, known, value in zip(arm.joints, solution.quotients, solution.values, strict=True):
-        assert known is not None and value is not None, "between special parameters every joint is determined"
-        result.append(_reading(joint, solution, known, float(value)))
+    for joint, exact, value in zip(arm.joints, solution.exact, solution.values, strict=True):
+        assert exact is not None and value is not None, "between special parameters every joint is determined"
+        result.append(_reading(joint, exact, float(value)))
     return tuple(result)
 
 
-def _reading(joint: Joint, solution: Solution, known: Known, value: float) -> Reading:
+def _reading(joint: Joint, exact: Exact, value: float) -> Reading:
     if joint.limits is None:
         return Reading(0, 0, None, value)
-    (low, high), here = joint.limits, solution.place
+    low, high = joint.limits
     if joint.motion is JointKind.PRISMATIC:
-        is_below, is_above = length_side(here, known[0], low) < 0, length_side(here, known[0], high) > 0
+        is_below, is_above = exact.length_side(low) < 0, exact.length_side(high) > 0
         return Reading(int(is_below), -int(is_above), None, value)
     listed = full_turns(joint.limits)
-    least = next(k for k in listed if side(here, known, k, low) >= 0)
-    most = next(k for k in reversed(listed) if side(here, known, k, high) <= 0)
+    least = next(k for k in listed if side(exact, k, low) >= 0)
+    most = next(k for k in reversed(listed) if side(exact, k, high) <= 0)
     if is_wide(joint):
-        return Reading(least, most, _sector(here, known, value), value)
+        return Reading(least, most, _sector(exact, value), value)
     is_nearer_below = float(low) - value - tau * most < value + tau * least - float(high)
     turns = most if least > most and is_nearer_below else least
     return Reading(least - turns, most - turns, None, value)
 
 
-def _sector(here: Evaluation, known: Known, value: float) -> int:
+def _sector(exact: Exact, value: float) -> int:
+    assert isinstance(exact, AtPlace), "solutions at points"
+    here, known = exact.place, exact.known
     cosine, sine = (here.point.sign(q.top) * here.point.sign(q.bottom) * (1 if q.scale > 0 else -1) for q in known)
     sector = SECTORS[cosine, sine]
     if sector * value < 0:

@@ -1,24 +1,74 @@
-"""Inverse kinematics at a pose (a point and an orientation), exactly: ``bezier.arm.parallel_axes`` for planar arms and
-six joints with three parallel axes, ``bezier.arm.wrist`` for spherical wrists."""
+"""Inverse kinematics at a pose (a point and an orientation), exactly.
+
+Planar arms with three joints, also with a fourth one that slides along their axes; arms with six joints whose axes 2,
+3, 4 are parallel and whose axes 5 and 6 meet (or the same read from the hand back to the base), like the myCobot 280
+(arXiv 2509.00823) and the UR arms; spherical wrists behind three joints. The derivation is that of the rule "joint
+positions" (``bezier.certify.inverse_pose``), in its numbers; what it takes from here are the real roots of the equation
+of the first three joints, and the forward kinematics of all solutions are compared with the pose in floating point.
+
+Where axes 5 and 6 of six joints meet on axis 1, θ1 can be chosen, and the other joints follow it. Whether they can is
+asked of t = tan(θ1/2) alone: m2² and m3² = p + q m2, the squares of the roots that θ5 and θ3 need, are polynomials in
+t, and between the zeros of these, of p, q, p² - q² m2² and of what leaves θ6 free nothing changes; so one t between
+each two, these zeros and θ1 = π decide.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from itertools import pairwise
 from typing import Any
 
-from bezier.arm.choices import Choice, backwards
+from bezier.arm.choices import BITS, MOST_BITS, Choice, Exact, Value
+from bezier.arm.elimination import TURNS
 from bezier.arm.inverse import Inverse, Solution, exact_number, listed, solution_of
-from bezier.arm.model import Arm, Matrix, inverse
-from bezier.arm.parallel_axes import ROOTS, PoseSearch, shape_of
-from bezier.arm.roots_of_squares import Rules, fixed
-from bezier.arm.wrist import ROOTS as WRIST_ROOTS
-from bezier.arm.wrist import Joints, solve_wrist, wrist_of
-from bezier.curves.scalar import dot, rational
-from qe.errors import InputError
-from qe.exact.point_values import Evaluation
-from qe.exact.sample import Point
+from bezier.arm.model import Arm, Matrix, motion, product
+from bezier.arm.roots_of_squares import chain_of, roots_of, surds, zeros_among
+from bezier.certify.arm_rows import ArmChain
+from bezier.certify.families import Arcs, Position, arcs_of, arcs_over
+from bezier.certify.inverse_pose import (
+    ORIGIN,
+    OtherShape,
+    SixJoints,
+    based_on,
+    centre,
+    elbow_wave,
+    first_wave,
+    has_parallel_axes,
+    parallel_axes,
+    wrist,
+)
+from bezier.certify.inverse_position import positions_of
+from bezier.certify.nested_roots import NO_ROOT, JointValue, Nested, Place, Root, nested, square, turn_between, turn_by
+from bezier.certify.square_roots import (
+    ONE,
+    ZERO,
+    Motion,
+    Polynomial,
+    Surd,
+    Triple,
+    back,
+    is_motion,
+)
+from bezier.certify.three_joints import Positions
+from bezier.curves.scalar import rational
+from qe.errors import CertificateRejected, InputError, InternalError, Unable
+from qe.exact.nearby import rational_between
+from qe.exact.point_values import Ball, angle
+from qe.options import Budget
+from qe.proof.entry import Entry, Json
 
 Rotation = tuple[tuple[Any, ...], ...]
+NEEDED = (
+    "a spherical wrist, or three parallel axes, alone, with a joint that slides along them, or with two neighbouring"
+    " axes that meet after one before"
+)
+CLOSE = 1e-6
+"""How far, relative to its size, floating point may be off."""
+APPARENT = 400
+"""So many binary places show of most numbers that they are not 0."""
 
 
 def rotation_of(quaternion: Sequence[Any]) -> Rotation:
@@ -43,8 +93,9 @@ def rotation_of(quaternion: Sequence[Any]) -> Rotation:
 def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]) -> Inverse:
     """All solutions at a pose: ``point`` (mm) and the axes of the end effector as the columns of ``rotation``.
 
-    Exact numbers, as for ``bezier.arm.inverse.solve``. Raises ``Unable`` for an arm of another shape, and where the
-    pose leaves a joint free and it is not decided whether there are solutions; ``InputError`` for what is no pose.
+    Exact numbers that are sums of square roots. Raises ``Unable`` for an arm of another shape, for other numbers, and
+    where the pose leaves a joint free and it is not decided whether there are solutions; ``InputError`` for what is no
+    pose.
     """
     expected = "pose: three coordinates and three rows of three numbers"
     point, rotation = listed(point, expected), [listed(row, expected) for row in listed(rotation, expected)]
@@ -52,32 +103,30 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
         raise InputError(f"{expected} expected")
     numbers = tuple(exact_number(v, "point") for v in point)
     rows = tuple(tuple(exact_number(v, "rotation") for v in row) for row in rotation)
-    wrist = wrist_of(arm)
-    shape = shape_of(arm) if wrist is None else None
-    given = (
-        *zip(point, numbers, strict=True),
-        *((v, w) for r, s in zip(rotation, rows, strict=True) for v, w in zip(r, s)),
-    )
-    # elements of the arm's own field need no variable of their own
-    roots = WRIST_ROOTS if shape is None else ROOTS
-    rules, place = Rules.of(arm.field, roots, [v if getattr(v, "field", None) == arm.field else w for v, w in given])
-    entries = rules.given
-    pose: Matrix = tuple((*entries[3 * i + 3 : 3 * i + 6], entries[i]) for i in range(3))
-    _check_rotation(pose, rules, place)
-    if shape is None:
-        assert wrist is not None, "one of the two shapes was found"
-        solutions = [_solution(arm, *leaf) for leaf in solve_wrist(wrist, rules, place, pose)]
-    else:
-        wanted = fixed(pose, rules) if not shape.is_reversed else fixed(inverse(pose), rules)
-        leaves = PoseSearch(shape, rules, wanted).solutions(place)
-        solutions = [_solution(arm, *leaf, is_reversed=shape.is_reversed) for leaf in leaves]
+    chain, pose = chain_of(arm), motion_of(numbers, rows)
+    is_wrist = centre(chain) is not None
+    if not is_motion(pose):
+        raise InputError("rotation: a matrix with orthogonal columns of length 1 and determinant 1 expected")
+    try:
+        placed = _by_wrist(chain, pose) if is_wrist else _by_parallel_axes(chain, pose)
+        solutions = [_solution(arm, position, multiple) for position, multiple in placed]
+    except OtherShape:
+        raise Unable(f"inverse kinematics at a pose needs {NEEDED}; {arm.name} is none") from None
+    for solution in solutions:
+        _confirm(arm, solution, tuple((*row, c) for row, c in zip(rows, numbers, strict=True)))
     result = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]
     free = {name for s in result for name, v in zip(names, s.values, strict=True) if v is None}
-    way = -1 if shape is not None and shape.is_reversed else 1
-    named = {_named(names[::way], s.values[::way], shape is None) for s in result if None in s.values}
+    way = -1 if not is_wrist and len(names) == 6 and not has_parallel_axes(chain) else 1
+    named = {_named(names[::way], s.values[::way], is_wrist) for s in result if None in s.values}
     cases = (*sorted(named), *("two solutions meet: the arm is singular here",) * any(s.multiple for s in result))
     return Inverse(arm, numbers, result, tuple(n for n in names if n in free), cases, rows)
+
+
+def motion_of(point: Sequence[Any], rotation: Sequence[Sequence[Any]]) -> Motion:
+    """The pose in these numbers. Raises ``Unable`` for numbers that are no sums of square roots."""
+    a, b, c = (surds(row) for row in rotation)
+    return (a, b, c), surds(point)
 
 
 def _named(names: Sequence[str], values: Sequence[Any], is_wrist: bool) -> str:
@@ -95,20 +144,149 @@ def _named(names: Sequence[str], values: Sequence[Any], is_wrist: bool) -> str:
     return f"the axis of {names[5]} is parallel to those of {names[1]}, {names[2]} and {names[3]}"
 
 
-def _check_rotation(pose: Matrix, rules: Rules, place: Point) -> None:
-    columns = [[row[j] for row in pose] for j in range(3)]
-    defects = [dot(a, b) - int(i == j) for i, a in enumerate(columns) for j, b in enumerate(columns) if i <= j]
-    (a, b, c) = columns
-    across = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-    if any(place.sign(rules.tidy(d).top) for d in (*defects, dot(across, c) - 1)):
-        raise InputError("rotation: a matrix with orthogonal columns of length 1 and determinant 1 expected")
+# --- three parallel axes ---------------------------------------------------------------------------------------------
+Placed = Iterator[tuple[Position, bool]]
+"""Positions, and whether two solutions meet in one."""
+WHERE = Entry(None, "pose")
 
 
-def _solution(
-    arm: Arm, here: Evaluation, known: Joints, multiple: bool, choices: tuple[Choice, ...], is_reversed: bool = False
-) -> Solution:
-    listed = [known[k] for k in sorted(known)]
-    if is_reversed:
-        listed = [None if k is None else backwards(k) for k in reversed(listed)]
-        choices = tuple(choice.backwards(len(listed)) for choice in choices)
-    return solution_of(arm, here, listed, multiple, choices)
+def _by_parallel_axes(chain: ArmChain, pose: Motion) -> Placed:
+    is_ahead = len(chain.turns) == 6 and has_parallel_axes(chain)
+    if is_ahead or (len(chain.turns) == 6 and has_parallel_axes(chain.reversed)):
+        constants, there = (chain.constants, pose) if is_ahead else (chain.reversed.constants, back(pose))
+        based = based_on(constants, there)
+        if not any(first_wave(constants, based)):
+            whole = Position([None] * 6, {0: _followed(constants, based)})
+            if whole.chosen[0] != ():
+                yield whole if is_ahead else whole.backwards, False
+            return
+    yield from ((position, _is_double(position)) for position in parallel_axes(chain, pose, WHERE, Budget()))
+
+
+def _is_double(position: Position) -> bool:
+    return any(joint is not None and joint.is_double for joint in position.joints)
+
+
+def _followed(constants: Sequence[Motion], based: Motion) -> Arcs:
+    """The angles of the first joint that the other joints can follow."""
+    t, one = Polynomial((ZERO, ONE)), Polynomial((ONE,))
+
+    def turned(at: Callable[[Polynomial], Any]) -> JointValue:
+        c, s, w = (nested(at(v)) for v in (one - t * t, t + t, one + t * t))
+        return JointValue(c, s, w)
+
+    def holds(first: JointValue) -> bool:
+        return any(True for _ in SixJoints(constants, based, first).positions())
+
+    six = SixJoints(constants, based, turned(lambda v: v))
+    u = six.axes
+    second = square(six.fifth(u))
+    key = frozenset({Root(second)})
+    fifth = turn_by(six.fifth(u), Nested({key: one}))
+    w = six.seen(fifth)
+    sixth = turn_between(u.parts, w.parts, (u.scale, w.scale))
+    third = square(elbow_wave(constants[2:4], six.middle(ORIGIN, True, fifth, sixth))).terms
+    p, q, m2 = (terms.get(k, Polynomial()) for terms, k in ((third, NO_ROOT), (third, key), (second.terms, NO_ROOT)))
+    below = (u.parts[0] * u.parts[0] + u.parts[1] * u.parts[1]).terms.get(NO_ROOT, Polynomial())
+    marks = zeros_among(f for f in (m2, below, p * p - q * q * m2, p, q) if f)
+    samples = [rational_between(*pair) for pair in pairwise([None, *(mark.root for mark in marks), None])]
+    ends = [JointValue(nested(-ONE), nested(ZERO), nested(ONE)), *(turned(mark.value) for mark in marks)]
+    after = [holds(turned(partial(Polynomial.at, x=sample))) for sample in samples]
+    return arcs_of(ends, list(map(holds, ends)), after)
+
+
+# --- spherical wrists ------------------------------------------------------------------------------------------------
+def first_three(chain: ArmChain, place: Triple, pose: Motion | None) -> Iterator[tuple[Json, Positions]]:
+    """The equation of three joints for one φ after the other, of which it is written down (``TURNS``): all but those
+    that its angle may miss a solution of."""
+    for turn in (None, *TURNS):
+        written: Json = None if turn is None else [str(v) for v in turn]
+        try:
+            yield written, positions_of(chain, place, pose, Entry(written, "turn"))
+        except CertificateRejected:
+            continue
+
+
+def is_family(positions: Positions, roots: Sequence[Place]) -> bool:
+    """Whether the third joint can be chosen."""
+    p = positions.equation
+    samples = [roots[0].between[0], *(root.between[1] for root in roots)] if roots else [Fraction(0)]
+    return positions.only_at_roots and (not p or any(p.at(x).sign() > 0 for x in samples))
+
+
+def _by_wrist(chain: ArmChain, pose: Motion) -> Placed:
+    _, positions = next(first_three(chain, pose[1], pose))
+    equation, third = positions.equation, positions.third
+    roots = roots_of(equation) if equation else []
+    if is_family(positions, roots):
+        if third is None or len(third) == 1:
+            raise Unable("a joint that slides can be chosen: for which values the wrist follows is not decided")
+        arm = positions.third_chosen(arcs_over(equation, third, positions.norm, roots) if equation else None)
+        yield from ((whole, False) for whole in _with_wrist(chain, pose, arm))
+        return
+    for place in roots:
+        is_multiple = positions.only_at_roots or not place.value(equation.derivative).sign()
+        arms = list(positions.over(place))
+        is_multiple = is_multiple or (positions.square is not None and len(arms) == 1)
+        for arm in arms:
+            yield from ((whole, is_multiple or _is_double(whole)) for whole in _with_wrist(chain, pose, arm))
+
+
+def _with_wrist(chain: ArmChain, pose: Motion, arm: Position) -> Iterator[Position]:
+    try:
+        yield from wrist(chain, pose, arm, WHERE)
+    except CertificateRejected:
+        raise Unable("joints before the wrist can be chosen: for which values it follows is not decided") from None
+
+
+# --- solutions -------------------------------------------------------------------------------------------------------
+@dataclass(frozen=True, eq=False)
+class OverRoots(Exact):
+    """A joint in the numbers of the checker."""
+
+    joint: JointValue
+
+    def value(self, bits: int = BITS) -> Value:
+        working = bits + 32
+        while working <= 4 * MOST_BITS:
+            working *= 2
+            ends = self.joint.intervals(working)
+            if ends is not None and all(high - low < Fraction(1, 2 << bits) for low, high in ends):
+                balls = [Ball.around(pair, bits + 64) for pair in ends]
+                if self.joint.s is None:
+                    return Value(balls[0])
+                return Value(angle(balls[0], balls[1], bits), (balls[0], balls[1]))
+        raise Unable("a joint is not known to enough digits")
+
+    def has_no_sine(self) -> bool:
+        return self.joint.s is not None and not self.joint.s.sign()
+
+    def length_side(self, limit: Fraction) -> int:
+        return (self.joint.c - self.joint.w.by(Surd.rational(limit))).sign()
+
+
+def _solution(arm: Arm, position: Position, multiple: bool) -> Solution:
+    exact = [None if joint is None else OverRoots(joint) for joint in position.joints]
+    choices = []
+    for k, arcs in sorted(position.chosen.items()):
+        ends = {end: OverRoots(end) for arc in arcs or () for end in arc}
+        choices.append(Choice(k, None if arcs is None else tuple((ends[low], ends[high]) for low, high in arcs)))
+    return solution_of(arm, exact, multiple, choices)
+
+
+def _confirm(arm: Arm, solution: Solution, wanted: Matrix) -> None:
+    """Forward kinematics in floating point: a slip of the derivation would show."""
+    constants = [_floats(m) for m in arm.chain.constants]
+    whole = constants[0]
+    for joint, value, constant in zip(arm.joints, solution.values, constants[1:], strict=True):
+        if value is None:
+            return
+        moved = motion(joint, float(value) if value.pair is None else tuple(map(float, value.pair)))
+        whole = product(product(whole, moved), constant)
+    pairs = [pair for rows in zip(whole, wanted, strict=True) for pair in zip(*rows, strict=True)]
+    if any(abs(float(result) - float(goal)) > CLOSE * (1 + abs(float(goal))) for result, goal in pairs):
+        raise InternalError("the solutions at a pose contradict the forward kinematics")
+
+
+def _floats(m: Matrix) -> Matrix:
+    return tuple(tuple(map(float, row)) for row in m)

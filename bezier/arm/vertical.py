@@ -18,131 +18,58 @@ signs (σ, ε), r = σ √W and δ = ε √Q(r, z), and all of them are continuo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
-from bezier.arm.choices import Known
-from bezier.arm.critical import AlongCurve, Number, S
+from bezier.arm.choices import AtPlace, Exact
+from bezier.arm.critical import Number
 from bezier.arm.elimination import Geometry, Vector
 from bezier.arm.inverse import Solution, geometry_of
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant, variable
-from bezier.curves.scalar import dot, is_zero
-from qe.errors import Unable
-from qe.exact.ring import Poly
-
-Label = tuple[int, int]
-"""The signs σ of r and ε of δ; ε = 1 where there is no δ, 0 for one that is not determined."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Split:
-    """even + odd r, where r² = ``square``."""
-
-    even: Ratio
-    odd: Ratio
-    square: Ratio
-
-    def __add__(self, other: Split) -> Split:
-        return Split(self.even + other.even, self.odd + other.odd, self.square)
-
-    def __mul__(self, other: Split) -> Split:
-        even = self.even * other.even + self.odd * other.odd * self.square
-        return Split(even, self.even * other.odd + self.odd * other.even, self.square)
-
-    def __sub__(self, other: Split) -> Split:
-        return Split(self.even - other.even, self.odd - other.odd, self.square)
-
-    @property
-    def norm(self) -> Ratio:
-        """The product with what -r makes of it: it vanishes iff one of the two does."""
-        return self.even * self.even - self.odd * self.odd * self.square
+from bezier.arm.roots_of_squares import RootPlace, chain_of, roots_of
+from bezier.certify.joint_motions import SIGNS, Along, Between, Label, Plane, norm_of, target_of
+from bezier.certify.square_roots import Polynomial
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import dot, exactly
+from qe.errors import CertificateRejected, InputError, Unable
+from qe.proof.entry import Entry
 
 
 @dataclass(frozen=True, eq=False)
 class VerticalArm:
-    """``normal`` h, ``offset`` d; ``centre``: (a, c), or a point that the end point reaches where joints slide; see
-    above."""
+    """``normal`` h; ``plane``: the rest, in the numbers of the checker."""
 
     geometry: Geometry
     normal: Vector
-    offset: Any
-    centre: tuple[Any, Any]
+    plane: Plane
 
     @property
-    def along(self) -> Vector:
-        """e, horizontal and in the plane."""
-        return (self.normal[1], -self.normal[0])
-
-    def in_plane(self, vector: Vector) -> tuple[Any, Any]:
-        """The components along e and the first axis."""
-        return dot(self.along, vector[:2]), vector[2]
-
-    @cached_property
-    def turns(self) -> tuple[bool, bool]:
+    def turns(self) -> tuple[bool, ...]:
         """Whether the second and the third joint turn."""
-        return self.geometry.turns[1], self.geometry.turns[2]
-
-    def square(self, target: tuple[Ratio, Ratio, Ratio]) -> Ratio:
-        """W for a point in the frame of the first joint."""
-        x, y, _ = target
-        result: Ratio = x * x + y * y - self.offset * self.offset
-        return result
-
-    def distance(self, target: tuple[Ratio, Ratio, Ratio]) -> Split:
-        """D, the square of the distance of (r, z) from the centre."""
-        w, zero = self.square(target), target[0] * 0
-        across = Split(zero - self.centre[0], zero + 1, w)
-        up = Split(target[2] - self.centre[1], zero, w)
-        return across * across + up * up
-
-    def quality(self, target: tuple[Ratio, Ratio, Ratio]) -> Split | None:
-        """Q, or None where there is one position everywhere."""
-        f, w, zero = self.geometry.v, self.square(target), target[0] * 0
-        if not self.turns[0] and not self.turns[1]:
-            return None
-        if not self.turns[0]:
-            r, z = self.in_plane(_column(self.geometry.turn))
-            across = Split((target[2] - self.centre[1]) * r + self.centre[0] * z, zero - z, w)
-            return Split(zero + dot(f[1], f[1]), zero, w) - across * across
-        if not self.turns[1]:
-            b = f[0][0] * f[1][1] - f[0][1] * f[1][0]
-            return self.distance(target) - Split(zero + b * b, zero, w)
-        one, two = dot(f[0][:2], f[0][:2]), dot(f[1], f[1])
-        rest = self.distance(target) - Split(zero + one + two, zero, w)
-        return Split(zero + 4 * one * two, zero, w) - rest * rest
-
-    @cached_property
-    def may_fold(self) -> bool:
-        """Whether D may vanish at a point that is reached: the second joint is free there."""
-        f = self.geometry.v
-        if not self.turns[0]:
-            return False
-        if self.turns[1]:
-            return is_zero(dot(f[0][:2], f[0][:2]) - dot(f[1], f[1]))
-        return is_zero(f[0][0] * f[1][1] - f[0][1] * f[1][0])
+        return self.plane.turns[1:]
 
     def label(self, solution: Solution) -> Label:
         """The signs of a solution of ``bezier.arm.inverse.solve``, exactly."""
-        first, _, third = solution.quotients
-        return self._side(solution, first), self._elbow(solution, third)
+        first, _, third = solution.exact
+        return self._side(first), self._elbow(third)
 
-    def _side(self, solution: Solution, first: Known | None) -> int:
-        if first is None:
+    def _side(self, exact: Exact | None) -> int:
+        if not isinstance(exact, AtPlace):
             return 0
-        here, field = solution.place.point, self.geometry.arm.field
+        first, here, field = exact.known, exact.place.point, self.geometry.arm.field
         point = [variable(here.ring, name, field) for name in "xyz"]
         x, y, _ = self.geometry.based(point)
-        (ex, ey), (c, s) = self.along, (Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in first)
+        ex, ey = self.normal[1], -self.normal[0]  # e
+        c, s = (Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in first)
         return here.sign((c * (ex * x + ey * y) + s * (ex * y - ey * x)).top) * here.sign(first[0].bottom)
 
-    def _elbow(self, solution: Solution, third: Known | None) -> int:
+    def _elbow(self, exact: Exact | None) -> int:
         if self.turns == (False, False):
             return 1
-        if third is None:
+        if not isinstance(exact, AtPlace):
             return 0
-        f, here, field = self.geometry.v, solution.place.point, self.geometry.arm.field
+        third, f, here, field = exact.known, self.geometry.v, exact.place.point, self.geometry.arm.field
         values = [Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in third]
         if not self.turns[1]:
             total = values[0] + constant(here.ring, dot(f[0][:2], f[1][:2]), field) * Ratio(third[0].bottom, 1, field)
@@ -162,26 +89,16 @@ def vertical_arm(arm: Arm) -> VerticalArm | None:
     """The arm as one with a plane that turns, or None if it is none. Raises ``Unable`` if the positions at a point are
     not determined by ``bezier.arm.elimination`` at all."""
     geometry = geometry_of(arm)
+    try:
+        plane = Plane.of(chain_of(arm), Entry(None, arm.name))
+    except CertificateRejected:
+        return None
     turn, f, z = geometry.turn, geometry.v, _column(geometry.turn)
-    if not geometry.turns[0]:
-        return None
     if geometry.turns[1]:
-        normal, base = z, tuple(o + n * f[0][2] for o, n in zip(geometry.shift, z, strict=True))
-        centre = geometry.shift
-        is_plane = all(is_zero(g[2]) for g in f[1:])
-    else:
-        base = centre = tuple(o + b for o, b in zip(geometry.shift, _turned(turn, f[0]), strict=True))
-        first, second = _turned(turn, f[1]), _turned(turn, f[2]) if geometry.turns[2] else z
-        size = dot(f[1], f[1]) if geometry.turns[2] else 1
-        if is_zero(size):
-            return None
-        normal = tuple(c / size for c in _cross(first, second))
-        is_plane = is_zero(dot(normal, z)) and is_zero(dot(normal, normal) - 1)
-    moves = [dot(f[1], f[1])] + ([dot(f[0][:2], f[0][:2])] if all(geometry.turns) else [])
-    if not is_plane or not is_zero(normal[2]) or any(is_zero(size) for size in moves):
-        return None
-    result = VerticalArm(geometry, normal, dot(normal, base), (0, 0))
-    return VerticalArm(geometry, normal, result.offset, result.in_plane(centre))
+        return VerticalArm(geometry, z, plane)
+    first, second = _turned(turn, f[1]), _turned(turn, f[2]) if geometry.turns[2] else z
+    size = dot(f[1], f[1]) if geometry.turns[2] else 1
+    return VerticalArm(geometry, tuple(c / size for c in _cross(first, second)), plane)
 
 
 def _column(turn: Any) -> Vector:
@@ -197,68 +114,63 @@ def _cross(a: Vector, b: Vector) -> Vector:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
-SIGNS = (1, -1)
-
-
 @dataclass(frozen=True, eq=False)
 class SignsAlong:
     """One curve: W and Q along it, and where they vanish."""
 
-    plane: VerticalArm
-    along: AlongCurve
-    target: tuple[Ratio, Ratio, Ratio]
-    square: Poly
-    quality: Split | None
+    arm: VerticalArm
+    curve: Bezier
+    signs: Along
 
     @staticmethod
-    def of(plane: VerticalArm, along: AlongCurve) -> SignsAlong:
+    def of(arm: VerticalArm, curve: Bezier) -> SignsAlong:
         """Raises ``Unable`` where W or Q vanishes along the whole curve."""
-        target = plane.geometry.based(along.point)
-        square, quality = plane.square(target).top, plane.quality(target)
-        if not square or (quality is not None and not quality.norm.top):
-            raise Unable("the whole curve is on the axis of the first joint, or along a border of what is reached")
-        return SignsAlong(plane, along, target, square, quality)
+        if curve.dimension != 3:
+            raise InputError(f"a path of the arm is in space: dimension 3 expected, {curve.dimension} found")
+        points = [tuple(exactly(c) for c in point) for point in curve.points]
+        try:
+            along = Along.of(arm.plane, target_of(chain_of(arm.geometry.arm), points), Entry(None, "curve"))
+        except Unable:
+            where = "on the axis of the first joint, or along a border of what is reached"
+            raise Unable(f"the whole curve is {where}") from None
+        return SignsAlong(arm, curve, along)
 
     @cached_property
-    def _zeros(self) -> tuple[frozenset[Number], frozenset[Number]]:
-        norm = [] if self.quality is None else self.along.zeros(self.quality.norm.top)
-        return frozenset(self.along.zeros(self.square)), frozenset(norm)
+    def _zeros(self) -> tuple[dict[Number, RootPlace], dict[Number, RootPlace]]:
+        """Of W and of N, in [0, 1]."""
+        return _zeros(self.signs.w), _zeros(self.signs.norm or Polynomial())
 
     @property
     def places(self) -> list[Number]:
         """Where W or Q vanishes, in [0, 1]."""
-        return sorted(self._zeros[0] | self._zeros[1])
+        return sorted(self._zeros[0].keys() | self._zeros[1].keys())
 
-    def has_no_square(self, s: Number) -> bool:
-        """Whether W = 0."""
-        return s in self._zeros[0]
+    def at(self, s: Number) -> RootPlace:
+        """One of these."""
+        return self._zeros[0].get(s) or self._zeros[1][s]
 
-    def empty_sides(self, s: Number) -> frozenset[int]:
-        """The σ with Q(σ √W) = 0; raises ``Unable`` if the second joint is free there."""
-        if self.quality is None or s not in self._zeros[1]:
-            return frozenset()
-        here = self.along.place(s)
-        if self.plane.may_fold and here.sign(self.plane.distance(self.target).norm.top) == 0:
-            raise Unable(f"at s = {float(s):.9g} the second joint is free: which motions go on is not decided")
-        even, odd = (here.sign(part.top) for part in (self.quality.even, self.quality.odd))
-        return frozenset({-even * odd} if even else SIGNS)
+    def vanishes(self, s: Number) -> tuple[bool, bool]:
+        """Whether W and N do."""
+        return s in self._zeros[0], s in self._zeros[1]
 
-    def labels(self, s: Fraction) -> set[Label]:
-        """The labels of the solutions at a place where neither W nor Q vanishes."""
-        here = self.along.place(s)
-        if here.sign(self.square) < 0:
-            return set()
-        if self.quality is None:
-            return {(side, 1) for side in SIGNS}
-        even, odd, norm = (here.sign(p.top) for p in (self.quality.even, self.quality.odd, self.quality.norm))
-        # with |even| > |odd √W| the sign of the one, else that of the other
-        return {(side, end) for side in SIGNS if (even if norm > 0 else side * odd) > 0 for end in SIGNS}
+    def between(self, s: Number) -> Between:
+        """What holds there. Raises ``Unable`` if the second joint is free."""
+        (has_no_square, is_empty), quality, here = self.vanishes(s), self.signs.quality, self.at(s)
+        order, w, empty = 0, self.signs.w, frozenset[int]()
+        while has_no_square and not here.value(w).sign():
+            order, w = order + 1, w.derivative
+        if is_empty and quality is not None:
+            if self.arm.plane.may_fold and not here.value(norm_of(self.signs.distance, self.signs.w)).sign():
+                raise Unable(f"at s = {float(s):.9g} the second joint is free: which motions go on is not decided")
+            even, odd = (here.value(part).sign() for part in quality)
+            empty = frozenset({-even * odd} if even else SIGNS)
+        return Between(has_no_square, empty, (-1) ** (order // 2))
 
-    def direction(self, s: Number) -> tuple[Ratio, Ratio, int]:
-        """(x, y) divided by as high a power of (s' - s) as it has, as polynomials to be read at s, and that power."""
-        x, y, _ = self.target
-        here, k = self.along.place(s), 0
-        while not (here.sign(x.top) or here.sign(y.top)):
-            x, y = (Ratio(v.top.derivative(S), v.bottom, v.field) for v in (x, y))
-            k += 1
-        return x, y, k
+
+def _zeros(p: Polynomial) -> dict[Number, RootPlace]:
+    places = roots_of(p) if p else []
+    return {_number(place): place for place in places if 0 <= place.root <= 1}
+
+
+def _number(place: RootPlace) -> Number:
+    return place.root.as_fraction() if place.root.is_rational else place.root

@@ -8,14 +8,14 @@ pose, bring the origin and two axes to the same place (the third axis follows, a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import lcm, prod
 
 from bezier.certify.arm_rows import ArmChain, Box
-from bezier.certify.square_roots import ONE, STILL, ZERO, Motion, Surd, Triple, least_prime
+from bezier.certify.square_roots import ONE, STILL, ZERO, Motion, Surd, Triple, primes
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, iff, implies, neg
 from qe.formula.syntax import Formula, Relation
@@ -116,7 +116,7 @@ class ArmEquations:
     def primes(self) -> tuple[int, ...]:
         """Whose square roots occur."""
         radicands = {d for e in self.expressions for c in e.values() for d, _ in c.terms}
-        return tuple(sorted({p for d in radicands for p in _primes(d)}))
+        return tuple(sorted({p for d in radicands for p in primes(d)}))
 
     def variables(self, number: int | None = None) -> tuple[str, ...]:
         """The joints; with a number: those of the position with that number."""
@@ -230,12 +230,6 @@ def _difference(a: Expression, b: Expression) -> Expression:
     return _sum((a, _by(b, -ONE)))
 
 
-def _primes(d: int) -> Iterator[int]:
-    while d > 1:
-        yield (p := least_prime(d))
-        d //= p
-
-
 def _poly(expression: Expression, ring: Ring) -> Poly:
     """A positive multiple with integer coefficients."""
     below = lcm(*(q.denominator for c in expression.values() for _, q in c.terms))
@@ -243,6 +237,6 @@ def _poly(expression: Expression, ring: Ring) -> Poly:
     for product, c in expression.items():
         variables = prod(map(ring.var, product), start=ring.constant(1))
         for d, q in c.terms:
-            roots = (ring.var(f"{ROOT}{p}") for p in _primes(d))
+            roots = (ring.var(f"{ROOT}{p}") for p in primes(d))
             total = total + variables * prod(roots, start=ring.constant(int(q * below)))
     return total

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
+from typing import TypeVar
 
 from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import Box, read_joint, read_number
@@ -73,29 +74,42 @@ def not_negative(p: Polynomial, third: Sequence[Polynomial], norm: Polynomial, m
     between = list[Interval]()
     for entry in marks.items():
         budget.check()
-        between.append(read_interval(entry, between[-1] if between else None))
+        low, high = entry.row("low", "high")
+        between.append(ascending(entry, low, high, between[-1] if between else None))
         if not (all(p.at(x) for x in between[-1]) and sr.tarski(p, Polynomial((ONE,)), between[-1]) == 1):
             raise entry.fail("expected exactly one root in the interval")
     if len(p) > 1 and len(between) != sr.tarski(p, Polynomial((ONE,))):
         raise marks.fail("not all roots are listed")
-    if not between:
+    return arcs_over(p, third, norm, [Place.of(p, x) for x in between])
+
+
+def arcs_over(p: Polynomial, third: Sequence[Polynomial], norm: Polynomial, places: Sequence[Place]) -> Arcs:
+    """``not_negative``, by all roots in ascending order."""
+    if not places:
         return None if p[0].sign() > 0 else ()
-    places = [Place.of(p, x) for x in between]
-    ends = [JointValue(*(nested(place.value(v)) for v in (*third, norm))) for place in places]
-    after = [p.at(high).sign() > 0 for _, high in between]
+    c, s, w = ([nested(place.value(v)) for place in places] for v in (*third, norm))
+    ends = list(map(JointValue, c, s, w))
+    return arcs_of(ends, [True] * len(ends), [p.at(place.between[1]).sign() > 0 for place in places])
+
+
+End = TypeVar("End")
+
+
+def arcs_of(marks: Sequence[End], at: Sequence[bool], after: Sequence[bool]) -> tuple[tuple[End, End], ...] | None:
+    """The closed set of angles that has marks, the way round, where ``at`` says so, and what lies after one, where
+    ``after`` does; None for the whole circle, if marks there are."""
     if all(after):
         return None
-    result, n = list[Arc](), len(ends)
+    result, n = list[tuple[End, End]](), len(marks)
     for i in range(n):
-        if not after[i - 1]:
+        if at[i] and not after[i - 1]:
             j = next(j for j in range(i, i + n) if not after[j % n])
-            result.append((ends[i], ends[j % n]))
+            result.append((marks[i], marks[j % n]))
     return tuple(result)
 
 
-def read_interval(entry: Entry, last: Interval | None) -> Interval:
-    """[low, high], above the last one."""
-    low, high = _pair(entry)
+def ascending(entry: Entry, low: Entry, high: Entry, last: Interval | None) -> Interval:
+    """An interval above the last one."""
     result = read_number(low), read_number(high)
     if not result[0] < result[1] or (last is not None and result[0] <= last[1]):
         raise entry.fail("expected intervals in ascending order")
@@ -128,7 +142,7 @@ class Listed:
 def _holds(box: Box | None, joint: JointValue | None) -> bool:
     if box is None or joint is None:
         return box is None and joint is None
-    ends = joint.intervals()
+    ends = joint.intervals() or []
     return len(ends) == len(box) and all(a <= c and d <= b for (a, b), (c, d) in zip(box, ends, strict=True))
 
 
@@ -152,7 +166,7 @@ def read_listed(entry: Entry, turning: tuple[bool, ...]) -> Listed:
     box, chosen = entry.fields("box", "chosen")
     result: dict[int, tuple[tuple[Box, Box], ...] | None] = {}
     for item in chosen.items():
-        number, arcs = _pair(item)
+        number, arcs = item.row("joint", "arcs")
         k = number.integer(0)
         if k >= len(turning) or k in result:
             raise number.fail("expected the number of a joint, each once")
@@ -174,7 +188,7 @@ def _arcs(entry: Entry, turning: bool) -> tuple[tuple[Box, Box], ...]:
     """The ends of arcs, in boxes that do not meet, so that it is clear which of them is where."""
     result = list[tuple[Box, Box]]()
     for arc in entry.items():
-        low, high = (read_joint(end, turning) for end in _pair(arc))
+        low, high = (read_joint(end, turning) for end in arc.row("low", "high"))
         result.append((low, high))
     disjoint = [box for low, high in result for box in ([low] if low == high else [low, high])]
     if any(_meet(a, b) for a, b in combinations(disjoint, 2)):
@@ -184,10 +198,3 @@ def _arcs(entry: Entry, turning: bool) -> tuple[tuple[Box, Box], ...]:
 
 def _meet(a: Box, b: Box) -> bool:
     return all(max(x[0], y[0]) <= min(x[1], y[1]) for x, y in zip(a, b, strict=True))
-
-
-def _pair(entry: Entry) -> list[Entry]:
-    parts = list(entry.items())
-    if len(parts) != 2:
-        raise entry.fail("expected two entries")
-    return parts

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import reduce
-from operator import add, mul
 from typing import Any
 
+from bezier.certify.square_roots import dot, image, together
+
 Vector = Sequence[Any]
-Rigid = tuple[Sequence[Vector], Vector]
+Rigid = Any
 """Rows of the rotation, and the shift."""
 
 Relation = tuple[Any, Vector]
@@ -38,7 +38,7 @@ class Held:
         if joint == 2:
             end = image(parts.pop(), image(motion, end))
         else:
-            parts[joint : joint + 2] = [_after(_after(parts[joint], motion), parts[joint + 1])]
+            parts[joint : joint + 2] = [together(together(parts[joint], motion), parts[joint + 1])]
         first, second = (turn for k, turn in enumerate(turns) if k != joint)
         base, (rows, shift) = parts
         return Held(base, (first, second), _factors(_moved(rows, shift, end, second), first, second))
@@ -47,7 +47,7 @@ class Held:
         """The relations for this end point; those that tell most where their conditions hold come first."""
         rows, shift = self.base
         away = [c - o for c, o in zip(point, shift, strict=True)]
-        x, y, z = (_dot(column, away) for column in zip(*rows, strict=True))
+        x, y, z = (dot(column, away) for column in zip(*rows, strict=True))
         (k1, *a), (k2, *b) = self.rows
         d1, d2 = (z - k1, x * x + y * y + z * z - k2) if self.turns[0] else (x - k1, y - k2)
         still = (d1 * d1 + d2 * d2, (*a, *b))
@@ -69,12 +69,7 @@ def slid(length: Any, zero: Any, one: Any) -> Rigid:
     return ((one, zero, zero), (zero, one, zero), (zero, zero, one)), (zero, zero, length)
 
 
-def image(motion: Rigid, point: Vector) -> Vector:
-    """Where a point comes to lie."""
-    return [_dot(row, point) + o for row, o in zip(*motion, strict=True)]
-
-
-def _moved(rows: Sequence[Vector], shift: Vector, end: Vector, turns: bool) -> list[Vector]:
+def _moved(rows: Any, shift: Any, end: Vector, turns: bool) -> list[Vector]:
     """f0, f1, f2 with C M(q_b) e = f0 + cos q_b f1 + sin q_b f2, or f0, f1 with f0 + q_b f1."""
     x, y, z = end
     if not turns:
@@ -89,16 +84,6 @@ def _moved(rows: Sequence[Vector], shift: Vector, end: Vector, turns: bool) -> l
 def _factors(f: list[Vector], first_turns: bool, second_turns: bool) -> tuple[Vector, Vector]:
     if not first_turns:
         return [v[0] for v in f], [v[1] for v in f]
-    square, *mixed = (_dot(f[0], v) for v in f)
+    square, *mixed = (dot(f[0], v) for v in f)
     # f1 and f2 are orthogonal and equally long: |f1|² is constant
-    return [v[2] for v in f], [square + _dot(f[1], f[1]) if second_turns else square, *(m + m for m in mixed)]
-
-
-def _after(first: Rigid, second: Rigid) -> Rigid:
-    """The second motion, then the first one."""
-    columns = list(zip(*second[0], strict=True))
-    return [[_dot(row, column) for column in columns] for row in first[0]], image(first, second[1])
-
-
-def _dot(a: Vector, b: Vector) -> Any:
-    return reduce(add, map(mul, a, b))
+    return [v[2] for v in f], [square + dot(f[1], f[1]) if second_turns else square, *(m + m for m in mixed)]

@@ -23,9 +23,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from bezier.certify.arm_rows import ArmChain, read_chain, read_circle, read_number, read_triple
+from bezier.certify.arm_rows import ArmChain, read_chain, read_circle, read_triple
 from bezier.certify.arm_sentences import ArmEquations, constant, ring_of, with_roots
-from bezier.certify.families import Listed, Position, read_listed
+from bezier.certify.families import Listed, Position, ascending, read_listed
 from bezier.certify.inverse_pose import centre, parallel_axes, wrist
 from bezier.certify.square_roots import ZERO, Motion, Triple, back, image, is_motion
 from bezier.certify.three_joints import Positions, is_still
@@ -40,28 +40,18 @@ from qe.proof.entry import Entry
 
 def check_positions(whole: Entry, limits: Limits) -> Sentence:
     """What the evidence proves; or raise ``CertificateRejected`` naming the entry that fails."""
-    payload, budget = whole.value, limits.budget
-    if not isinstance(payload, dict):
-        raise whole.fail("expected an object")
-    rest: tuple[str, ...] = ("rotation",) if "rotation" in payload else ()
-    if "roots" in payload:
-        arm, point, turn, count, roots, *rotation = whole.fields("arm", "point", "turn", "count", "roots", *rest)
-        chain, place = read_chain(arm), read_triple(point)
-        pose = _pose(rotation[0], place) if rotation else None
-        listed = _over_roots(chain, pose, _positions(chain, place, pose, turn), roots, budget)
-    elif "marks" in payload:
-        names = ("arm", "point", "turn", "count", "marks", "solutions", *rest)
-        arm, point, turn, count, marks, solutions, *rotation = whole.fields(*names)
-        chain, place = read_chain(arm), read_triple(point)
-        pose = _pose(rotation[0], place) if rotation else None
-        family = _positions(chain, place, pose, turn).family(marks, budget)
+    chain, place, pose, count, turn, roots, marks, solutions = _read(whole)
+    budget = limits.budget
+    if roots.value is not None:
+        listed = _over_roots(chain, pose, positions_of(chain, place, pose, turn), roots, budget)
+    elif marks.value is not None:
+        family = positions_of(chain, place, pose, turn).family(marks, budget)
         result = [family] if pose is None else list(wrist(chain, pose, family, marks))
         listed = _matched([p for p in result if () not in p.chosen.values()], chain, solutions)
+    elif pose is not None:
+        listed = _matched(parallel_axes(chain, pose, whole, budget), chain, solutions)
     else:
-        arm, point, rotated, count, solutions = whole.fields("arm", "point", "rotation", "count", "solutions")
-        chain = read_chain(arm)
-        result = parallel_axes(chain, _pose(rotated, read_triple(point)), whole, budget)
-        listed = _matched(result, chain, solutions)
+        raise whole.fail("expected roots, marks or a rotation")
     if any(one.chosen for one in listed):
         if count.value is not None:
             raise count.fail("expected null: a joint can be chosen")
@@ -74,13 +64,11 @@ def check_positions(whole: Entry, limits: Limits) -> Sentence:
 
 def sentence(evidence: Entry) -> Sentence:
     """That there are positions in the boxes, and no others."""
-    rest = ("rotation", "turn", "roots", "marks", "solutions")
-    arm, point, _, rotation, _, roots, _, solutions = evidence.fields("arm", "point", "count", optional=rest)
-    chain, place = read_chain(arm), read_triple(point)
-    if rotation.value is None:
+    chain, place, pose, _, _, roots, _, solutions = _read(evidence)
+    if pose is None:
         equations = ArmEquations.at_point(chain, [constant(c) for c in place])
     else:
-        equations = ArmEquations.at_pose(chain, _pose(rotation, place))
+        equations = ArmEquations.at_pose(chain, pose)
     lists = [solutions]
     if roots.value is not None:
         lists = [root.fields("low", "high", "solutions")[2] for root in roots.items()]
@@ -101,14 +89,21 @@ def sentence(evidence: Entry) -> Sentence:
     return with_roots(ring, [equations], whole), TRUE
 
 
-def _pose(rotation: Entry, place: Triple) -> Motion:
-    rows = [read_triple(row) for row in rotation.items()]
-    if len(rows) != 3 or not is_motion(pose := ((rows[0], rows[1], rows[2]), place)):
-        raise rotation.fail("expected the rows of a rotation")
-    return pose
+def _read(evidence: Entry) -> tuple[ArmChain, Triple, Motion | None, Entry, Entry, Entry, Entry, Entry]:
+    """The arm, the point, the pose if there is a rotation; count, turn, roots, marks, solutions."""
+    rest = ("rotation", "turn", "roots", "marks", "solutions")
+    arm, point, count, rotation, *others = evidence.fields("arm", "point", "count", optional=rest)
+    chain, place, pose = read_chain(arm), read_triple(point), None
+    if rotation.value is not None:
+        a, b, c = (read_triple(row) for row in rotation.row("x", "y", "z"))
+        pose = (a, b, c), place
+        if not is_motion(pose):
+            raise rotation.fail("expected the rows of a rotation")
+    turn, roots, marks, solutions = others
+    return chain, place, pose, count, turn, roots, marks, solutions
 
 
-def _positions(chain: ArmChain, place: Triple, pose: Motion | None, turn: Entry) -> Positions:
+def positions_of(chain: ArmChain, place: Triple, pose: Motion | None, turn: Entry) -> Positions:
     """Of the first three joints, which bring the end point or the centre of the wrist to its place."""
     constants = chain.constants
     if pose is None:
@@ -134,11 +129,8 @@ def _over_roots(
     for entry in roots.items():
         budget.check()
         low, high, solutions = entry.fields("low", "high", "solutions")
-        between = read_number(low), read_number(high)
-        if not between[0] < between[1] or (last and between[0] <= last[1]):
-            raise entry.fail("expected intervals in ascending order")
-        last = between
-        here = list(positions.at_root(between, entry))
+        last = ascending(entry, low, high, last)
+        here = list(positions.at_root(last, entry))
         total += len(here)
         if pose is not None:
             here = [whole for arm in here for whole in wrist(chain, pose, arm, entry)]

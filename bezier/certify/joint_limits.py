@@ -25,7 +25,7 @@ from typing import Any
 from bezier.certify import duals
 from bezier.certify.arm_rows import ArmChain
 from bezier.certify.held_joint import Held, Rigid, slid, turned
-from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
+from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, primes
 from qe.exact.balls import precision
 from qe.exact.descartes import most_roots_between
 from qe.proof.entry import Entry
@@ -101,7 +101,7 @@ class KeptLimits:
         parts = (ONE, ZERO) if self._chain.turns[joint] else (value,)
         held = self._held(joint, parts, lambda c: Polynomial.of([c]))
         holding = (relation for relation, needs in held.relations(point) if not any(needs))
-        return _rational(next((p for p in holding if p), Polynomial()))
+        return rational_product(next((p for p in holding if p), Polynomial()))
 
     def _held(self, joint: int, value: tuple[Any, ...], lift: Any) -> Held:
         """With a joint held at a length, or at a cosine and a sine, which ``lift`` makes numbers of another kind."""
@@ -136,11 +136,11 @@ class KeptLimits:
             )
 
 
-def _rational(p: Polynomial) -> list[Fraction]:
+def rational_product(p: Polynomial) -> list[Fraction]:
     """The product of the conjugates over the rational numbers."""
     while roots := [d for c in p for d, _ in c.terms if d > 1]:
-        prime = next(k for k in range(2, roots[0] + 1) if roots[0] % k == 0)
-        p = p * Polynomial(tuple(Surd(tuple((d, -q if d % prime == 0 else q) for d, q in c.terms)) for c in p))
+        prime = next(primes(roots[0]))
+        p = p * Polynomial(tuple(c.conjugate(prime) for c in p))
     return [c.terms[0][1] if c else Fraction(0) for c in p]
 
 

@@ -36,7 +36,8 @@ from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import ArmChain, read_chain, read_number, read_surd
 from bezier.certify.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
 from bezier.certify.branch import coefficients, read_curve
-from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, constant_sign, dot
+from bezier.certify.nested_roots import NO_ROOT, Nested, Root, nested
+from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, combined, constant_sign, dot
 from qe.errors import Unable
 from qe.expert.sentences import Sentence, stated
 from qe.formula.build import conj, disj, forall, implies
@@ -53,9 +54,9 @@ SIGNS, FOUR, UNIT = (1, -1), Surd.rational(4), Polynomial((ONE,))
 
 
 @dataclass(frozen=True, slots=True)
-class _Plane:
-    """``size``: 4 L1² L2², b² or L²; ``rest``: L1² + L2²; ``line``: the direction (along e, up) of the second joint
-    that slides. ``may_fold``: whether D may vanish where a point is reached."""
+class Plane:
+    """The last two joints. ``size``: 4 L1² L2², b² or L²; ``rest``: L1² + L2²; ``line``: the direction (along
+    e, up) of the second joint that slides. ``may_fold``: whether D may vanish where a point is reached."""
 
     turns: tuple[bool, ...]
     offset: Surd
@@ -66,7 +67,8 @@ class _Plane:
     may_fold: bool
 
     @staticmethod
-    def of(chain: ArmChain, entry: Entry) -> _Plane:
+    def of(chain: ArmChain, entry: Entry) -> Plane:
+        """Raises ``CertificateRejected`` for an arm of another shape."""
         if len(chain.turns) != 3 or not chain.turns[0]:
             raise entry.fail("expected three joints, the first of which turns")
         (first, o), (second, b), (_, tip) = chain.constants[1:]
@@ -97,7 +99,7 @@ class _Plane:
         if not is_plane or normal[2] or dot(normal, normal) != ONE:
             raise entry.fail("the second and the third joint are not proved to move in a plane along the first axis")
         along = (normal[1], -normal[0])
-        return _Plane(
+        return Plane(
             chain.turns,
             dot(normal, base),
             (dot(along, centre[:2]), centre[2]),
@@ -109,7 +111,7 @@ class _Plane:
 
 
 @dataclass(frozen=True, slots=True)
-class _Along:
+class Along:
     """Polynomials in s: x, y, W, D, Q (None where there is none) and N."""
 
     x: Polynomial
@@ -118,32 +120,38 @@ class _Along:
     distance: Split
     quality: Split | None
     norm: Polynomial | None
-    plane: _Plane
+    plane: Plane
 
     @staticmethod
-    def of(plane: _Plane, target: list[Polynomial], entry: Entry) -> _Along:
+    def of(plane: Plane, target: list[Polynomial], entry: Entry) -> Along:
+        """Along a curve in the frame of the first joint. Raises ``Unable`` where W or N vanishes everywhere."""
         x, y, z = target
         w = x * x + y * y + Polynomial.of([-(plane.offset * plane.offset)])
+        key = frozenset({Root(nested(w))})
+
+        def number(value: Surd) -> Nested:
+            return nested(Polynomial.of([value]))
+
+        def split(whole: Nested) -> Split:
+            return whole.terms.get(NO_ROOT, Polynomial()), whole.terms.get(key, Polynomial())
+
         a, c = plane.centre
-        height = z + Polynomial.of([-c])
-        d = _plus(_times((Polynomial.of([-a]), UNIT), (Polynomial.of([-a]), UNIT), w), (height * height, Polynomial()))
-        quality: Split | None
-        match plane.turns[1:]:
-            case (True, True):
-                rest = _plus(d, (Polynomial.of([-plane.rest]), Polynomial()))
-                quality = _plus((Polynomial.of([plane.size]), Polynomial()), _scaled(_times(rest, rest, w), -ONE))
-            case (True, False):
-                quality = _plus(d, (Polynomial.of([-plane.size]), Polynomial()))
-            case (False, True):
-                r, up = plane.line
-                across = (height.by(r) + Polynomial.of([a * up]), Polynomial.of([-up]))
-                quality = _plus((Polynomial.of([plane.size]), Polynomial()), _scaled(_times(across, across, w), -ONE))
-            case _:
-                quality = None
-        norm = None if quality is None else _norm(quality, w)
+        across, height = Nested({key: UNIT}) - number(a), nested(z) - number(c)
+        d = across * across + height * height
+        quality: Nested | None = None
+        if plane.turns[1:] == (True, True):
+            rest = d - number(plane.rest)
+            quality = number(plane.size) - rest * rest
+        elif plane.turns[1]:
+            quality = d - number(plane.size)
+        elif plane.turns[2]:
+            r, up = plane.line
+            rest = height.by(r) - across.by(up)
+            quality = number(plane.size) - rest * rest
+        norm = None if quality is None else norm_of(split(quality), w)
         if not w or (norm is not None and not norm):
             raise Unable(f"{entry.path}: the whole curve is on the first axis or along a border")
-        return _Along(x, y, w, d, quality, norm, plane)
+        return Along(x, y, w, split(d), None if quality is None else split(quality), norm, plane)
 
     def labels(self, s: Fraction) -> list[Label]:
         """Of the solutions where neither W nor N vanishes."""
@@ -157,7 +165,7 @@ class _Along:
 
 
 @dataclass(frozen=True, slots=True)
-class _Between:
+class Between:
     """What holds between two neighbouring intervals: whether W = 0, the σ with Q = 0, and what σ is multiplied by where
     the direction of (x, y) turns into the opposite one on the axis (0: into another one)."""
 
@@ -165,7 +173,7 @@ class _Between:
     empty: frozenset[int]
     turn: int
 
-    def goes_on(self, plane: _Plane, one: Label, other: Label) -> bool:
+    def goes_on(self, plane: Plane, one: Label, other: Label) -> bool:
         """Whether two arcs have the same limit."""
         if self.vanishes and not plane.offset:
             side = one[0] * self.turn == other[0]
@@ -180,20 +188,20 @@ def check_motions(evidence: Entry, limits: Limits) -> Sentence:
     chain, budgeted = read_chain(arm), list(zip(curves.items(), places.items(), strict=False))
     if not budgeted or len(budgeted) != len(list(curves.items())) or len(budgeted) != len(list(places.items())):
         raise places.fail("expected a list for each of at least one curve")
-    plane, before, last = _Plane.of(chain, arm), None, None
+    plane, before, last = Plane.of(chain, arm), None, None
     counts, ways, chains = list[int](), list[int](), dict[Label, int]()
     for curve, listed in budgeted:
         points = read_curve(curve)
         if last is not None and points[0] != last:
             raise curve.fail("the curve does not begin where the one before ends")
-        along, last = _Along.of(plane, _target(chain, points), curve), points[-1]
+        along, last = Along.of(plane, target_of(chain, points), curve), points[-1]
         betweens, samples = _cut(along, listed, limits.budget)
         for i, sample in enumerate(samples):
             labels = along.labels(sample)
             if before is None:
                 chains = dict.fromkeys(labels, 1)
             else:
-                between = betweens[i - 1] if i else _joint(before, along, listed)
+                between = betweens[i - 1] if i else joined(before, along, listed)
                 passes = [(a, b) for a in chains for b in labels if between.goes_on(plane, a, b)]
                 ways.append(len(passes))
                 chains = {b: sum(chains[a] for a, other in passes if other == b) for b in labels}
@@ -240,23 +248,17 @@ def _intervals(places: Entry) -> Iterator[tuple[int, Fraction, Fraction]]:
             yield k, begin, Fraction(1)
 
 
-def _target(chain: ArmChain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
+def target_of(chain: ArmChain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
     """The curve in the frame of the first joint."""
     rows, shift = back(chain.constants[0])
     curve = [Polynomial.of(map(Surd.rational, row)) for row in coefficients(points)]
-    result = list[Polynomial]()
-    for row, o in zip(rows, shift, strict=True):
-        total = Polynomial.of([o])
-        for factor, part in zip(row, curve, strict=True):
-            total = total + part.by(factor)
-        result.append(total)
-    return result
+    return [combined(row, curve) + Polynomial.of([o]) for row, o in zip(rows, shift, strict=True)]
 
 
-def _cut(along: _Along, listed: Entry, budget: Budget) -> tuple[list[_Between], list[Fraction]]:
+def _cut(along: Along, listed: Entry, budget: Budget) -> tuple[list[Between], list[Fraction]]:
     """What holds at the listed places inside (0, 1), and a parameter in each of the intervals between them, in which
     neither W nor N vanishes (N where W > 0)."""
-    begin, betweens, samples = Fraction(0), list[_Between](), list[Fraction]()
+    begin, betweens, samples = Fraction(0), list[Between](), list[Fraction]()
     is_last = False
     for entry in listed.items():
         budget.check()
@@ -274,7 +276,7 @@ def _cut(along: _Along, listed: Entry, budget: Budget) -> tuple[list[_Between], 
     return betweens, samples
 
 
-def _sample(along: _Along, low: Fraction, high: Fraction, entry: Entry) -> Fraction:
+def _sample(along: Along, low: Fraction, high: Fraction, entry: Entry) -> Fraction:
     if not low < high:
         raise entry.fail("expected intervals in ascending order")
     side = constant_sign(along.w, low, high)
@@ -283,7 +285,7 @@ def _sample(along: _Along, low: Fraction, high: Fraction, entry: Entry) -> Fract
     return (low + high) / 2
 
 
-def _place(along: _Along, entry: Entry) -> tuple[Fraction, Fraction, _Between]:
+def _place(along: Along, entry: Entry) -> tuple[Fraction, Fraction, Between]:
     """One zero of W or N."""
     low_entry, high_entry, factor_entry = entry.fields("low", "high", "factor")
     low, high = read_number(low_entry), read_number(high_entry)
@@ -312,7 +314,7 @@ def _place(along: _Along, entry: Entry) -> tuple[Fraction, Fraction, _Between]:
         raise entry.fail("neither W nor N vanishes there")
     if along.quality is not None and meets:
         even, odd = along.quality
-        if along.plane.may_fold and not constant_sign(_norm(along.distance, along.w), low, high):
+        if along.plane.may_fold and not constant_sign(norm_of(along.distance, along.w), low, high):
             raise entry.fail("the second joint may be free in the interval")
         sides = [constant_sign(p, low, high) if p else 0 for p in (even, odd)]
         if vanishes or not even or (not all(sides) and order(even)):
@@ -321,10 +323,10 @@ def _place(along: _Along, entry: Entry) -> tuple[Fraction, Fraction, _Between]:
             empty = frozenset({-sides[0] * sides[1]})
         else:
             raise entry.fail("which Q vanishes is not proved")
-    return low, high, _Between(vanishes > 0, empty, (-1) ** (vanishes // 2))
+    return low, high, Between(vanishes > 0, empty, (-1) ** (vanishes // 2))
 
 
-def _joint(one: _Along, other: _Along, entry: Entry) -> _Between:
+def joined(one: Along, other: Along, entry: Entry) -> Between:
     """What holds where the next curve begins."""
     end = Fraction(1)
     if one.quality is None:
@@ -332,20 +334,20 @@ def _joint(one: _Along, other: _Along, entry: Entry) -> _Between:
     else:
         even, odd, w = (p.at(end) for p in (*one.quality, one.w))
         is_empty = one.norm is not None and not one.norm.at(end)
-        if is_empty and one.plane.may_fold and not _norm(one.distance, one.w).at(end):
+        if is_empty and one.plane.may_fold and not norm_of(one.distance, one.w).at(end):
             raise entry.fail("the second joint is free where the curve begins")
         sides = SIGNS if not even or not w else (-even.sign() * odd.sign(),)
         empty = frozenset(sides if is_empty else ())
     if one.w.at(end):
-        return _Between(False, empty, 1)
+        return Between(False, empty, 1)
     turn = 1
     if not one.plane.offset:
         (a, b, k), (c, d, _) = _direction(one, end), _direction(other, Fraction(0))
         turn = 0 if a * d - b * c else (-1) ** k * (a * c + b * d).sign()
-    return _Between(True, empty, turn)
+    return Between(True, empty, turn)
 
 
-def _direction(along: _Along, s: Fraction) -> tuple[Surd, Surd, int]:
+def _direction(along: Along, s: Fraction) -> tuple[Surd, Surd, int]:
     """The first derivatives of x and y that do not both vanish at s, and their order."""
     x, y, k = along.x, along.y, 0
     while not (x.at(s) or y.at(s)):
@@ -354,21 +356,9 @@ def _direction(along: _Along, s: Fraction) -> tuple[Surd, Surd, int]:
     return x.at(s), y.at(s), k
 
 
-def _plus(a: Split, b: Split) -> Split:
-    return a[0] + b[0], a[1] + b[1]
-
-
-def _scaled(a: Split, factor: Surd) -> Split:
-    return a[0].by(factor), a[1].by(factor)
-
-
-def _times(a: Split, b: Split, w: Polynomial) -> Split:
-    even = a[0] * b[0] + a[1] * b[1] * w
-    return even, a[0] * b[1] + a[1] * b[0]
-
-
-def _norm(a: Split, w: Polynomial) -> Polynomial:
-    return _times(a, (a[0], -a[1]), w)[0]
+def norm_of(a: Split, w: Polynomial) -> Polynomial:
+    """The product with what -r makes of it."""
+    return a[0] * a[0] - a[1] * a[1] * w
 
 
 def _column(rows: Sequence[Triple]) -> Triple:

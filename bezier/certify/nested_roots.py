@@ -8,18 +8,17 @@ that interval arithmetic does not tell is found by Tarski's theorem, and by the 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from bezier.certify import square_roots as sr
-from bezier.certify.square_roots import ONE, Interval, Motion, Polynomial, Surd
-from qe.errors import Unable
+from bezier.certify.square_roots import Ball, Interval, Motion, Polynomial, Surd, combined, dot
+from qe.exact.balls import ball_sign, ends, precision
 
-BITS = 400
+BITS = (64, 400)
 Number = Any
-"""A ``Surd`` or a ``Residue``."""
+"""A ``Surd`` or a ``Residue``; a ``Polynomial`` where no sign is needed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +36,10 @@ class Place:
     def value(self, p: Polynomial) -> Residue:
         """The polynomial at the root."""
         return Residue(sr.divided(p, self.modulus)[1] if len(p) >= len(self.modulus) else p, self)
+
+    def around(self, bits: int) -> Interval:
+        """An interval around the root; a narrower one where more is known of it."""
+        return self.between
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,15 +65,20 @@ class Residue:
     def __bool__(self) -> bool:
         return bool(self.poly)
 
+    @property
+    def one(self) -> Residue:
+        """The number 1."""
+        return self.place.value(self.poly.one)
+
     def sign(self) -> int:
         """-1, 0 or 1: the sum of the signs of the polynomial at all roots in the interval, of which there is one."""
         if len(self.poly) < 2:
             return self.poly[0].sign() if self.poly else 0
-        return _side(self.interval(BITS)) or sr.tarski(self.place.modulus, self.poly, self.place.between)
+        return _apparent(self) or sr.tarski(self.place.modulus, self.poly, self.place.between)
 
-    def interval(self, bits: int) -> Interval:
-        """As narrow as that of t allows."""
-        return sr.enclosure(self.poly, self.place.between, bits)
+    def ball(self, bits: int) -> Ball:
+        """As narrow as what is known of t allows."""
+        return sr.enclosure(self.poly, self.place.around(bits))
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,11 +86,13 @@ class Root:
     """The positive square root of a positive number."""
 
     square: Nested
+    _balls: dict[int, Ball] = field(default_factory=dict)
 
-    @cached_property
-    def ends(self) -> Interval:
-        """An interval around it."""
-        return sr.root(self.square.interval(BITS), BITS)
+    def ball(self, bits: int) -> Ball:
+        """A ball around it."""
+        if bits not in self._balls:
+            self._balls[bits] = self.square.ball(bits).nonnegative_part().sqrt()
+        return self._balls[bits]
 
     @cached_property
     def level(self) -> int:
@@ -126,13 +136,13 @@ class Nested:
         """c times it."""
         if not c:
             return Nested({})
-        return Nested({k: n.by(c) if isinstance(n, Residue) else n * c for k, n in self.terms.items()})
+        return Nested({k: n.by(c) for k, n in self.terms.items()})
 
     def sign(self) -> int:
         """-1, 0 or 1, exactly."""
         if not self.terms:
             return 0
-        if known := _side(self.interval(BITS)):
+        if known := _apparent(self):
             return known
         top = max((root for key in self.terms for root in key), key=lambda root: root.level, default=None)
         if top is None:
@@ -145,14 +155,14 @@ class Nested:
             return one or other
         return one * (a * a - b * b * top.square).sign()
 
-    def interval(self, bits: int) -> Interval:
-        """An interval around it; wide where numbers nearly cancel."""
-        total: Interval = (Fraction(0), Fraction(0))
+    def ball(self, bits: int) -> Ball:
+        """A ball around it, at this working precision; wide where numbers nearly cancel."""
+        total = Ball(0)
         for key, number in self.terms.items():
-            part = number.interval(bits)
+            part = number.ball() if isinstance(number, Surd) else number.ball(bits)
             for root in key:
-                part = sr.product(part, root.ends)
-            total = sr.plus(total, sr.outwards(part, bits))
+                part = part * root.ball(bits)
+            total = total + part
         return total
 
     def square_roots(self) -> Iterator[Nested]:
@@ -161,15 +171,13 @@ class Nested:
         if side == 0:
             yield Nested({})
         elif side > 0:
-            (one,) = self.unit.terms.values()
-            root = frozenset({Root(self)})
+            root, one = frozenset({Root(self)}), self.unit.terms[NO_ROOT]
             yield from (Nested({root: number}) for number in (-one, one))
 
     @property
     def unit(self) -> Nested:
-        """The number 1, over the same root as this number, which is not 0."""
-        some = next(iter(self.terms.values()))
-        return nested(some.place.value(Polynomial((ONE,))) if isinstance(some, Residue) else ONE)
+        """The number 1 of the kind that this number, which is not 0, is made of."""
+        return nested(next(iter(self.terms.values())).one)
 
 
 def nested(value: Number) -> Nested:
@@ -177,8 +185,13 @@ def nested(value: Number) -> Nested:
     return Nested({NO_ROOT: value} if value else {})
 
 
-def _side(ends: Interval) -> int:
-    return 1 if ends[0] > 0 else -1 if ends[1] < 0 else 0
+def _apparent(number: Residue | Nested) -> int:
+    """The sign, if intervals tell it, else 0."""
+    for bits in BITS:
+        with precision(bits):
+            if side := ball_sign(number.ball(bits)):
+                return side
+    return 0
 
 
 # --- vectors and turns about the third axis ----------------------------------------------------------------------
@@ -189,13 +202,14 @@ class JointValue:
     c: Nested
     s: Nested | None
     w: Nested
+    is_double: bool = False
+    """Whether two solutions of one equation coincide in it."""
 
-    def intervals(self) -> list[Interval]:
-        """Around cosine and sine, or around the length."""
-        below = self.w.interval(BITS)
-        if below[0] <= 0:
-            raise Unable("a denominator is too small to divide by it")
-        return [sr.quotient(v.interval(BITS), below) for v in (self.c, self.s) if v is not None]
+    def intervals(self, bits: int = BITS[-1]) -> list[Interval] | None:
+        """Around cosine and sine, or around the length; None where balls of so many bits do not tell that w > 0."""
+        with precision(bits):
+            below = self.w.ball(bits)
+            return [ends(v.ball(bits) / below) for v in (self.c, self.s) if v is not None] if below > 0 else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,26 +233,21 @@ class Vector:
         """The image under a rigid motion."""
         rows, shift = motion
         x, y, z = (
-            _combined(row, self.parts) + (self.scale.by(o) if self.is_point else Nested({}))
+            combined(row, self.parts) + (self.scale.by(o) if self.is_point else Nested({}))
             for row, o in zip(rows, shift, strict=True)
         )
         return Vector((x, y, z), self.scale, self.is_point)
 
 
-def _combined(row: Sequence[Surd], parts: Sequence[Nested]) -> Nested:
-    return sum((part.by(c) for c, part in zip(row, parts, strict=True) if c), Nested({}))
-
-
-def dot(a: Sequence[Nested], b: Sequence[Nested]) -> Nested:
-    """The scalar product."""
-    return sum((x * y for x, y in zip(a, b, strict=True)), Nested({}))
-
-
 def angle(a: Sequence[Nested], b: Sequence[Nested], over: tuple[Nested, Nested]) -> JointValue | None:
     """The turn that takes (a0, a1) / over[0] to (b0, b1) / over[1], vectors of one length; None where they vanish."""
+    result = turn_between(a, b, over)
+    return result if (b[0] * b[0] + b[1] * b[1]).sign() else None
+
+
+def turn_between(a: Sequence[Nested], b: Sequence[Nested], over: tuple[Nested, Nested]) -> JointValue:
+    """``angle`` where the vectors do not vanish."""
     size = b[0] * b[0] + b[1] * b[1]
-    if not size.sign():
-        return None
     return JointValue(dot(a[:2], b[:2]) * over[1], (a[0] * b[1] - a[1] * b[0]) * over[1], size * over[0])
 
 
@@ -248,9 +257,23 @@ def basis(unit: Nested) -> tuple[JointValue, JointValue, JointValue]:
     return JointValue(unit, zero, zero), JointValue(zero, unit, zero), JointValue(zero, zero, unit)
 
 
+Wave = tuple[Nested, Nested, Nested, Nested]
+"""a, b, k and the scale of an equation a cos + b sin = k / scale, where a and b are not both 0."""
+
+
+def square(wave: Wave) -> Nested:
+    """m² = (a² + b²) scale² - k²."""
+    a, b, k, scale = wave
+    return (a * a + b * b) * scale * scale - k * k
+
+
+def turn_by(wave: Wave, m: Nested) -> JointValue:
+    """The angle of which cosine and sine are (a k - b m, b k + a m) / ((a² + b²) scale)."""
+    a, b, k, scale = wave
+    return JointValue(a * k - b * m, b * k + a * m, (a * a + b * b) * scale, not m.terms)
+
+
 def turns(a: Nested, b: Nested, k: Nested, scale: Nested) -> Iterator[JointValue]:
-    """All angles with a cos + b sin = k / scale, where a and b are not both 0: cosine and sine are
-    (a k - b m, b k + a m) / ((a² + b²) scale), m² = (a² + b²) scale² - k²."""
-    size = a * a + b * b
-    for m in (size * scale * scale - k * k).square_roots():
-        yield JointValue(a * k - b * m, b * k + a * m, size * scale)
+    """All angles with a cos + b sin = k / scale."""
+    wave = a, b, k, scale
+    return (turn_by(wave, m) for m in square(wave).square_roots())

@@ -2,12 +2,12 @@
 
 Square roots of different squarefree numbers are linearly independent over Q (A. S. Besicovitch, J. London Math. Soc.
 15, 1940), so such a sum is zero iff every q is; then more digits always tell its sign. The checker's own arithmetic:
-nothing but integers and fractions.
+integers, fractions, and FLINT's balls.
 
 Polynomials with square roots in their coefficients that have one sign on an interval, proved by subdivision.
 
 On [a, b] a polynomial lies between its smallest and its largest Bernstein coefficient there (R. T. Farouki, CAGD 29,
-2012, section 3). The coefficients are enclosed by integers, and halves follow by de Casteljau's algorithm.
+2012, section 3). The coefficients are enclosed by balls, and halves follow by de Casteljau's algorithm.
 """
 
 from __future__ import annotations
@@ -15,13 +15,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from itertools import pairwise, zip_longest
-from math import ceil, comb, floor, gcd, isqrt
+from math import comb, gcd, isqrt
+from operator import add, mul
+from typing import Protocol, TypeVar
+
+from flint import arb, fmpq
+
+from qe.exact.balls import ball_sign, ends, precision
 
 LARGEST = 10**10
 """Radicands are factored by trial division, up to this."""
 
 Interval = tuple[Fraction, Fraction]
+Ball = arb
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +61,8 @@ class Surd:
         return Surd(tuple((d, -q) for d, q in self.terms))
 
     def __mul__(self, other: Surd) -> Surd:
+        if len(self.terms) == 1 and self.terms[0][0] == 1:
+            return Surd(tuple((d, self.terms[0][1] * q) for d, q in other.terms))
         result = []
         for d, q in self.terms:
             for e, r in other.terms:
@@ -63,54 +73,65 @@ class Surd:
     def __bool__(self) -> bool:
         return bool(self.terms)
 
+    by = __mul__
+
+    @property
+    def one(self) -> Surd:
+        """The number 1."""
+        return ONE
+
     def inverse(self) -> Surd:
         """1 / self: the product with what √p -> -√p makes of it is free of √p."""
         largest = self.terms[-1][0]
         if largest == 1:
             return Surd.rational(1 / self.terms[0][1])
-        p = least_prime(largest)
-        other = Surd(tuple((d, -q if d % p == 0 else q) for d, q in self.terms))
+        other = self.conjugate(next(primes(largest)))
         return other * (self * other).inverse()
 
+    def conjugate(self, p: int) -> Surd:
+        """What √p -> -√p, p prime, makes of it."""
+        return Surd(tuple((d, -q if d % p == 0 else q) for d, q in self.terms))
+
+    def ball(self) -> arb:
+        """A ball around it, at FLINT's working precision."""
+        return sum((arb(d).sqrt() * rational_ball(q) for d, q in self.terms), arb(0))
+
     def interval(self, bits: int) -> Interval:
-        """Rational numbers around it; each root is known to 2^-bits."""
-        low = high = Fraction(0)
-        for d, q in self.terms:
-            root = isqrt(d << (2 * bits))
-            ends = Fraction(root, 1 << bits), Fraction(root + (d != 1), 1 << bits)
-            low += q * ends[q < 0]
-            high += q * ends[q > 0]
-        return low, high
+        """Rational numbers around it, from balls of so many bits."""
+        with precision(bits):
+            return ends(self.ball())
 
     def sign(self) -> int:
         """-1, 0 or 1."""
-        bits = 32
+        bits = 64
         while self.terms:
-            low, high = self.interval(bits)
-            if low > 0 or high < 0:
-                return 1 if low > 0 else -1
+            with precision(bits):
+                if side := ball_sign(self.ball()):
+                    return side
             bits *= 2
         return 0
+
+
+def rational_ball(value: Fraction) -> arb:
+    """A rational number as a ball."""
+    return arb(fmpq(value.numerator, value.denominator))
 
 
 ZERO, ONE = Surd(()), Surd.rational(1)
 
 
+def primes(d: int) -> Iterator[int]:
+    """The prime factors of d >= 1, ascending, for d <= ``LARGEST``."""
+    p = 2
+    while d > 1:
+        p = next((k for k in range(p, isqrt(d) + 1) if d % k == 0), d)
+        yield p
+        d //= p
+
+
 def is_squarefree(d: int) -> bool:
-    """Whether no square but 1 divides d, for 1 <= d <= ``LARGEST``."""
-    k = 2
-    while k * k <= d:
-        if d % (k * k) == 0:
-            return False
-        if d % k == 0:
-            d //= k
-        k += 1
-    return True
-
-
-def least_prime(d: int) -> int:
-    """The least prime factor of d > 1."""
-    return next((k for k in range(2, isqrt(d) + 1) if d % k == 0), d)
+    """Whether no square but 1 divides d."""
+    return all(p < q for p, q in pairwise(primes(d)))
 
 
 # --- polynomials -------------------------------------------------------------------------------------------------
@@ -159,6 +180,11 @@ class Polynomial:
         """c times it."""
         return Polynomial.of(a * c for a in self)
 
+    @property
+    def one(self) -> Polynomial:
+        """The constant 1."""
+        return Polynomial((ONE,))
+
     def at(self, x: Fraction) -> Surd:
         """The value at a rational number."""
         total, point = ZERO, Surd.rational(x)
@@ -204,43 +230,12 @@ def _variations(signs: Sequence[int]) -> int:
     return sum(a != b for a, b in pairwise(present))
 
 
-# --- intervals ---------------------------------------------------------------------------------------------------
-
-
-def plus(a: Interval, b: Interval) -> Interval:
-    """a + b."""
-    return a[0] + b[0], a[1] + b[1]
-
-
-def product(a: Interval, b: Interval) -> Interval:
-    """a b."""
-    ends = [x * y for x in a for y in b]
-    return min(ends), max(ends)
-
-
-def enclosure(p: Polynomial, x: Interval, bits: int) -> Interval:
-    """An interval around p on x, by Horner's rule."""
-    total: Interval = (Fraction(0), Fraction(0))
+def enclosure(p: Polynomial, x: Interval) -> arb:
+    """A ball around p on x, by Horner's rule."""
+    total, around = arb(0), rational_ball(x[0]).union(rational_ball(x[1]))
     for c in reversed(p.coefficients):
-        total = plus(product(total, x), c.interval(bits))
+        total = total * around + c.ball()
     return total
-
-
-def root(a: Interval, bits: int) -> Interval:
-    """An interval around the square roots of what is not negative in a, whose upper end is not negative."""
-    low, high = (max(Fraction(0), v) * (1 << (2 * bits)) for v in a)
-    return Fraction(isqrt(int(low)), 1 << bits), Fraction(isqrt(int(high)) + 1, 1 << bits)
-
-
-def quotient(a: Interval, b: Interval) -> Interval:
-    """a / b for b > 0."""
-    return product(a, (1 / b[1], 1 / b[0]))
-
-
-def outwards(a: Interval, bits: int) -> Interval:
-    """A little wider, with ends that are multiples of 2^-bits."""
-    low, high = (v * (1 << bits) for v in a)
-    return Fraction(floor(low), 1 << bits), Fraction(ceil(high), 1 << bits)
 
 
 Triple = tuple[Surd, ...]
@@ -250,9 +245,26 @@ Motion = tuple[tuple[Triple, Triple, Triple], Triple]
 STILL: Motion = (((ONE, ZERO, ZERO), (ZERO, ONE, ZERO), (ZERO, ZERO, ONE)), (ZERO, ZERO, ZERO))
 
 
-def dot(a: Sequence[Surd], b: Sequence[Surd]) -> Surd:
+class Added(Protocol):
+    """What can be added and multiplied, and multiplied by a number."""
+
+    def __add__(self: T, other: T, /) -> T: ...
+    def __mul__(self: T, other: T, /) -> T: ...
+    def by(self: T, c: Surd, /) -> T: ...
+
+
+T = TypeVar("T", bound=Added)
+
+
+def dot(a: Sequence[T], b: Sequence[T]) -> T:
     """The scalar product."""
-    return sum((x * y for x, y in zip(a, b, strict=True)), ZERO)
+    result: T = reduce(add, map(mul, a, b))
+    return result
+
+
+def combined(row: Sequence[Surd], parts: Sequence[T]) -> T:
+    """The sum of the parts, times the numbers of a row."""
+    return reduce(add, (part.by(c) for c, part in zip(row, parts, strict=True)))
 
 
 def turn(plane: tuple[int, int], angle: tuple[Surd, Surd], shift: Triple) -> Motion:
@@ -293,8 +305,6 @@ BITS = (256, 1024)
 MOST_SUMS = 20_000_000
 """Of the coefficients of all parts that are looked at."""
 
-Ends = list[tuple[int, int]]
-
 
 def constant_sign(p: Polynomial, low: Fraction, high: Fraction) -> int:
     """1 or -1 if p is proved to have this sign everywhere on [low, high], else 0."""
@@ -302,7 +312,7 @@ def constant_sign(p: Polynomial, low: Fraction, high: Fraction) -> int:
     if len(ends) > 1 or ends == {0}:
         return 0
     bernstein = _bernstein(p, low, high)
-    return ends.pop() if any(_is_nonzero(_enclosed(bernstein, bits)) for bits in BITS) else 0
+    return ends.pop() if any(_is_nonzero(bernstein, bits) for bits in BITS) else 0
 
 
 def _bernstein(p: Polynomial, low: Fraction, high: Fraction) -> list[Surd]:
@@ -319,29 +329,24 @@ def _bernstein(p: Polynomial, low: Fraction, high: Fraction) -> list[Surd]:
     return result
 
 
-def _enclosed(values: list[Surd], bits: int) -> Ends:
-    ends = [v.interval(2 * bits) for v in values]
-    unit = max(max(abs(a), abs(b)) for a, b in ends) / (1 << bits)
-    return [(floor(a / unit), ceil(b / unit)) for a, b in ends]
+def _is_nonzero(values: list[Surd], bits: int) -> bool:
+    with precision(2 * bits):
+        parts, count, most = [[v.ball() for v in values]], 0, 200 + MOST_SUMS // len(values) ** 2
+        while parts:
+            part, count = parts.pop(), count + 1
+            if all(x > 0 for x in part) or all(x < 0 for x in part):
+                continue
+            if part[0].contains(0) or part[-1].contains(0) or count > most:
+                return False
+            parts += _halves(part)
+        return True
 
 
-def _is_nonzero(whole: Ends) -> bool:
-    parts, count, most = [whole], 0, 200 + MOST_SUMS // len(whole) ** 2
-    while parts:
-        part, count = parts.pop(), count + 1
-        if all(low > 0 for low, _ in part) or all(high < 0 for _, high in part):
-            continue
-        if any(low <= 0 <= high for low, high in (part[0], part[-1])) or count > most:
-            return False
-        parts += _halves(part)
-    return True
-
-
-def _halves(row: Ends) -> tuple[Ends, Ends]:
-    """The coefficients on both halves: after k sums they are 2^k times as large."""
-    left, right, k = [row[0]], [row[-1]], 0
+def _halves(row: list[arb]) -> tuple[list[arb], list[arb]]:
+    """The coefficients on both halves."""
+    left, right = [row[0]], [row[-1]]
     while len(row) > 1:
-        row, k = [(a + c, b + d) for (a, b), (c, d) in pairwise(row)], k + 1
-        left.append((row[0][0] >> k, -(-row[0][1] >> k)))
-        right.append((row[-1][0] >> k, -(-row[-1][1] >> k)))
+        row = [(a + b) / 2 for a, b in pairwise(row)]
+        left.append(row[0])
+        right.append(row[-1])
     return left, right[::-1]

@@ -21,7 +21,19 @@ from fractions import Fraction
 from bezier.certify import square_roots as sr
 from bezier.certify.families import Arcs, Position, not_negative
 from bezier.certify.nested_roots import JointValue, Nested, Place, angle, nested
-from bezier.certify.square_roots import ONE, ZERO, Interval, Motion, Polynomial, Surd, Triple, back, dot, image
+from bezier.certify.square_roots import (
+    ONE,
+    ZERO,
+    Interval,
+    Motion,
+    Polynomial,
+    Surd,
+    Triple,
+    back,
+    combined,
+    dot,
+    image,
+)
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry
@@ -88,12 +100,17 @@ class Positions:
         """The positions where E is the zero polynomial: the third joint can be chosen."""
         if not self.only_at_roots or self.third is None or not self.turns[2]:
             raise marks.fail("the equation of a third joint that turns does not hold everywhere")
+        return self.third_chosen(
+            not_negative(self.equation, self.third, self.norm, marks, budget) if self.equation else None
+        )
+
+    def third_chosen(self, arcs: Arcs) -> Position:
+        """The positions in which the third joint has these angles."""
         free = [
             self.turns[0] and not (self.target[0] or self.target[1]),
             self.turns[1] and not (self.v[0] or self.v[1]),
         ]
         chosen: dict[int, Arcs] = {k: None for k in range(2) if free[k]}
-        arcs = not_negative(self.equation, self.third, self.norm, marks, budget) if self.equation else None
         return Position([None, None, None], {**chosen, 2: arcs})
 
     def total(self, entry: Entry) -> int:
@@ -118,7 +135,10 @@ class Positions:
             raise entry.fail(FREE)
         if len(self.equation) == 1 or sr.tarski(self.equation, UNIT, between) != 1:
             raise entry.fail("expected exactly one root in the interval")
-        place = Place.of(self.equation, between)
+        yield from self.over(Place.of(self.equation, between))
+
+    def over(self, place: Place) -> Iterator[Position]:
+        """The positions over a root of the equation."""
         nothing = self.square is None or self.only_at_roots
         square = Nested({}) if nothing else nested(place.value(self.square or Polynomial()))
         for m in square.square_roots():
@@ -132,10 +152,7 @@ class Positions:
         norm2 = norm * norm
         moved = [at(p) + m.by(c) for p, c in self.image]
         rows, shift = self.first
-        q = [
-            sum((part.by(c) for c, part in zip(row, moved, strict=True) if c), norm2.by(o))
-            for row, o in zip(rows, shift, strict=True)
-        ]
+        q = [combined(row, moved) + norm2.by(o) for row, o in zip(rows, shift, strict=True)]
         one, goal = at(UNIT), [at(Polynomial.of([c])) for c in self.target]
         first = angle(q, goal, (norm2, one)) if self.turns[0] else JointValue(norm2 * goal[2] - q[2], None, norm2)
         part, factor = self.second
@@ -172,7 +189,7 @@ def _last(
             sine.by(e[0]) + cosine.by(e[1]),
             norm.by(e[2]),
         ]
-    v = [_combined(row, moved) + norm.by(o) for row, o in zip(*constant, strict=True)]
+    v = [combined(row, moved) + norm.by(o) for row, o in zip(*constant, strict=True)]
     return norm, third, v
 
 
@@ -180,13 +197,6 @@ def _circle(c: Fraction, s: Fraction) -> tuple[Polynomial, Polynomial]:
     """cos θ3 and sin θ3 times 1 + t²."""
     cosine, sine = (Polynomial.of(map(Surd.rational, row)) for row in ((c, -2 * s, -c), (s, 2 * c, -s)))
     return cosine, sine
-
-
-def _combined(row: Sequence[Surd], parts: Sequence[Polynomial]) -> Polynomial:
-    total = Polynomial()
-    for c, part in zip(row, parts, strict=True):
-        total = total + part.by(c)
-    return total
 
 
 Found = tuple[Polynomial, int, Polynomial | None, tuple[Linear, Linear, Linear], Linear]
@@ -252,17 +262,17 @@ class _Equations:
         x, y, z = (self._lifted(part) for part in v)
         full, factor = 8, ZERO
         if not first_turns:
-            b1, b2 = (self._shifted(i) - self._lifted(_combined(row, v)) for i, row in enumerate((g, n)))
+            b1, b2 = (self._shifted(i) - self._lifted(combined(row, v)) for i, row in enumerate((g, n)))
             length = g[2] * g[2] + n[2] * n[2]
             if not length:
                 raise Unable("the first two joints move alike")
             d = (b1.by(g[2]) + b2.by(n[2])).by(length.inverse())
             equation, full = b1.by(n[2]) - b2.by(g[2]), 4
         else:
-            height = self._shifted(2) - self._lifted(_combined(n, v))
+            height = self._shifted(2) - self._lifted(combined(n, v))
             middle = z + (self.norm * self.norm).by(g[2])
             # |A1 (v + d e_z)|² = |v|² + |o|² + 2 g·v + d² + 2 d (v_z + g_z)
-            free = self._distance() - self._lifted(_combined(g, v)).by(ONE + ONE)
+            free = self._distance() - self._lifted(combined(g, v)).by(ONE + ONE)
             wanted = self._lifted(self._lifted(free))
             if n[2]:
                 d = height.by(n[2].inverse())

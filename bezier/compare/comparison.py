@@ -21,7 +21,6 @@ from bezier.methods.cubic.existence import Existence, existence, sentence
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic.plan import QuadraticPlan
 from bezier.planner import avoid, derivations
-from bezier.planner.derivations import members_of
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Derived, Plan, derivation_page
 from bezier.problem import PlanMethod, Problem
@@ -142,9 +141,9 @@ class Comparison:
     def certificate(self) -> Certificate:
         """The certificates of both plans, each label with the formula's number before it, and the derivations."""
         result = [
-            (f"{NUMBERS[method]} {member.label}", member.certificate)
+            (f"{NUMBERS[method]} {label}", member)
             for method, side in self.sides.items()
-            for member in members_of(side.plan.certificate)
+            for label, member in derivations.listed(side.plan.certificate)
         ]
         return Certificate.bundle([*result, *derivations.members(self.derivations)])
 

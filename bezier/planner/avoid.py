@@ -24,6 +24,7 @@ from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Clear, ClearanceArgument
 from bezier.obstacles.survey import Finding
+from bezier.planner.derivations import listed
 from bezier.planner.table import method_for
 from bezier.plans import Attempt, Clock, Outcome, Plan
 from bezier.problem import INNER, PlanMethod, Problem, ends_inside, problem_of, to_json
@@ -82,15 +83,9 @@ def examined(plan: Plan) -> Plan:
         return replace(plan, findings=findings, outcome=Outcome.BLOCKED)
     result = survey.certificates(findings)
     checks = {**plan.checks, "clearance": qe.verify(qe.Certificate.bundle(result))} if result else plan.checks
-    certificate = qe.Certificate.bundle([*_members(plan.certificate), *result])
+    certificate = qe.Certificate.bundle([*listed(plan.certificate), *result])
     remarks = plan.remarks + tuple(_polygon_remark(f) for f in findings if _needed_more(f))
     return replace(plan, findings=findings, certificate=certificate, checks=checks, remarks=remarks)
-
-
-def _members(certificate: qe.Certificate) -> list[tuple[str, qe.Certificate]]:
-    if not isinstance(certificate.payload, tuple):
-        return [("plan", certificate)]
-    return [(member.label, member.certificate) for member in certificate.payload]
 
 
 def _needed_more(finding: Finding) -> bool:

@@ -83,14 +83,14 @@ def _of_radius(plan: Plan) -> Mapping[str, Any]:
 
 def _with(plan: Plan, derived: Mapping[str, Derived]) -> Plan:
     """The plan with these derivations, in its certificate too."""
-    listed = [(m.label, m.certificate) for m in members_of(plan.certificate)]
-    return replace(plan, derivations=derived, certificate=Certificate.bundle([*listed, *members(derived)]))
+    whole = Certificate.bundle([*listed(plan.certificate), *members(derived)])
+    return replace(plan, derivations=derived, certificate=whole)
 
 
-def members_of(certificate: Certificate) -> tuple[Labelled, ...]:
-    """The members of a bundle; another certificate is the only one."""
+def listed(certificate: Certificate) -> list[tuple[str, Certificate]]:
+    """The members of a bundle with their labels; another certificate is the only one."""
     payload = certificate.payload
-    return payload if isinstance(payload, tuple) else (Labelled("plan", certificate),)
+    return [(m.label, m.certificate) for m in payload] if isinstance(payload, tuple) else [("plan", certificate)]
 
 
 # --- found again from a folder -------------------------------------------------------------------------------------

@@ -10,11 +10,12 @@ import re
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from html import escape
-from math import gcd, isqrt
+from math import gcd
 from typing import Any
 
 from bezier.curves.scalar import exact_text
 from qe.decomposition.pieces import Piece, Range, RootFunction
+from qe.exact.algebraic_text import square_part
 from qe.exact.ring import Poly
 from qe.formula.notation import monomials
 from qe.formula.syntax import Formula
@@ -199,7 +200,7 @@ def root_function(root: RootFunction) -> str:
 def _quadratic(c: Poly, b: Poly, a: int, k: int) -> str:
     """The k-th root of a x^2 + b x + c, a > 0: (-b -+ s sqrt(d)) / 2a, the square s^2 taken out, in lowest terms."""
     inside = b * b - 4 * a * c
-    s = _square_part(abs(inside.normal()[0])) or 1
+    s = square_part(abs(inside.normal()[0])) if inside else 1
     common = gcd(2 * a, gcd(s, abs(b.normal()[0])) if b else s)
     inside, front = inside.exact_divide(s * s), (-b).exact_divide(common)
     factor, below = s // common, 2 * a // common
@@ -209,19 +210,6 @@ def _quadratic(c: Poly, b: Poly, a: int, k: int) -> str:
     sign = "<mo>−</mo>" if k == 1 else "<mo>+</mo>" if start else ""
     top = f"<mrow>{start}{sign}{radical}</mrow>"
     return top if below == 1 else f"<mfrac>{top}<mn>{below}</mn></mfrac>"
-
-
-def _square_part(n: int) -> int:
-    """The largest s with s^2 dividing n, for factors found by trial division up to a bound."""
-    s, p = 1, 2
-    while p * p <= n and p < 1000:
-        while n % (p * p) == 0:
-            n //= p * p
-            s *= p
-        n = n // p if n % p == 0 else n
-        p += 1
-    root = isqrt(n)
-    return s * root if root > 1 and root * root == n else s
 
 
 def _fraction(top: str, bottom: Poly) -> str:

@@ -9,7 +9,7 @@ from itertools import pairwise
 from flint import arb, arb_poly, fmpq
 
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
-from qe.exact.balls import EXACT_FROM, ends, lower_end, precision, upper_end
+from qe.exact.balls import EXACT_FROM, ends, hull, lower_end, precision, upper_end
 from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point
 
@@ -78,6 +78,12 @@ class Ball:
     """A number known to a ball; ``float``: about its middle. Its ends are worked out where they are asked for."""
 
     ball: arb
+
+    @staticmethod
+    def around(interval: Ends, bits: int) -> Ball:
+        """A ball that holds an interval, with so many good bits."""
+        with precision(bits):
+            return Ball(hull(*(fmpq(v.numerator, v.denominator) for v in interval)))
 
     @property
     def ends(self) -> Ends:

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bezier.arm import inverse_evidence
+from bezier.arm import inverse_evidence, pose
 from bezier.arm.inverse import Inverse, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.kinematics import position
@@ -179,7 +179,7 @@ def test_a_producer_that_loses_or_moves_a_solution_gets_no_certificate(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(inverse_evidence, "ATTEMPTS", inverse_evidence.ATTEMPTS[:1])
-    monkeypatch.setattr(inverse_evidence, "TURNS", inverse_evidence.TURNS[:1])
+    monkeypatch.setattr(pose, "TURNS", pose.TURNS[:1])
     found = CASES[name][0]()
     lost = replace(found, solutions=found.solutions[1:])
     moved = replace(found, solutions=(found.solutions[1], *found.solutions[1:]))

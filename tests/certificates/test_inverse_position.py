@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bezier.arm.inverse import solve
-from bezier.arm.inverse_evidence import _parameter, _roots, inverse_certificate
+from bezier.arm.inverse_evidence import _box, _over, _parameter, _wider, inverse_certificate
 from bezier.arm.kinematics import position
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from bezier.arm.roots_of_squares import square_roots
@@ -166,9 +166,10 @@ def test_the_angle_that_t_misses_cannot_hide_a_solution() -> None:
     assert payload["turn"] != ["1", "0"] and payload["count"] == 4
     others = [s for s in found.solutions if abs(s.angles[2] or 0) < 3.1]
     turn = (Fraction(1), Fraction(0))
-    t = [_parameter(s, turn, 100) for s in others]
-    roots = list(_roots(t, t, others, 100, 30))
-    assert len(roots) == 3
+    t = sorted(_parameter(s, turn, 100) for s in others)
+    around = [_wider((v, v), 100) for v in t]
+    roots = _over(around, [_parameter(s, turn, 100) for s in others], [_box(s, 30) for s in others])
+    assert len(roots) == 3 and all(root["solutions"] for root in roots)
     assert not accepted({**payload, "turn": ["1", "0"], "count": 3, "roots": roots})
 
 
@@ -246,3 +247,15 @@ def test_a_large_square_under_a_square_root() -> None:
 def test_coordinates_as_square_roots() -> None:
     assert square_roots(read_exact("44*sqrt(2) + 8*sqrt(293) + 120")) == {1: 120, 2: 44, 293: 8}
     assert square_roots(read_exact("1/3*sqrt(8) - 1/7")) == {1: Fraction(-1, 7), 2: Fraction(2, 3)}
+    assert square_roots(read_exact("sqrt(2) + sqrt(3)/2 + sqrt(5) + 90")) == {1: 90, 2: 1, 3: Fraction(1, 2), 5: 1}
+    quotient = square_roots(read_exact("1/(sqrt(2) + sqrt(3) + 1)"))
+    assert quotient == {1: Fraction(1, 2), 2: Fraction(1, 4), 6: Fraction(-1, 4)}
+
+
+@pytest.mark.parametrize(
+    "coefficients", [[-2, 0, 0, 1], [2, 0, -4, 0, 1], [1, -3, 0, 1], [-2, 0, 0, 0, 1], [-1, -1, 0, 0, 1]]
+)
+def test_numbers_that_are_no_sums_of_square_roots(coefficients: list[int]) -> None:
+    """A number without other real conjugates is no empty sum."""
+    with pytest.raises(Unable, match="sums of square roots"):
+        square_roots(RealAlgebraic.by_index(coefficients, 0))

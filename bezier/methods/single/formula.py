@@ -14,8 +14,8 @@ import qe
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.task import Axis, Task
 from bezier.methods.control import statements as st
+from bezier.methods.control.optimal_path import answered as has_answer
 from bezier.methods.single.program import variables
-from qe.errors import Unable
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, forall, implies
 from qe.formula.normal import rename
@@ -157,10 +157,7 @@ def eliminate(given: Task, axis: Axis, symbols: Collection[Symbol] = (), *, time
 
 def answered(question: Formula, timeout: float | None) -> Any:
     """The answer with a quantifier-free equivalent. Raises ``Unable`` when none is reached."""
-    answer = qe.eliminate(question, timeout=timeout)
-    if answer.formula is None:
-        raise Unable(answer.reason or "no answer was reached")
-    return answer
+    return has_answer(qe.eliminate(question, timeout=timeout))
 
 
 def closed(given: Task, workspace: Workspace) -> st.Statement:

@@ -21,7 +21,8 @@ from bezier.arm.joint_plan import joint_plan
 from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, JointKind
 from bezier.arm.reader import load_arm
-from bezier.arm.vertical import Label, vertical_arm
+from bezier.arm.vertical import vertical_arm
+from bezier.certify.joint_motions import Label
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.processes.channel import Channel
 from tests.bezier.arm.arms import Limits, Points, curves_of, limited

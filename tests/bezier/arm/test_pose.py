@@ -16,10 +16,10 @@ from bezier.arm import command
 from bezier.arm.inverse import Inverse
 from bezier.arm.kinematics import _constants, _motions, pose
 from bezier.arm.model import Arm
-from bezier.arm.parallel_axes import shape_of
-from bezier.arm.pose import rotation_of, solve_pose
-from bezier.arm.reader import load_arm, read_arm
+from bezier.arm.pose import chain_of, rotation_of, solve_pose
+from bezier.arm.reader import load_arm, read_arm, read_exact
 from bezier.arm.robot import Robot
+from bezier.certify.inverse_pose import has_parallel_axes
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from tests.bezier.arm.arms import arm_text
@@ -105,7 +105,7 @@ def test_the_joints_that_made_the_pose_are_found(arm: Arm, tangents: list[Fracti
 
 def test_an_arm_with_irrational_constants() -> None:
     pairs = pairs_of([Fraction(k, 2) for k in (1, -1, 2, 1, 3, -2)])
-    assert shape_of(SKEW).first == 1
+    assert has_parallel_axes(chain_of(SKEW))
     m = pose(SKEW, dict(zip((j.name for j in SKEW.joints), pairs)))
     found = solve_pose(SKEW, [round(float(row[3])) for row in m], rotation_of((1, 2, -1, 3)))
     assert all(np.allclose(f[:, 3], [float(c) for c in found.point]) for f in frames(SKEW, found))
@@ -207,6 +207,13 @@ def test_irrational_coordinates_share_their_square_roots() -> None:
     found = solve_pose(BACKWARDS, (two * 10 + 40, three * 30, two + three + 60), rotation_of((1, 2, -1, 3)))
     assert found.count == 4
     assert all(np.allclose(f[:, 3], [float(c) for c in found.point]) for f in frames(BACKWARDS, found))
+
+
+def test_coordinates_with_three_square_roots() -> None:
+    point = (read_exact("sqrt(2) + sqrt(3) + sqrt(5) + 90"), 90, 200)
+    found = solve_pose(SIX, point, rotation_of((2, 1, -1, 1)))
+    assert found.count == 4
+    assert all(np.allclose(f[:, 3], [float(c) for c in found.point]) for f in frames(SIX, found))
 
 
 @each(-1, 1)

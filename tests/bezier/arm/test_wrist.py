@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from bezier.arm.command import in_words
 from bezier.arm.inverse import solve
 from bezier.arm.kinematics import pose
-from bezier.arm.pose import rotation_of, solve_pose
+from bezier.arm.pose import chain_of, rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
-from bezier.arm.wrist import meeting, wrist_of
+from bezier.certify.inverse_pose import centre, meeting
+from bezier.certify.square_roots import Surd
 from qe.errors import Unable
 from tests.bezier.arm.test_pose import SIX, SKEW, Pairs, arm_of, at_the_pose_of, frames, holds, pairs_of
 from tests.tables import each
@@ -104,14 +105,14 @@ def test_shapes() -> None:
     rows = ['alpha = "pi/2"', "a = 70", 'alpha = "pi/2"', 'alpha = "-pi/2"', 'alpha = "pi/2"', "d = 1"]
     for k, is_wrist in ((2, True), (3, False), (4, False)):
         body = "".join(f'[[row]]\njoint = "q{i}"\n{slide if i == k else row}\n' for i, row in enumerate(rows))
-        assert (wrist_of(read_arm('convention = "standard"\n' + body)) is not None) == is_wrist
-    assert wrist_of(PUMA) is not None and wrist_of(SIX) is None and wrist_of(SKEW) is None
-    wrist = wrist_of(STANDARD)
-    assert wrist is not None and wrist.height == 0 and len(wrist.first.joints) == 3
-    parallel = ((1, 0, 0, 5), (0, 1, 0, 0), (0, 0, 1, 0))
-    assert meeting([[Fraction(v) for v in row] for row in parallel]) is None
-    across = ((1, 0, 0, 0), (0, 0, -1, 3), (0, 1, 0, 4))  # the axis (0, -1, 0) through (0, 3, 4)
-    assert meeting([[Fraction(v) for v in row] for row in across]) == (3, 4)
+        assert (centre(chain_of(read_arm('convention = "standard"\n' + body))) is not None) == is_wrist
+    assert centre(chain_of(PUMA)) is not None and centre(chain_of(SIX)) is None and centre(chain_of(SKEW)) is None
+    assert centre(chain_of(STANDARD)) == (Surd.rational(60), Surd.rational(0))
+    parallel = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    assert meeting((tuple(tuple(map(Surd.rational, row)) for row in parallel), ())) is None  # type: ignore[arg-type]
+    across = ((1, 0, 0), (0, 0, -1), (0, 1, 0))  # the axis (0, -1, 0) through (0, 3, 4)
+    motion = tuple(tuple(map(Surd.rational, row)) for row in across), tuple(map(Surd.rational, (0, 3, 4)))
+    assert meeting(motion) == (Surd.rational(3), Surd.rational(4))  # type: ignore[arg-type]
 
 
 def test_families_and_single_solutions_in_words() -> None:
