@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
 import qe
 import qe.elimination.cgs as cgs
-import qe.groebner.counting as counting
-import qe.groebner.trace_form as trace_form
 from qe.api.input import read_formula
 from qe.elimination.protocol import Context
 from qe.errors import InternalError
 from qe.exact.ring import Ring
 from qe.formula.block import Block
 from qe.formula.build import conj, neg
-from qe.formula.syntax import FALSE, TRUE, Formula, Relation
-from qe.groebner.counting import SolutionCount
-from qe.groebner.signs import SignatureConditions
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.kernel.step import Claim
 from qe.options import Budget, Options
 from qe.proof.derivation import moved
@@ -92,91 +86,6 @@ def is_proved(said: Claim) -> bool:
         return proved(said) is not None
     except InternalError:
         return False
-
-
-Patch = Callable[[pytest.MonkeyPatch], None]
-
-
-def not_strict(m: pytest.MonkeyPatch) -> None:
-    """Solutions at which a polynomial is 0 count as those at which it is positive."""
-    m.setitem(counting._WEIGHTS, Relation.GT, counting._WEIGHTS[Relation.GE])
-
-
-def no_condition(m: pytest.MonkeyPatch) -> None:
-    """The basis of one segment is used everywhere."""
-    m.setattr(cgs, "condition_of", lambda segment: TRUE)
-
-
-def none_is_some(m: pytest.MonkeyPatch) -> None:
-    """No solution is enough."""
-    m.setattr(SolutionCount, "is_positive", property(lambda self: self.is_in(range(self.most + 1))))
-
-
-def at_most_one(m: pytest.MonkeyPatch) -> None:
-    """Two solutions are not counted."""
-    m.setattr(SolutionCount, "is_positive", property(lambda self: self.is_in({1})))
-
-
-def never_negative(m: pytest.MonkeyPatch) -> None:
-    """Signatures are taken to be as for squares."""
-    m.setattr(trace_form, "_is_square", lambda poly: True)
-
-
-def always_hankel(m: pytest.MonkeyPatch) -> None:
-    """Minors are read as those of forms in the powers of one variable."""
-
-    def read(minors: Any, coefficients: Any, is_hankel: bool, *rest: Any) -> SignatureConditions:
-        return SignatureConditions(minors, coefficients, True, *rest)
-
-    m.setattr(trace_form, "SignatureConditions", read)
-
-
-def no_curves(m: pytest.MonkeyPatch) -> None:
-    """Segments with infinitely many solutions are left out."""
-    own = cgs._Conjunction._of_segment
-    m.setattr(
-        cgs._Conjunction,
-        "_of_segment",
-        lambda self, segment, *rest: own(self, segment, *rest) if segment.dimension == 0 else FALSE,
-    )
-
-
-def nothing_beside(m: pytest.MonkeyPatch) -> None:
-    """Conditions on the parameters alone are forgotten."""
-    own = cgs._Conjunction.of
-    m.setattr(cgs._Conjunction, "of", staticmethod(lambda *args: replace(own(*args), outside=())))
-
-
-def one_end(m: pytest.MonkeyPatch) -> None:
-    """The line has one end."""
-    own = cgs._at_end
-    m.setattr(cgs, "_at_end", lambda g, relation, x, side: own(g, relation, x, 1))
-
-
-def no_points_between(m: pytest.MonkeyPatch) -> None:
-    """Bounded intervals are forgotten."""
-    m.setattr(cgs._Conjunction, "_at_zeros", lambda *args: FALSE)
-
-
-BROKEN: list[tuple[Patch, str]] = [
-    (not_strict, "ex x. x^2 = a and x > b"),
-    (no_condition, "ex x. a*x^2 + b*x + 1 = 0"),
-    (none_is_some, QUESTIONS["one inequality"]),
-    (at_most_one, "ex x. x^2 = a"),
-    (never_negative, QUESTIONS["one inequality"]),
-    (always_hankel, "ex x, y. x^2 = a and y^2 = b"),
-    (no_curves, QUESTIONS["nothing bound"]),
-    (nothing_beside, QUESTIONS["two cases"]),
-    (one_end, "ex x. x < a"),
-    (no_points_between, QUESTIONS["no equation"]),
-]
-
-
-@pytest.mark.parametrize(("broken", "text"), BROKEN)
-def test_a_side_condition_switched_off_is_noticed(broken: Patch, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert is_proved(step(text))
-    broken(monkeypatch)
-    assert not is_proved(step(text))
 
 
 @pytest.mark.parametrize(

@@ -12,13 +12,18 @@ from typing import Any
 import pytest
 
 import qe
+from qe.api.input import read_formula
 from qe.certify.registry import RULES
 from qe.certify.verify import verify, verify_json
 from qe.exact.ring import Ring
+from qe.formula.syntax import TRUE
 from qe.kernel.verdict import Verdict
 from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import Entry, formula_from_json
+from qe.proof.step import Nested, Step
+from qe.proving.nested import names_within
 from tests.certificates.derivations import CASES, certificate, data, rules
+from tests.tables import each
 
 QUICK = {
     "sign",
@@ -222,6 +227,48 @@ def test_universal_sentences_by_a_point_or_multipliers(text: str) -> None:
                 at(payload["steps"][0]["evidence"], path[:-1])[path[-1]] = other
 
             refused(altered(whole, change), 0)
+
+
+THIN = ("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4", "all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1")
+
+
+@pytest.mark.parametrize("text", THIN)
+def test_every_entry_of_the_evidence_of_a_thin_set(text: str) -> None:
+    made = data(text)
+    k = next(k for k, step in enumerate(made["payload"]["steps"]) if "no exception" in json.dumps(step))
+    inner = made["payload"]["steps"][k]["evidence"]["steps"]
+    for j, step in enumerate(inner):
+        for name in ("before", "after", "evidence"):
+            for other in (None, "x", 3, [], True, ["x", "x + y"]):
+                if other == step[name]:
+                    continue
+
+                def change(payload: dict[str, Any], j: int = j, name: str = name, other: object = other) -> None:
+                    payload["steps"][k]["evidence"]["steps"][j][name] = other
+
+                refused(altered(made, change), k)
+
+
+@each(24, pytest.param(4, marks=pytest.mark.deep))
+def test_steps_inside_the_evidence(step: int) -> None:
+    """Steps from infinity, and from what remains, may not be altered either."""
+    made = data(CASES["infinity"])
+    k = next(k for k, step in enumerate(made["payload"]["steps"]) if step["rule"] == "steps")
+    few = [entry for entry in entries(made["payload"]["steps"][k]["evidence"]) if "samples" not in entry[0]]
+    for path, value in few[::step]:
+        for other in others(value):
+
+            def change(payload: dict[str, Any], path: Any = path, other: object = other) -> None:
+                at(payload["steps"][k]["evidence"], path[:-1])[path[-1]] = other
+
+            refused(altered(made, change), k)
+
+
+def test_names_inside_the_evidence() -> None:
+    """Variables that occur in nested derivations alone belong to the ring too."""
+    given = read_formula("ex x. a*x^3 + b*x + c < 0")
+    inner = Nested(given, (Step("renaming", given, read_formula("ex t. a*t^3 + b*t + c < 0")),), TRUE)
+    assert set(names_within({"proof": [inner]})) == {"a", "b", "c", "x", "t"}
 
 
 def test_an_empty_bundle_proves_nothing() -> None:

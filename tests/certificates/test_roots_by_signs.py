@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
-from dataclasses import replace
-from itertools import pairwise
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.elimination.rootsigns import forms, method, question, theory
+from qe.elimination.rootsigns import method, question
 from qe.exact.ring import Ring
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj
@@ -112,76 +110,3 @@ def test_what_is_produced_is_accepted(seed: int) -> None:
     if not isinstance(before, Exists) or question.read(before.body, before.ring.index["x"]) is None:
         return
     assert claimed(before, produced(before))
-
-
-Break = Callable[[pytest.MonkeyPatch], None]
-
-
-def open_ends(patch: pytest.MonkeyPatch) -> None:
-    whole = question._on_interval
-    patch.setattr(question, "_on_interval", lambda *a: replace(whole(*a), closed=(False, False)))
-
-
-def nonempty(patch: pytest.MonkeyPatch) -> None:
-    whole = question._on_interval
-    patch.setattr(question, "_on_interval", lambda *a: replace(whole(*a), side=TRUE))
-
-
-def unsigned(patch: pytest.MonkeyPatch) -> None:
-    """The signs of minors as for a positive leading coefficient."""
-    whole = theory._parts
-    patch.setattr(theory, "_parts", lambda shape, kind, lead: whole(replace(shape, odd=False), kind, lead))
-
-
-def without_lower_degree(patch: pytest.MonkeyPatch) -> None:
-    patch.setattr(question.Question, "degenerate", lambda self, x: FALSE)
-
-
-def any_multiplicity(patch: pytest.MonkeyPatch) -> None:
-    """A double root taken for a change of sign."""
-    patch.setattr(question.Question, "holds", lambda self, lead, kind: lead < 0 or theory.count(kind, *theory.REAL) > 0)
-
-
-def turned(patch: pytest.MonkeyPatch) -> None:
-    """Minors of the form of -g."""
-    whole = forms.minors
-    patch.setattr(method, "minors", lambda c, g, budget: whole(c, [-p for p in g], budget))
-
-
-def no_gaps(patch: pytest.MonkeyPatch) -> None:
-    """Zeros among the minors passed over."""
-
-    def plain(signs: tuple[int, ...]) -> int:
-        known = [1, *filter(None, signs)]
-        return sum(a * b for a, b in pairwise(known))
-
-    patch.setattr(theory, "_signature", plain)
-
-
-BROKEN: list[tuple[Break, str]] = [
-    (open_ends, "ex x. x^3 + a*x + b = 0 and x >= c"),
-    (nonempty, "ex x. x^3 + a <= 0 and x > c and x < d"),
-    (unsigned, "ex x. a*x^3 + b*x + c = 0 and x > 0 and x < 1"),
-    (without_lower_degree, "ex x. a*x^3 + b*x + c = 0 and x > 0"),
-    (any_multiplicity, "ex x. x^4 + a*x^2 + b*x + c < 0"),
-    (turned, "ex x. x^3 + a*x + b = 0 and c*x + 1 > 0"),
-    (no_gaps, "ex x. x^4 + a*x^2 + b*x + c = 0"),
-]
-
-
-@pytest.mark.parametrize(("broken", "text"), BROKEN, ids=[b.__name__ for b, _ in BROKEN])
-def test_steps_of_a_broken_producer_are_refused(broken: Break, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    before = read(text)
-    assert claimed(before, produced(before))
-    caches = (theory.rows, theory.minors, theory.coefficients)
-    for cache in caches:
-        cache.cache_clear()
-    broken(monkeypatch)
-    try:
-        after = produced(before)
-    except qe.Unable:
-        return  # the rows of signs contradict each other
-    finally:
-        for cache in caches:
-            cache.cache_clear()
-    assert not claimed(before, after)
