@@ -293,23 +293,6 @@ def test_blocks_beside_each_other_may_bind_one_name() -> None:
     assert verify(made).accepted
 
 
-QUESTIONS = [
-    "x > 0 and (ex x. x^3 = a*x + 1 and x > 1)",
-    "ex x. x > a and (ex x. x^2 = b and x < 2)",
-    "all x. x > a or (ex a. a*x > 1)",
-    "x > 0 and (ex x. x < root(2, x^2 - y))",
-    "x > 0 and (ex x. x > 0 and (ex x. x^2 = y and (ex y. y > x)))",
-]
-
-
-@pytest.mark.parametrize("text", QUESTIONS)
-def test_a_question_whose_names_clash_has_a_certificate_with_other_names(text: str) -> None:
-    answer = qe.eliminate(text, check=True, process=False)
-    assert answer.guarantee is qe.Guarantee.CHECKED and answer.certificate is not None
-    assert qe.verify(Certificate.from_json(answer.certificate.to_json()), formula=text).accepted
-    assert answer.derivation.is_complete
-
-
 def test_parts_of_a_question_whose_names_clash_are_certified() -> None:
     text = "ex x. x > a and (ex x. x^2 = b and x < 2)"
     answer = qe.eliminate(text, anytime=True, check=True, timeout=20)

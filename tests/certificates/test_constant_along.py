@@ -17,7 +17,6 @@ from qe.elimination.critical.method import ConvexUniversal
 from qe.elimination.protocol import Context
 from qe.formula.block import Block
 from qe.options import Budget, Options
-from qe.proof.certificate import Certificate
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from tests.certificates.altered_derivations import steps
@@ -33,10 +32,6 @@ def example(text: str) -> str:
     assert RULE in [step.rule for step in answer.derivation.steps]
     assert answer.guarantee is qe.Guarantee.CHECKED and not answer.unchecked_steps and answer.certificate is not None
     return answer.certificate.to_json()
-
-
-def test_a_band_around_a_parabola_is_proved_side_by_side():
-    assert qe.verify(Certificate.from_json(example(BAND)), formula=BAND).accepted
 
 
 def test_random_pieces_are_accepted():

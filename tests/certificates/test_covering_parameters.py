@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 
 import pytest
 
-import qe
 from qe.decomposition import cover
 from qe.decomposition import line as lines
 from qe.decomposition.cover import Search
@@ -64,13 +63,6 @@ def test_random_questions_are_answered_as_by_decomposition_and_accepted(seed: in
         assert same == TRUE
     else:
         assert decomposed(forall(same.free, nnf(same)), Options(), Budget(None, 8000), RunLog()).formula == TRUE
-
-
-@pytest.mark.parametrize("text", QUESTIONS)
-def test_an_answer_with_parameters_is_checked(text: str) -> None:
-    answer = qe.eliminate(text, method="coverings", check=True, process=False)
-    assert answer.guarantee is qe.Guarantee.CHECKED and not answer.unchecked_steps
-    assert "covering" in [step.rule for step in answer.derivation.steps]
 
 
 # --- the evidence altered -----------------------------------------------------------------------------

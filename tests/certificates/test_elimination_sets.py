@@ -24,31 +24,6 @@ from tests.certificates.elimination_claims import (
     examined,
 )
 
-EXAMPLES = [
-    "ex x. a*x^2 + b*x + c = 0",
-    "ex x. a*x + b = 0 and c*x + d > 0",
-    "ex x, y. x^2 + y^2 = 1 and y = a*x + b",
-    "ex x. ((a*x = b and x > 1 and x < 2 or x = 5) and x < c)",
-    "ex x, y. x > a and y > x and y < b and x*y > 1",
-    "ex x. x^4 + a*x^2 + b <= 0",
-    "ex x. x^2 - a < 0 and x^2 - 2*x + b < 0",
-    "ex x. (x - a)^2 <= 1 and (x - b)^2 <= 1 and x > c",
-    "ex x, y. c > 0 and x*c > 1 and y^2 < c and x + y = 0",
-    "ex x, y. x*y - 2*a + 3 < 0",
-    "all x. x^2 + a*x + b > 0",
-    "ex x. x^4 - a*x^2 < 0 and b*x^2 > 1",
-]
-
-
-@pytest.mark.parametrize("text", EXAMPLES)
-def test_every_step_of_virtual_substitution_is_checked(text: str) -> None:
-    plain = qe.eliminate(text, method="vs", without="distribution")  # so that substitution sees the whole
-    answer = qe.eliminate(text, method="vs", without="distribution", check=True)
-    assert answer.formula == plain.formula
-    assert answer.unchecked_steps == ()
-    assert answer.certificate is not None
-    assert qe.verify(qe.Certificate.from_json(answer.certificate.to_json())).accepted
-
 
 def test_points_that_two_equations_share_have_the_guards_with_which_they_were_tried(
     monkeypatch: pytest.MonkeyPatch,
@@ -123,13 +98,6 @@ def test_no_point_can_be_left_out_that_is_needed(text: str) -> None:
 )
 def test_implication_by_shape(strong: str, weak: str, expected: bool) -> None:
     assert implies(over_ring(strong), over_ring(weak)) is expected
-
-
-def test_a_point_met_under_conditions_that_contradict_themselves_stays_real():
-    """They left the point without the condition that it is one (a plane that meets a ball was not proved)."""
-    text = "ex x, y. c^2*(x - p)^2 + c^2*(y - q)^2 + (c*s - d)^2 <= c^2*r^2"
-    answer = qe.eliminate(text, method="vs", check=True, process=False)
-    assert answer.guarantee is qe.Guarantee.CHECKED and not answer.unchecked_steps
 
 
 def test_an_equation_of_high_degree_before_one_that_is_solved_is_no_hindrance() -> None:

@@ -21,14 +21,11 @@ from qe.options import Budget, Options
 from qe.proof.step import Step
 from qe.proving.prover import Prover
 
-EXAMPLES = [
+FORMS = (
     "ex x. x > 0 and x^4 + a*x^2 + b*x + c = 0",
     "all x. x^4 + a*x^2 + b*x + c >= 0",
     "ex x. a*x^3 + c*x + d <= 0 and x >= 0 and x <= 1",
-    "ex x. c*x^3 + b*x + a > 0 and x < 1",
-    "all x. a*x^4 + b*x + c /= 0 or x >= 2",
-    "ex x. x^3 + a*x + b = 0 and c*x + d > 0",
-]
+)
 
 
 def claimed(before: Formula, after: Formula) -> bool:
@@ -49,15 +46,6 @@ def produced(before: Formula) -> Formula:
     return problem.asked(method.answer(asked, x, Budget()))
 
 
-@pytest.mark.parametrize("text", EXAMPLES)
-def test_every_step_is_checked(text: str) -> None:
-    left_to_substitution = text.startswith("ex x. x^3 + a*x + b = 0 and c")
-    method = "roots" if left_to_substitution else "auto"
-    answer = qe.eliminate(text, check=True, process=False, without="cubic", method=method)
-    assert answer.unchecked_steps == () and answer.certificate is not None
-    assert "roots by signs" in {step.rule for step in answer.derivation.steps}
-
-
 def altered(formula: Formula) -> Iterator[Formula]:
     """One comparison with another relation or other side, or one part left out."""
     match formula:
@@ -73,7 +61,7 @@ def altered(formula: Formula) -> Iterator[Formula]:
             yield from (Exists(variables, other) for other in altered(body) if other not in (TRUE, FALSE))
 
 
-@pytest.mark.parametrize("text", [*EXAMPLES[:2], "ex x. a*x^4 + b*x + 1 <= 0 and x > 1"])
+@pytest.mark.parametrize("text", [*FORMS[:2], "ex x. a*x^4 + b*x + 1 <= 0 and x > 1"])
 def test_an_altered_claim_is_accepted_only_where_it_is_the_same_on_all_rows(text: str) -> None:
     """Some alterations change nothing (p <= 0 for p < 0 where 0 is met elsewhere): those are checked at numbers."""
     before = read(text)
