@@ -43,8 +43,7 @@ from qe.simplify.simplify import simplify
 from tests.certificates import broken_producers as broken
 from tests.certificates.broken_producers import Make
 from tests.certificates.elimination_claims import unchecked
-from tests.certificates.test_counted_solutions import is_proved, step
-from tests.certificates.test_roots_by_signs import claimed, produced
+from tests.certificates.test_steps_of_methods import claimed_by_signs, is_proved, produced, step
 
 Judge = Callable[[str], Iterable[str]]
 """The rules of the steps on the way from a question to its answer that are not accepted."""
@@ -130,7 +129,7 @@ def by_signs(text: str) -> set[str]:
     try:
         for cache in caches:
             cache.cache_clear()
-        return set() if claimed(before, produced(before)) else {"roots by signs"}
+        return set() if claimed_by_signs(before, produced(before)) else {"roots by signs"}
     except qe.Unable:  # the rows of signs contradict each other
         return {"roots by signs"}
     finally:

@@ -14,8 +14,8 @@ from qe.proof.answer import Guarantee
 from qe.proof.certificate import Certificate, Kind
 from tests.certificates.coverings import QUESTIONS as COVERINGS
 from tests.certificates.derivations import CASES, certificate
-from tests.certificates.test_roots_by_signs import FORMS
-from tests.certificates.test_substitution import CONTROL
+from tests.certificates.test_steps_of_methods import FORMS
+from tests.certificates.test_witnesses_and_equations import CONTROL
 
 
 @pytest.mark.parametrize("name", list(CASES)[::2])

@@ -87,7 +87,7 @@ ELSEWHERE = {
     "critical values": "certificates/test_critical_values",
     "covering": "certificates/test_covering",
     "multipliers": "certificates/test_optimum",
-    "instance": "certificates/test_witness",
+    "instance": "certificates/test_witnesses_and_equations",
     "solutions": "certificates/test_solutions",
     "classification": "certificates/test_classification",
     "parts": "unit/kernel/test_parts",

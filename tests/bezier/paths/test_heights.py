@@ -1,4 +1,6 @@
-"""The height condition on whole paths: the known example, dense exact sampling, and roots at the ends of curves."""
+"""Heights and speeds along paths."""
+
+from __future__ import annotations
 
 from fractions import Fraction
 
@@ -9,13 +11,14 @@ from hypothesis import strategies as st
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import events_of
+from bezier.curves.scalar import dot
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.paths import heights
-from bezier.paths.path import Path, assemble
+from bezier.paths.path import Path, assemble, slowest
 from bezier.planner.planning import make_plan
 from bezier.problem import PlanMethod, Problem, read_problem
 from qe.exact.field import NumberField
-from tests.bezier.numbers import control_points, points
+from tests.bezier.numbers import control_points, points, unit
 from tests.tables import each
 
 DIPPING = """
@@ -142,3 +145,30 @@ def test_paths_moved_onto_the_origin_are_noted(control, k):
     hits = heights.through_origin(moved)
     assert any(low <= t <= high for low, high in hits)
     assert bool(heights.remarks(path_of(moved))) == any(h not in (heights.START, heights.END) for h in hits)
+
+
+@given(control_points(2, 5), unit, st.sampled_from([Fraction(1), Fraction(1, 3)]))
+def test_no_parameter_is_slower(points, t, duration):
+    curve = Bezier.of(points)
+    found = slowest(curve, duration)
+    velocity = curve.derivative(1, t)
+    speed_squared = dot(velocity, velocity) / duration**2
+    assert speed_squared >= found.least.low**2
+    if found.stops:
+        assert found.least.low == found.least.high == 0
+    else:
+        assert found.least.low > 0 and found.least.high - found.least.low <= found.least.high / 1000
+
+
+def test_the_least_speed_is_reached():
+    curve = Bezier.of([(0, 0, 0), (1, 0, 0), (1, 1, 0)])  # P' = (2 - 2t, 2t, 0), slowest at t = 1/2 with sqrt(2)
+    least = slowest(curve).least
+    assert least.low**2 <= 2 <= least.high**2
+
+
+def test_stops():
+    there_and_back = Bezier.of([(0, 0, 0), (1, 1, 1), (0, 0, 0)])
+    assert slowest(there_and_back).stops == ((Fraction(1, 2), Fraction(1, 2)),)
+    cusp_at_the_end = Bezier.of([(0, 0, 0), (1, 0, 0), (2, 3, 4), (2, 3, 4)])
+    assert slowest(cusp_at_the_end).stops == ((1, 1),)
+    assert slowest(Bezier.of([(1, 2, 3), (1, 2, 3)])).stops == ((0, 1),)
