@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 import math
 from fractions import Fraction
 from typing import Any
@@ -16,7 +17,7 @@ from bezier.certify.inverse_position import check_positions
 from bezier.certify.square_roots import ONE, ZERO, Surd, turn
 from qe.errors import BudgetExceeded, CertificateRejected
 from qe.proof.entry import Entry
-from tests.certificates.test_inverse_position import POINT, made
+from tests.certificates.test_joint_positions import payload_of
 from tests.tables import each
 from tests.unit.certify.claims import limits
 
@@ -99,7 +100,7 @@ def test_bounds_of_balls() -> None:
 
 @pytest.fixture(scope="module")
 def right() -> dict[str, Any]:
-    return made("ev3-120", POINT)
+    return json.loads(json.dumps(payload_of("four at a point")))
 
 
 def test_it_is_accepted(right: dict[str, Any]) -> None:
