@@ -25,10 +25,9 @@ from qe.certify.claims import claim_of
 from qe.certify.verify import verify, verify_json
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
-from tests.bezier.arm.test_choices import PLANAR, SKEW_WRIST, STILL
+from tests.bezier.arm.test_choices import FLAT, FOLDED, PLANAR, PUMA, SKEW_WRIST, STANDARD, STILL, pairs_with
 from tests.bezier.arm.test_pose import BACKWARDS, SIX, SKEW_FREE, arm_of, at_the_pose_of, pairs_of
 from tests.bezier.arm.test_prismatic import ARMS, IDS, pair
-from tests.bezier.arm.test_wrist import FLAT, FOLDED, PUMA, STANDARD, pairs_with
 from tests.certificates.mutation import leaves
 from tests.certificates.restated import evidence_of, verdict_by
 

@@ -27,8 +27,6 @@ from tests.attacks.rules import RULES as QUESTIONS
 from tests.certificates import (
     false_claims,
     false_claims_of_arms,
-    false_claims_of_classifications,
-    false_claims_of_motions,
 )
 from tests.certificates.altered_derivations import steps
 from tests.certificates.derivations import CASES, data
@@ -78,9 +76,9 @@ def of_one_step() -> Iterator[Data]:
     """Derivations by rules that say what their evidence shows."""
     makers = (false_claims.cells, false_claims.substitution, false_claims.witness, false_claims.optimum)
     of_curves = (false_claims.containment, false_claims.clearance)
-    yield from map(first, (*makers, *of_curves, false_claims_of_classifications.classification))
+    yield from map(first, (*makers, *of_curves, false_claims_of_arms.classification))
     of_arms = (false_claims_of_arms.solutions, false_claims_of_arms.branch, false_claims_of_arms.inverse)
-    yield from map(first, (*of_arms, false_claims_of_motions.motions))
+    yield from map(first, (*of_arms, false_claims_of_arms.motions))
     yield from test_parts.data("all x. x^4 + a*x + 1 > 0", 25)["certificates"]
 
 

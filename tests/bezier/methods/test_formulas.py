@@ -1,17 +1,32 @@
-"""Formula (8): what is written, what follows from Q1, and the three-ball condition."""
+"""Formulas of the quadratic and the cubic method, and cubic plans near others."""
 
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
 from fractions import Fraction
+from fractions import Fraction as F
+from pathlib import Path
 
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+import qe
+from bezier.check.recheck import recheck
 from bezier.curves.curve import Smoothness
 from bezier.curves.scalar import dot, scale, sign, subtract
 from bezier.curves.workspace import Ball, Workspace, WorkspaceKind
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import assemble
-from bezier.problem import PlanMethod, Problem
+from bezier.planner.command import plan
+from bezier.problem import PlanMethod, Problem, read_problem
+from qe.api.input import read_formula
+from qe.errors import CertificateRejected
+from qe.formula.build import convert
+from qe.formula.traverse import ring_of
 from qe.io import text
+from tests.bezier.folder_mutation import Quiet
 from tests.bezier.numbers import points, small
 from tests.tables import each
 
@@ -126,3 +141,110 @@ def test_conditions_can_be_told_apart():
     assert labels == ["P1", "Q1", "R1"]
     first = quadratic.as_conditions_on_q1(quadratic.system(MAIN))[0]
     assert isinstance(first, Ball) and first.centre == (-2, 6, 6) and sign(first.margin((0, 3, 3))) > 0
+
+
+AXES = "xyz"
+
+
+def printed(q0: Sequence[object], r0: Sequence[object], radius_squared: str) -> str:
+    """(7): the quantified control points are P1, P2, R1, R2; 4 equations per axis, 6 norms."""
+    n = len(q0)
+    points = {name: [f"{name}{a}" for a in AXES[:n]] for name in ("p1", "p2", "q1", "q2", "r1", "r2")}
+    p1, p2, q1, q2, r1, r2 = points.values()
+    parts = []
+    for i in range(n):
+        a, b = f"({q0[i]})", f"({r0[i]})"
+        parts += [f"{p1[i]} = 4*{a} - 4*{q1[i]} + {q2[i]}", f"{p2[i]} = 2*{a} - {q1[i]}"]
+        parts += [f"{r1[i]} = 2*{b} - {q2[i]}", f"{r2[i]} = {q1[i]} - 4*{q2[i]} + 4*{b}"]
+    parts += [" + ".join(f"{c}^2" for c in point) + f" <= {radius_squared}" for point in points.values()]
+    return f"ex {', '.join(p1 + p2 + r1 + r2)}. " + " and ".join(parts)
+
+
+def six_norms(q0: Sequence[object], r0: Sequence[object], radius_squared: str) -> str:
+    """The answer worked out by hand: six norms of linear combinations of Q0, R0, Q1, Q2."""
+    forms = ((4, 0, -4, 1), (2, 0, -1, 0), (0, 0, 1, 0), (0, 0, 0, 1), (0, 2, 0, -1), (0, 4, 1, -4))
+    norms = []
+    for a, b, c, d in forms:
+        squares = [f"({a}*({q0[i]}) + {b}*({r0[i]}) + {c}*q1{x} + {d}*q2{x})^2" for i, x in enumerate(AXES[: len(q0)])]
+        norms.append(f"{' + '.join(squares)} <= {radius_squared}")
+    return " and ".join(norms)
+
+
+def symbols(name: str, n: int) -> list[str]:
+    return [f"{name}{a}" for a in AXES[:n]]
+
+
+@each(
+    ((-1, 3, 3), (1, 3, 3), "27"),
+    (("1/2", "-3/7", 2), (0, 0, "5/3"), "9"),
+    (symbols("q0", 3), symbols("r0", 3), "r^2"),
+    (symbols("q0", 2), symbols("r0", 2), "r^2"),
+)
+def test_answer_as_printed(q0: Sequence[object], r0: Sequence[object], square: str) -> None:
+    answer = qe.eliminate(printed(q0, r0, square))
+    assert answer.formula is not None
+    expected = read_formula(six_norms(q0, r0, square))
+    ring = ring_of(expected)
+    assert set(convert(answer.formula, ring).args) == set(expected.args)
+
+
+def existence(n: int, *, factor: int = 1) -> str:
+    """For all Q0, R0 in the ball of radius r (or ``factor`` times as far out): (7) has a solution."""
+    q0, r0 = symbols("q0", n), symbols("r0", n)
+    inside = [" + ".join(f"{c}^2" for c in point) + f" <= {factor}*r^2" for point in (q0, r0)]
+    chosen = symbols("q1", n) + symbols("q2", n)
+    formula = f"ex {', '.join(chosen)}. {printed(q0, r0, 'r^2')}"
+    return f"all {', '.join(q0 + r0)}, r. {' and '.join(inside)} and r >= 0 -> ({formula})"
+
+
+@each(2, 3)
+def test_existence_theorem_is_found(n: int) -> None:
+    answer = qe.eliminate(existence(n), timeout=120)
+    assert answer.truth is True
+    told = " ".join(answer.stats["plan"])
+    assert f"q1{AXES[n - 1]} = q0{AXES[n - 1]}" in told and "q2x = r0x" in told
+
+
+def test_existence_theorem_with_an_offered_witness() -> None:
+    right = {f"q1{a}": f"q0{a}" for a in "xy"} | {f"q2{a}": f"r0{a}" for a in "xy"}
+    assert qe.check_witness(existence(2), right) is True
+    assert qe.check_witness(existence(2), right | {"q1x": "(q0x + r0x)/2"}) is False
+
+
+def test_no_existence_outside_the_ball() -> None:
+    """Via points beyond the radius: 2 Q0 - Q1 and Q1 cannot both be inside, and no witness is found for it."""
+    from qe.elimination.witness import find
+    from qe.options import Budget
+
+    assert find(read_formula(existence(2, factor=2)), budget=Budget(20)) is None
+
+
+NEAR = """
+method="cubic"
+start=["0","-1/10","0"]
+goal=["0","1/10","-1/20"]
+via=[
+  ["-164593/50000","619/2000","118817/100000"],
+  ["36623/25000","3991/20000","120477/100000"]]
+radius="448381/100000"
+"""
+
+
+def summary(text: str, folder: Path) -> dict:
+    folder.mkdir()
+    assert plan(Quiet(), read_problem(text), folder, folder, plots=False)[1]  # type: ignore[arg-type]
+    recheck(Quiet(), folder)  # type: ignore[arg-type]
+    return json.loads((folder / "summary.json").read_text())
+
+
+def test_five_digits_end_in_a_path_and_a_bound(tmp_path: Path) -> None:
+    told = summary(NEAR, tmp_path / "out")
+    value, bound = (F(told[key]["exact"]) for key in ("objective", "bound"))
+    assert told["status"] == "near-optimal" and told["certified"] and 0 < value - bound <= F(1, 10**9) * value
+    assert told["active"] and any("10^-9" in note for note in told["notes"])
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "no choice has less than" in page and "near the optimum" in page
+    file = tmp_path / "out" / "summary.json"
+    file.write_text(file.read_text().replace(told["bound"]["exact"], told["objective"]["exact"]))
+    with pytest.raises(CertificateRejected):
+        recheck(Quiet(), tmp_path / "out")  # type: ignore[arg-type]
