@@ -22,7 +22,7 @@ from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Budget, Projection
 from qe.proof.certificate import Certificate
-from tests.certificates.mutation import Path, leaves, lists, other_numbers, other_signs, replaced, without
+from tests.certificates.mutation import Path, at, leaves, lists, other_numbers, other_signs, replaced, without
 from tests.certificates.producing import TABLE, cell_table, table_in
 
 THREE_BALLS = (
@@ -171,16 +171,10 @@ def _harmless(whole: Any, path: Path, value: Any) -> bool:
     value that its own signs give it.
     """
     if path[-2:-1] == ("sectors",):
-        node = whole
-        for key in path[:-1]:
-            node = node[key]
-        first, last = path[-1] == 0, path[-1] == len(node) - 1
+        first, last = path[-1] == 0, path[-1] == len(at(whole, path[:-1])) - 1
         return (first and str(value).startswith("-")) or (last and not str(value).startswith("-"))
     if path[-1] == "truth":
-        old: Any = whole
-        for key in path:
-            old = old[key]
-        return old is None and isinstance(value, bool) and _table(whole)["quantifiers"][-1] != ""
+        return at(whole, path) is None and isinstance(value, bool) and _table(whole)["quantifiers"][-1] != ""
     return path[-1] == "projection" or path == ("version",)
 
 

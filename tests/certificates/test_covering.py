@@ -31,13 +31,13 @@ from tests.certificates.coverings import (
     interval,
     judged,
     line,
-    places,
     projected,
     proof,
     random_question,
     read,
     verdict,
 )
+from tests.certificates.mutation import paths
 from tests.unit.decomposition.test_cover import random_body
 
 
@@ -66,7 +66,7 @@ def test_altered_evidence_never_proves_more(text: str) -> None:
     """Rejected, or still a proof of this claim: the same evidence never serves for a body with solutions."""
     body, rng = read(text), random.Random(text)
     given = proof(body, body.free)
-    listed = list(places(given))
+    listed = list(paths(given))
     satisfiable = [f for f in relaxed(body) if qe.eliminate(exists(f.free, f), process=False).truth]
     rejected = 0
     for path in rng.sample(listed, min(len(listed), 60)):
@@ -223,7 +223,7 @@ def test_altered_evidence_with_parameters_never_proves_another_answer(text: str)
     answer, given = answered(question, Budget())
     wrong = [f for f in others(answer) if judged(question, f, given)]
     assert wrong
-    listed = [p for p in places(given) if p[0] != "matrix"]
+    listed = [p for p in paths(given) if p[0] != "matrix"]
     rejected = 0
     for path in rng.sample(listed, min(len(listed), 25)):
         changed = altered(given, path, rng)

@@ -31,6 +31,7 @@ from qe.proof.derivation import moved
 from qe.proof.entry import Entry, Json
 from qe.proof.run_log import RunLog
 from qe.proving import critical as critical_proof
+from tests.certificates.mutation import at
 from tests.certificates.producing import table_in
 
 DISC = "ex x, y. (x - a)^2 + (y - b)^2 <= 1 and x^2 + y^2 <= 4"
@@ -218,13 +219,6 @@ def test_factors_and_samples(text: str) -> None:
                 refused(text, lambda e, p=path, j=j: at(e, p).pop(j))  # type: ignore[misc]
                 refused(text, lambda e, p=path, j=j, b=beside: at(e, p)[j].__setitem__(0, b), "ascend")  # type: ignore[misc]
             refused(text, lambda e, p=path, j=j: at(e, p).insert(j, at(e, p)[j]), "ascend")  # type: ignore[misc]
-
-
-def at(node: Any, path: tuple[Any, ...]) -> Any:
-    """What stands at a path."""
-    for key in path:
-        node = node[key]
-    return node
 
 
 @pytest.mark.parametrize("text", [DISC, *LONG])

@@ -28,7 +28,7 @@ from qe.exact.algebraic import RealAlgebraic
 from tests.bezier.arm.test_choices import FLAT, FOLDED, PLANAR, PUMA, SKEW_WRIST, STANDARD, STILL, pairs_with
 from tests.bezier.arm.test_pose import BACKWARDS, SIX, SKEW_FREE, arm_of, at_the_pose_of, pairs_of
 from tests.bezier.arm.test_prismatic import ARMS, IDS, pair
-from tests.certificates.mutation import leaves
+from tests.certificates.mutation import at, leaves
 from tests.certificates.restated import evidence_of, verdict_by
 
 POINT = ("599/66", "824/33", "323/10")
@@ -505,9 +505,7 @@ def test_boxes_and_intervals_may_not_lose_their_solution() -> None:
     ends = [path for path, _ in leaves(payload) if path[0] == "roots"]
     for path in ends[::9]:
         changed = json.loads(json.dumps(payload))
-        node: Any = changed
-        for key in path[:-1]:
-            node = node[key]
+        node = at(changed, path[:-1])
         inwards = Fraction(1, 10) if path[-1] in (0, "low") else Fraction(-1, 10)
         node[path[-1]] = str(Fraction(node[path[-1]]) + inwards)
         assert not accepted(changed), path
