@@ -37,7 +37,7 @@ from qe.proof.entry import Entry, formula_from_json, formula_to_json, poly_to_te
 from qe.proving.linear import substitution_certificate
 from tests.attacks.formulas import altered, differs, eliminated, formula, question, simple
 from tests.attacks.rules import RULES
-from tests.bezier.bodies import ball
+from tests.bezier.made import ball
 from tests.certificates.mutation import Path, at, evidence_in, leaves, lists
 from tests.certificates.restated import is_stated, restated
 

@@ -23,8 +23,7 @@ from qe.certify.verify import verify, verify_json
 from qe.errors import InputError
 from qe.exact.field import NumberField
 from qe.proof.certificate import Certificate
-from tests.bezier.bodies import CUBE, at, ball, obstacle
-from tests.bezier.numbers import control_points
+from tests.bezier.made import CUBE, at, ball, control_points, obstacle
 from tests.certificates.false_claims import KINDS
 from tests.certificates.mutation import evidence_in, leaves, lists, replaced, without
 

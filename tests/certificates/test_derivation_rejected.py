@@ -101,7 +101,7 @@ ELSEWHERE = {
     "multipliers": "certificates/test_optimum",
     "instance": "certificates/test_witnesses_and_equations",
     "solutions": "certificates/test_solutions",
-    "classification": "certificates/test_classification",
+    "classification": "certificates/test_solutions",
     "parts": "unit/kernel/test_parts",
 }
 """Rules whose evidence is altered in a file of its own."""

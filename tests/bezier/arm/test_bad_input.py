@@ -25,7 +25,7 @@ from bezier.motion.timelaw import Law, TimeLaw
 from bezier.report.joints import page
 from qe.certify.verify import verify_json
 from qe.errors import InputError, Unable
-from tests.bezier.arm.arms import arm_text
+from tests.bezier.made import arm_text
 from tests.tables import each
 
 EV3, SIX = Robot.load("ev3-120"), Robot.load("six-joints")

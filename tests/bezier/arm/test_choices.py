@@ -21,8 +21,8 @@ from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.wrist import meeting, wrist_of
 from qe.errors import Unable
-from tests.bezier.arm.arms import arm_text
 from tests.bezier.arm.test_pose import SIX, SKEW, SKEW_FREE, Pairs, arm_of, at_the_pose_of, frames, holds, pairs_of
+from tests.bezier.made import arm_text
 from tests.tables import each
 
 PUMA = load_arm("spherical-wrist")

@@ -23,7 +23,7 @@ from bezier.arm.ratio import variable
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from qe.errors import InputError, InternalError, Unable
 from qe.exact.ring import Ring
-from tests.bezier.arm.arms import arm_text
+from tests.bezier.made import arm_text
 from tests.tables import each
 
 POINT = (Fraction(599, 66), Fraction(824, 33), Fraction(323, 10))

@@ -33,7 +33,7 @@ from qe.certify.verify import verify
 from qe.errors import Unable
 from qe.processes.channel import Channel
 from qe.proof.certificate import Certificate
-from tests.bezier.arm.arms import Limits, Points, curves_of, limited
+from tests.bezier.made import Limits, Points, curves_of, limited
 from tests.tables import each
 
 CYLINDER = load_arm("cylindrical")

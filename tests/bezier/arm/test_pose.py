@@ -22,7 +22,7 @@ from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.robot import Robot
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from tests.bezier.arm.arms import arm_text
+from tests.bezier.made import arm_text
 from tests.tables import each
 
 SIX, PLANAR = load_arm("six-joints"), load_arm("planar-3r")

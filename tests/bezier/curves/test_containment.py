@@ -22,7 +22,7 @@ from bezier.curves.sentences import CurveSentence
 from bezier.curves.workspace import Ball, HalfSpace, Workspace, WorkspaceKind, root_text
 from qe.exact.field import NumberField
 from qe.formula.syntax import Relation
-from tests.bezier.numbers import Root2, control_points, small, surds
+from tests.bezier.made import Root2, control_points, small, surds
 from tests.tables import each
 
 ORIGIN = (Fraction(0),) * 3

@@ -27,7 +27,7 @@ from qe.formula.build import convert
 from qe.formula.traverse import ring_of
 from qe.io import text
 from tests.bezier.folder_mutation import Quiet
-from tests.bezier.numbers import points, small
+from tests.bezier.made import points, small
 from tests.tables import each
 
 

@@ -15,8 +15,7 @@ from bezier.obstacles.survey import clearance_certificate
 from qe.certify.verify import verify
 from qe.errors import InputError
 from qe.exact.field import NumberField
-from tests.bezier.bodies import CUBE, at, ball, bodies, obstacle
-from tests.bezier.numbers import control_points
+from tests.bezier.made import CUBE, at, ball, bodies, control_points, obstacle
 from tests.tables import each
 
 GRID = [Fraction(k, 20) for k in range(21)]

@@ -21,7 +21,7 @@ from bezier.obstacles.reader import read_obstacles, via_over
 from bezier.problem import from_json, read_problem, to_json
 from qe.errors import InputError
 from qe.exact.field import NumberField
-from tests.bezier.bodies import (
+from tests.bezier.made import (
     CUBE,
     OCTAHEDRON,
     TURNED,
@@ -29,12 +29,13 @@ from tests.bezier.bodies import (
     at,
     ball,
     bodies,
+    control_points,
     cylinders,
     half_spaces,
     obstacle,
+    points,
     rounded,
 )
-from tests.bezier.numbers import control_points, points
 from tests.tables import each
 
 anywhere = points(3, st.fractions(-5, 5, max_denominator=4))

@@ -42,7 +42,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Relation
 from qe.io import text
 from qe.io.text import read, read_polynomial
-from tests.bezier.numbers import points
+from tests.bezier.made import points
 
 POINT = points(3, st.integers(-3, 3).map(Fraction))
 SYSTEMS = {PlanMethod.QUADRATIC: quadratic.system, PlanMethod.CUBIC: cubic.system}

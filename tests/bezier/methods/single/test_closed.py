@@ -24,7 +24,7 @@ from bezier.methods.single.formula import VALUE
 from bezier.methods.single.program import choose, curve, dips, weights_at
 from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, LinearRow, certificate, solve
 from qe.errors import InputError, InternalError, Unable
-from tests.bezier.singles import FLAT, axis, tasks, unit_task
+from tests.bezier.made import FLAT, axis, tasks, unit_task
 from tests.tables import each
 
 F = Fraction
