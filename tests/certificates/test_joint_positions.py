@@ -9,6 +9,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -26,8 +27,9 @@ from qe.certify.verify import verify, verify_json
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from tests.bezier.arm.test_choices import FLAT, FOLDED, PLANAR, PUMA, SKEW_WRIST, STANDARD, STILL, pairs_with
-from tests.bezier.arm.test_pose import BACKWARDS, SIX, SKEW_FREE, arm_of, at_the_pose_of, pairs_of
-from tests.bezier.arm.test_prismatic import ARMS, IDS, pair
+from tests.bezier.arm.test_inverse import ARMS as ARMS_THAT_TURN
+from tests.bezier.arm.test_pose import BACKWARDS, SIX, SKEW_FREE, arm_of, at_the_pose_of, frames, pairs_of
+from tests.bezier.arm.test_prismatic import ARMS, IDS
 from tests.certificates.mutation import at, leaves
 from tests.certificates.restated import evidence_of, verdict_by
 
@@ -204,29 +206,37 @@ def test_axes_askew() -> None:
 TANGENTS = st.lists(st.fractions(-4, 4, max_denominator=3), min_size=6, max_size=6)
 
 
-@pytest.mark.parametrize("arm", [SIX, BACKWARDS, PUMA, STANDARD, PLANAR], ids=["six", "back", "puma", "skew", "plane"])
-@settings(max_examples=2)
-@given(TANGENTS)
-def test_poses_that_joints_made(arm: Any, tangents: list[Fraction]) -> None:
-    try:
-        found = at_the_pose_of(arm, pairs_of(tangents)[: len(arm.joints)])
-    except Unable as error:
-        assert "can be chosen" in str(error)
-        return
-    made(found)
+POSES = {"six": SIX, "backwards": BACKWARDS, "puma": PUMA, "skew wrist": STANDARD, "plane": PLANAR, **SLIDING}
+POINTS = {
+    "ev3": load_arm("ev3-120"),
+    **dict(zip(("shoulder", "scara", "skew"), ARMS_THAT_TURN[1:])),
+    **dict(zip(IDS, ARMS)),
+}
+EACH = [*((arm, solve_pose) for arm in POSES.values()), *((arm, solve) for arm in POINTS.values())]
 
 
-@pytest.mark.parametrize("arm", ARMS, ids=IDS)
-@settings(max_examples=2)
-@given(st.lists(st.integers(-7, 7), min_size=3, max_size=3), st.integers(-1, 1))
-def test_points_of_arms_with_joints_that_slide(arm: Any, numbers: list[int], aside: int) -> None:
-    values = [pair(k) if j.motion is JointKind.REVOLUTE else Fraction(7 * k, 2) for k, j in zip(numbers, arm.joints)]
-    point = position(arm, dict(zip((j.name for j in arm.joints), values)))
+@pytest.mark.parametrize(("arm", "by"), EACH, ids=[*POSES, *POINTS])
+@settings(max_examples=5)
+@given(TANGENTS, st.sampled_from((0, 0, 0, 1, -1)))
+def test_the_joints_that_led_there_are_found(
+    arm: Arm, by: Callable[..., Inverse], t: list[Fraction], aside: int
+) -> None:
+    """At a point or a pose that joints made, or beside it; all solutions lead there, and a certificate says so."""
+    values = [v if j.motion is JointKind.REVOLUTE else 7 * n for v, n, j in zip(pairs_of(t), t, arm.joints)]
+    m = pose(arm, dict(zip((j.name for j in arm.joints), values)))
+    rotation = [row[:3] for row in m] if by is solve_pose else None
+    point = [row[3] + 20 * aside for row in m]
     try:
-        found = solve(arm, [c + 20 * aside for c in point])
+        found = solve(arm, point) if rotation is None else solve_pose(arm, point, rotation)
     except Unable as error:
-        assert "slide along one direction" in str(error)
+        assert "can be chosen" in str(error) or "slide along one direction" in str(error)
         return
+    assert found.is_reachable or aside
+    if not found.free:
+        assert aside or any(all(_is(v, w) for v, w in zip(s.values, values)) for s in found.solutions)
+        for frame in frames(arm, found) if found.solutions else ():
+            assert np.allclose(frame[:, 3], [float(c) for c in point], atol=1e-8)
+            assert rotation is None or np.allclose(frame[:, :3], [[float(c) for c in r] for r in rotation], atol=1e-11)
     if all(arm.joints[c.joint].motion is JointKind.REVOLUTE for s in found.solutions for c in s.choices):
         made(found)
 
@@ -307,23 +317,6 @@ def test_out_of_reach_with_a_free_joint() -> None:
 def test_what_has_no_certificate_says_so() -> None:
     with pytest.raises(Unable, match="a joint can be chosen here"):
         inverse_certificate(solve_pose(SKEW_FREE, (0, 0, 120), rotation_of((1, 0, 0, 0))))
-
-
-@pytest.mark.parametrize("name", SLIDING)
-@settings(max_examples=3)
-@given(TANGENTS)
-def test_poses_of_arms_with_joints_that_slide(name: str, numbers: list[Fraction]) -> None:
-    arm = SLIDING[name]
-    pairs = [v if j.motion is JointKind.REVOLUTE else 7 * t for v, t, j in zip(pairs_of(numbers), numbers, arm.joints)]
-    m = pose(arm, dict(zip((j.name for j in arm.joints), pairs)))
-    try:
-        found = solve_pose(arm, [row[3] for row in m], [row[:3] for row in m])
-    except Unable as error:
-        assert "can be chosen" in str(error)
-        return
-    if not found.free:
-        assert any(all(_is(v, w) for v, w in zip(s.values, pairs)) for s in found.solutions)
-    made(found)
 
 
 def _is(value: Any, given: Any) -> bool:
