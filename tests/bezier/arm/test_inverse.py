@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from bezier.arm import inverse
@@ -64,24 +64,6 @@ def test_the_count_is_that_of_the_closed_form(point: tuple[Fraction, ...]) -> No
     if found.solutions:
         reached = positions(arm, [s.angles for s in found.solutions])
         assert np.allclose(reached, [float(c) for c in point], atol=1e-9)
-
-
-@settings(max_examples=25)
-@given(st.lists(st.floats(-3, 3), min_size=3, max_size=3), st.integers(1, 3))
-def test_no_solution_is_missed_by_newton(start: list[float], which: int) -> None:
-    """Newton's method from anywhere ends, if it ends, in one of the solutions."""
-    arm = ARMS[which]
-    point = [Fraction(v) for v in positions(arm, [[0.4, -1.1, 0.7]])[0]]
-    found = np.array([s.angles for s in solve(arm, point).solutions])
-    q = np.array(start)
-    from bezier.arm.kinematics import jacobians
-
-    for _ in range(40):
-        j = jacobians(arm, [q])[0]
-        q = q - np.linalg.lstsq(j, positions(arm, [q])[0] - [float(c) for c in point], rcond=None)[0]
-    if np.allclose(positions(arm, [q])[0], [float(c) for c in point], atol=1e-10):
-        gaps = np.abs((found - q + pi) % (2 * pi) - pi).max(axis=1)
-        assert gaps.min() < 1e-4
 
 
 @each(

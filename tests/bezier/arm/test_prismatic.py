@@ -28,6 +28,7 @@ from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify
 from qe.errors import Unable
 from qe.exact.ring import Ring
+from tests.bezier.arm.test_inverse import ARMS as ARMS_THAT_TURN
 from tests.bezier.arm.test_pose import pairs_of
 from tests.tables import each
 
@@ -62,10 +63,11 @@ def test_the_reduction_holds_for_all_points(arm: Arm) -> None:
         confirm(arm, Geometry.of(arm).reduce(ring, point, turn), point)
 
 
-@pytest.mark.parametrize("arm", ARMS, ids=IDS)
-@settings(max_examples=4)
+@pytest.mark.parametrize("arm", [*ARMS_THAT_TURN[1:], *ARMS], ids=["shoulder", "scara", "skew", *IDS])
+@settings(max_examples=6)
 @given(st.lists(st.floats(-3, 3), min_size=3, max_size=3))
 def test_no_solution_is_missed_by_newton(arm: Arm, start: list[float]) -> None:
+    """Newton's method from anywhere ends, if it ends, in one of the solutions."""
     point = [Fraction(v) for v in positions(arm, [[0.4, -1.1, 0.7]])[0]]
     if np.linalg.matrix_rank(jacobians(arm, [[0.4, -1.1, 0.7]])[0], tol=1e-9) < 3:
         return  # it moves on a surface, which points in floating point miss
