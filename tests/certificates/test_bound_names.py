@@ -30,7 +30,7 @@ from qe.proof.certificate import Certificate, written
 from qe.proof.entry import Entry, formula_to_json
 from qe.proof.step import Place
 from qe.proving.elaborators import ELABORATORS
-from tests.attacks.places import places, put
+from tests.attacks.formulas import places, put
 from tests.certificates.derivations import certificate
 from tests.unit.certify.claims import NO_LEMMAS, RING, line, objection
 from tests.unit.proving.elaborated import refused
