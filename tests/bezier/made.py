@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -122,6 +123,15 @@ def at(*values: Any) -> Point:
 def obstacle(body: Body) -> Obstacle:
     """The obstacle that is this body."""
     return from_body("it", ObstacleKind.POLYHEDRON, body)
+
+
+def obstacle_text(kind: str, name: str | None = None, **keys: object) -> str:
+    """An obstacle as it stands in a problem file."""
+    given = {"kind": kind, **({} if name is None else {"name": name}), **keys}
+    return "\n[[obstacle]]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in given.items())
+
+
+CRATE_TEXT = obstacle_text("box", "crate", low=[-1, 1, 0], high=[1, 3, 2], margin="1/10")
 
 
 def ball(centre: Any, radius: Any) -> Obstacle:
