@@ -1,16 +1,19 @@
-"""Random polynomials and quantifier-free formulas, questions of one block, and formulas with one thing changed."""
+"""Random polynomials, formulas and questions; formulas with one thing changed, and with others for parts."""
 
 from __future__ import annotations
 
 import random
+from collections.abc import Callable, Iterator, Sequence
 
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, disj, exists, forall
+from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.evaluate import substituted
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
+from qe.formula.traverse import children
 from qe.options import Budget, Options
+from qe.proof.step import Place
 
 NAMES = ("a", "b", "x", "y")
 GRID = (-3, -2, -1, 0, 1, 2, 3)
@@ -97,3 +100,32 @@ def differs(rng: random.Random, left: Formula, right: Formula, known: Formula) -
         if values[2] == TRUE and values[0] != values[1]:
             return True
     return False
+
+
+def places(formula: Formula, path: Place = ()) -> Iterator[tuple[Place, Formula]]:
+    """All parts of a formula, with the way down to them."""
+    yield path, formula
+    for k, child in enumerate(children(formula)):
+        yield from places(child, (*path, k))
+
+
+def put(formula: Formula, place: Place, new: Formula) -> Formula:
+    """The formula with another part at a place."""
+    if not place:
+        return new
+    match formula:
+        case And(args) | Or(args):
+            k = place[0]
+            join = conj if isinstance(formula, And) else disj
+            return join((*args[:k], put(args[k], place[1:], new), *args[k + 1 :]))
+        case Not(arg):
+            inner = put(arg, place[1:], new)
+            return neg(inner) if isinstance(inner, Constant) else Not(inner)
+        case Exists(variables, body) | ForAll(variables, body):
+            return same(formula)(variables, put(body, place[1:], new))
+    raise AssertionError(formula)
+
+
+def same(f: Exists | ForAll) -> Callable[[Sequence[str], Formula], Formula]:
+    """The builder of the quantifier that the formula begins with."""
+    return exists if isinstance(f, Exists) else forall

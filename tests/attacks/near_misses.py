@@ -16,7 +16,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import atoms
-from tests.attacks.places import places, put, same
+from tests.attacks.formulas import places, put, same
 from tests.certificates.altered_derivations import rebuilt
 
 

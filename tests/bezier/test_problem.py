@@ -1,4 +1,6 @@
-"""Problem files: exact reading, and one clear line for every bad input."""
+"""Problems: their files, the numbers in them, and what is refused."""
+
+from __future__ import annotations
 
 from fractions import Fraction
 from pathlib import Path
@@ -7,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier.curves.workspace import WorkspaceKind
-from bezier.input.numbers import NotANumber, parse
+from bezier.curves.workspace import WorkspaceKind, root_text
+from bezier.input import toml_table
+from bezier.input.numbers import NotANumber, describe, parse, read_squared
+from bezier.input.toml_table import Table
 from bezier.problem import PlanMethod, load_problem, read_problem
 from qe.errors import InputError
 from tests.tables import each
@@ -185,3 +189,103 @@ def test_numbers_beyond_floating_point_are_refused(line, key):
     kept = [old for old in text.splitlines() if not old.startswith(key)]
     with pytest.raises(InputError, match=rf"{key}.*: expected .* at most 10\^50.*, found a larger one"):
         read_problem("\n".join([*kept, line]))
+
+
+@given(st.fractions(0, 10**6, max_denominator=10**6))
+def test_a_radius_is_read_as_it_is_printed(square):
+    assert read_squared(root_text(square)) == square
+
+
+@each((" 3/2 * sqrt( 2 ) / 3 ", Fraction(1, 2)), ("sqrt(27/4)", Fraction(27, 4)), ("1.5", Fraction(9, 4)))
+def test_other_spellings(text, square):
+    assert read_squared(text) == square
+
+
+@each(
+    "sqrt(-1)",
+    "-2*sqrt(3)",
+    "sqrt(3)/0",
+    "sqrt(3)/-2",
+    "2*3*sqrt(5)",
+    "sqrt(2)*3",
+    "sqrt(sqrt(2))",
+    "sqrt()",
+    "*sqrt(2)",
+)
+def test_what_is_no_radius(text):
+    with pytest.raises(NotANumber):
+        read_squared(text)
+
+
+def test_articles():
+    assert describe(object()) == "an object" and describe(b"") == "a bytes"
+
+
+TEXT = """\
+title = "x"
+
+[[half_space]]
+normal = [0, 0.1, "1/3"]
+offset = 2
+
+[[half_space]]
+normal = [1, 0, 0]
+offset = "two"
+points = ["Q1", "Q2", "Q1"]
+"""
+
+
+@pytest.fixture
+def table():
+    return Table.parse(TEXT, "p.toml")
+
+
+def test_exact_values(table):
+    first, second = table.tables("half_space")
+    assert first.point("normal") == (0, Fraction(1, 10), Fraction(1, 3)) and first.number("offset") == 2
+    assert first.number("missing", Fraction(7)) == 7 and table.tables("obstacle") == ()
+    with pytest.raises(InputError, match=r"^p\.toml:9: half_space\[1\]\.offset: expected .*two"):
+        second.number("offset")
+
+
+def test_the_line_of_a_key_in_the_second_table(table):
+    with pytest.raises(InputError, match=r"^p\.toml:10: half_space\[1\]\.points\[2\]: expected a list of points"):
+        table.tables("half_space")[1].words("points", ("Q1", "Q2"), "points")
+    with pytest.raises(InputError, match=r"^p\.toml: half_space\[0\]\.points: expected .* found no such key$"):
+        table.tables("half_space")[0].words("points", ("Q1",), "points")
+    with pytest.raises(InputError, match=r"^p\.toml:3: half_space\[0\]\.radius: expected something, found nothing$"):
+        raise table.tables("half_space")[0].error("radius", "something", "nothing")
+
+
+def test_unknown_keys_and_wrong_shapes(table):
+    with pytest.raises(InputError, match=r"^p\.toml:9: half_space\[1\]\.offset: expected one of the keys normal"):
+        table.tables("half_space")[1].only(("normal",))
+    with pytest.raises(InputError, match=r"^p\.toml:1: title: expected tables \[\[title\]\]"):
+        table.tables("title")
+    with pytest.raises(InputError, match="above zero, found 0"):
+        Table({"radius": 0}).positive("radius")
+    with pytest.raises(InputError, match="list of points"):
+        Table({"points": []}).words("points", ("Q1",), "points")
+
+
+def test_text_with_and_without_a_mark_of_order(tmp_path: Path) -> None:
+    for data in ("x = 'ü'".encode(), "x = 'ü'".encode("utf-8-sig")):
+        (tmp_path / "p.toml").write_bytes(data)
+        assert toml_table.read_text(tmp_path / "p.toml") == "x = 'ü'"
+
+
+def test_what_cannot_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "p.toml"
+    with pytest.raises(InputError, match=r"p\.toml: expected a readable file, found: No such file"):
+        toml_table.read_text(file)
+    with pytest.raises(InputError, match="expected a readable file"):
+        toml_table.read_text(tmp_path)
+    file.write_bytes(b"a = '\xff'")
+    with pytest.raises(InputError, match="expected UTF-8 text, found byte 0xff at 5"):
+        toml_table.read_text(file)
+    monkeypatch.setattr(toml_table, "MAX_BYTES", 10)
+    file.write_bytes(b"0123456789")
+    assert toml_table.read_text(file) == "0123456789"
+    file.write_bytes(b"0123456789x")
+    with pytest.raises(InputError, match="at most 10 bytes, found more"):
+        toml_table.read_text(file)

@@ -28,6 +28,7 @@ from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry, formula_to_json
 from qe.proof.run_log import RunLog
+from tests.certificates.mutation import at
 from tests.differential.generate import random_poly
 
 BODIES = [
@@ -131,18 +132,9 @@ def read(text: str) -> Formula:
     return nnf(formats.read(text, "text"))
 
 
-def places(value: object, path: tuple[object, ...] = ()) -> Iterator[tuple[object, ...]]:
-    if isinstance(value, dict | list):
-        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
-            yield (*path, key)
-            yield from places(part, (*path, key))
-
-
 def altered(given: Any, path: tuple[Any, ...], rng: random.Random) -> Any:
     found = copy.deepcopy(given)
-    part = found
-    for key in path[:-1]:
-        part = part[key]
+    part = at(found, path[:-1])
     old, key = part[path[-1]], path[-1]
     if isinstance(old, bool) or old is None:
         part[key] = rng.choice([0, 1])

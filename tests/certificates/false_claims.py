@@ -37,8 +37,8 @@ from qe.proof.entry import Entry, formula_from_json, formula_to_json, poly_to_te
 from qe.proving.linear import substitution_certificate
 from tests.attacks.formulas import altered, differs, eliminated, formula, question, simple
 from tests.attacks.rules import RULES
-from tests.bezier.bodies import ball
-from tests.certificates.mutation import Path, evidence_in, leaves, lists
+from tests.bezier.made import ball
+from tests.certificates.mutation import Path, at, evidence_in, leaves, lists
 from tests.certificates.restated import is_stated, restated
 
 Data = dict[str, Any]
@@ -337,8 +337,5 @@ def _other_list(rng: random.Random, data: Data) -> Data:
 
 def _with(data: Data, path: Path, value: Any) -> Data:
     made = deepcopy(data)
-    node = made["payload"]
-    for key in path[:-1]:
-        node = node[key]
-    node[path[-1]] = value
+    at(made["payload"], path[:-1])[path[-1]] = value
     return made

@@ -1,5 +1,5 @@
 """Certificates about arms and about systems of equations, made at random, and what shows that a claim of theirs is
-false: sines and cosines in floats, Newton's method, and the solutions found once more."""
+false: sines and cosines in floats, Newton's method, and the solutions and the motions found once more."""
 
 from __future__ import annotations
 
@@ -11,19 +11,24 @@ from itertools import pairwise, product
 from math import cos, hypot, pi, sin
 from typing import Any
 
-from bezier.arm.evidence import LIMITED
+import qe
+from bezier.arm.continuous import continuous_motions
+from bezier.arm.evidence import LIMITED, motions_certificate
 from bezier.arm.inverse import solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.reader import load_arm, read_arm
+from bezier.curves.curve import Bezier
 from qe.certify.verify import verify
 from qe.errors import QEError, Unable
+from qe.exact.algebraic import real_roots
 from qe.exact.polynomial_system import solve_system
 from qe.exact.quotient import PositiveDimensional
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
+from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Relation
 from qe.groebner.evidence import solutions_certificate
 from qe.proof.certificate import Certificate
-from qe.proof.entry import Entry
+from qe.proof.entry import Entry, formula_from_json
 from tests.attacks.formulas import simple
 from tests.certificates.false_claims import number
 from tests.certificates.mutation import evidence_in
@@ -273,3 +278,114 @@ def _lines(arm: Data) -> Iterator[str]:
                 if isinstance(angle, int)
                 else f'{name} = {{cos = "{angle[0]}", sin = "{angle[1]}"}}'
             )
+
+
+MILLIMETRES = (-100, -30, -20, -10, 0, 0, 10, 20, 30, 50, 100)
+HEIGHTS = (70, 100, 100, 130, 200)
+
+
+def motions(rng: random.Random) -> Certificate | None:
+    """One or two short curves near the axis and the inner borders."""
+    arm = load_arm(rng.choice(("ev3-120", "shoulder-3r", "shoulder-3r", "cylindrical")))
+    point = _point(rng)
+    curves = {}
+    for k in range(rng.choice((1, 1, 2))):
+        points = [point, *(_point(rng) for _ in range(rng.choice((1, 1, 2))))]
+        curves[str(k)], point = Bezier.of(points), points[-1]
+    try:
+        found = continuous_motions(arm, curves)
+        return None if found is None else motions_certificate(found)
+    except Unable:
+        return None
+
+
+def _point(rng: random.Random) -> tuple[int, int, int]:
+    return rng.choice(MILLIMETRES), rng.choice(MILLIMETRES), rng.choice(HEIGHTS)
+
+
+def other_motions(rng: random.Random, data: Data) -> bool:
+    """Whether the numbers are others than those of the motions that are found."""
+    if not is_stated(data):
+        return True
+    payload: Any = evidence_in(data)
+    curves = {str(k): Bezier.of([tuple(map(Fraction, p)) for p in c]) for k, c in enumerate(payload["curves"])}
+    ends = list(curves.values())
+    if any(a.points[-1] != b.points[0] for a, b in pairwise(ends)):
+        return True
+    try:
+        found = continuous_motions(read_arm(toml_of(payload["arm"])), curves)
+    except QEError:
+        return False
+    if found is None:
+        return False
+    solutions = [len(arcs.labels) for arcs in found.arcs]
+    through = [len(junction.passes) for junction in found.junctions]
+    return bool([payload[key] for key in ("solutions", "through", "motions")] != [solutions, through, found.count])
+
+
+GRID = tuple(Fraction(k, 2) for k in range(-6, 7))
+
+
+def classification(rng: random.Random) -> Certificate | None:
+    """A quadratic or cubic equation in x with one or two parameters, sometimes with a condition."""
+    lead = rng.choice(("x^2", "x^3", "a*x^2"))
+    middle = rng.choice(("a*x", "b*x", "2*x", "-x"))
+    rest = rng.choice(("b", "1", "-a", "a - 1"))
+    positive = [rng.choice(("x", "x - 1", "a + x"))] if lead == "x^2" and rng.random() < 0.3 else []
+    try:
+        found = qe.real_root_classification(
+            [f"{lead} + {middle} + {rest}"], "x", positive=positive, process=False, check=True
+        )
+    except qe.Unable:
+        return None
+    return found.certificate
+
+
+def other_numbers(rng: random.Random, data: Data) -> bool:
+    """Whether at some point another class holds than that with the number of solutions there."""
+    if not is_stated(data):
+        return True
+    payload = evidence_in(data)
+    if payload["constants"] or len(payload["variables"]) != 1 or len(payload["polynomials"]) != 1:
+        return False
+    names, (x,) = payload["parameters"], payload["variables"]
+    ring, outer = Ring.of((*names, x)), Ring.of(names)
+    poly = Entry(payload["polynomials"][0], "").polynomial(ring)
+    sides = {key: [Entry(p, "").polynomial(ring) for p in payload[key]] for key in ("positive", "equal", "nonzero")}
+    classes = [(count, formula_from_json(Entry(f, ""), outer)) for count, f in payload["classes"]]
+    for _ in range(40):
+        point = [rng.choice(GRID) for _ in names]
+        here = dict(zip(names, point, strict=True))
+        if any(_at(p, point) for p in sides["equal"]) or not all(_at(p, point) for p in sides["nonzero"]):
+            continue
+        holding = [count for count, f in classes if holds_at(f, here)]
+        try:
+            if holding != [_count(poly, sides["positive"], point)]:
+                return True
+        except ValueError:
+            continue
+    return False
+
+
+def _at(poly: Poly, point: list[Fraction]) -> Poly:
+    for k, value in enumerate(point):
+        poly = poly.at_rational(k, value)
+    return poly
+
+
+def _count(poly: Poly, positive: list[Poly], point: list[Fraction]) -> int | None:
+    """The number of roots at which the conditions hold; None where every number is one."""
+    line = _at(poly, point)
+    if not line:
+        return None
+    roots = [] if line.is_constant else real_roots(line.to_univariate(len(point)))
+    return sum(all(_value(g, float(root), point) > 0 for g in positive) for root in roots)
+
+
+def _value(poly: Poly, root: float, point: list[Fraction]) -> float:
+    """The value at a root, about. ``ValueError`` where it may be 0."""
+    coefficients = [int(c) for c in _at(poly, point).to_univariate(len(point)).coeffs()]
+    value = sum(c * root**k for k, c in enumerate(coefficients))
+    if abs(value) < 1e-6:
+        raise ValueError("its sign is not clear")
+    return value

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -21,6 +21,13 @@ def evidence_in(whole: Any) -> Any:
     return whole["payload"]["steps"][0]["evidence"]
 
 
+def at(node: Any, path: Sequence[str | int]) -> Any:
+    """What stands at a path."""
+    for key in path:
+        node = node[key]
+    return node
+
+
 def leaves(node: Any, path: Path = ()) -> Iterator[tuple[Path, Any]]:
     """Every string, number, truth value or null with its path."""
     if isinstance(node, dict | list):
@@ -28,6 +35,14 @@ def leaves(node: Any, path: Path = ()) -> Iterator[tuple[Path, Any]]:
             yield from leaves(value, (*path, key))
     else:
         yield path, node
+
+
+def paths(node: Any, path: Path = ()) -> Iterator[Path]:
+    """The path of everything below a node."""
+    if isinstance(node, dict | list):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield (*path, key)
+            yield from paths(value, (*path, key))
 
 
 def lists(node: Any, path: Path = ()) -> Iterator[tuple[Path, list[Any]]]:
@@ -42,20 +57,14 @@ def lists(node: Any, path: Path = ()) -> Iterator[tuple[Path, list[Any]]]:
 def replaced(whole: Any, path: Path, value: Any, *, signed: bool = True) -> str:
     """The certificate's text with another value at ``path``; ``signed``: with the digest of the new content."""
     altered = copy.deepcopy(whole)
-    node = altered
-    for key in path[:-1]:
-        node = node[key]
-    node[path[-1]] = value
+    at(altered, path[:-1])[path[-1]] = value
     return _text(altered, signed)
 
 
 def without(whole: Any, path: Path, index: int, *, signed: bool = True) -> str:
     """The certificate's text without one element of the list at ``path``."""
     altered = copy.deepcopy(whole)
-    node = altered
-    for key in path:
-        node = node[key]
-    del node[index]
+    del at(altered, path)[index]
     return _text(altered, signed)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -20,7 +20,7 @@ from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall, neg
 from qe.formula.evaluate import substituted
-from qe.formula.syntax import TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Quantified, Relation
+from qe.formula.syntax import TRUE, And, Atom, Constant, Exists, Formula, Not, Or, Quantified, Relation
 from qe.formula.traverse import children
 from qe.io.text import read
 from qe.kernel.step import Claim
@@ -28,7 +28,9 @@ from qe.kernel.substitution import mapped
 from qe.kernel.verdict import Verdict
 from qe.proof.certificate import Certificate, written
 from qe.proof.entry import Entry, formula_to_json
+from qe.proof.step import Place
 from qe.proving.elaborators import ELABORATORS
+from tests.attacks.formulas import places, put
 from tests.certificates.derivations import certificate
 from tests.unit.certify.claims import NO_LEMMAS, RING, line, objection
 from tests.unit.proving.elaborated import refused
@@ -40,8 +42,6 @@ ALONE = re.compile(
     SAID.pattern + "|bound twice|may move|new variable|captured there|share a variable|differ in more than"
 )
 """What checkers say that are asked without the door in front of them."""
-
-Place = tuple[int, ...]
 
 
 def verdict(order: tuple[str, ...], start: str, answer: str, *steps: tuple[str, Place, str, str, Any]) -> Verdict:
@@ -244,26 +244,6 @@ def _clashes(formula: Formula, seen: set[str]) -> bool:
     return any(_clashes(child, seen) for child in children(formula))
 
 
-def _places(formula: Formula, path: Place = ()) -> Iterator[tuple[Place, Formula]]:
-    yield path, formula
-    for k, child in enumerate(children(formula)):
-        yield from _places(child, (*path, k))
-
-
-def _put(formula: Formula, path: Place, new: Formula) -> Formula:
-    if not path:
-        return new
-    match formula:
-        case And(args) | Or(args):
-            join = conj if isinstance(formula, And) else disj
-            return join((*args[: path[0]], _put(args[path[0]], path[1:], new), *args[path[0] + 1 :]))
-        case Not(arg):
-            return neg(_put(arg, path[1:], new))
-        case Exists(variables, body) | ForAll(variables, body):
-            return (exists if isinstance(formula, Exists) else forall)(variables, _put(body, path[1:], new))
-    raise AssertionError("no such place")
-
-
 NAMES = Ring.of(("a", "b", "x", "y"))
 
 
@@ -273,9 +253,9 @@ def test_a_step_whose_names_clash_is_refused_whatever_its_rule(rule: str) -> Non
     rng, offered = random.Random(rule), 0
     while offered < 20:
         whole, after = _random(rng, NAMES, 3), _random(rng, NAMES, 2)
-        path, before = rng.choice(list(_places(whole)))
+        path, before = rng.choice(list(places(whole)))
         free = {*before.free, *after.free}
-        changed = _put(whole, path, after)
+        changed = put(whole, path, after)
         clash = any(
             _clashes(f, seen)
             for f, seen in ((whole, set(whole.free)), (before, free), (after, free), (changed, set(changed.free)))
@@ -291,23 +271,6 @@ def test_a_step_whose_names_clash_is_refused_whatever_its_rule(rule: str) -> Non
 def test_blocks_beside_each_other_may_bind_one_name() -> None:
     made = certificate("(ex x. x = a) and (ex x. x = b)")
     assert verify(made).accepted
-
-
-QUESTIONS = [
-    "x > 0 and (ex x. x^3 = a*x + 1 and x > 1)",
-    "ex x. x > a and (ex x. x^2 = b and x < 2)",
-    "all x. x > a or (ex a. a*x > 1)",
-    "x > 0 and (ex x. x < root(2, x^2 - y))",
-    "x > 0 and (ex x. x > 0 and (ex x. x^2 = y and (ex y. y > x)))",
-]
-
-
-@pytest.mark.parametrize("text", QUESTIONS)
-def test_a_question_whose_names_clash_has_a_certificate_with_other_names(text: str) -> None:
-    answer = qe.eliminate(text, check=True, process=False)
-    assert answer.guarantee is qe.Guarantee.CHECKED and answer.certificate is not None
-    assert qe.verify(Certificate.from_json(answer.certificate.to_json()), formula=text).accepted
-    assert answer.derivation.is_complete
 
 
 def test_parts_of_a_question_whose_names_clash_are_certified() -> None:

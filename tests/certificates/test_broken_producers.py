@@ -2,46 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import builtins
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
+from pkgutil import resolve_name
 
 import pytest
+from _pytest.mark import ParameterSet
 
-import qe.rules.block as block
-import qe.rules.cases as cases
-import qe.rules.degree_shift as degree_shift
-import qe.rules.generic as generic
-import qe.rules.linear as linear
-import qe.rules.preparation as preparation
-import qe.rules.scaling as scaling
-import qe.rules.structural as structural
-import qe.rules.translation as translation
-import qe.rules.zeros as zeros
-import qe.simplify.factors as factors
+import qe
+import qe.elimination.vs.infinity_first as infinity_first
+import qe.elimination.witness as witness
+import qe.engine.run as run
+import qe.engine.untangle as untangle
+import qe.formula.counting as counting
+import qe.rules.rotation as rotation
+import qe.rules.symmetry as symmetry
 from qe.api.input import read_formula
+from qe.elimination.critical.method import ConvexUniversal
+from qe.elimination.protocol import Context, Method
+from qe.elimination.rootsigns import theory
 from qe.exact.ring import Ring
-from qe.formula.normal import nnf, rename_apart
-from qe.formula.syntax import FALSE, TRUE, Exists
+from qe.formula.block import Block
+from qe.formula.build import conj
+from qe.formula.normal import rename_apart
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import clashes, conjuncts
+from qe.io.text import read
 from qe.options import Budget, Options
-from qe.proof.derivation import moved
+from qe.proof.derivation import moved, put_together
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.nested import names_within
 from qe.proving.prover import Prover
-from qe.rules import block_context
+from qe.rules import preparation
 from qe.rules.step import StepKind
-from qe.rules.tree import Any
+from qe.simplify.simplify import simplify
+from tests.certificates import broken_producers as broken
+from tests.certificates.broken_producers import Make
+from tests.certificates.elimination_claims import unchecked
+from tests.certificates.test_steps_of_methods import claimed_by_signs, is_proved, produced, step
 
-Patch = Callable[[pytest.MonkeyPatch], None]
-
-
-def unproved(text: str) -> set[str]:
-    """The rules of the steps of a preparation that are not accepted."""
-    log, given = RunLog(), read_formula(text)
-    preparation.prepare(given, log=log)
-    return {step.rule for step in log.steps() if not accepted(step)}
+Judge = Callable[[str], Iterable[str]]
+"""The rules of the steps on the way from a question to its answer that are not accepted."""
 
 
 def accepted(step: Step) -> bool:
@@ -59,133 +64,143 @@ def accepted(step: Step) -> bool:
     return led == after and not prover.unchecked
 
 
-def known_sign(m: pytest.MonkeyPatch) -> None:
-    """Every coefficient counts as positive."""
-    m.setattr(linear, "_sign", lambda lead, position, facts: 1)
+def prepared(text: str) -> set[str]:
+    """Of a preparation by all rules."""
+    log = RunLog()
+    preparation.prepare(read_formula(text), log=log)
+    return {step.rule for step in log.steps() if not accepted(step)}
 
 
-def no_guard(m: pytest.MonkeyPatch) -> None:
-    """The guard of the regular case is left out."""
-    m.setattr(structural, "_nonzero", lambda pivot: TRUE)
+def steps_of(text: str, kind: StepKind) -> list[Step]:
+    """The steps of one rule alone."""
+    log = RunLog()
+    preparation.prepare(read_formula(text), enabled={kind}, log=log)
+    return [step for step in log.steps() if step.rule == kind.value]
 
 
-def no_sign(m: pytest.MonkeyPatch) -> None:
-    """x >= 0 is left out after an even shift of degrees."""
-    m.setattr(degree_shift, "values", lambda variable, k, strict=False: TRUE)
+def alone(kind: StepKind, text: str) -> set[str]:
+    """Of one rule alone, whose steps, if there are any, are all accepted, or none of them."""
+    verdicts = {accepted(step) for step in steps_of(text, kind)}
+    assert len(verdicts) < 2
+    return {kind.value} if False in verdicts else set()
 
 
-def any_exponent(m: pytest.MonkeyPatch) -> None:
-    """Exponents are divided by 2 whatever they are, bare comparisons of x too."""
-    once = iter([2])
-    m.setattr(degree_shift, "common_exponent", lambda body, x, nonnegative=False: next(once, 1))
-    m.setattr(block, "RULES", (block_context.rule(degree_shift.shift_degree, StepKind.DEGREE_SHIFT),))
+def unproved(given: Formula, log: RunLog, answer: Formula) -> set[str]:
+    """The rules of the steps from a formula to an answer for which no evidence is accepted, decompositions apart."""
+    derivation = put_together(given, log.steps(), answer)
+    rings = [f.ring for f in (derivation.start, *(s.before for s in derivation.steps)) if f.ring is not None]
+    ring = Ring.of(dict.fromkeys((*rings[0].names, *names_within(list(derivation.steps)))))
+    prover = Prover(ring, Options(), Budget(), tables=False)
+    prover.whole(derivation, moved(derivation.start, ring), moved(answer, ring))
+    return set(prover.unchecked)
 
 
-def any_weights(m: pytest.MonkeyPatch) -> None:
-    """Polynomials count as homogeneous for equal weights."""
-    m.setattr(scaling, "homogeneous_weights", lambda body, names: dict.fromkeys(body.ring.names[:2], Fraction(1)))
-    m.setattr(block, "RULES", (block_context.rule(scaling.fix_scale, StepKind.SCALING),))
+def by(method: Callable[[], Method], text: str) -> set[str]:
+    """By one method alone."""
+    given, log = read_formula(text), RunLog()
+    problem = Block.of(given)
+    assert problem is not None
+    answer = method().run(problem, Context(Options(), Budget(), log))
+    return set() if answer is None else unproved(given, log, answer.formula)
 
 
-def one_value(m: pytest.MonkeyPatch) -> None:
-    """The values 0 and -1 are left out after scaling."""
-    m.setattr(scaling, "sorted", lambda signs, reverse=False: [1], raising=False)
-    m.setattr(block, "RULES", (block_context.rule(scaling.fix_scale, StepKind.SCALING),))
+def roots(text: str) -> set[str]:
+    """By the rule "roots counted" alone."""
+    given, log = read_formula(text), RunLog()
+    return unproved(given, log, log.step("roots counted", given, counting.without_root_atoms(given)))
 
 
-def any_direction(m: pytest.MonkeyPatch) -> None:
-    """Polynomials count as constant along a direction."""
-    m.setattr(translation, "constant_direction", lambda body, names: dict.fromkeys(sorted(names), Fraction(1)))
-    m.setattr(block, "RULES", (block_context.rule(translation.fix_origin, StepKind.TRANSLATION),))
+def whole(text: str, *, certify: bool = False) -> set[str]:
+    """The whole engine; with ``certify`` it keeps the evidence of tables."""
+    given = read_formula(text)
+    answer = run.solve(given, Options(certify=certify), Budget())
+    return unproved(given, answer.log, answer.formula)
 
 
-def all_open(m: pytest.MonkeyPatch) -> None:
-    """Every condition counts as open."""
-    m.setattr(generic, "is_open", lambda formula, indices: True)
+def by_counts(text: str) -> set[str]:
+    """By the number of solutions, with decompositions."""
+    return set() if is_proved(step(text)) else {"comprehensive Gröbner system"}
 
 
-def fewer_factors(m: pytest.MonkeyPatch) -> None:
-    """One factor of a product is forgotten."""
-    full = cases.eq.factor_choice
-
-    def fewer(equations: object, limit: int) -> object:
-        found = full(equations, limit)  # type: ignore[arg-type]
-        return found and (found[0], found[1][:-1])
-
-    m.setattr(cases.eq, "factor_choice", fewer)
-    m.setattr(block, "RULES", (block_context.rule(cases.split_factors, StepKind.FACTOR_SPLIT),))
-
-
-def other_equations(m: pytest.MonkeyPatch) -> None:
-    """A basis loses an equation."""
-    m.setattr(cases.eq, "better_equations", lambda found, basis, variables: tuple(basis.polys)[:1])
-    m.setattr(block, "RULES", (block_context.rule(cases.groebner_equations, StepKind.GROEBNER),))
+def by_signs(text: str) -> set[str]:
+    """By the signs of minors, with decompositions; what is known of them is forgotten before and after."""
+    before = read(text)
+    caches = (theory.rows, theory.minors, theory.coefficients)
+    try:
+        for cache in caches:
+            cache.cache_clear()
+        return set() if claimed_by_signs(before, produced(before)) else {"roots by signs"}
+    except qe.Unable:  # the rows of signs contradict each other
+        return {"roots by signs"}
+    finally:
+        for cache in caches:
+            cache.cache_clear()
 
 
-def all_apart(m: pytest.MonkeyPatch) -> None:
-    """Conditions that share a variable are quantified apart."""
-    m.setattr(structural, "connected", lambda parts, names: ((), [(frozenset("xy"), (p,)) for p in parts]))
-    m.setattr(block, "RULES", (block_context.rule(structural.independent_parts, StepKind.MINISCOPE),))
-
-
-def no_dual(m: pytest.MonkeyPatch) -> None:
-    """The body of a universal block is not negated."""
-    m.setattr(preparation, "nnf", lambda formula, negate=False: nnf(formula))
-
-
-def wrong_factors(m: pytest.MonkeyPatch) -> None:
-    """A factor of even exponent is dropped where it may be zero."""
-    m.setattr(factors, "_assemble", lambda relation, odd, even, settled: settled(factors.atom(odd, relation)))
-
-
-def one_case(m: pytest.MonkeyPatch) -> None:
-    """The boundary itself is forgotten."""
-    m.setattr(generic, "Any", lambda nodes: Any(nodes[:1]))
-    m.setattr(block, "RULES", (block_context.rule(generic.drop_inequations, StepKind.GENERIC),))
-
-
-def negated(m: pytest.MonkeyPatch) -> None:
-    """A negation gets lost."""
-    m.setattr(preparation, "nnf", lambda formula, negate=False: nnf(formula, negate=not negate))
-
-
-def any_pattern(m: pytest.MonkeyPatch) -> None:
-    """Whatever is zero, some other condition counts as false."""
-    m.setattr(zeros, "truth_under", lambda formula, signs: False)
-
-
-CASES: dict[str, tuple[Patch, str, str]] = {
-    "boundary": (one_case, "ex x. x^2 >= a and b*x /= 1", "boundary apart"),
-    "negation": (negated, "not (ex x. x^3 > a and x < b)", "negation normal form"),
-    "zeros": (any_pattern, "ex x, y. (x /= 0 or y /= 0) and x*y + a = 0", "conditions on zeros that follow"),
-    "sign": (known_sign, "ex x. a*x = b and x > c", "linear equation solved"),
-    "guard": (no_guard, "ex x. a*x = b and x > c", "linear equation solved under a guard"),
-    "no sign": (no_sign, "ex x. x^4 + a < 0 and x^2 + b > 0", "degree shift"),
-    "bare": (any_exponent, "ex x. x^4 + a < 0 and x < 0", "degree shift"),
-    "exponents": (any_exponent, "ex x. x^5 + a < 0 and x^3 > c", "degree shift"),
-    "weights": (any_weights, "ex x, y. x^2 + y > 1 and x*y < 2", "homogeneous scaling"),
-    "values": (one_value, "ex x, y. x^3 + y^3 < 0 and x < y", "homogeneous scaling"),
-    "direction": (any_direction, "ex x, y. x^2 + y^2 < a and x + y > 1", "translation of the origin"),
-    "closed": (all_open, "ex x, y. x + y <= a and x*y >= a^2 and x - y /= a", "inequations that remove no interior"),
-    "factors": (fewer_factors, "ex x. (x - a)*(x + a) = 0 and x > 1", "case split on factors"),
-    "equations": (other_equations, "ex x, y. x^2 + y = a and x*y = 1 and x > y", "Groebner basis of the equations"),
-    "apart": (all_apart, "ex x, y. x*y > a and x + y < 1", "independent parts and miniscoping"),
-    "dual": (no_dual, "all x. x^2 + a > 0", "duality"),
-    "even": (wrong_factors, "ex x. a^2*(x^3 + b) < 0 and x^5 > c", "standard simplification"),
+JUDGES: dict[str, Judge] = {
+    "infinity first": partial(by, infinity_first.InfinityFirst),
+    "witness in the parameters": partial(by, witness.PolynomialWitnesses),
+    "roots counted": roots,
+    "degenerate truth set": partial(by, ConvexUniversal),
+    "constant": whole,
 }
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_the_step_is_not_accepted(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    patch, text, rule = CASES[name]
-    patch(monkeypatch)
-    assert rule in unproved(text)
+def cases() -> Iterator[ParameterSet]:
+    """A judge, the rule that it is to name, a question, and what is replaced."""
+    tables: list[tuple[dict[str, broken.Row], str, Callable[[str], Judge]]] = [
+        (broken.PREPARATION, "", lambda rule: prepared),
+        (broken.ALONE, "", lambda rule: partial(alone, StepKind(rule))),
+        (broken.BLOCKS, "", JUDGES.__getitem__),
+        (broken.SUBSTITUTION, "elimination set", lambda rule: unchecked),
+        (broken.CUBICS, "elimination set", lambda rule: partial(unchecked, highest=3)),
+        (broken.COUNTED, "comprehensive Gröbner system", lambda rule: by_counts),
+        (broken.ROOT_SIGNS, "roots by signs", lambda rule: by_signs),
+    ]
+    for table, common, judge_of in tables:
+        for name, (texts, parts) in table.items():
+            rule = common or name.split(": ")[0]
+            for text in (texts,) if isinstance(texts, str) else texts:
+                yield pytest.param(judge_of(rule), rule, text, parts, id=f"{name}: {text}")
 
 
-def test_with_their_side_conditions_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, (_, text, rule) in CASES.items():
-        if name != "equations":  # a basis is not always a combination that is found
-            assert rule not in unproved(text), name
+@pytest.mark.parametrize(("judge", "rule", "text", "parts"), list(cases()))
+def test_with_its_side_condition_the_step_is_accepted(judge: Judge, rule: str, text: str, parts: object) -> None:
+    assert rule not in judge(text)
+
+
+@pytest.mark.parametrize(("judge", "rule", "text", "parts"), list(cases()))
+def test_the_step_is_not_accepted(
+    judge: Judge, rule: str, text: str, parts: dict[str, Make], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for place, make in parts.items():
+        owner, _, name = place.rpartition(".")
+        real = getattr(resolve_name(owner), name, getattr(builtins, name, None))
+        monkeypatch.setattr(place, make(real), raising=not hasattr(builtins, name))
+    assert rule in judge(text)
+
+
+RIGHT = [
+    ("infinity first", "ex x. a*x^3 + b*x + c < 0"),
+    ("infinity first", "all x. a*x^5 + b*x^2 + c > 0 or x = d"),
+    ("witness in the parameters", "all a, b. ex x. 4*(x - a)^2 <= (a - b)^2 and 4*(x - b)^2 <= (a - b)^2"),
+    ("degenerate truth set", "all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1"),
+    ("degenerate truth set", "all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4"),
+    *(
+        ("roots counted", f"ex a. not x {relation} root({k}, x^{3 if relation == '<=' else 2} - a*x + y) or a = 1")
+        for relation in ("=", "/=", "<", "<=", ">", ">=")
+        for k in (1, 2, -1, -2)
+    ),
+]
+
+
+@pytest.mark.parametrize(("rule", "text"), RIGHT)
+def test_other_steps_are_accepted(rule: str, text: str) -> None:
+    assert not JUDGES[rule](text)
+
+
+def test_a_constant_is_accepted_with_its_table() -> None:
+    assert not whole("a^2 + b^2 < 1 and a*b > 1", certify=True)
 
 
 def test_a_coefficient_that_conjuncts_with_the_variable_keep_from_zero() -> None:
@@ -226,3 +241,89 @@ def test_a_name_that_captures() -> None:
     assert accepted(Step("renaming", given, right))
     wrong = read_formula("(ex a. a > a + 0*x) and (ex x. x < b)")
     assert not accepted(Step("renaming", given, wrong if wrong.ring else FALSE))
+
+
+@pytest.mark.parametrize("careless", [False, True])
+def test_signs_of_variables_that_move(careless: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second turn moves x, whose sign the first one has chosen; it chooses that of u."""
+    one = Fraction(1)
+    first = rotation.Turn("x", "y", frozenset("xyuv"), (("x", "y", one), ("u", "v", one)))
+    second = rotation.Turn("u", "w", frozenset("xzuw"), (("x", "z", one), ("u", "w", one)))
+    turns = iter([first, replace(second, moved=frozenset()) if careless else second])
+    monkeypatch.setattr(symmetry, "invariant_plane", lambda *_: next(turns, None))
+    dot = "ex x, y, z, u, v, w. x^2 + y^2 + z^2 = a and u^2 + v^2 + w^2 = b and x*u + y*v + z*w > c"
+    (step,) = steps_of(dot, StepKind.ROTATION)
+    assert accepted(step) is not careless
+
+
+def made_by_hand(kind: StepKind, before: str, after: str, proof: dict[str, object]) -> bool:
+    """Whether a step made by hand is accepted."""
+    given = read_formula(before)
+    assert given.ring is not None
+    return accepted(Step(kind.value, given, moved(read_formula(after), given.ring), evidence={"proof": proof}))
+
+
+def turned(zero: str, half: str, *pairs: str) -> dict[str, object]:
+    """The evidence of one turn that joins these pairs of variables with the number 1."""
+    return {"turns": [{"zero": zero, "half": half, "plane": [(a, b, Fraction(1)) for a, b in map(tuple, pairs)]}]}
+
+
+def test_variables_of_different_quantifiers() -> None:
+    """All polynomials are constant along the rotations, but the inner variable cannot be chosen with the outer one."""
+    lengths = "ex x. all y. x^2 + y^2 > a or x^2 + y^2 < b"
+    assert not made_by_hand(StepKind.ROTATION, lengths, "ex x. x >= 0 and (x^2 > a or x^2 < b)", turned("y", "x", "xy"))
+    inside, after = "ex u, v, x. (all y. u*x + v*y > a)", "ex u, x. u >= 0 and (all y. u*x > a)"
+    assert not made_by_hand(StepKind.ROTATION, inside, after, turned("v", "u", "uv", "xy"))
+    together, after = "ex u, v, x, y. u*x + v*y > a", "ex u, x, y. u >= 0 and u*x > a"
+    assert made_by_hand(StepKind.ROTATION, together, after, turned("v", "u", "uv", "xy"))
+
+
+def test_an_equation_that_is_not_constant() -> None:
+    """Equations side by side count by the sum of their squares, which one of them alone does not keep constant."""
+    for left, right in (("x - y = 0 and x + y = 0", "x = 0"), ("x - y = 0", "x = 0")):
+        before, after = f"ex x, y. {left} and x^2 + y^2 > b", f"ex x. x >= 0 and {right} and x^2 > b"
+        assert made_by_hand(StepKind.ROTATION, before, after, turned("y", "x", "xy")) is ("and" in left)
+
+
+def test_one_name_bound_twice_or_free_and_bound() -> None:
+    body, turn = "u^2 + v^2 < a and (ex x, y. x^2 + y^2 > b) and (ex {}. {}^2 + {}^2 > b)", turned("v", "u", "uv")
+    half = body.replace("u^2 + v^2", "u^2")
+    for names, right in (("z", "w"), True), (("y", "z"), False), (("a", "z"), False):
+        inner = [", ".join(names), names[0], names[1]]
+        before, after = f"ex u, v. {body.format(*inner)}", f"ex u. u >= 0 and {half.format(*inner)}"
+        assert made_by_hand(StepKind.ROTATION, before, after, turn) is right, names
+
+
+def test_a_variable_of_two_conjuncts_takes_no_value() -> None:
+    met: dict[str, object] = {"variable": "x"}
+    assert made_by_hand(StepKind.TAKES_VALUE, "ex x. x^3 + x = a and b > 0", "b > 0", met)
+    assert not made_by_hand(StepKind.TAKES_VALUE, "ex x. x^3 + x = a and b > 0 and x > b", "b > 0", met)
+    assert not made_by_hand(StepKind.TAKES_VALUE, "ex x. (x^3 + x = a or x > b) and b > 0", "b > 0", met)
+
+
+def test_equations_of_which_one_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
+    given = read_formula("a - b = 0 and (a + b /= 0 or c = 0)")
+    assert accepted(untangling(given))
+    monkeypatch.setattr(untangle, "simplify", lambda formula, **_: conj(simplify(formula).args[:1]))  # type: ignore[attr-defined]
+    assert not accepted(untangling(given))
+
+
+def untangling(given: Formula) -> Step:
+    """The step of the rule that takes the equations of an answer apart."""
+    log = RunLog()
+    untangle.untangled(given, Context(Options(), Budget(20), log))
+    (step,) = log.steps()
+    assert step.rule == "equations taken apart"
+    return step
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("ex x. x > u and (ex u. u > x)", StepKind.TRANSLATION),
+        ("ex x, y. x^2 > u*y and (ex u. u^2 > x*y and u > 0)", StepKind.SCALING),
+        ("ex x, y. x^2 + y^2 < 2 and x*u - y*v > 1 and (all u, v. x*u > y*v + 1)", StepKind.ROTATION),
+    ],
+)
+def test_a_free_name_that_is_bound_elsewhere_is_not_moved(text: str, kind: StepKind) -> None:
+    assert not steps_of(text, kind)

@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import qe
 from qe.api.input import read_formula
 from qe.certify.registry import RULES
 from qe.elimination.cad import certificate_for
@@ -32,6 +31,7 @@ from qe.proof.derivation import moved
 from qe.proof.entry import Entry, Json
 from qe.proof.run_log import RunLog
 from qe.proving import critical as critical_proof
+from tests.certificates.mutation import at
 from tests.certificates.producing import table_in
 
 DISC = "ex x, y. (x - a)^2 + (y - b)^2 <= 1 and x^2 + y^2 <= 4"
@@ -85,13 +85,6 @@ def test_convex_answers_in_three_parameters() -> None:
     before = block("ex x. (x - a)^2 <= 1 and x^2 <= 4 and b^2 + c^2 <= 1")
     after = read_formula("a <= 3 and a >= -3 and b^2 + c^2 <= 1")
     check(before, after, made(before, after, ("a", "b", "c")))
-
-
-def test_the_whole_answer_is_a_derivation() -> None:
-    answer = qe.eliminate(ELLIPSE, check=True, timeout=120)
-    assert answer.unchecked_steps == ()
-    assert answer.certificate is not None
-    assert qe.verify(qe.Certificate.from_json(answer.certificate.to_json()), formula=ELLIPSE).accepted
 
 
 @settings(max_examples=6, deadline=None, derandomize=True)
@@ -226,13 +219,6 @@ def test_factors_and_samples(text: str) -> None:
                 refused(text, lambda e, p=path, j=j: at(e, p).pop(j))  # type: ignore[misc]
                 refused(text, lambda e, p=path, j=j, b=beside: at(e, p)[j].__setitem__(0, b), "ascend")  # type: ignore[misc]
             refused(text, lambda e, p=path, j=j: at(e, p).insert(j, at(e, p)[j]), "ascend")  # type: ignore[misc]
-
-
-def at(node: Any, path: tuple[Any, ...]) -> Any:
-    """What stands at a path."""
-    for key in path:
-        node = node[key]
-    return node
 
 
 @pytest.mark.parametrize("text", [DISC, *LONG])

@@ -4,21 +4,27 @@ from __future__ import annotations
 
 import copy
 import json
+import pathlib
 import re
 from collections.abc import Callable, Collection, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 import qe
+from qe.api.input import read_formula
 from qe.certify.registry import RULES
 from qe.certify.verify import verify, verify_json
 from qe.exact.ring import Ring
+from qe.formula.syntax import TRUE
 from qe.kernel.verdict import Verdict
 from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import Entry, formula_from_json
+from qe.proof.step import Nested, Step
+from qe.proving.nested import names_within
 from tests.certificates.derivations import CASES, certificate, data, rules
+from tests.certificates.mutation import Path, at, leaves, lists, replaced, without
+from tests.tables import each
 
 QUICK = {
     "sign",
@@ -56,6 +62,17 @@ def at_every_step(first: int = 0, without: Collection[str] = ()) -> Callable[[Bo
     return made
 
 
+def evidence_altered(
+    whole: dict[str, Any], k: int, every: int = 1, passed: Callable[[Path], bool] = lambda path: "samples" in path
+) -> None:
+    """Every entry of the evidence of a step, or some of them, with other values: refused there."""
+    place: Path = ("payload", "steps", k, "evidence")
+    listed = [entry for entry in leaves(whole["payload"]["steps"][k]["evidence"]) if not passed(entry[0])]
+    for path, value in listed[::every]:
+        for other in others(value):
+            refused(verify_json(replaced(whole, (*place, *path), other)), k)
+
+
 RELATIONS = ("=", "/=", "<", "<=", ">", ">=")
 LARGE = {"guarded", "shorter", "constant", "basis", "nowhere", "chords"}
 """Cases with long cell tables, whose alterations the tests of tables make."""
@@ -82,9 +99,9 @@ ELSEWHERE = {
     "critical values": "certificates/test_critical_values",
     "covering": "certificates/test_covering",
     "multipliers": "certificates/test_optimum",
-    "instance": "certificates/test_witness",
+    "instance": "certificates/test_witnesses_and_equations",
     "solutions": "certificates/test_solutions",
-    "classification": "certificates/test_classification",
+    "classification": "certificates/test_solutions",
     "parts": "unit/kernel/test_parts",
 }
 """Rules whose evidence is altered in a file of its own."""
@@ -96,7 +113,7 @@ OTHERWISE = {"cells", "critical values", "shorter", "steps", "virtual substituti
 def test_every_rule_is_in_a_case_that_is_altered() -> None:
     assert {rule for text in CASES.values() for rule in rules(text)} | set(ELSEWHERE) == set(RULES)
     for name in ELSEWHERE.values():
-        assert (Path(__file__).parents[1] / f"{name}.py").exists()
+        assert (pathlib.Path(__file__).parents[1] / f"{name}.py").exists()
 
 
 def test_as_it_stands_it_is_accepted() -> None:
@@ -152,15 +169,10 @@ def test_another_formula_before_or_after(whole: dict[str, Any], k: int) -> None:
             for relation in RELATIONS:
                 changed = at(whole["payload"]["steps"][k][field], path)
                 if changed[2] != relation:
-
-                    def change(p: dict[str, Any], field: str = field, path: Any = path, new: str = relation) -> None:
-                        at(p["steps"][k][field], path)[2] = new
-
-                    verdict = altered(whole, change)
+                    text = replaced(whole, ("payload", "steps", k, field, *path, 2), relation)
+                    verdict = verify_json(text)
                     if verdict.accepted:  # a part that does not matter, as one disjunct is true
-                        other = copy.deepcopy(whole)
-                        change(other["payload"])
-                        assert is_right(other["payload"], k), (field, path, relation)
+                        assert is_right(json.loads(text)["payload"], k), (field, path, relation)
                     else:
                         refused(verdict, k)
 
@@ -188,24 +200,16 @@ def test_every_entry_of_the_evidence(whole: dict[str, Any], k: int) -> None:
     step = whole["payload"]["steps"][k]
     if step["rule"] in OTHERWISE:
         return  # evidence with tests of its own
-    for path, value in entries(step["evidence"]):
-        if "samples" in path or (path[0] == "weights" and len(step["evidence"]["weights"]) == 1):
-            continue  # other samples between the same roots are as good, and weights with other signs
-        for other in others(value):
-
-            def change(payload: dict[str, Any], path: Any = path, other: object = other) -> None:
-                at(payload["steps"][k]["evidence"], path[:-1])[path[-1]] = other
-
-            refused(altered(whole, change), k)
-    for path, value in lists(step["evidence"]):
+    evidence_altered(
+        whole,
+        k,
+        # other samples between the same roots are as good, and weights with other signs
+        passed=lambda path: "samples" in path or (path[0] == "weights" and len(step["evidence"]["weights"]) == 1),
+    )
+    for path, value in lists(step["evidence"], ("payload", "steps", k, "evidence")):
         for index in range(len(value)):
-            if path[-1] in ("samples", "line"):  # a shorter list may do
-                continue
-
-            def drop(payload: dict[str, Any], path: Any = path, index: int = index) -> None:
-                del at(payload["steps"][k]["evidence"], path)[index]
-
-            refused(altered(whole, drop), k)
+            if path[-1] not in ("samples", "line"):  # a shorter list may do
+                refused(verify_json(without(whole, path, index)), k)
 
 
 @pytest.mark.parametrize("text", ["all x. x^2 > 1", "all x, y, z, u, v. x^2 + y^2 + z^2 + u^2 + v^2 > -1"])
@@ -215,13 +219,38 @@ def test_universal_sentences_by_a_point_or_multipliers(text: str) -> None:
     whole = json.loads(made.to_json())
     (step,) = whole["payload"]["steps"]
     assert step["rule"] in ("instance", "multipliers")
-    for path, value in entries(step["evidence"]):
-        for other in others(value):
+    evidence_altered(whole, 0, passed=lambda path: False)
 
-            def change(payload: dict[str, Any], path: Any = path, other: object = other) -> None:
-                at(payload["steps"][0]["evidence"], path[:-1])[path[-1]] = other
 
-            refused(altered(whole, change), 0)
+THIN = ("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4", "all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1")
+
+
+@pytest.mark.parametrize("text", THIN)
+def test_every_entry_of_the_evidence_of_a_thin_set(text: str) -> None:
+    made = data(text)
+    k = next(k for k, step in enumerate(made["payload"]["steps"]) if "no exception" in json.dumps(step))
+    inner = made["payload"]["steps"][k]["evidence"]["steps"]
+    for j, step in enumerate(inner):
+        for name in ("before", "after", "evidence"):
+            for other in (None, "x", 3, [], True, ["x", "x + y"]):
+                if other != step[name]:
+                    place = ("payload", "steps", k, "evidence", "steps", j, name)
+                    refused(verify_json(replaced(made, place, other)), k)
+
+
+@each(24, pytest.param(4, marks=pytest.mark.deep))
+def test_steps_inside_the_evidence(step: int) -> None:
+    """Steps from infinity, and from what remains, may not be altered either."""
+    made = data(CASES["infinity"])
+    k = next(k for k, step in enumerate(made["payload"]["steps"]) if step["rule"] == "steps")
+    evidence_altered(made, k, every=step)
+
+
+def test_names_inside_the_evidence() -> None:
+    """Variables that occur in nested derivations alone belong to the ring too."""
+    given = read_formula("ex x. a*x^3 + b*x + c < 0")
+    inner = Nested(given, (Step("renaming", given, read_formula("ex t. a*t^3 + b*t + c < 0")),), TRUE)
+    assert set(names_within({"proof": [inner]})) == {"a", "b", "c", "x", "t"}
 
 
 def test_an_empty_bundle_proves_nothing() -> None:
@@ -237,13 +266,6 @@ def test_a_rule_without_a_checker_proves_nothing() -> None:
     assert "witchcraft" in verdict.reason
 
 
-def at(node: Any, path: tuple[Any, ...]) -> Any:
-    """What stands at a path of JSON data."""
-    for key in path:
-        node = node[key]
-    return node
-
-
 def atoms(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
     """The places of atoms in a formula."""
     if isinstance(node, list):
@@ -251,24 +273,6 @@ def atoms(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
             yield path
         for k, part in enumerate(node):
             yield from atoms(part, (*path, k))
-
-
-def entries(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    """The places of numbers and texts."""
-    if isinstance(node, dict | list):
-        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
-            yield from entries(value, (*path, key))
-    else:
-        yield path, node
-
-
-def lists(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], list[Any]]]:
-    """The places of lists."""
-    if isinstance(node, list):
-        yield path, node
-    if isinstance(node, dict | list):
-        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
-            yield from lists(value, (*path, key))
 
 
 def others(value: Any) -> Iterator[Any]:

@@ -1,10 +1,11 @@
-"""No certificate of a false claim is accepted: claims of every kind, made at random (``false_claims``)."""
+"""No certificate of a false claim is accepted: claims of every kind, made at random, and altered derivations."""
 
 from __future__ import annotations
 
 import json
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from copy import deepcopy
 
 import pytest
 
@@ -12,18 +13,23 @@ from qe.certify.verify import verify
 from qe.errors import QEError
 from qe.options import Budget
 from qe.proof.certificate import Certificate
+from tests.certificates.altered_derivations import ALTERATIONS, altered_derivation
+from tests.certificates.derivations import CASES, data
 from tests.certificates.false_claims import KINDS as OLDER
-from tests.certificates.false_claims import Data, other_claim, text_of
+from tests.certificates.false_claims import Data, derivation, derivation_by_a_rule, not_equivalent, other_claim, text_of
 from tests.certificates.false_claims_of_arms import (
     branch,
+    classification,
     inverse,
     leaves_the_branch,
+    motions,
+    other_motions,
+    other_numbers,
     other_positions,
     other_solutions,
     solutions,
 )
-from tests.certificates.false_claims_of_classifications import classification, other_numbers
-from tests.certificates.false_claims_of_motions import motions, other_motions
+from tests.certificates.mutation import lists, replaced
 
 KINDS = {
     **OLDER,
@@ -68,10 +74,10 @@ def false_claims(kind: str, seed: int, wanted: int) -> Iterator[str]:
     """Certificates of false claims, signed."""
     rng, found = random.Random(seed), 0
     is_false = KINDS[kind][1]
-    for data in true_certificates(rng, kind):
-        assert not is_false(rng, data), "the claim of a certificate as it is made seems to be false"
+    for whole in true_certificates(rng, kind):
+        assert not is_false(rng, whole), "the claim of a certificate as it is made seems to be false"
         for _ in range(TRIES):
-            other = other_claim(rng, data)
+            other = other_claim(rng, whole)
             if _is_false(rng, kind, other):
                 yield text_of(other)
                 found += 1
@@ -116,3 +122,59 @@ def test_false_claims_are_refused(kind: str) -> None:
 def test_many_false_claims_are_refused(kind: str, part: int) -> None:
     wanted = DEEP[kind] // PARTS
     assert search(kind, 1000 + part, wanted) == wanted
+
+
+TRIES_OF_DERIVATIONS = 25
+"""Alterations of one derivation."""
+
+
+def search_of_derivations(seed: int, wanted: int) -> tuple[int, int]:
+    """How many were offered, and how many of them accepted; fails at the first whose claim is seen to be false."""
+    rng, offered, count = random.Random(seed), 0, 0
+    while offered < wanted:
+        given = one(rng)
+        for _ in range(TRIES_OF_DERIVATIONS if given is not None else 0):
+            made = altered_derivation(rng, given or {})
+            if made is None:
+                continue
+            offered += 1
+            if accepted(text_of(made)):
+                count += 1
+                assert not not_equivalent(rng, made), text_of(made)
+    return offered, count
+
+
+def one(rng: random.Random) -> Data | None:
+    """A derivation of the list that has all rules, or one of a random question."""
+    if rng.random() < 0.5:
+        return data(rng.choice(list(CASES.values())))
+    found = rng.choice((derivation, derivation_by_a_rule))(rng)
+    return None if found is None else json.loads(found.to_json())
+
+
+def test_what_is_accepted_is_true() -> None:
+    offered, count = search_of_derivations(seed=1, wanted=60)
+    assert offered >= 60 and count
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("part", range(4))
+def test_much_that_is_accepted_is_true(part: int) -> None:
+    assert search_of_derivations(seed=100 + part, wanted=1500)[1]
+
+
+@pytest.mark.parametrize("alteration", ALTERATIONS, ids=lambda alteration: alteration.__name__)
+def test_every_alteration_changes_something(alteration: Callable[[random.Random, Data], None]) -> None:
+    given, rng = data(CASES["guarded"]), random.Random(3)
+    made = [deepcopy(given) for _ in range(8)]
+    for copy in made:
+        alteration(rng, copy)
+    assert any(copy != given for copy in made)
+
+
+@pytest.mark.parametrize("name", ["guard", "turned", pytest.param("exchanged", marks=pytest.mark.deep)])
+def test_an_emptied_list_is_no_internal_error(name: str) -> None:
+    """``solved`` without an equation was one, for "linear equation solved under a guard"."""
+    given = data(CASES[name])
+    for path, _ in lists(given["payload"]):
+        accepted(replaced(given, ("payload", *path), []))

@@ -27,16 +27,13 @@ from tests.attacks.rules import RULES as QUESTIONS
 from tests.certificates import (
     false_claims,
     false_claims_of_arms,
-    false_claims_of_classifications,
-    false_claims_of_motions,
 )
 from tests.certificates.altered_derivations import steps
 from tests.certificates.derivations import CASES, data
 from tests.certificates.false_claims import Data, text_of
+from tests.certificates.mutation import Path, at, paths
 from tests.unit.certify.claims import step
 from tests.unit.kernel import test_parts
-
-Path = tuple[str | int, ...]
 
 NEEDED = (
     *("squares known", "turned inside", "taken apart", "inequations", "nowhere", "translated", "sphere"),
@@ -78,9 +75,9 @@ def of_one_step() -> Iterator[Data]:
     """Derivations by rules that say what their evidence shows."""
     makers = (false_claims.cells, false_claims.substitution, false_claims.witness, false_claims.optimum)
     of_curves = (false_claims.containment, false_claims.clearance)
-    yield from map(first, (*makers, *of_curves, false_claims_of_classifications.classification))
+    yield from map(first, (*makers, *of_curves, false_claims_of_arms.classification))
     of_arms = (false_claims_of_arms.solutions, false_claims_of_arms.branch, false_claims_of_arms.inverse)
-    yield from map(first, (*of_arms, false_claims_of_motions.motions))
+    yield from map(first, (*of_arms, false_claims_of_arms.motions))
     yield from test_parts.data("all x. x^4 + a*x + 1 > 0", 25)["certificates"]
 
 
@@ -115,14 +112,6 @@ def alone(order: list[str], made: Data) -> Data:
 
 
 # --- other entries -----------------------------------------------------------------------------------------
-def paths(node: Any, path: Path = ()) -> Iterator[Path]:
-    if path:
-        yield path
-    inner = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
-    for key, value in inner:
-        yield from paths(value, (*path, key))
-
-
 def value(rng: random.Random, names: list[str]) -> Any:
     """Something that an entry may be, but seldom should."""
     v, w = rng.choice(names), rng.choice(names)
@@ -153,25 +142,20 @@ def quantified(rng: random.Random, names: list[str], formula: Any) -> Any:
 def altered(rng: random.Random, given: Data, root: Path) -> Data:
     """The data with one entry below ``root`` changed."""
     made = deepcopy(given)
-    top: Any = made
-    for key in root:
-        top = top[key]
+    top = at(made, root)
     listed = list(paths(top))
     if not listed:
         return made
     path, names = rng.choice(listed), made["payload"].get("order") if isinstance(made.get("payload"), dict) else None
     known = names if isinstance(names, list) and names and all(isinstance(n, str) for n in names) else ["x", "y"]
-    node: Any = top
-    for key in path[:-1]:
-        node = node[key]
+    node = at(top, path[:-1])
     old, shape = node[path[-1]], rng.random()
     if shape < 0.15:
         del node[path[-1]]
     elif shape < 0.3 and isinstance(old, list) and old:
         node[path[-1]] = rng.choice((old[:1], old * 2, old[::-1], [], old[1:]))
     elif shape < 0.4:
-        other = functools.reduce(lambda part, key: part[key], rng.choice(listed), top)
-        node[path[-1]] = deepcopy(other)
+        node[path[-1]] = deepcopy(at(top, rng.choice(listed)))
     else:
         node[path[-1]] = value(rng, known)
     return made

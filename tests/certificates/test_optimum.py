@@ -1,4 +1,4 @@
-"""Certificates of optima: accepted as made, rejected when any number in them is altered.
+"""Certificates of optima: accepted as made, rejected when any number in them is altered, or when they are forged.
 
 Every leaf is altered twice: with the digest as it was (always rejected) and with a fresh digest, so that only the
 meaning can reject it. What then survives has to be a true certificate about the altered problem, which is solved anew.
@@ -7,17 +7,20 @@ meaning can reject it. What then survives has to be a true certificate about the
 from __future__ import annotations
 
 import json
+import random
 from fractions import Fraction
 from typing import Any
 
 import pytest
 
+import qe
 from qe.certify.verify import verify, verify_json
 from qe.convex.optimum import Optimum, minimize
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Relation
-from tests.certificates.mutation import EVIDENCE, evidence_in, leaves, replaced, without
+from tests.certificates.false_claims import KINDS
+from tests.certificates.mutation import EVIDENCE, PLACE, evidence_in, leaves, replaced, without
 from tests.optimum_problems import at_most_zero, cubic, quadratic
 
 RING = Ring.of(("x", "y", "z", "v"))
@@ -99,7 +102,7 @@ def test_every_altered_meaning_is_rejected_whatever_the_digest_says(whole: Any) 
 
 
 def _accepted_only_if_true(whole: Any, ways: int) -> None:
-    survivors = 0
+    survivors, rng = 0, random.Random(0)
     for place, (path, value) in enumerate(leaves(evidence_in(whole))):
         others = _alterations(value)
         first = place % len(others)
@@ -107,7 +110,7 @@ def _accepted_only_if_true(whole: Any, ways: int) -> None:
             text = replaced(whole, (*EVIDENCE, *path), other)
             if verify_json(text).accepted:
                 survivors += 1
-                assert _still_true(path, evidence_in(json.loads(text))), (path, value, other)
+                assert not KINDS["optimum"][1](rng, json.loads(text)), (path, value, other)
     assert survivors < 60
 
 
@@ -121,55 +124,6 @@ def test_every_entry_left_out_is_rejected(whole: Any) -> None:
     for name in ("point", "multipliers", "values", "derived"):
         for i in range(len(payload.get(name, []))):
             assert not verify_json(without(whole, (*EVIDENCE, name), i)).accepted, (name, i)
-
-
-def _still_true(path: tuple[Any, ...], payload: Any) -> bool:
-    """Whether an accepted alteration left a true statement: a name, an isolating interval, an equally good choice of
-    data (another feasible point or direction), or a changed problem that has the same answer."""
-    if path[0] == "problem" and path[1] == "variables":
-        return True
-    if path[:2] == ("field", "interval") or path[:3] == ("inner", "field", "interval"):
-        return True
-    if path[0] == "inner" or (payload["status"] == "unbounded" and path[0] in ("point", "direction")):
-        return True
-    if payload["status"] == "infeasible" and path[0] == "point":
-        return True  # the contradiction seen from another point
-    if path[0] == "faces" and path[2] == "point":
-        return True  # a coordinate that the weighted sum of the face does not contain
-    if path == ("unique",):
-        return payload["unique"] is False  # the weaker claim
-    if path[0] != "problem":
-        return False
-    found = _solve_again(payload["problem"])
-    if found.evidence.status.value != payload["status"]:
-        return False
-    if payload["status"] != "optimal":
-        return True
-    return [str(c) for c in _coefficients(found.value)] == payload["value"]
-
-
-def _coefficients(value: Any) -> list[Fraction]:
-    if isinstance(value, Fraction):
-        return [value]
-    found = list(value.coefficients)
-    while len(found) > 1 and not found[-1]:
-        found.pop()
-    return found
-
-
-def _solve_again(problem: Any) -> Optimum:
-    ring = Ring.of(tuple(problem["variables"]))
-
-    def poly(terms: Any) -> tuple[Any, int]:
-        scale = 1
-        for c, _ in terms:
-            scale *= Fraction(c).denominator
-        return ring.from_terms({tuple(e): int(Fraction(c) * scale) for c, e in terms}), scale
-
-    objective, scale = poly(problem["minimise"])
-    relations = {"<=": Relation.LE, "<": Relation.LT, "=": Relation.EQ}
-    parts = [atom(poly(c["terms"])[0], relations[c["relation"]]) for c in problem["constraints"]]
-    return minimize(objective, conj(parts), scale=Fraction(1, scale))
 
 
 def test_digest_of_a_certificate_in_memory_is_not_needed() -> None:
@@ -195,3 +149,83 @@ def test_field_of_a_certificate(p: list[str], interval: list[str], accepted: boo
     whole = json.loads(minimize(X * X - 2 * X, conj((atom(X, Relation.GE),))).certificate.to_json())
     field = {"minimal_polynomial": p, "interval": interval}
     assert verify_json(replaced(whole, (*EVIDENCE, "field"), field)).accepted is accepted
+
+
+Link = dict[str, list[list[str]]]
+
+
+def numbers(*values: int) -> list[list[str]]:
+    return [[str(v)] for v in values]
+
+
+def link(weights: list[list[str]], equations: int) -> Link:
+    """Weights of the constraints, and zeros for the equations known by then."""
+    return {"weights": weights, "derived": numbers(*[0] * equations)}
+
+
+def forged(constraints: str, links: list[Link] | None) -> Any:
+    """The least x, which is 0 and attained, turned into the claim that it is not: seen from the origin."""
+    found = qe.minimize("x", constraints)
+    assert found.value == 0 and found.attained
+    whole = json.loads(found.certificate.to_json())
+    payload = evidence_in(whole)
+    problem = payload["problem"]["constraints"]
+    payload["values"] = [next(([c] for c, exponents in p["terms"] if not any(exponents)), ["0"]) for p in problem]
+    payload["inner"] = {"field": payload["field"], "point": payload["point"]}
+    payload |= {"point": numbers(0, 0), "attained": False, "unique": False}
+    if links is not None:
+        payload["links"] = links
+    return verify_json(replaced(whole, EVIDENCE, payload))
+
+
+KNOWN = 3 + 3
+"""Equations of the objective and of the one constraint with a multiplier: n + 1 each in n = 2 variables."""
+
+
+@pytest.mark.parametrize(
+    ("constraints", "links", "step"),
+    [
+        ("x >= 0 and y > 0 and y < 1", None, f"{PLACE}.links"),
+        ("x >= 0 and y > 0 and y < 1", [], f"{PLACE}.links"),
+        # -y + (y - 1) has no slope, but is negative, as the second condition is not active
+        ("x >= 0 and y > 0 and y < 1", [link(numbers(0, 1, 1), KNOWN)], f"{PLACE}.links[0].weights"),
+        # 2*(-y) + (2*y) with a negative weight for 2*y >= 0
+        (
+            "x >= 0 and y > 0 and y < 1 and x + 2*y >= 0",
+            [link(numbers(1, 2, 0, -1), KNOWN)],
+            f"{PLACE}.links[0].weights[3]",
+        ),
+        ("x >= 0 and y > 0 and y < 1", [link(numbers(0, 1, 0), KNOWN)], f"{PLACE}.links[0]"),
+        ("x >= 0 and y > 0 and y < 1", [link(numbers(0, 0, 0), KNOWN)], f"{PLACE}.links[0]"),
+        ("x >= 0 and y > 0 and y < 1", [link(numbers(0, 1, 0), KNOWN - 1)], f"{PLACE}.links[0].derived"),
+    ],
+)
+def test_a_forged_proof_that_an_optimum_is_not_attained_is_rejected(
+    constraints: str, links: list[Link] | None, step: str
+) -> None:
+    verdict = forged(constraints, links)
+    assert not verdict.accepted and verdict.step.startswith(step), verdict
+
+
+def test_links_where_none_are_needed_are_rejected() -> None:
+    for objective, constraints in (("x", "x > 0"), ("x", "x >= 0"), ("x", "x <= 0")):
+        whole = json.loads(qe.minimize(objective, constraints).certificate.to_json())
+        payload = {**evidence_in(whole), "links": [link(numbers(1), 2)]}
+        assert not verify_json(replaced(whole, EVIDENCE, payload)).accepted
+
+
+def test_the_last_link_has_to_exclude_a_strict_condition() -> None:
+    whole = json.loads(qe.minimize("x", "x >= y^2 and x >= z^2 and y > z").certificate.to_json())
+    links = evidence_in(whole)["links"]
+    assert len(links) == 2 and verify_json(json.dumps(whole)).accepted
+    verdict = verify_json(replaced(whole, (*EVIDENCE, "links"), links[:1]))
+    assert not verdict.accepted and verdict.step == f"{PLACE}.links"
+    verdict = verify_json(replaced(whole, (*EVIDENCE, "links"), links[1:]))
+    assert not verdict.accepted
+
+
+@pytest.mark.parametrize("status", [[], ["optimal"], {}, {"optimal": 1}, None, True, 1, "", "Optimal"])
+def test_a_status_of_another_type_is_refused_and_breaks_nothing(status: Any) -> None:
+    whole = json.loads(qe.minimize("x", "x >= 0").certificate.to_json())
+    verdict = verify_json(replaced(whole, (*EVIDENCE, "status"), status))
+    assert not verdict.accepted and verdict.step == f"{PLACE}.status"

@@ -10,7 +10,7 @@ import pytest
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 SESSIONS = re.compile(r"```pycon\n(.*?)```", re.DOTALL)
-OWN_TEST = {"extending.md"}  # its sessions need the files that the page adds: tests/cli/test_extending.py
+OWN_TEST = {"extending.md"}  # its sessions need the files that the page adds: tests/cli/test_extras.py
 PAGES = sorted({page.name for page in DOCS.glob("*.md") if SESSIONS.search(page.read_text())} - OWN_TEST)
 
 

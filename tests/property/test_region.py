@@ -22,7 +22,7 @@ from qe.regions.convex_region import ConvexRegion
 from qe.regions.region import Region
 from tests.enough import enough
 from tests.optimum_problems import at_most_zero, cubic, norm
-from tests.property.test_critical import eliminated
+from tests.property.test_vs import eliminated
 from tests.strategies import formulas, points, rationals
 from tests.strict_problems import conditions
 from tests.tables import each

@@ -1,19 +1,27 @@
-"""Bugs of this project's own engine that were found by comparison with the oracles; named by symptom."""
+"""Wrong answers and crashes of the engine that were mended: each by its symptom."""
 
 from __future__ import annotations
 
+import time
 from fractions import Fraction
 from itertools import product
 
 import pytest
+import sympy
 
+import qe
 from qe import Guarantee, eliminate, equivalent
+from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Ring
+from qe.exact.sample import Point
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
+from qe.formula.syntax import FALSE
 from qe.formula.traverse import atoms
+from qe.io import formats
 from qe.io.text import read
 from qe.options import Budget, Projection
+from tests.cli.command import run
 from tests.differential.methods import by_cad
 from tests.tables import each
 
@@ -83,3 +91,108 @@ def test_a_block_that_comes_back_beside_a_condition_ran_for_ever() -> None:
     """Critical values left "p = 0 and the same block": the answer was that the formula is nested too deeply."""
     answer = eliminate("all u. u < 0 or (2*a^2 + a*b - b + 1)^2 <= u", method="critical")
     assert "critical values alone" in (answer.reason or "")
+
+
+def test_a_disjunct_without_the_quantified_variables_does_not_end_critical_values_with_an_error() -> None:
+    """The parts of the answer were over rings of their own: "number of generators does not match"."""
+    question = "ex y. y^2 <= 1 and p + 2 >= 0 and (2*p*q - 1 >= 0 or p + y = 0)"
+    answer = qe.eliminate(question, method="critical")
+    assert answer.formula is not None
+    assert qe.equivalent(answer.formula, "p + 2 >= 0 and (2*p*q >= 1 or p <= 1 and p >= -1)")
+    assert qe.equivalent(question, answer.formula)
+
+
+def test_roots_closer_than_floating_point_resolution_are_separated() -> None:
+    ring = Ring.of(("x",))
+    x = ring.gen(0)
+    big = 10**12
+    first = (x - big) ** 2 * big**20 - 2  # roots big ± sqrt(2)/10^120
+    second = (x - big) ** 2 * big**20 - 3
+    found = isolate_over(Point(ring), (first, second))
+    assert [s.members for s in found.sections] == [[1], [0], [0], [1]]
+    assert found.sectors == tuple(sorted(set(found.sectors)))
+
+
+BOUND = 20.0
+"""Seconds of processor time; each takes less than one, and took up to many minutes."""
+
+MANY = {
+    "2000 bounds on separate variables": " and ".join(f"x{i} > 0" for i in range(2000)),
+    "299 conditions on neighbours": " and ".join(f"x{i}*x{i + 1} < {i}" for i in range(1, 300)),
+    "a chain of differences": " and ".join(f"x{i} < x{i + 1}" for i in range(300)),
+    "a disjunction": " or ".join(f"x{i}^2 > {i}" for i in range(1, 600)),
+    "200 separate quantified variables": f"ex {', '.join(f'x{i}' for i in range(200))}. "
+    + " and ".join(f"x{i} > {i}" for i in range(200)),
+}
+
+
+@pytest.mark.parametrize("text", MANY.values(), ids=MANY)
+def test_many_variables_take_no_time(text):
+    start = time.process_time()
+    answer = qe.eliminate(text, process=False)
+    assert answer.status is qe.Status.SOLVED and time.process_time() - start < BOUND
+    if text.startswith("ex"):
+        assert answer.truth is True and answer.witness is not None
+        assert all(answer.witness[f"x{i}"] > i for i in range(200))
+    else:
+        assert answer.formula == formats.read(text, "text")
+
+
+@each(60, -60, 10**30, 2, 4)
+def test_a_root_that_cannot_be_is_false_at_once(k):
+    start = time.process_time()
+    for relation in ("<", "=", "/=", ">="):
+        assert formats.read(f"x {relation} root({k}, x^3 - a)", "text") == FALSE
+    assert qe.eliminate(f"x < root({k}, x^3 - a)").truth is False
+    assert time.process_time() - start < BOUND
+
+
+def test_a_root_that_can_be_stays():
+    assert str(qe.eliminate("x < root(1, x^3 - a)").formula) == "x^3 - a < 0"
+    assert qe.eliminate("ex x. x >= root(3, x^3 - a*x)").formula == formats.read("a > 0", "text")
+
+
+GONE = (
+    "0 < 0 and (ex x. x > a)",
+    "1 > 0 or (all x. x^2 > a)",
+    "0*x > 1 and 0*a < x",
+    "ex x. x - x = 0*a",
+    "`x` < `x` and a = a",
+    "not (0 < 1 or (all x, a. x = a))",
+)
+
+
+@pytest.mark.parametrize("text", GONE)
+def test_an_order_may_name_what_reading_simplified_away(text):
+    expected = qe.eliminate(text).formula
+    for order in ("x, a", "a, x", "x", ["a"]):
+        assert qe.eliminate(text, order=order).formula == expected
+        assert qe.decide(text, order=order) is qe.eliminate(text).truth
+    assert qe.equivalent(text, str(expected), order="a x")
+    qe.find_instance(text, order="a")
+    for strange in ("b", "x, b", "ex", "and"):
+        for ask in (qe.eliminate, qe.find_instance):
+            with pytest.raises(qe.InputError, match="order"):
+                ask(text, order=strange)
+
+
+def test_names_of_other_formats_and_on_the_command_line():
+    x, a = sympy.symbols("x a")
+    body = sympy.Lt(x - x, sympy.Symbol("b"), evaluate=False)
+    assert qe.eliminate(qe.Exists(x, sympy.And(body, sympy.Gt(a, 0))), order=[a, x]).formula is not None
+    script = "(declare-const x Real)(declare-const a Real)(assert (and (< 0 0) (< x a)))"
+    assert qe.eliminate(script, format="smtlib", order="a, x").truth is False
+    assert run("qe", "eliminate", GONE[0], "--order", "x, a").stdout == "false\n"
+    refused = run("qe", "eliminate", GONE[0], "--order", "x, b")
+    assert refused.returncode == 2 and "x, b found" in refused.stderr
+
+
+@each(("x^2 + 0*a", "x > 1"), ("x^2", "0*a = 0"), ("x", "a < a and x > 0"), ("x*0 + x", "a = a"))
+def test_parameters_may_be_what_reading_simplified_away(objective, constraints):
+    assert str(qe.minimize(objective, constraints, parameters="a"))
+    with pytest.raises(qe.InputError, match="parameters"):
+        qe.minimize(objective, constraints, parameters="b")
+
+
+def test_a_witness_may_be_named_in_the_order():
+    assert qe.check_witness("all a. ex x. x > a", {"x": "a + 1"}, order="a, x")

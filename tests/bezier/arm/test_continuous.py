@@ -29,7 +29,7 @@ from bezier.certify.square_roots import Polynomial, Surd, constant_sign
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.errors import Unable
 from qe.processes.channel import Channel
-from tests.bezier.arm.arms import Points, curves_of
+from tests.bezier.made import Points, curves_of
 from tests.certificates.restated import evidence_of, verdict_by
 from tests.tables import each
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from bezier.arm import inverse
@@ -18,12 +18,11 @@ from bezier.arm.command import in_words, to_json
 from bezier.arm.elimination import TURNS, Geometry
 from bezier.arm.inverse import confirm, solve
 from bezier.arm.kinematics import positions
-from bezier.arm.model import Arm
 from bezier.arm.ratio import variable
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from qe.errors import InputError, InternalError, Unable
 from qe.exact.ring import Ring
-from tests.bezier.arm.arms import arm_text
+from tests.bezier.made import arm_text
 from tests.tables import each
 
 POINT = (Fraction(599, 66), Fraction(824, 33), Fraction(323, 10))
@@ -65,46 +64,6 @@ def test_the_count_is_that_of_the_closed_form(point: tuple[Fraction, ...]) -> No
     if found.solutions:
         reached = positions(arm, [s.angles for s in found.solutions])
         assert np.allclose(reached, [float(c) for c in point], atol=1e-9)
-
-
-@pytest.mark.parametrize("arm", ARMS, ids=["ev3", "shoulder", "scara", "skew"])
-@settings(max_examples=20)
-@given(st.lists(st.integers(-7, 7), min_size=3, max_size=3))
-def test_the_joints_that_made_the_point_are_found(arm: Arm, halves: list[int]) -> None:
-    """Rational half-angle tangents give exact points; their joints are among the solutions, all of which reach them."""
-    from bezier.arm.kinematics import position
-
-    tangents = [Fraction(k, 3) for k in halves]
-    pairs = [((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)) for t in tangents]
-    point = position(arm, dict(zip((j.name for j in arm.joints), pairs)))
-    found = solve(arm, point)
-    assert found.is_reachable
-    if found.free:
-        return
-    assert np.allclose(positions(arm, [s.angles for s in found.solutions]), [float(c) for c in point], atol=1e-9)
-    boxes = [[v for v in s.values if v is not None] for s in found.solutions]
-    assert any(
-        all(v.cosine[0] <= c <= v.cosine[1] and v.sine[0] <= s <= v.sine[1] for v, (c, s) in zip(box, pairs))
-        for box in boxes
-    )
-
-
-@settings(max_examples=25)
-@given(st.lists(st.floats(-3, 3), min_size=3, max_size=3), st.integers(1, 3))
-def test_no_solution_is_missed_by_newton(start: list[float], which: int) -> None:
-    """Newton's method from anywhere ends, if it ends, in one of the solutions."""
-    arm = ARMS[which]
-    point = [Fraction(v) for v in positions(arm, [[0.4, -1.1, 0.7]])[0]]
-    found = np.array([s.angles for s in solve(arm, point).solutions])
-    q = np.array(start)
-    from bezier.arm.kinematics import jacobians
-
-    for _ in range(40):
-        j = jacobians(arm, [q])[0]
-        q = q - np.linalg.lstsq(j, positions(arm, [q])[0] - [float(c) for c in point], rcond=None)[0]
-    if np.allclose(positions(arm, [q])[0], [float(c) for c in point], atol=1e-10):
-        gaps = np.abs((found - q + pi) % (2 * pi) - pi).max(axis=1)
-        assert gaps.min() < 1e-4
 
 
 @each(

@@ -22,7 +22,7 @@ from bezier.arm.robot import Robot
 from bezier.certify.inverse_pose import has_parallel_axes
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from tests.bezier.arm.arms import arm_text
+from tests.bezier.made import arm_text
 from tests.tables import each
 
 SIX, PLANAR = load_arm("six-joints"), load_arm("planar-3r")
@@ -71,36 +71,6 @@ def frames(arm: Arm, found: Inverse) -> np.ndarray:
     for motion, constant in zip(_motions(arm, q), constants[1:]):
         whole = whole @ motion @ constant
     return whole[:, :3]
-
-
-def holds(found: Inverse, pairs: Pairs) -> bool:
-    return any(
-        all(
-            v is not None and v.cosine[0] <= c <= v.cosine[1] and v.sine[0] <= s <= v.sine[1]
-            for v, (c, s) in zip(x.values, pairs)
-        )
-        for x in found.solutions
-    )
-
-
-@pytest.mark.parametrize("arm", [SIX, BACKWARDS, PLANAR], ids=["six", "backwards", "planar"])
-@settings(max_examples=5)
-@given(st.lists(st.fractions(-4, 4, max_denominator=4), min_size=6, max_size=6))
-def test_the_joints_that_made_the_pose_are_found(arm: Arm, tangents: list[Fraction]) -> None:
-    pairs = pairs_of(tangents)[: len(arm.joints)]
-    try:
-        found = at_the_pose_of(arm, pairs)
-    except Unable as error:
-        assert "can be chosen" in str(error)
-        return
-    if found.free:
-        return
-    assert found.count in (range(1, 9) if len(arm.joints) == 6 else (1, 2))
-    assert holds(found, pairs)
-    point, rotation = ([[float(v) for v in row] for row in rows] for rows in ([found.point], found.rotation))
-    for frame in frames(arm, found):
-        assert np.allclose(frame[:, 3], point[0], atol=1e-9)
-        assert np.allclose(frame[:, :3], rotation, atol=1e-12)
 
 
 def test_an_arm_with_irrational_constants() -> None:

@@ -1,16 +1,25 @@
-"""Balls with derivatives: against values and difference quotients in floating point."""
+"""Duals, and joint positions at a point: what the checkers compute."""
 
 from __future__ import annotations
 
+import copy
+import json
 import math
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from flint import arb
 
 from bezier.certify import duals
 from bezier.certify.duals import Dual
+from bezier.certify.inverse_position import check_positions
 from bezier.certify.square_roots import ONE, ZERO, Surd, turn
+from qe.errors import BudgetExceeded, CertificateRejected
+from qe.proof.entry import Entry
+from tests.certificates.test_joint_positions import payload_of
+from tests.tables import each
+from tests.unit.certify.claims import limits
 
 
 def floats(d: Dual) -> tuple[float, ...]:
@@ -87,3 +96,54 @@ def test_bounds_of_balls() -> None:
     assert not duals.strictly_within([ball], [Fraction(2, 3)])
     assert duals.strictly_within([ball], [Fraction(667, 1000)])
     assert not duals.strictly_within([ball, arb("nan")], [Fraction(1)] * 2)
+
+
+@pytest.fixture(scope="module")
+def right() -> dict[str, Any]:
+    return json.loads(json.dumps(payload_of("four at a point")))
+
+
+def test_it_is_accepted(right: dict[str, Any]) -> None:
+    check_positions(Entry(right, "payload"), limits())
+
+
+@each(
+    {
+        "one more": (lambda p: p.update(count=p["count"] + 1), "payload.count", "not the number of solutions"),
+        "a root less": (
+            lambda p: p.update(roots=p["roots"][1:], count=p["count"] - len(p["roots"][0]["solutions"])),
+            "payload.roots",
+            "not all roots with a solution are listed",
+        ),
+        "another order": (lambda p: p["roots"].reverse(), "payload.roots[1]", "in ascending order"),
+        "an overlap": (
+            lambda p: p["roots"][1].update(low=p["roots"][0]["low"]),
+            "payload.roots[1]",
+            "in ascending order",
+        ),
+        "a common end": (lambda p: p["roots"][1].update(low=p["roots"][0]["high"]), "payload.roots[1]", "ascending"),
+        "an empty interval": (
+            lambda p: p["roots"][0].update(low=p["roots"][0]["high"]),
+            "payload.roots[0]",
+            "ascending",
+        ),
+        "a solution less": (lambda p: p["roots"][0]["solutions"].pop(), "payload.roots[0].solutions", "not the number"),
+        "the boxes of another root": (
+            lambda p: p["roots"][0].update(solutions=p["roots"][1]["solutions"]),
+            "payload.roots[0].solutions",
+            "not proved to lie in a box of its own",
+        ),
+        "no rotation": (lambda p: p.update(rotation=[[[["1", 1]]] * 3] * 3), "payload.rotation", "rows of a rotation"),
+    }
+)
+def test_the_wrong_entry_is_named(change: Any, where: str, reason: str, right: dict[str, Any]) -> None:
+    wrong = copy.deepcopy(right)
+    change(wrong)
+    with pytest.raises(CertificateRejected, match=reason) as refused:
+        check_positions(Entry(wrong, "payload"), limits())
+    assert refused.value.step == where
+
+
+def test_a_budget_ends_it(right: dict[str, Any]) -> None:
+    with pytest.raises(BudgetExceeded):
+        check_positions(Entry(right, "payload"), limits(0))

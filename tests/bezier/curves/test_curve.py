@@ -19,7 +19,7 @@ from bezier.curves.nonnegative import events_of
 from bezier.curves.scalar import add, brief, dot, is_zero, same, scale, sign, subtract, with_decimal
 from qe.errors import InputError
 from qe.exact.field import NumberField
-from tests.bezier.numbers import control_points, points, small, surds, unit
+from tests.bezier.made import control_points, points, small, surds, unit
 from tests.tables import each
 
 HALF = Fraction(1, 2)

@@ -22,7 +22,7 @@ from bezier.curves.enclosure import (
 from bezier.curves.scalar import dot, subtract
 from qe.errors import InputError
 from qe.exact.field import NumberField
-from tests.bezier.numbers import control_points
+from tests.bezier.made import control_points
 
 REL = Fraction(1, 10**6)
 PARABOLA = Bezier.of([(-1, 1), (0, -1), (1, 1)])  # (u, u^2) for u from -1 to 1

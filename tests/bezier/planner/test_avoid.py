@@ -19,6 +19,8 @@ from bezier.plans import Clock, Outcome
 from bezier.problem import PlanMethod, read_problem
 from bezier.report.page import render
 from qe.errors import BudgetExceeded, CertificateRejected
+from tests.bezier.made import CRATE_TEXT as CRATE
+from tests.bezier.made import obstacle_text
 from tests.tables import each
 
 START = """
@@ -27,28 +29,8 @@ start = [-4, 2, 1]
 goal = [4, 2, 1]
 radius = 6
 """
-CRATE = """
-[[obstacle]]
-kind = "box"
-name = "crate"
-low = [-1, 1, 0]
-high = [1, 3, 2]
-margin = "1/10"
-"""
-BALLOON = """
-[[obstacle]]
-kind = "ball"
-name = "balloon"
-centre = [0, 2, 2]
-radius = 1
-"""
-WALL = """
-[[obstacle]]
-kind = "box"
-name = "wall"
-low = [-3, -20, -20]
-high = [3, 20, 20]
-"""
+BALLOON = obstacle_text("ball", "balloon", centre=[0, 2, 2], radius=1)
+WALL = obstacle_text("box", "wall", low=[-3, -20, -20], high=[3, 20, 20])
 
 
 def planned(*parts: str):
@@ -157,34 +139,16 @@ def test_a_time_limit_ends_the_alternatives_with_what_is_known():
         make_plan(read_problem(START + "via = [[-1, 2, 3], [1, 2, 3]]\n" + WALL), Clock(limit=0.1))
 
 
-KINDS = """
-[[obstacle]]
-kind = "ball"
-centre = [1, 0, 0]
-radius = 1
-[[obstacle]]
-kind = "box"
-low = [0, 0, 0]
-high = [1, 2, 3]
-margin = 1
-[[obstacle]]
-kind = "cylinder"
-centre = [0, 0]
-radius = 1
-bottom = 0
-[[obstacle]]
-kind = "half_space"
-normal = [0, 0, 1]
-offset = 1
-[[obstacle]]
-kind = "half_space"
-name = "far"
-normal = [0, 0, 1]
-offset = 99
-[[obstacle]]
-kind = "formula"
-formula = "x*y > 1 and z < 0"
-"""
+KINDS = "".join(
+    (
+        obstacle_text("ball", centre=[1, 0, 0], radius=1),
+        obstacle_text("box", low=[0, 0, 0], high=[1, 2, 3], margin=1),
+        obstacle_text("cylinder", centre=[0, 0], radius=1, bottom=0),
+        obstacle_text("half_space", normal=[0, 0, 1], offset=1),
+        obstacle_text("half_space", "far", normal=[0, 0, 1], offset=99),
+        obstacle_text("formula", formula="x*y > 1 and z < 0"),
+    )
+)
 
 
 def test_every_kind_is_drawn_where_it_is():

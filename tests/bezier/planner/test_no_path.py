@@ -26,17 +26,8 @@ from qe.errors import CertificateRejected, InputError, QEError
 from qe.formula.syntax import FALSE
 from qe.proof.certificate import Certificate, Kind
 from tests.bezier.folder_mutation import Quiet
+from tests.bezier.made import CRATE_TEXT as CRATE
 from tests.tables import each
-
-CRATE = """
-[[obstacle]]
-kind = "box"
-name = "crate"
-low = [-1, 1, 0]
-high = [1, 3, 2]
-margin = "1/10"
-"""
-
 
 VIA = 'via = [["-3/2", 2, 3], ["3/2", 2, 3]]\n'
 

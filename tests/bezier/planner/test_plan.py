@@ -27,7 +27,7 @@ from bezier.problem import PlanMethod, Problem, from_json, load_problem, read_pr
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 from qe.formula.evaluate import holds_at
 from qe.proof.certificate import Certificate
-from tests.bezier.numbers import points
+from tests.bezier.made import points
 from tests.tables import each
 
 COORDINATE = st.integers(-3, 3).map(Fraction)

@@ -1,20 +1,48 @@
-"""Control points that follow from free ones: text, polynomials and exact values say the same."""
+"""Control points: systems of conditions, and the statements of them."""
+
+from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import qe
 from bezier.curves.scalar import sign
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind
+from bezier.methods.control.statements import (
+    Atomic,
+    Bracketed,
+    Every,
+    Implies,
+    Minus,
+    Name,
+    Number,
+    Power,
+    Product,
+    Quantified,
+    Some,
+    Statement,
+    Sum,
+    Term,
+    at_most,
+    combined,
+    difference,
+    every,
+    names,
+    number,
+)
 from bezier.methods.control.terms import condition_terms, objective_terms
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
 from bezier.problem import INNER, PlanMethod, PointCondition, Problem
 from qe.formula.evaluate import holds_at
+from qe.formula.syntax import Relation
 from qe.io import text
-from tests.bezier.numbers import points
+from qe.io.text import read, read_polynomial
+from tests.bezier.made import points
 
 POINT = points(3, st.integers(-3, 3).map(Fraction))
 SYSTEMS = {PlanMethod.QUADRATIC: quadratic.system, PlanMethod.CUBIC: cubic.system}
@@ -99,3 +127,90 @@ def test_labels_are_distinct_and_active_ones_are_on_the_boundary(method):
     assert len(set(labels)) == len(labels)
     control, _ = at(system, [(Fraction(2), Fraction(0), Fraction(0)), up])
     assert {"Q1", "Q1.z", "Q1.half_space[0]"} <= set(system.active(control))
+
+
+NAMES = st.sampled_from(["q1x", "q1y", "r", "t"])
+NUMBERS = st.fractions(min_value=-5, max_value=5, max_denominator=4)
+
+
+def _larger(inner: st.SearchStrategy[Term]) -> st.SearchStrategy[Term]:
+    several = st.lists(inner, min_size=1, max_size=3).map(tuple)
+    return st.one_of(
+        several.map(Sum),
+        several.map(Product),
+        inner.map(Minus),
+        inner.map(Bracketed),
+        st.builds(Power, inner, st.integers(0, 3)),
+    )
+
+
+TERMS = st.recursive(st.one_of(NUMBERS.map(Number), NAMES.map(Name)), _larger, max_leaves=8)
+ATOMS = st.builds(Atomic, TERMS, st.sampled_from(Relation), TERMS)
+
+
+def _joined(inner: st.SearchStrategy[Statement]) -> st.SearchStrategy[Statement]:
+    several = st.lists(inner, min_size=1, max_size=3).map(tuple)
+    bound = st.lists(NAMES, min_size=1, max_size=2, unique=True).map(tuple)
+    return st.one_of(
+        several.map(Some),
+        st.builds(Every, several, st.just(True)),
+        several.map(lambda parts: every(*parts)).map(lambda whole: Every(whole.parts, bracketed=True)),
+        st.builds(Quantified, st.booleans(), bound, inner),
+        st.builds(Implies, inner, inner),
+    )
+
+
+STATEMENTS = st.recursive(ATOMS, _joined, max_leaves=6)
+
+
+@given(TERMS)
+def test_a_term_is_what_its_text_means(term: Term) -> None:
+    poly, factor = term.polynomial
+    read_poly, read_factor = read_polynomial(str(term))
+    assert poly.ring.names == read_poly.ring.names, str(term)
+    assert [(e, c * factor) for e, c in poly.terms()] == [(e, c * read_factor) for e, c in read_poly.terms()], str(term)
+
+
+@given(STATEMENTS)
+def test_a_statement_is_what_its_text_means(statement: Statement) -> None:
+    found, meant = statement.formula, read(str(statement))
+    assert found == meant, str(statement)
+    assert (found.ring is None) == (meant.ring is None) and (found.ring is None or found.ring.names == meant.ring.names)
+
+
+def test_how_people_read_it() -> None:
+    x, y = names(("q1x", "q1y"))
+    assert str(combined([(Fraction(2), number(3)), (Fraction(-1), x)])) == "2*3 - q1x"
+    assert str(combined([(Fraction(-1), x), (Fraction(1, 2), y)])) == "-q1x + (1/2)*q1y"
+    assert str(Power(difference(x, number(-3)), 2)) == "(q1x - (-3))^2"
+    assert str(Bracketed(number(-3))) == "(-3)" and str(Bracketed(number(3))) == "(3)"
+    inside = at_most(x, number(1))
+    assert str(Implies(every(inside, inside), inside)) == "q1x <= 1 and q1x <= 1 -> q1x <= 1"
+
+
+@pytest.mark.parametrize("pair", [("2*x", Fraction(1)), (1, 2), (1, 2, 3)])
+def test_only_a_polynomial_with_a_rational_factor_is_a_pair(pair: Any) -> None:
+    with pytest.raises(qe.InputError):
+        qe.minimize(pair, "x >= 0")
+
+
+@given(NUMBERS, st.integers(1, 5))
+def test_the_least_value_of_a_polynomial_with_a_factor(place: Fraction, below: int) -> None:
+    x = Name("x")
+    aim = Product((number(Fraction(1, below)), Power(difference(x, number(place)), 2)))
+    found = qe.minimize(aim.polynomial, at_most(x, number(place - 1)).formula)
+    assert found.value == Fraction(1, below) == qe.minimize(str(aim), str(at_most(x, number(place - 1)))).value
+    assert qe.verify(found.certificate).accepted
+
+
+def test_a_sum_is_taken_away_as_a_whole() -> None:
+    x, y, t = names(("x", "y", "t"))
+    away = Sum((x, Minus(Sum((y, t))), Sum((t, y))))
+    assert str(away) == "x - (y + t) + (t + y)" and str(Product((Sum((x, y)), Minus(t)))) == "(x + y)*(-t)"
+    assert away.polynomial == (x.polynomial[0].convert(away.polynomial[0].ring), Fraction(1))
+
+
+def test_bound_names_come_after_the_free_ones() -> None:
+    x, r = names(("x", "r"))
+    asked = Quantified(False, ("x",), every(at_most(x, number(1)), at_most(r, x)))
+    assert asked.formula.ring.names == ("r", "x") == read(str(asked)).ring.names

@@ -20,7 +20,7 @@ from bezier.plans import Outcome
 from bezier.problem import INNER, PlanMethod, PointCondition, Problem
 from qe.errors import InputError
 from qe.io import text
-from tests.bezier.numbers import points
+from tests.bezier.made import points
 from tests.tables import each
 
 COORDINATE = st.integers(-3, 3).map(Fraction)

@@ -17,7 +17,7 @@ from bezier.methods.single.program import choose, curve, dips, lowest, objective
 from bezier.methods.single.simplex import Contradiction, certificate
 from qe.errors import InputError
 from qe.formula.evaluate import holds_at
-from tests.bezier.singles import FLAT, HEIGHTS, axis, has_indices, tasks, unit_task
+from tests.bezier.made import FLAT, HEIGHTS, axis, has_indices, tasks, unit_task
 from tests.tables import each
 
 F = Fraction
