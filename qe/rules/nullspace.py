@@ -30,9 +30,7 @@ def homogeneous_weights(body: Formula, names: frozenset[str]) -> Weights:
     return _annihilator(body, names, _differences)
 
 
-def _annihilator(
-    body: Formula, names: frozenset[str], rows: Callable[[Poly, Sequence[int]], Iterator[Row]]
-) -> Weights:
+def _annihilator(body: Formula, names: frozenset[str], rows: Callable[[Poly, Sequence[int]], Iterator[Row]]) -> Weights:
     """The sum of a basis of the vectors whose product with every row is 0, each with one free coordinate 1 and the
     others 0."""
     polys, ring = polynomials(body), body.ring

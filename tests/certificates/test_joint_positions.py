@@ -14,7 +14,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bezier.arm import inverse_evidence, pose as poses
+from bezier.arm import inverse_evidence
+from bezier.arm import pose as poses
 from bezier.arm.choices import Choice
 from bezier.arm.inverse import Inverse, solve
 from bezier.arm.inverse_evidence import _box, _over, _parameter, _wider, inverse_certificate

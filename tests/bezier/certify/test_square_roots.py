@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,6 +17,7 @@ from bezier.certify import square_roots as sr
 from bezier.certify.families import bounded
 from bezier.certify.nested_roots import Nested, Place, nested, turns
 from bezier.certify.square_roots import ONE, Polynomial, Surd
+from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 
 SURDS = st.lists(
