@@ -1,7 +1,5 @@
 """Questions with SymPy objects as answers, and z3 objects as questions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """Answers and their measures, witnesses in parameters."""
 
-from __future__ import annotations
-
 import time
 from fractions import Fraction
 from itertools import product

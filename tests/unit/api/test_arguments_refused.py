@@ -1,7 +1,5 @@
 """Every public function with wrong values for every argument: one clear line, an ``InputError``, nothing else."""
 
-from __future__ import annotations
-
 import inspect
 import os
 import tempfile
@@ -14,6 +12,7 @@ import pytest
 
 import qe
 from qe.io import formats
+from tests.tables import each
 from tests.wrong_values import WRONG
 
 NUMBERS = {"int", "huge", "negative", "zero"}
@@ -252,7 +251,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("door", "argument"), CASES)
+@each(*CASES)
 def test_a_wrong_value_is_named_in_one_line(door: Door, argument: str) -> None:
     wrap = door.around.get(argument, lambda value: value)
     given = {name: value for name, value in door.given.items() if value is not None and name != argument}
@@ -320,7 +319,7 @@ def test_the_table_knows_every_method_that_takes_something() -> None:
                 assert f"{kind.__name__}.{name}" in known
 
 
-@pytest.mark.parametrize("order", ["y,x", "y x", " y , x ", ["y", "x"], ("y", "x"), iter(("y", "x")), "`y`, x"])
+@each("y,x", "y x", " y , x ", ["y", "x"], ("y", "x"), iter(("y", "x")), "`y`, x")
 def test_an_order_may_be_written_in_many_ways(order: object) -> None:
     assert qe.region("x^2 + y^2 <= 1", order).order == ("y", "x")
 

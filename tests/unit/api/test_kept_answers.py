@@ -1,7 +1,5 @@
 """An answer that is known is not lost while it is proved: a proof that is ended leaves it behind, as derived."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from functools import partial

@@ -1,7 +1,5 @@
 """Limits and clusters that callers name, checked."""
 
-from __future__ import annotations
-
 import time
 
 import pytest

@@ -1,7 +1,5 @@
 """``timeout`` ends every public function, also while it is in a call that never looks at its budget."""
 
-from __future__ import annotations
-
 import pickle
 import time
 from collections.abc import Callable, Iterator
@@ -177,7 +175,7 @@ def test_what_a_question_has_learned_is_kept():
     assert region.bounds("x") is region.bounds("x")
 
 
-@pytest.mark.parametrize("text", [DISC, SHADOW, "x^2 = 2 and y^3 > x", "x + y + z + w < 1 and x^2 + w^2 <= 3"])
+@each(DISC, SHADOW, "x^2 = 2 and y^3 > x", "x + y + z + w < 1 and x^2 + w^2 <= 3")
 def test_regions_of_another_process_are_whole(text):
     seen: list[Event] = []
     far, near = qe.region(text, timeout=60, progress=seen.append), qe.region(text, process=False)

@@ -1,10 +1,6 @@
 """What certificates claim, in words, and whether that is about a question."""
 
-from __future__ import annotations
-
 from fractions import Fraction
-
-import pytest
 
 from qe.certify.claims import claim_of, is_about
 from qe.exact.ring import Ring
@@ -16,6 +12,7 @@ from qe.kernel.parts import true_where
 from qe.kernel.renaming import is_same
 from qe.proof.certificate import Certificate
 from tests.certificates.producing import cell_table
+from tests.tables import each
 
 
 def witness(text: str, *values: str) -> Certificate:
@@ -84,20 +81,17 @@ def decided(where: str, question: str, truth: bool) -> tuple[Formula, Formula]:
 QUESTION = "ex x. x^2 < a and b*x > 1"
 
 
-@pytest.mark.parametrize(
-    ("equivalence", "expected"),
-    [
-        ((read(QUESTION), read("a > 0 and b /= 0")), "a > 0 and b /= 0"),
-        ((read("all x. x^2 >= a or b*x <= 1"), read("a > 0")), "a <= 0"),
-        (decided("a > 1", QUESTION, True), "a > 1"),
-        (decided("a > 1 and b > 1", QUESTION, True), "a - 1 > 0 and b - 1 > 0"),
-        (decided("a > 1 or b > 1", "ex y. 1 < b*y and a > y^2", True), "a - 1 > 0 or b - 1 > 0"),
-        (decided("a < 0", "all x. x^2 >= a or b*x <= 1", False), "a < 0"),
-        (decided("a > 1", QUESTION, False), None),  # about the negation
-        (decided("a > 1", "all x. x^2 >= a or b*x <= 1", True), None),
-        ((decided("a > 1", QUESTION, True)[0], read("a > 0")), None),
-        (decided("a > 1", "ex x. x^2 <= a and b*x > 1", True), None),
-    ],
+@each(
+    ((read(QUESTION), read("a > 0 and b /= 0")), "a > 0 and b /= 0"),
+    ((read("all x. x^2 >= a or b*x <= 1"), read("a > 0")), "a <= 0"),
+    (decided("a > 1", QUESTION, True), "a > 1"),
+    (decided("a > 1 and b > 1", QUESTION, True), "a - 1 > 0 and b - 1 > 0"),
+    (decided("a > 1 or b > 1", "ex y. 1 < b*y and a > y^2", True), "a - 1 > 0 or b - 1 > 0"),
+    (decided("a < 0", "all x. x^2 >= a or b*x <= 1", False), "a < 0"),
+    (decided("a > 1", QUESTION, False), None),  # about the negation
+    (decided("a > 1", "all x. x^2 >= a or b*x <= 1", True), None),
+    ((decided("a > 1", QUESTION, True)[0], read("a > 0")), None),
+    (decided("a > 1", "ex x. x^2 <= a and b*x > 1", True), None),
 )
 def test_what_an_equivalence_says_to_imply_a_formula(
     equivalence: tuple[Formula, Formula], expected: str | None

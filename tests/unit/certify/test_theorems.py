@@ -1,7 +1,5 @@
 """Theorems of rules: what the modules of their checkers say."""
 
-from __future__ import annotations
-
 import pytest
 
 from qe.certify.registry import RULES

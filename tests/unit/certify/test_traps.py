@@ -1,11 +1,7 @@
 """Hand-made cell tables that look right at every sample and are wrong: each has one missing argument."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
-
-import pytest
 
 from qe.certify.verify import verify
 from qe.exact.ring import Poly, Ring
@@ -16,6 +12,7 @@ from qe.kernel.verdict import Verdict
 from qe.options import Projection
 from qe.proof.cells import Cell, CellTable, Stack
 from qe.proof.certificate import Certificate
+from tests.tables import each
 
 TABLE = "payload.steps[0].evidence.cells"
 BROWN, LAZARD = Projection.BROWN_MCCALLUM, Projection.LAZARD
@@ -151,9 +148,7 @@ def test_equal_intervals_are_not_equal_roots() -> None:
     assert "no common root" in verdict.reason
 
 
-@pytest.mark.parametrize(
-    ("quantifiers", "step"), [(("E", ""), f"{TABLE}.quantifiers[1]"), (("X", "E"), f"{TABLE}.quantifiers[0]")]
-)
+@each((("E", ""), f"{TABLE}.quantifiers[1]"), (("X", "E"), f"{TABLE}.quantifiers[0]"))
 def test_free_variables_come_first(quantifiers: tuple[str, str], step: str) -> None:
     root = Cell("", True)
     assert _verdict(("x", "y"), quantifiers, read("true"), [[], []], root).step == step
@@ -205,13 +200,10 @@ def test_a_factor_beside_a_constraint_may_be_nullified_over_a_point() -> None:
     assert _over_a_nullified_factor(((), (), (0,), ())).accepted
 
 
-@pytest.mark.parametrize(
-    ("constraints", "step"),
-    [
-        (((), ()), f"{TABLE}.constraints"),
-        (((), (), (2,), ()), f"{TABLE}.constraints[2]"),
-        (((), (), (1, 0), ()), f"{TABLE}.constraints[2]"),
-    ],
+@each(
+    (((), ()), f"{TABLE}.constraints"),
+    (((), (), (2,), ()), f"{TABLE}.constraints[2]"),
+    (((), (), (1, 0), ()), f"{TABLE}.constraints[2]"),
 )
 def test_lists_that_are_no_constraints(constraints: tuple[tuple[int, ...], ...], step: str) -> None:
     assert _over_a_nullified_factor(constraints).step == step

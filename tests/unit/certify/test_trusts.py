@@ -1,7 +1,5 @@
 """What a certificate rests on, and that the core alone refuses what needs more."""
 
-from __future__ import annotations
-
 import pytest
 
 import qe

@@ -1,7 +1,5 @@
 """Numbers, arguments and sources on the command line."""
 
-from __future__ import annotations
-
 import io
 import sys
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """In floats: linear algebra, interior points; faces."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

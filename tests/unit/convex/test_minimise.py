@@ -1,7 +1,5 @@
 """Convex minimisation as a whole: every outcome with evidence that proves it, recomputed here."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from qe.convex.kkt import sign

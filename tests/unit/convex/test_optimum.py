@@ -1,7 +1,5 @@
 """Small convex problems, one for each thing that can happen; the conditions of optimality; strict conditions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from fractions import Fraction as F
 

@@ -1,7 +1,5 @@
 """Systems of linear and convex conditions: feasible points, frames, the simplex method."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import combinations
 

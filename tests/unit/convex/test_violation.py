@@ -1,7 +1,5 @@
 """How far constraints are from being satisfied together: what is proposed is checked exactly here."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import given, settings

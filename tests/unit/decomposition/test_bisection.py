@@ -1,7 +1,5 @@
 """Where the truth changes only once along the last free variable, that place is found by bisection, and checked."""
 
-from __future__ import annotations
-
 import random
 from dataclasses import replace
 
@@ -21,6 +19,7 @@ from qe.kernel.cells import one_way
 from qe.options import Budget, Projection
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
+from tests.tables import each
 
 ORDER = ("m", "x", "y")
 
@@ -45,7 +44,7 @@ def undecomposed(cell: Cell, depth: int = 1) -> int:
 QUESTION = "m >= x^2 + y^2 + 1 and x*y >= 1 and x <= 4"
 
 
-@pytest.mark.parametrize(("text", "way"), [(QUESTION, 1), (QUESTION.replace("m", "(-m)"), -1)])
+@each((QUESTION, 1), (QUESTION.replace("m", "(-m)"), -1))
 def test_one_change_along_the_last_free_variable(text: str, way: int) -> None:
     matrix = convert(read(text), Ring.of(ORDER))
     whole, part = table(matrix, "EE", monotone=False), table(matrix, "EE")
@@ -55,22 +54,19 @@ def test_one_change_along_the_last_free_variable(text: str, way: int) -> None:
     assert verify(Certificate.cells(part, None)).accepted
 
 
-@pytest.mark.parametrize(
-    ("text", "way"),
-    [
-        ("m > x", 1),
-        ("m <= x", -1),
-        ("m*x^2 > 1 and y > 0", 1),
-        ("m*x > 1", 0),
-        ("m^2 > x", 0),
-        ("x > m*y^2", -1),
-        ("m*y^2 >= x and m > 1", 1),
-        ("m*(x^2 + 1) <= x or m < y", -1),
-        ("m^3 + m > x or x < 0", 1),
-        ("m > x and m < y", 0),
-        ("m = x", 0),
-        ("x > y", 0),
-    ],
+@each(
+    ("m > x", 1),
+    ("m <= x", -1),
+    ("m*x^2 > 1 and y > 0", 1),
+    ("m*x > 1", 0),
+    ("m^2 > x", 0),
+    ("x > m*y^2", -1),
+    ("m*y^2 >= x and m > 1", 1),
+    ("m*(x^2 + 1) <= x or m < y", -1),
+    ("m^3 + m > x or x < 0", 1),
+    ("m > x and m < y", 0),
+    ("m = x", 0),
+    ("x > y", 0),
 )
 def test_directions(text: str, way: int) -> None:
     matrix = convert(read(text), Ring.of(ORDER))
@@ -101,7 +97,7 @@ def test_the_same_truth_with_and_without(seed: int) -> None:
     assert verify(Certificate.cells(part, None)).accepted
 
 
-@pytest.mark.parametrize("wanted", [True, False])
+@each(True, False)
 def test_an_altered_truth_is_refused(wanted: bool) -> None:
     part = table(convert(read(QUESTION), Ring.of(ORDER)), "EE")
     stack = part.root.stack
@@ -113,7 +109,7 @@ def test_an_altered_truth_is_refused(wanted: bool) -> None:
     assert not verify(Certificate.cells(altered, None)).accepted
 
 
-@pytest.mark.parametrize("wanted", [True, False])
+@each(True, False)
 def test_truth_follows_from_decomposed_cells_alone(wanted: bool) -> None:
     """Cells that say the same, and of which none is decomposed, do not prove each other."""
     part = table(convert(read(QUESTION), Ring.of(ORDER)), "EE")

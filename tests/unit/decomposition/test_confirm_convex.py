@@ -1,7 +1,5 @@
 """Points at which a formula holds beside the convex set that it was read from, and missing ones."""
 
-from __future__ import annotations
-
 from qe.decomposition.confirm_convex import strangers
 from qe.decomposition.decompose import decompose
 from qe.exact.sample import Point

@@ -1,7 +1,5 @@
 """Coverings: what they find is what decompositions find; implicants are few and decide."""
 
-from __future__ import annotations
-
 import random
 from itertools import pairwise
 
@@ -23,6 +21,7 @@ from qe.formula.traverse import map_atoms, polynomials
 from qe.io import formats
 from qe.options import Budget
 from tests.differential.generate import random_poly
+from tests.tables import each
 
 NAMES = ("x", "y", "z")
 
@@ -45,20 +44,17 @@ def random_body(rng: random.Random, depth: int = 3) -> Formula:
     return nnf(part(depth))
 
 
-@pytest.mark.parametrize(
-    ("text", "holds"),
-    [
-        ("x^2 + y^2 < 1 and x*y > 1", False),
-        ("x^2 + y^2 < 1 and x*y > 1/4", True),
-        ("x^2 = 2 and y^2 = x and x*y > 3", False),
-        ("x^2 = 2 and y^2 = x and x*y > 1", True),
-        ("(x^2 - 2)*(y^2 - x) = 0 and x^2 + y^2 < 1 and y^3 > 1/2 and x > 1", False),
-        ("x^2 + y^2 = 0 and x >= 0 and y >= 0", True),
-        ("x^2 + y^2 < 0", False),
-        ("x = y and y > x", False),
-        ("10^40*x = 1 and 10^40*y = 1 and x < y", False),
-        ("x > 10^20 and x < 10^20 + 1/10^20 and y^2 = x", True),
-    ],
+@each(
+    ("x^2 + y^2 < 1 and x*y > 1", False),
+    ("x^2 + y^2 < 1 and x*y > 1/4", True),
+    ("x^2 = 2 and y^2 = x and x*y > 3", False),
+    ("x^2 = 2 and y^2 = x and x*y > 1", True),
+    ("(x^2 - 2)*(y^2 - x) = 0 and x^2 + y^2 < 1 and y^3 > 1/2 and x > 1", False),
+    ("x^2 + y^2 = 0 and x >= 0 and y >= 0", True),
+    ("x^2 + y^2 < 0", False),
+    ("x = y and y > x", False),
+    ("10^40*x = 1 and 10^40*y = 1 and x < y", False),
+    ("x > 10^20 and x < 10^20 + 1/10^20 and y^2 = x", True),
 )
 @pytest.mark.parametrize("order", ["xy", "yx"])
 def test_known_truths(text: str, holds: bool, order: str) -> None:
@@ -88,19 +84,16 @@ def test_the_intervals_cover_the_line_and_none_is_superfluous() -> None:
     assert all(isinstance(reason, frozenset) or reason.point.depth == 1 for reason in reasons)
 
 
-@pytest.mark.parametrize(
-    ("text", "order", "quantifiers", "holds"),
-    [
-        ("x < y^2", "xy", "EA", True),
-        ("x < y", "xy", "EA", False),
-        ("x < y", "xy", "AE", True),
-        ("y^2 = x", "xy", "AE", False),
-        ("x^2 + y^2 = z^2", "xyz", "AAE", True),
-        ("x*y = 1 or x = 0 and y = 1", "xy", "AE", True),
-        ("x*z + y = 0 or y /= 0", "xyz", "AAE", True),
-        ("x*y + z^2 > 0", "xyz", "EAA", False),
-        ("y < x^2 or z > 0", "yxz", "EAE", True),
-    ],
+@each(
+    ("x < y^2", "xy", "EA", True),
+    ("x < y", "xy", "EA", False),
+    ("x < y", "xy", "AE", True),
+    ("y^2 = x", "xy", "AE", False),
+    ("x^2 + y^2 = z^2", "xyz", "AAE", True),
+    ("x*y = 1 or x = 0 and y = 1", "xy", "AE", True),
+    ("x*z + y = 0 or y /= 0", "xyz", "AAE", True),
+    ("x*y + z^2 > 0", "xyz", "EAA", False),
+    ("y < x^2 or z > 0", "yxz", "EAE", True),
 )
 def test_alternation(text: str, order: str, quantifiers: str, holds: bool) -> None:
     assert search(text, order, quantifiers).run().truth is holds

@@ -1,10 +1,7 @@
 """Strict problems: sections are left out, and answers and certificates stand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -18,19 +15,17 @@ from qe.io.text import read
 from qe.options import Budget
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("text", "quantifiers", "level"),
-    [
-        ("x < y and y /= 0", ("", "E"), 1),
-        ("x < y and y /= 0", ("E", "E"), 0),
-        ("x < y and y /= 0", ("A", "E"), 1),
-        ("x <= y", ("", "E"), 2),
-        ("x <= y or y = 1", ("", "A"), 1),
-        ("x <= y or y > 1", ("", "A"), 2),
-        ("x < y", ("", ""), 2),
-    ],
+@each(
+    ("x < y and y /= 0", ("", "E"), 1),
+    ("x < y and y /= 0", ("E", "E"), 0),
+    ("x < y and y /= 0", ("A", "E"), 1),
+    ("x <= y", ("", "E"), 2),
+    ("x <= y or y = 1", ("", "A"), 1),
+    ("x <= y or y > 1", ("", "A"), 2),
+    ("x < y", ("", ""), 2),
 )
 def test_where_sections_can_be_left_out(text: str, quantifiers: tuple[str, ...], level: int) -> None:
     assert sector_levels(convert(read(text), Ring.of(("x", "y"))), quantifiers) == level

@@ -1,7 +1,5 @@
 """Lifting with helpers gives the table of lifting alone; helpers that die cost their own work only."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import random
@@ -27,6 +25,7 @@ from qe.options import Budget, Call, Cluster, Helpers, Result
 from qe.processes import cluster
 from qe.processes.cluster import helping
 from tests.differential.generate import NESTED, SMALL, random_formula
+from tests.tables import each
 
 PROBLEMS = {
     "free variables": "x^2 + y^2 < 4 and x*y > 1 or x^3 + y^2 > 2*y",
@@ -102,7 +101,7 @@ def test_tables_of_random_formulas_are_those_of_lifting_alone(seed: int, at_once
         assert table(text, Eager()).table == table(text, None).table
 
 
-@pytest.mark.parametrize("work", [1, 20, 200])
+@each(1, 20, 200)
 def test_a_limit_on_work_holds_as_alone(work: int, at_once: None) -> None:
     outcomes = []
     for helpers in (Eager(), None):
@@ -166,14 +165,11 @@ def test_calls_are_sent_together_and_an_error_stands_in_its_place() -> None:
     assert made.results == [1, 2] and made.count == 2 and isinstance(made.error, qe.InputError)
 
 
-@pytest.mark.parametrize(
-    ("keywords", "message"),
-    [
-        ({"workers": -1}, "workers: a natural number up to 256 expected"),
-        ({"workers": "two"}, "workers: a natural number"),
-        ({"cluster": 7}, "cluster: text expected"),
-        ({"workers": 2, "cluster": "tcp://127.0.0.1:1"}, "one of them"),
-    ],
+@each(
+    ({"workers": -1}, "workers: a natural number up to 256 expected"),
+    ({"workers": "two"}, "workers: a natural number"),
+    ({"cluster": 7}, "cluster: text expected"),
+    ({"workers": 2, "cluster": "tcp://127.0.0.1:1"}, "one of them"),
 )
 def test_what_is_no_cluster_is_refused(keywords: dict[str, object], message: str) -> None:
     with pytest.raises(qe.InputError, match=message):

@@ -1,7 +1,5 @@
 """Free cells of a table and the literals on them; whether an answer follows from the signs."""
 
-from __future__ import annotations
-
 import random
 from math import prod
 
@@ -20,6 +18,7 @@ from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.options import Budget
 from qe.proof.cells import CellTable, FreeCell
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.gen(0), RING.gen(1)
@@ -74,17 +73,14 @@ def test_a_sign_that_is_not_known_covers_nothing_and_excludes_nothing() -> None:
     assert all(a.poly == X for a in deeper.literals)
 
 
-@pytest.mark.parametrize(
-    ("answer", "right"),
-    [
-        ("b < 0", True),
-        ("b < 0 and b /= 0", True),
-        ("b <= 0", False),
-        ("b > 0", False),
-        ("b < 1", False),
-        ("b^3 < 0", True),
-        ("b*(b^2) < 0 or b^2 < 0", True),
-    ],
+@each(
+    ("b < 0", True),
+    ("b < 0 and b /= 0", True),
+    ("b <= 0", False),
+    ("b > 0", False),
+    ("b < 1", False),
+    ("b^3 < 0", True),
+    ("b*(b^2) < 0 or b^2 < 0", True),
 )
 def test_whether_an_answer_follows(answer: str, right: bool) -> None:
     assert follows(read(answer), table("x^2 + b < 0", "b x", ("", "E"))) is right

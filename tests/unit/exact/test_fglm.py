@@ -1,7 +1,5 @@
 """Change of order, and division with cofactors."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

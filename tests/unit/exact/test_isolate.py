@@ -1,7 +1,5 @@
 """Real roots isolated: by sign changes, over balls, counted."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """Lazard evaluation: the first derivative that does not vanish identically over a sample point."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from qe.exact.algebraic import RealAlgebraic

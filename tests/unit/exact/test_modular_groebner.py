@@ -1,7 +1,5 @@
 """Bases by F4 modulo primes: the same as FLINT's, proved over Q, and used where FLINT's algorithm gets long."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

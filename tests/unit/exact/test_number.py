@@ -1,7 +1,5 @@
 """Real algebraic numbers: square roots, radicals, digits, fields that hold several."""
 
-from __future__ import annotations
-
 import math
 import pickle
 from fractions import Fraction

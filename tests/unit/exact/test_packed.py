@@ -1,7 +1,5 @@
 """Packed monomials: products, order, divisibility, least common multiples."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Quotients by zero-dimensional ideals: monomials, matrices, traces, signatures; dimensions."""
 
-from __future__ import annotations
-
 import pytest
 from flint import fmpq, fmpq_mat
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Remainder sequences over algebraic points: the same zeros, common divisors and roots as the tower of fields."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import assume, given

@@ -1,7 +1,5 @@
 """Polynomials by blocks of variables, quotients put in, and stacks: the docstrings' identities, on random input."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """Critical points on intersections of quadrics, and recognition of algebraic numbers from digits."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 import pytest

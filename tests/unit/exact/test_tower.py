@@ -1,7 +1,5 @@
 """Towers of real number fields: inverses, common divisors, squarefree parts, norms, factors."""
 
-from __future__ import annotations
-
 from flint import arb, fmpq_mpoly
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Polynomials in coordinates counted from another point, and with numbers put in."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Arithmetic at points asks a clock between its calls, and ends when that says so."""
 
-from __future__ import annotations
-
 import pickle
 from collections.abc import Callable
 

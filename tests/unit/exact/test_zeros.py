@@ -1,7 +1,5 @@
 """Zeros of polynomials: at algebraic points, at angles, near others, known beforehand."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from fractions import Fraction as F
 from math import cos, sin, sqrt

@@ -1,7 +1,5 @@
 """Formulas as values: nodes, relations, constructors, counting, blocks."""
 
-from __future__ import annotations
-
 import copy
 import os
 import pickle
@@ -163,7 +161,7 @@ def test_and_or_of_the_same_parts_differ() -> None:
     assert Exists(("x",), parts[0]) != ForAll(("x",), parts[0])
 
 
-@pytest.mark.parametrize("ask", [lambda f: f.free, is_quantifier_free, hash, ring_of, lambda f: convert(f, f.ring)])
+@each(lambda f: f.free, is_quantifier_free, hash, ring_of, lambda f: convert(f, f.ring))
 def test_questions_to_large_formulas_are_answered_at_once(ask) -> None:
     ring = Ring.of(("x", "y", "z"))
     x, y, z = (ring.var(name) for name in ring.names)

@@ -1,7 +1,5 @@
 """Normal forms, walks of formulas, values at points."""
 
-from __future__ import annotations
-
 import itertools
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Formulas as text: how they are printed, what may have been meant otherwise, what they are made of."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from hypothesis import given

@@ -1,7 +1,5 @@
 """The arm of three joints whose comprehensive Groebner systems are published (arXiv 2305.12451): the same ideals."""
 
-from __future__ import annotations
-
 import functools
 import json
 from pathlib import Path

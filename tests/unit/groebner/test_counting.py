@@ -1,7 +1,5 @@
 """The number of real solutions as a function of the parameters, against isolation at points."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
@@ -155,7 +153,7 @@ def _sign_of(poly: Poly, signs: dict[Poly, int]) -> int:
 CONDITIONS = [(Relation.GT, lambda v: v > 0), (Relation.GE, lambda v: v >= 0), (Relation.NE, lambda v: v != 0)]
 
 
-@pytest.mark.parametrize(("relation", "holds"), CONDITIONS)
+@each(*CONDITIONS)
 @pytest.mark.parametrize("a", range(-2, 4))
 def test_solutions_with_a_condition(relation: Relation, holds: Callable[[int], bool], a: int) -> None:
     """x^2 = a^2 with x - 1 compared with 0: -|a| and |a|, one solution for a = 0."""

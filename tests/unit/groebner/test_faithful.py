@@ -1,7 +1,5 @@
 """Elements of the given ideal with the values of a segment's basis on the segment."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

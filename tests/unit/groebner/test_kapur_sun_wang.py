@@ -1,7 +1,5 @@
 """Segments: how they are made and reduced, and what lies in them."""
 
-from __future__ import annotations
-
 import pickle
 from fractions import Fraction
 from itertools import product

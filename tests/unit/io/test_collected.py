@@ -1,7 +1,5 @@
 """Sums and products that are collected while they are read mean what the trees mean, and stay small."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """From surface trees to formulas: functions, chains, case distinctions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 

@@ -1,7 +1,5 @@
 """SMT-LIB: what terms and scripts mean, what is refused and where, and scripts that solvers read."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 

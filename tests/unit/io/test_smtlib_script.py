@@ -1,7 +1,5 @@
 """S-expressions and scripts of them: offsets, where a text that may go on has ended, declarations, levels."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import pytest

@@ -1,7 +1,5 @@
 """The text syntax: what it means, how it is printed, and what is said about mistakes."""
 
-from __future__ import annotations
-
 import pytest
 
 from qe.errors import InputError, ParseError

@@ -1,7 +1,5 @@
 """Messages about texts: the right offset, and the known misunderstandings."""
 
-from __future__ import annotations
-
 from qe.io.text_errors import (
     Failing,
     SyntaxFailure,

@@ -1,7 +1,5 @@
 """From tokens to surface trees: operators, the grammar against the plain way to write the same, names, depth."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from contextlib import suppress
 from itertools import product

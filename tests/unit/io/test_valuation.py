@@ -1,7 +1,5 @@
 """The values of terms: polynomials, quotients, roots and case distinctions, at points."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

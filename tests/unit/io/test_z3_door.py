@@ -1,7 +1,5 @@
 """Formulas from z3, by its own printer."""
 
-from __future__ import annotations
-
 import pytest
 
 import qe

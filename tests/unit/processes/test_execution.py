@@ -1,7 +1,5 @@
 """Work moves to another process once it takes long: results, errors, limits, Ctrl-C, and the switches against it."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import signal

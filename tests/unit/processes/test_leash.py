@@ -1,7 +1,5 @@
 """Processes of a local cluster end with the process that started them, also where it is killed."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Methods side by side: the first answer wins, and no process is left behind."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Steps of rules that are no primitives: why they are none of the kernel's."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from qe.certify.registry import RULES

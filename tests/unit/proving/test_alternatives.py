@@ -1,11 +1,8 @@
 """The parts of a disjunction solved one by one, each by steps of its own."""
 
-from __future__ import annotations
-
 from typing import Any
 
-import pytest
-
+from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS, step, written
 from tests.unit.proving.elaborated import refused
 
@@ -32,18 +29,15 @@ def test_the_disjunction_of_what_the_parts_lead_to() -> None:
     assert refused(RULE, TWO, left, by([ONE, OTHER], STEPS[0], [])) == ""
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "evidence", "reason"),
-    [
-        (TWO, "b > 0", by([ONE, OTHER], *STEPS), "not the disjunction"),
-        (TWO, "b > 0 and c > 1", by([ONE, OTHER], *STEPS), "not the disjunction"),
-        (TWO, "b > 0", by([ONE], STEPS[0]), "not the parts"),
-        (TWO, "b > 0 or c > 1", by([ONE, OTHER, "b < 0"], *STEPS, []), "not the parts"),
-        (TWO, "b > 0 or c > 1", by([ONE, OTHER], STEPS[0]), "lists of steps"),
-        (TWO, "b > 0 or c > 1", by([ONE, OTHER], *STEPS, []), "lists of steps"),
-        (TWO, "b > 0 or c > 1", by([ONE, OTHER], STEPS[1], STEPS[0]), "does not stand there"),
-        (TWO.replace("ex", "all"), "b > 0 or c > 1", by([ONE, OTHER], *STEPS), "existential block"),
-    ],
+@each(
+    (TWO, "b > 0", by([ONE, OTHER], *STEPS), "not the disjunction"),
+    (TWO, "b > 0 and c > 1", by([ONE, OTHER], *STEPS), "not the disjunction"),
+    (TWO, "b > 0", by([ONE], STEPS[0]), "not the parts"),
+    (TWO, "b > 0 or c > 1", by([ONE, OTHER, "b < 0"], *STEPS, []), "not the parts"),
+    (TWO, "b > 0 or c > 1", by([ONE, OTHER], STEPS[0]), "lists of steps"),
+    (TWO, "b > 0 or c > 1", by([ONE, OTHER], *STEPS, []), "lists of steps"),
+    (TWO, "b > 0 or c > 1", by([ONE, OTHER], STEPS[1], STEPS[0]), "does not stand there"),
+    (TWO.replace("ex", "all"), "b > 0 or c > 1", by([ONE, OTHER], *STEPS), "existential block"),
 )
 def test_other_parts(before: str, after: str, evidence: Any, reason: str) -> None:
     assert refused(RULE, before, after, evidence), reason

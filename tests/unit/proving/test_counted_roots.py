@@ -1,15 +1,12 @@
 """Comparisons with roots, in numbers of roots: a table has each of them as its answer, and no other."""
 
-from __future__ import annotations
-
-import pytest
-
 import qe
 from qe.formula.build import conj
 from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
+from tests.tables import each
 from tests.unit.proving.elaborated import refused
 
 RULE = "roots counted"
@@ -20,7 +17,7 @@ def counted(text: str) -> Formula:
     return without_root_atoms(read(text))
 
 
-@pytest.mark.parametrize("k", [1, -1, 2])
+@each(1, -1, 2)
 def test_each_relation_has_its_own_formula(k: int) -> None:
     atoms = [f"x {place} root({k}, x^2 - a, x)" for place in PLACES]
     for atom in atoms:

@@ -1,12 +1,9 @@
 """Steps of rules that are no primitives, in the language of the kernel: true ones are, false ones cannot be."""
 
-from __future__ import annotations
-
 from typing import Any
 
-import pytest
-
 import qe
+from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS, line, step
 from tests.unit.proving.elaborated import refused
 
@@ -172,12 +169,12 @@ FALSE_STEPS: list[Step] = [
 ]
 
 
-@pytest.mark.parametrize(("rule", "before", "after", "evidence", "given"), TRUE_STEPS)
+@each(*TRUE_STEPS)
 def test_a_true_step_is_one_of_the_kernel(rule: str, before: str, after: str, evidence: Any, given: str) -> None:
     assert refused(rule, before, after, evidence, given) == ""
 
 
-@pytest.mark.parametrize(("rule", "before", "after", "evidence", "given"), FALSE_STEPS)
+@each(*FALSE_STEPS)
 def test_a_false_step_is_none(rule: str, before: str, after: str, evidence: Any, given: str) -> None:
     assert refused(rule, before, after, evidence, given)
 
@@ -189,13 +186,10 @@ def test_a_case_that_settles_a_scaling_ends_it() -> None:
     assert refused("homogeneous scaling", "ex x, y. x >= 0 and x + y > 0", "false", evidence)
 
 
-@pytest.mark.parametrize(
-    ("rule", "before", "after", "evidence"),
-    [
-        ("degree shift", "ex x. not (x^4 < a or x^2 = b)", "ex x. x >= 0 and not (x^2 < a or x = b)", {"exponent": 2}),
-        ("homogeneous scaling", "ex x, y. not (x <= 0 or x^2 > y)", "ex y. not (1 > y)", WEIGHTS),
-        ("mirror images of a convex set", "ex x. not (x > a or -x > a)", "a >= 0", {"mirror": [["x", "x", -1]]}),
-    ],
+@each(
+    ("degree shift", "ex x. not (x^4 < a or x^2 = b)", "ex x. x >= 0 and not (x^2 < a or x = b)", {"exponent": 2}),
+    ("homogeneous scaling", "ex x, y. not (x <= 0 or x^2 > y)", "ex y. not (1 > y)", WEIGHTS),
+    ("mirror images of a convex set", "ex x. not (x > a or -x > a)", "a >= 0", {"mirror": [["x", "x", -1]]}),
 )
 def test_a_block_with_negations_inside(rule: str, before: str, after: str, evidence: Any) -> None:
     """The steps began with the block as it stands, the kernel with that whose negations are in its atoms."""

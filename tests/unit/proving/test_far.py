@@ -1,11 +1,8 @@
 """Solutions near infinity are taken first; the rest may be told apart by the sign of one polynomial."""
 
-from __future__ import annotations
-
 from typing import Any
 
-import pytest
-
+from tests.tables import each
 from tests.unit.certify.claims import written
 from tests.unit.proving.elaborated import refused
 
@@ -36,21 +33,18 @@ def test_nothing_near_infinity_leaves_the_block() -> None:
     assert refused(RULE, block, "ex x. x^2 < a and b > 0", by(["b > 0", "b <= 0"]))
 
 
-@pytest.mark.parametrize("cases", [["b > 0", "b < 0"], ["b > 0"], ["b > 0", "c <= 0"], []])
+@each(["b > 0", "b < 0"], ["b > 0"], ["b > 0", "c <= 0"], [])
 def test_cases_that_leave_something_out(cases: list[str]) -> None:
     after = " or ".join(f"(ex x. x^2 < a and {case})" for case in cases) or "false"
     assert refused(RULE, "ex x. x^2 < a", after, by(cases))
 
 
-@pytest.mark.parametrize(
-    ("before", "evidence", "reason"),
-    [
-        ("ex x. x^2 < a", by(["true"], [[]]), "expected 2 lists"),
-        ("ex x. x^2 < a", by(["true"], variable="a"), "the one variable"),
-        ("ex x, y. x^2 < y", by(["true"]), "the one variable"),
-        ("x > a", by(["true"]), "the one variable"),
-        ("ex x. x > root(1, x^2 - a, x)", by(["true"]), "no root atoms"),
-    ],
+@each(
+    ("ex x. x^2 < a", by(["true"], [[]]), "expected 2 lists"),
+    ("ex x. x^2 < a", by(["true"], variable="a"), "the one variable"),
+    ("ex x, y. x^2 < y", by(["true"]), "the one variable"),
+    ("x > a", by(["true"]), "the one variable"),
+    ("ex x. x > root(1, x^2 - a, x)", by(["true"]), "no root atoms"),
 )
 def test_what_is_refused(before: str, evidence: Any, reason: str) -> None:
     assert refused(RULE, before, before, evidence), reason

@@ -1,7 +1,5 @@
 """Rule "sphere seen along a form": the open ball shows nothing of a form that vanishes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tests.unit.proving.elaborated import refused

@@ -1,11 +1,8 @@
 """Conjuncts without a common variable of the block, solved apart and by steps of their own."""
 
-from __future__ import annotations
-
 from typing import Any
 
-import pytest
-
+from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS, step, written
 from tests.unit.proving.elaborated import refused
 
@@ -48,18 +45,15 @@ def test_a_part_solved_together_with_what_holds_beside() -> None:
     assert refused(RULE, before, "a > 0 and b > a*c and (ex y. y > b)", alone)
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "pieces", "reason"),
-    [
-        (BLOCK, "a > b and c^3 < b", [X, Y], "not the conjunction"),  # what stands beside is left out
-        (BLOCK, "a > 0 and a > b", [X], "a conjunct is missing"),
-        (BLOCK, ANSWER, [X, X], "share a variable"),
-        (BLOCK, ANSWER, [X, Y, piece("y > 7")], "share a variable"),
-        ("ex x, y. x = a and y > x and y = c and a > 0", "a > 0", [piece("x = a"), piece("y > x and y = c")], "share"),
-        (BLOCK, f"{ANSWER} and (ex y. y > 7)", [X, piece("y = c and y^3 < b and y > 7")], "not made of conjuncts"),
-        (BLOCK.replace("ex", "all"), ANSWER, [X, Y], "existential block"),
-        (BLOCK, "false", [X, Y], "not the conjunction"),
-    ],
+@each(
+    (BLOCK, "a > b and c^3 < b", [X, Y], "not the conjunction"),  # what stands beside is left out
+    (BLOCK, "a > 0 and a > b", [X], "a conjunct is missing"),
+    (BLOCK, ANSWER, [X, X], "share a variable"),
+    (BLOCK, ANSWER, [X, Y, piece("y > 7")], "share a variable"),
+    ("ex x, y. x = a and y > x and y = c and a > 0", "a > 0", [piece("x = a"), piece("y > x and y = c")], "share"),
+    (BLOCK, f"{ANSWER} and (ex y. y > 7)", [X, piece("y = c and y^3 < b and y > 7")], "not made of conjuncts"),
+    (BLOCK.replace("ex", "all"), ANSWER, [X, Y], "existential block"),
+    (BLOCK, "false", [X, Y], "not the conjunction"),
 )
 def test_other_parts(before: str, after: str, pieces: Any, reason: str) -> None:
     assert refused(RULE, before, after, {"pieces": pieces}), reason

@@ -1,7 +1,5 @@
 """Refutations over signs: right for independent signs, going on where lemmas join, and with no lemma too many."""
 
-from __future__ import annotations
-
 from itertools import product
 
 from hypothesis import given

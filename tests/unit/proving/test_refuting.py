@@ -1,7 +1,5 @@
 """Evidence that refutes lists of formulas: read by the checker's theory, no more of it than is needed."""
 
-from __future__ import annotations
-
 import pytest
 
 from qe.certify.registry import RULES
@@ -16,6 +14,7 @@ from qe.options import Budget
 from qe.proof.entry import Entry, Json
 from qe.proving.goals import is_hopeless, polynomials_outside
 from qe.proving.lemmas import refuting
+from tests.tables import each
 
 RING = Ring.of(("a", "x", "y", "z"))
 LIMITS = limits_of(Budget(), RULES)
@@ -36,19 +35,16 @@ def lemmas(*goals: list[Formula]) -> list[dict[str, Json]] | None:
     return evidence["lemmas"]  # type: ignore[return-value]
 
 
-@pytest.mark.parametrize(
-    ("texts", "count"),
-    [
-        (("x > 0", "x <= 0"), 0),
-        (("x > 1", "x < 0"), 1),
-        (("x > y", "y > z", "z > x"), 1),
-        (("x^2 + 2*x + 2 <= 0",), 1),
-        (("x^2*y^2 + a^4 + 1 < 0",), 1),
-        (("x*y = 0", "x /= 0", "y > 0"), 1),
-        (("x = a + 1", "x^2 < a^2 + 2*a + 1"), 1),
-        (("x > 0", "x^5 + x < 0"), None),
-        (("a = 1", "x = a", "y = x", "y > 2"), None),
-    ],
+@each(
+    (("x > 0", "x <= 0"), 0),
+    (("x > 1", "x < 0"), 1),
+    (("x > y", "y > z", "z > x"), 1),
+    (("x^2 + 2*x + 2 <= 0",), 1),
+    (("x^2*y^2 + a^4 + 1 < 0",), 1),
+    (("x*y = 0", "x /= 0", "y > 0"), 1),
+    (("x = a + 1", "x^2 < a^2 + 2*a + 1"), 1),
+    (("x > 0", "x^5 + x < 0"), None),
+    (("a = 1", "x = a", "y = x", "y > 2"), None),
 )
 def test_what_is_refuted(texts: tuple[str, ...], count: int | None) -> None:
     found = lemmas(goal(*texts))
@@ -89,14 +85,11 @@ def test_values_of_several_variables_are_put_in_at_once() -> None:
     assert len(lemmas(given) or []) == 1
 
 
-@pytest.mark.parametrize(
-    ("texts", "hopeless"),
-    [
-        (("x > 0", "all y. y*x > z"), True),
-        (("ex y. y*x <= z", "all y. y*x > z"), False),
-        (("x > 0", "x < 0 or ex y. y*x > z"), True),
-        (("x > 0", "x < 0"), False),
-    ],
+@each(
+    (("x > 0", "all y. y*x > z"), True),
+    (("ex y. y*x <= z", "all y. y*x > z"), False),
+    (("x > 0", "x < 0 or ex y. y*x > z"), True),
+    (("x > 0", "x < 0"), False),
 )
 def test_a_quantified_part_of_which_nothing_else_speaks_is_not_refuted(texts: tuple[str, ...], hopeless: bool) -> None:
     assert is_hopeless(goal(*texts)) is hopeless

@@ -1,11 +1,8 @@
 """Translations and scalings of a block: invariance of every polynomial is the side condition."""
 
-from __future__ import annotations
-
 from typing import Any
 
-import pytest
-
+from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS
 from tests.unit.proving.elaborated import refused
 
@@ -31,30 +28,25 @@ def test_the_origin_moves_along_the_diagonal() -> None:
     assert refused(TRANSLATION, inner, moved, along("x", ("x", "2"), ("y", "2"), ("z", "2"))) == ""
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "evidence", "reason"),
-    [
-        (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "1"), ("y", "-1")), "not constant along"),
-        (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "1")), "not constant along"),
-        (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "0"), ("y", "1")), "does not move"),
-        (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("y", "1")), "does not move"),
-        (DIFFERENCE, "ex y. y^2 < a and y > b", along("x", ("x", "1"), ("y", "1")), "with 0 for the variable"),
-        (DIFFERENCE, "y^2 < a and -y > b", along("x", ("x", "1"), ("y", "1")), "with 0 for the variable"),
-        (DIFFERENCE, "ex y. y^2 < a and -y > b", along("a", ("a", "1")), "existential block"),
-        (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "1"), ("x", "1")), "each once"),
-        ("ex x. x - y > b", "-y > b", along("x", ("x", "1"), ("y", "1")), "may move"),  # y is given
-        ("all x. x - y > b", "-y > b", along("x", ("x", "1")), "existential block"),
-        ("ex x, y. x - y > b and (all y. y^2 > x - x)", "ex y. -y > b", along("x", ("x", "1"), ("y", "1")), ""),
-        ("ex x, y. x > root(1, (x - y)^2 - a, x)", "true", along("x", ("x", "1"), ("y", "1")), "root atoms"),
-    ],
+@each(
+    (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "1"), ("y", "-1")), "not constant along"),
+    (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "1")), "not constant along"),
+    (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "0"), ("y", "1")), "does not move"),
+    (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("y", "1")), "does not move"),
+    (DIFFERENCE, "ex y. y^2 < a and y > b", along("x", ("x", "1"), ("y", "1")), "with 0 for the variable"),
+    (DIFFERENCE, "y^2 < a and -y > b", along("x", ("x", "1"), ("y", "1")), "with 0 for the variable"),
+    (DIFFERENCE, "ex y. y^2 < a and -y > b", along("a", ("a", "1")), "existential block"),
+    (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "1"), ("x", "1")), "each once"),
+    ("ex x. x - y > b", "-y > b", along("x", ("x", "1"), ("y", "1")), "may move"),  # y is given
+    ("all x. x - y > b", "-y > b", along("x", ("x", "1")), "existential block"),
+    ("ex x, y. x - y > b and (all y. y^2 > x - x)", "ex y. -y > b", along("x", ("x", "1"), ("y", "1")), ""),
+    ("ex x, y. x > root(1, (x - y)^2 - a, x)", "true", along("x", ("x", "1"), ("y", "1")), "root atoms"),
 )
 def test_what_breaks_a_translation(before: str, after: str, evidence: Any, reason: str) -> None:
     assert refused(TRANSLATION, before, after, evidence), reason
 
 
-@pytest.mark.parametrize(
-    "before", ["ex x. (ex y. x - y > a) and (ex x. x > b)", "ex x. (ex y. x - y > a) and y > b and x > x - y"]
-)
+@each("ex x. (ex y. x - y > a) and (ex x. x > b)", "ex x. (ex y. x - y > a) and y > b and x > x - y")
 def test_a_name_bound_twice_or_free_and_bound(before: str) -> None:
     assert refused(TRANSLATION, before, "true", along("x", ("x", "1"), ("y", "1")))
 
@@ -71,16 +63,13 @@ def test_a_scale_is_chosen() -> None:
     assert refused(SCALING, two, "ex y. 1 = y and y < 3", scaled([1], "x", ("x", "1/2"), ("y", "1"))) == ""
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "evidence", "reason"),
-    [
-        (CUBES, "ex y. 1 + y^3 > 0 and y > 0", scaled([1], "x", ("x", "1"), ("y", "1")), "do not exclude"),
-        (CUBES, "ex y. 1 + y^3 > 0 and y > 0", scaled([1], "x", ("x", "1"), ("y", "2")), "not homogeneous"),
-        ("ex x. x^2 > a", "1 > a or 0 > a or 1 > a", scaled([1, 0, -1], "x", ("x", "1")), "not homogeneous"),
-        ("ex x, y. x > 0 and y = x", "ex y. y = 2", scaled([1], "x", ("x", "1"), ("y", "1")), "with these values"),
-        ("ex x, y. x > 0 and y = x", "ex y. y = 1", scaled([1], "x", ("x", "0"), ("y", "1")), "does not move"),
-        ("ex x, y. x >= 0 and y = x", "ex y. y = 1", scaled([1], "x", ("x", "1"), ("y", "1")), "do not exclude"),
-    ],
+@each(
+    (CUBES, "ex y. 1 + y^3 > 0 and y > 0", scaled([1], "x", ("x", "1"), ("y", "1")), "do not exclude"),
+    (CUBES, "ex y. 1 + y^3 > 0 and y > 0", scaled([1], "x", ("x", "1"), ("y", "2")), "not homogeneous"),
+    ("ex x. x^2 > a", "1 > a or 0 > a or 1 > a", scaled([1, 0, -1], "x", ("x", "1")), "not homogeneous"),
+    ("ex x, y. x > 0 and y = x", "ex y. y = 2", scaled([1], "x", ("x", "1"), ("y", "1")), "with these values"),
+    ("ex x, y. x > 0 and y = x", "ex y. y = 1", scaled([1], "x", ("x", "0"), ("y", "1")), "does not move"),
+    ("ex x, y. x >= 0 and y = x", "ex y. y = 1", scaled([1], "x", ("x", "1"), ("y", "1")), "do not exclude"),
 )
 def test_what_breaks_a_scaling(before: str, after: str, evidence: Any, reason: str) -> None:
     assert refused(SCALING, before, after, evidence), reason

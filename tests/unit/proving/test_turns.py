@@ -1,7 +1,5 @@
 """Blocks that only look at lengths and angles: one coordinate is 0, another not negative."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

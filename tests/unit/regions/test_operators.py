@@ -1,7 +1,5 @@
 """Sets and their operators, against what they mean."""
 
-from __future__ import annotations
-
 import pickle
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Parts of regions: sketches, walks, plane slices, measures, descriptions, operators."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import pi
 from random import Random

@@ -1,7 +1,5 @@
 """Regions as sets: members, solutions, ends, topology."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Regions in the plane and in space: connected components, closure and interior, fibres."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction as F
 from itertools import combinations

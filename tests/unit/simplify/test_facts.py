@@ -1,7 +1,5 @@
 """What is known about signs: facts, factors, absorption."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 

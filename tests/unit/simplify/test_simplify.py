@@ -1,7 +1,5 @@
 """The simplifier's rules, one example each; every pair is checked for equivalence by the property tests as well."""
 
-from __future__ import annotations
-
 from qe.formula.syntax import FALSE, TRUE
 from qe.formula.traverse import atoms
 from qe.io.text import read

@@ -1,7 +1,5 @@
 """Atoms in one variable against each other: what follows, what contradicts, by sampling every piece."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import given
