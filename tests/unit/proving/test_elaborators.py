@@ -70,7 +70,6 @@ NO_PARABOLA = [
     ("ex x, y. x^2 + a*x + y <= 0 and y > x", "ex y. 4*y - a^2 <= 0 and y > b"),
     ("ex x, y. c*x^2 + a*x + y <= 0 and y > b", "ex y. 4*c*y - a^2 <= 0 and y > b"),
 ]
-WEIGHTS = {"weights": [["x", "1"], ["y", "2"]], "values": [1], "theory": NO_LEMMAS}
 FREE = {"variable": "x", "theory": NO_LEMMAS}
 TAKEN = "value that is taken"
 BALLS, PLANE, QUADRICS = "two balls", "roots in a half-plane", "quadric in a quadric"
@@ -184,14 +183,3 @@ def test_a_case_that_settles_a_scaling_ends_it() -> None:
     evidence = {"variable": "x", "weights": [["x", "1"], ["y", "1"]], "values": [1, 0], "theory": NO_LEMMAS}
     assert qe.eliminate("ex y, x. y^3 + 2*x^3 > 0 and y^2*x = 0", check=True).guarantee is qe.Guarantee.CHECKED
     assert refused("homogeneous scaling", "ex x, y. x >= 0 and x + y > 0", "false", evidence)
-
-
-@each(
-    ("degree shift", "ex x. not (x^4 < a or x^2 = b)", "ex x. x >= 0 and not (x^2 < a or x = b)", {"exponent": 2}),
-    ("homogeneous scaling", "ex x, y. not (x <= 0 or x^2 > y)", "ex y. not (1 > y)", WEIGHTS),
-    ("mirror images of a convex set", "ex x. not (x > a or -x > a)", "a >= 0", {"mirror": [["x", "x", -1]]}),
-)
-def test_a_block_with_negations_inside(rule: str, before: str, after: str, evidence: Any) -> None:
-    """The steps began with the block as it stands, the kernel with that whose negations are in its atoms."""
-    given = {"variable": "x"} if rule != "mirror images of a convex set" else {}
-    assert refused(rule, before, after, {**given, **evidence}) == ""
