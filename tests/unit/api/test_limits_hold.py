@@ -1,4 +1,4 @@
-"""``timeout`` ends every public function, also while it is in a call that never looks at its budget."""
+"""Limits end every public function; what was known before is kept."""
 
 import pickle
 import time
@@ -13,13 +13,22 @@ import sympy
 
 import qe
 import qe.api.eliminate  # else this is a function
-from qe.errors import BudgetExceeded, Unable
+from qe.api.limits import limits_of, reading
+from qe.api.race import raced
+from qe.api.verify import with_derivation
+from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.options import Budget
+from qe.io.text import read
+from qe.options import Budget, Method
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.processes.worker import end_idle
 from qe.progress import Event
+from qe.proof.answer import UNPROVED, Answer, Status
 from tests.tables import each
-from tests.workers import large, replace_in_worker, stuck
+from tests.workers import killed, large, replace_in_worker, stuck
+
+# ``timeout`` ends every public function, also while it is in a call that never looks at its budget.
 
 pytestmark = pytest.mark.processes
 
@@ -249,3 +258,112 @@ def test_no_time_left_is_a_limit_and_no_wrong_argument():
     assert Budget().time_left("later") is None and 0 < Budget(60).time_left("later") <= 60
     with pytest.raises(Unable, match="limit"):
         Budget(-1).time_left("later")
+
+
+# An answer that is known is not lost while it is proved: a proof that is ended leaves it behind, as derived.
+
+KEPT_LONG = 600.0
+"""Seconds; no test waits for them."""
+
+CALLS: dict[str, Callable[[], object]] = {
+    "eliminate": lambda: qe.eliminate("ex x, y. x^2 + y^2 = a and x + y = b", timeout=KEPT_LONG, check=True),
+    "a race": lambda: qe.eliminate("ex x. a*x^2 + b*x + 1 = 0", timeout=KEPT_LONG, check=True, race=["vs"]),
+    "region": lambda: qe.region("ex y. x^2 + y^2 < 4", timeout=KEPT_LONG, check=True),
+    "minimize": lambda: qe.minimize("x^4 - x*y", "ex z. y = z^3 and z^2 <= 4*x", timeout=KEPT_LONG, check=True),
+    "minimize with a parameter": lambda: qe.minimize("x^2 - p*x", parameters="p", timeout=KEPT_LONG, check=True),
+    "parametric_witnesses": lambda: qe.parametric_witnesses("ex x. a*x = b and x > 1", timeout=KEPT_LONG, check=True),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_an_answer_whose_proof_was_ended_comes_back_derived(name):
+    replace_in_worker("qe.proving.certificates.derived", killed)
+    replace_in_worker("qe.optimization.values.proved", killed)
+    found = CALLS[name]()
+    answer = found if isinstance(found, qe.Answer) else found.answer  # type: ignore[attr-defined]
+    assert answer.formula is not None and answer.certificate is None
+    for part in (answer, found):
+        if hasattr(part, "guarantee"):
+            assert (part.guarantee, part.reason) == (qe.Guarantee.DERIVED, UNPROVED)
+
+
+def test_an_answer_found_before_the_limit_is_not_lost_by_a_slow_proof():
+    asked = "ex x, y. x^2 + y^2 = a and x + y = b"
+    replace_in_worker("qe.proving.certificates.derived", stuck)
+    answer = qe.eliminate(asked, timeout=3, check=True)
+    assert answer.guarantee is qe.Guarantee.DERIVED and answer.reason == UNPROVED
+    assert answer.formula == qe.eliminate(asked).formula
+
+
+def test_a_slow_derivation_of_a_known_answer_ends_at_its_limit():
+    answer = qe.eliminate("ex x. a*x^2 + b*x + 1 = 0")
+    replace_in_worker("qe.proving.certificates.derived", stuck)
+    found = with_derivation(answer, timeout=0.2)
+    assert found.formula == answer.formula and found.certificate is None and UNPROVED in found.why_unchecked
+
+
+def keeps(then: Callable[[], object], at: float, budget: Budget) -> object:
+    """Work that keeps two results after some seconds, and goes on."""
+    end = time.monotonic() + at
+    while time.monotonic() < end:
+        budget.check("waiting")
+        time.sleep(0.002)
+    budget.keep("first")
+    budget.keep("last")
+    return then()
+
+
+def done() -> str:
+    return "done"
+
+
+def unable() -> None:
+    raise Unable("cannot")
+
+
+def wrong() -> None:
+    raise InternalError("wrong")
+
+
+@each(
+    (Limits(process=False), False, 0.0),  # in this process
+    (Limits(), False, 0.0),  # in this process, from which it might move
+    (Limits(), False, 0.5),  # moved
+    (Limits(timeout=KEPT_LONG), True, 0.0),  # in another one from the start
+)
+def test_work_that_is_unable_to_go_on_gives_what_it_kept_last(limits, at_once, seconds):
+    assert perform(partial(keeps, unable, seconds), limits, at_once=at_once) == "last"
+    assert perform(partial(keeps, done, seconds), limits, at_once=at_once) == "done"
+    with pytest.raises(InternalError):  # a fault is not hidden by what was known before it
+        perform(partial(keeps, wrong, seconds), limits, at_once=at_once)
+
+
+# Limits and clusters that callers name, checked.
+
+
+def test_limits() -> None:
+    listener = [].append
+    limits = limits_of({"timeout": 2, "memory": 100, "progress": listener, "process": False})
+    assert isinstance(limits, Limits) and limits.timeout == 2 and limits.process is False
+    assert limits.start is not None and 0 <= time.monotonic() - limits.start < 10
+
+
+def test_reading() -> None:
+    limits = Limits(None)
+    assert reading("x > 0", "text", limits) == read("x > 0")
+    asked: list[tuple[object, ...]] = []
+    reading(read("x > 0"), "text", limits, True, reader=lambda *given: asked.append(given) or given[0])  # type: ignore
+    assert asked == [(read("x > 0"), "text", True)]
+
+
+def asked(method: Method, budget: Budget) -> Answer:
+    if method is Method.CAD:
+        return Answer(Status.SOLVED, read("x > 0"))
+    return Answer(Status.UNABLE, None, reason="not mine")
+
+
+def test_the_first_answer_wins_and_reasons_are_told() -> None:
+    won = raced(asked, [Method.VS, Method.CAD], Limits(60))
+    assert won.formula == read("x > 0") and "first answer was that of cad, ahead of vs" in won.explanation
+    lost = raced(asked, [Method.VS], Limits(60))
+    assert lost.status is Status.UNABLE and lost.reason == "vs: not mine"

@@ -332,10 +332,7 @@ FALSE_STEPS: dict[str, list[Row]] = {
             for sign in (">", ">=")
         ),
         # A condition on one of the two.
-        *(
-            exchanged(f"x*y = a and {at}", "y = a and x > 2")
-            for at in ("x > 1", "x > 1 and y > 2", "(x > 1 or y > 2)")
-        ),
+        *(exchanged(f"x*y = a and {at}", "y = a and x > 2") for at in ("x > 1", "x > 1 and y > 2", "(x > 1 or y > 2)")),
     ],
     MIRROR: [
         ("ex x. x /= 0", "0 /= 0", NEGATED),
