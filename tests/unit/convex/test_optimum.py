@@ -65,7 +65,7 @@ def proves_itself(found: OptimumEvidence) -> None:
         assert not any(map(sign, total(found, [F(0)] * found.objective.size)))
         value = sign(sum((m * f.value(found.point) for m, f in zip(found.multipliers, found.forms)), F(0)))
         strict = any(sign(m) for m, (_, relation) in zip(found.multipliers, pairs) if relation is LT)
-        assert value > 0 or not value and strict
+        assert value > 0 or (not value and strict)
         return
     assert not any(map(sign, total(found, list(found.objective.slope(found.point)))))
     for (form, relation), m in zip(pairs, found.multipliers):
