@@ -21,8 +21,6 @@ CONVEX = qe.region("ex w. x^2 + y^2 + z^2 + u^2 + w^2 <= 1")
 SOLVED = qe.eliminate("ex x. x^2 = 2")
 WITNESS = qe.parametric_witnesses("ex x. x > a and x < b")[0]
 SQUARE_ROOT = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
-
-
 SYSTEM = qe.comprehensive_groebner(["a*x - 1"], "x", "a")
 COUNTED = qe.real_root_classification(["a*x - 1"], "x", "a")
 (X,) = qe.variables("x y")[:1]

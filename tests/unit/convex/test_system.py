@@ -159,8 +159,6 @@ def test_conditions_that_a_known_point_satisfies(rows: list[tuple], at: tuple[Fr
 
 
 WHOLE = Flat.whole(2)
-
-
 HUGE = Fraction(2**40)
 
 

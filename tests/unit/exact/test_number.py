@@ -147,7 +147,6 @@ FIELDS = [
     NumberField.from_root([-3, 0, 2, 7], 0, 1),
 ]
 
-
 numbers = rationals(5, 7)
 
 

@@ -42,8 +42,6 @@ def nots(formula: Formula) -> list[Formula]:
 
 
 quantified = formulas(names=("x", "y"), max_quantifiers=4, root_atoms=True)
-
-
 places = st.fixed_dictionaries({name: st.sampled_from(UNIVERSE) for name in ("x", "y")})
 
 

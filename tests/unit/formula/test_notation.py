@@ -20,8 +20,6 @@ from tests.strategies import formulas, polynomials
 from tests.tables import each
 
 RING = Ring.of(("x", "y"))
-
-
 X, Y = RING.var("x"), RING.var("y")
 
 

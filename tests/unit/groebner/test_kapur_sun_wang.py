@@ -26,14 +26,8 @@ from tests.unit.groebner.support import places
 # Segments: how they are made and reduced, and what lies in them.
 
 RING = Ring.of(("a", "b", "x", "y"))
-
-
 A, B, X, Y = (RING.var(name) for name in RING.names)
-
-
 BLOCK = BlockOrder((2, 3), (0, 1))
-
-
 POINTS = [(Fraction(a), Fraction(b)) for a, b in product((-2, -1, 0, 1, 2), repeat=2)]
 
 

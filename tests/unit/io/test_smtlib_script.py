@@ -22,7 +22,6 @@ WORDS = st.one_of(
     st.sampled_from(("0", "12", "1.50", ":named", ":a-b", '"a ""quoted"" (word"', '""', "#x1F", "#b01")),
 )
 
-
 EXPRESSIONS: st.SearchStrategy[Expression] = st.recursive(
     WORDS, lambda inner: st.lists(inner, max_size=3), max_leaves=6
 )

@@ -190,8 +190,6 @@ def test_the_command_prints_all_points(capsys: pytest.CaptureFixture[str]) -> No
 
 
 RING = Ring.of(("x", "y"))
-
-
 X, Y = RING.var("x"), RING.var("y")
 
 

@@ -44,7 +44,6 @@ CHAINS = [
     ("a = 1 and b = a and x = b and y = x + b and z = y^2 and z < 3", "false"),
 ]
 
-
 BOUNDED = [
     ("a > 0 and b > 1 and a*b + 2*b <= 1", "false"),
     ("a >= 0 and 2*b < 1 and 2*a*b - a + 4*b >= 3", "false"),

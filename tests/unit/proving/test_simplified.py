@@ -36,7 +36,6 @@ CASES = {
     ),
 }
 
-
 RING = Ring.of(("k", "x", "y", "z"))
 
 

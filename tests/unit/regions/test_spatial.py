@@ -25,10 +25,7 @@ from tests.strategies import formulas
 from tests.tables import each
 
 ORDER = ("x", "y", "z")
-
-
 TORUS = "(x^2 + y^2 + z^2 + 3)^2 <= 16*(x^2 + y^2)"
-
 
 KNOWN = {
     "x^2 + y^2 + z^2 <= 1 or (x - 2)^2 + y^2 + z^2 <= 1": 1,
@@ -49,7 +46,6 @@ KNOWN = {
     "x^2 > 1": 2,
     "x^2 + y^2 + z^2 < 0": 0,
 }
-
 
 ON_LINES = {  # x*z - y is zero on the whole line x = y = 0
     "x*z = y": 1,
@@ -98,11 +94,7 @@ def test_four_variables_are_refused() -> None:
 
 
 SMALL = st.integers(-3, 3)
-
-
 BALLS = st.lists(st.tuples(SMALL, SMALL, SMALL, st.integers(1, 2)), min_size=2, max_size=3, unique=True)
-
-
 BOXES = st.lists(st.tuples(SMALL, SMALL, SMALL), min_size=2, max_size=4, unique=True)
 
 
@@ -208,8 +200,6 @@ def _agrees(formula, order: tuple[str, ...]) -> None:
 
 
 SQRT2 = RealAlgebraic.from_root((-2, 0, 1), 1, 2)
-
-
 ANNULUS = "x^2 + y^2 <= 4 and x^2 + y^2 > 1"
 
 
