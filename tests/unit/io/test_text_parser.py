@@ -167,19 +167,6 @@ def test_exclusive_or(count: int) -> None:
         assert holds_at(formula, dict(zip(names, signs))) == bool(sum(signs) % 2)
 
 
-@each(
-    ("y > 0 and Not(x > 0, y > 0)", 10, "Not takes one formula"),
-    ("Implies(x > 0)", 0, "Implies takes two formulas"),
-    ("Implies(x > 0, x > 1, x > 2)", 0, "Implies takes two formulas"),
-    ("Less(x)", 0, "Less compares two terms"),
-    ("ForAll[x, x > 0, x > 1, x > 2]", 0, "a quantifier takes variables, perhaps a condition"),
-)
-def test_wrong_numbers_of_parts(text: str, at: int, said: str) -> None:
-    with pytest.raises(SyntaxFailure) as error:
-        TextParser(text).whole()
-    assert error.value.at == at and said in error.value.message
-
-
 def test_offsets_of_sets_and_functions() -> None:
     found = TextParser("x in (0, 1)").whole()
     x = s.Name("x", 0)
