@@ -19,25 +19,6 @@ POLYS = polynomials(RING, max_degree=4, max_terms=6)
 BLOCKS = st.sets(st.integers(0, 3)).map(sorted)
 
 
-@given(POLYS, BLOCKS)
-def test_collected_is_the_polynomial_again(p: Poly, block: list[int]) -> None:
-    parts = p.collected(block)
-    total = RING.constant(0)
-    for exponents, coefficient in parts.items():
-        assert coefficient and not set(block) & set(coefficient.variables)
-        for i, k in zip(block, exponents, strict=True):
-            coefficient = coefficient * RING.gen(i) ** k
-        total = total + coefficient
-    assert total == p
-
-
-@given(POLYS, BLOCKS)
-def test_coefficients_in_a_block_are_those_collected(p: Poly, block: list[int]) -> None:
-    found = p.coefficients_in(block)
-    assert len(set(found)) == len(found)
-    assert set(found) == set(p.collected(block).values())
-
-
 @given(POLYS, polynomials(RING, max_degree=1), polynomials(RING, max_degree=1), st.tuples(*[rationals()] * 4))
 def test_a_quotient_put_in(p: Poly, top: Poly, bottom: Poly, point: tuple[Fraction, ...]) -> None:
     x = 2
