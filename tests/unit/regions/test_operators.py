@@ -93,18 +93,6 @@ def test_convex_sets_stay_convex() -> None:
     assert whole.contains(whole.sample(3))
 
 
-@each(
-    ("x^2 + y^2 + z^2 < 1 and x > 0", "x^2 + y^2 + z^2 <= 1 and x >= 0", "x^2 + y^2 + z^2 < 1 and x > 0"),
-    ("x^2 + y^2 < 1 and x > 1 and z > 0", "false", "false"),  # the weak conditions have points
-    ("x^2 + y^2 <= 1 and x = 1 and z > 0", "x = 1 and y = 0 and z >= 0", "false"),
-    ("z*(x^2 + y^2) > 0", "z >= 0", "z*(x^2 + y^2) > 0"),
-)
-def test_topology_in_space(text: str, closed: str, opened: str) -> None:
-    given = qe.region(text, order="x, y, z")
-    assert qe.equivalent(given.closure().formula, closed)
-    assert qe.equivalent(given.interior().formula, opened)
-
-
 def test_points() -> None:
     finite = qe.region("x^2 = 2 or x = 5")
     assert sorted(str(p["x"]) for p in finite.find_instances(9)) == ["-sqrt(2)", "5", "sqrt(2)"]
