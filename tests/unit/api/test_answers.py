@@ -170,15 +170,13 @@ def test_values_solve_the_body_where_the_guard_holds(text: str) -> None:
     assert tried > 10
 
 
-def test_a_universal_block_gets_counterexamples() -> None:
-    (found,) = qe.parametric_witnesses("all x. x^2 + b*x + c > 0")
-    assert str(found.guard) == "b^2 - 4*c >= 0"
-    assert found.at({"b": 0, "c": -1}).keys() == {"x"}
-
-
-def test_inner_quantifiers_are_eliminated_first() -> None:
-    (found,) = qe.parametric_witnesses("ex x. all y. y^2 + a > x and x > b")
-    assert qe.equivalent(found.guard, "a > b")
+@each(
+    ("all x. x^2 + b*x + c > 0", "b^2 - 4*c >= 0", {"b": 0, "c": -1}),  # counterexamples
+    ("ex x. all y. y^2 + a > x and x > b", "a > b", {"a": 1, "b": 0}),  # inner quantifiers are eliminated first
+)
+def test_guards_and_values(text: str, guard: str, at: dict[str, int]) -> None:
+    (found,) = qe.parametric_witnesses(text)
+    assert qe.equivalent(found.guard, guard) and found.at(at).keys() == {"x"}
 
 
 @each(("x > 0", qe.InputError), ("ex x. x^5 + a*x + b = 0 and x > a", qe.DegreeTooHigh))

@@ -4,7 +4,7 @@ import pytest
 
 from qe.errors import InputError, ParseError
 from qe.exact.ring import Ring
-from qe.formula.syntax import FALSE, TRUE, Exists, RootAtom
+from qe.formula.syntax import FALSE, TRUE, RootAtom
 from qe.formula.traverse import ring_of
 from qe.io.text import read, write
 from tests.tables import each
@@ -81,41 +81,37 @@ def test_nesting_has_a_limit_and_says_so() -> None:
         read(deep)
 
 
-def test_long_inputs_are_not_deep() -> None:
-    assert write(read("+".join(["x"] * 3000) + " = 0")) == "x = 0"
-    assert write(read("*".join(["x"] * 3000) + " = 0")) == "x^3000 = 0"
-    assert write(read(" and ".join(f"x > {i}" for i in range(1000)))).count("and") == 999
+DIGITS = "1234567890" * 1000
 
 
-def test_numbers_of_any_length() -> None:
-    digits = "1234567890" * 1000
-    formula = read(f"x = {digits}")
-    assert write(formula) == f"x - {digits} = 0"
-    assert read(f"x = {digits}.0") == formula
+@each(
+    ("+".join(["x"] * 3000) + " = 0", "x = 0"),
+    ("*".join(["x"] * 3000) + " = 0", "x^3000 = 0"),
+    (" and ".join(f"x > {i}" for i in range(1, 1000)), " and ".join(f"x - {i} > 0" for i in range(1, 1000))),
+    (f"x = {DIGITS}", f"x - {DIGITS} = 0"),
+    (f"x = {DIGITS}.0", f"x - {DIGITS} = 0"),
+    ("ex x. x = y and (ex y. y > x)", "ex x. y - x = 0 and ex y. y - x > 0"),  # free and bound
+)
+def test_long_inputs_are_not_deep_and_numbers_have_any_length(text: str, printed: str) -> None:
+    assert write(read(text)) == printed
+
+
+@each(
+    ("ex x, y. x + b = y*a and (ex z. z > a)", "baxyz"),
+    ("x > 0 and (ex y. ex x. x = y)", "xy"),
+    ("x > root(3, x^3 - y*x)", "xy"),
+)
+def test_ring_order_is_free_then_bound(text: str, names: str) -> None:
+    assert ring_of(read(text)) is Ring.of(tuple(names))
+
+
+def test_constants_have_no_ring_and_root_atoms_their_number() -> None:
+    assert read("true") is TRUE and read("x < x") is FALSE
+    formula = read("x > root(3, x^3 - y*x)")
+    assert isinstance(formula, RootAtom) and formula.k == 3 and formula.variable == "x"
 
 
 def test_powers_that_would_not_fit_are_refused_before_they_are_computed() -> None:
     for text in ("((2*x + 1)^99)^99 = 0", "((7^10000)^10000)^10000 = x", "(123456789^9999*x)^9999 = 1"):
         with pytest.raises(ParseError):
             read(text)
-
-
-def test_ring_order_is_free_then_bound() -> None:
-    assert ring_of(read("ex x, y. x + b = y*a and (ex z. z > a)")) is Ring.of(("b", "a", "x", "y", "z"))
-    assert ring_of(read("x > 0 and (ex y. ex x. x = y)")) is Ring.of(("x", "y"))
-
-
-def test_constants_have_no_ring() -> None:
-    assert read("true") is TRUE
-    assert read("x < x") is FALSE
-
-
-def test_a_name_may_be_free_and_bound() -> None:
-    formula = read("ex x. x = y and (ex y. y > x)")
-    assert isinstance(formula, Exists)
-    assert write(formula) == "ex x. y - x = 0 and ex y. y - x > 0"
-
-
-def test_root_atoms() -> None:
-    formula = read("x > root(3, x^3 - y*x)")
-    assert isinstance(formula, RootAtom) and formula.k == 3 and formula.variable == "x"

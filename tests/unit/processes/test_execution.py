@@ -232,17 +232,11 @@ def raced(**works: Callable[[Channel], str]) -> tuple[str | None, dict[str, str 
         return first(works, lambda value: value == "early", Limits(timeout=60))
 
 
-def test_the_first_answer_ends_the_others() -> None:
+def test_the_first_answer_ends_the_others_and_errors_are_results() -> None:
     winner, found = raced(slow=asleep, fast=EARLY, wrong=UNABLE)
     assert winner == "fast" and found["fast"] == "early" and "slow" not in found
-
-
-def test_where_nobody_wins_everything_is_told() -> None:
     winner, found = raced(wrong=UNABLE, dead=gone)
     assert winner is None and str(found["wrong"]) == "cannot" and isinstance(found["dead"], WorkerDied)
-
-
-def test_an_error_in_a_work_is_a_result_like_others() -> None:
     winner, found = raced(bad=wrong, fast=EARLY)
     assert winner == "fast" and isinstance(found.get("bad", InternalError("")), InternalError)
 
