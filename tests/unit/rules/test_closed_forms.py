@@ -3,8 +3,6 @@
 The theorems themselves are tested in ``tests/unit/kernel/test_theorems.py``, all in the same ways.
 """
 
-from __future__ import annotations
-
 import pytest
 
 import qe
@@ -20,6 +18,7 @@ from qe.rules.closed_forms import square_root
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
 
 BALLS, PLANE, QUADRICS, CUBIC = StepKind.BALLS, StepKind.HALF_PLANE, StepKind.QUADRICS, StepKind.CUBIC_INTERVAL
 
@@ -44,44 +43,38 @@ def steps_of(text: str | Formula, kind: StepKind) -> list[Step]:
     return [step for step in log.steps() if step.rule == kind.value]
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        (f"r >= 0 and s > 0 and ({DISCS})", "r >= 0 and s > 0 and r^2 + 2*r*s + s^2 - a^2 - b^2 >= 0"),
-        (f"r >= 0 and s <= 0 and ({DISCS})", "r >= 0 and s <= 0 and r^2 - 2*r*s + s^2 - a^2 - b^2 >= 0"),
-        (DISCS, "r^2 + 2*r*s - a^2 - b^2 + s^2 >= 0 or r^2 - 2*r*s - a^2 - b^2 + s^2 >= 0"),
-        ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
-        ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "a - 2 < 0 and a + 2 > 0"),
-        ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 - 9 >= 0"),
-        ("all x, y. (x-a)^2 + (y-b)^2 <= 4 -> x^2 + y^2 <= 9", "a^2 + b^2 - 1 <= 0"),
-        (f"r > 0 and s > 0 and ({DISCS.replace('<', '')})", f"r > 0 and s > 0 and {NEAR} >= 0 and {FAR} <= 0"),
-        (f"r > 0 and s > 0 and not ({DISCS.replace('<=', '>', 1)})", f"r > 0 and s > 0 and {FAR} >= 0 and r - s >= 0"),
-        (
-            f"r > 0 and s > 0 and ({DISCS.replace('<=', '=', 1)})",
-            f"r > 0 and s > 0 and {NEAR} >= 0 and ({FAR} <= 0 or r - s <= 0)",
-        ),
-        ("ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b", "a - b <= 0 and a >= 0"),
-        ("ex x, y. x^2 + y^2 > a and x^2 + y^2 <= b", "b >= 0 and a - b < 0"),
-        (
-            "a > 0 and ex t. t >= 0 and t <= a and u*t + p >= 0 and u*t + p <= 1",
-            "a > 0 and (p >= 0 or a*u + p >= 0) and (p - 1 <= 0 or a*u + p - 1 <= 0)",
-        ),
-    ],
+@each(
+    (f"r >= 0 and s > 0 and ({DISCS})", "r >= 0 and s > 0 and r^2 + 2*r*s + s^2 - a^2 - b^2 >= 0"),
+    (f"r >= 0 and s <= 0 and ({DISCS})", "r >= 0 and s <= 0 and r^2 - 2*r*s + s^2 - a^2 - b^2 >= 0"),
+    (DISCS, "r^2 + 2*r*s - a^2 - b^2 + s^2 >= 0 or r^2 - 2*r*s - a^2 - b^2 + s^2 >= 0"),
+    ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
+    ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "a - 2 < 0 and a + 2 > 0"),
+    ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 - 9 >= 0"),
+    ("all x, y. (x-a)^2 + (y-b)^2 <= 4 -> x^2 + y^2 <= 9", "a^2 + b^2 - 1 <= 0"),
+    (f"r > 0 and s > 0 and ({DISCS.replace('<', '')})", f"r > 0 and s > 0 and {NEAR} >= 0 and {FAR} <= 0"),
+    (f"r > 0 and s > 0 and not ({DISCS.replace('<=', '>', 1)})", f"r > 0 and s > 0 and {FAR} >= 0 and r - s >= 0"),
+    (
+        f"r > 0 and s > 0 and ({DISCS.replace('<=', '=', 1)})",
+        f"r > 0 and s > 0 and {NEAR} >= 0 and ({FAR} <= 0 or r - s <= 0)",
+    ),
+    ("ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b", "a - b <= 0 and a >= 0"),
+    ("ex x, y. x^2 + y^2 > a and x^2 + y^2 <= b", "b >= 0 and a - b < 0"),
+    (
+        "a > 0 and ex t. t >= 0 and t <= a and u*t + p >= 0 and u*t + p <= 1",
+        "a > 0 and (p >= 0 or a*u + p >= 0) and (p - 1 <= 0 or a*u + p - 1 <= 0)",
+    ),
 )
 def test_the_condition_is_short(text: str, answer: str) -> None:
     assert str(qe.eliminate(text).formula) == answer
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        (f"all x, y. {QUADRATIC} -> x < 0", "b > 0 and c > 0"),
-        (f"all y, x. {QUADRATIC} -> x > 0", "b < 0 and c > 0"),
-        (f"all x, y. {QUADRATIC} -> 2*x < a", "a + b > 0 and a^2 + 2*a*b + 4*c > 0"),
-        ("all x, y. a*x + b = 0 and a*y = 0 -> x < 0", "a*b > 0 or a = 0 and b /= 0"),
-        (PID, "i > 0 and p + 1 > 0 and 3*(3+d)*(1+p) - (1+p)^2 - 9*i > 0"),
-        (f"ex b. all x, y. {QUADRATIC} -> x < 0", "c > 0"),
-    ],
+@each(
+    (f"all x, y. {QUADRATIC} -> x < 0", "b > 0 and c > 0"),
+    (f"all y, x. {QUADRATIC} -> x > 0", "b < 0 and c > 0"),
+    (f"all x, y. {QUADRATIC} -> 2*x < a", "a + b > 0 and a^2 + 2*a*b + 4*c > 0"),
+    ("all x, y. a*x + b = 0 and a*y = 0 -> x < 0", "a*b > 0 or a = 0 and b /= 0"),
+    (PID, "i > 0 and p + 1 > 0 and 3*(3+d)*(1+p) - (1+p)^2 - 9*i > 0"),
+    (f"ex b. all x, y. {QUADRATIC} -> x < 0", "c > 0"),
 )
 def test_the_condition_is_that_of_hurwitz(text: str, answer: str) -> None:
     assert qe.equivalent(qe.eliminate(text).formula, answer)
@@ -112,7 +105,7 @@ TAKEN = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "text"), TAKEN)
+@each(*TAKEN)
 def test_the_step_is_taken_and_accepted(kind: StepKind, text: str) -> None:
     (step,) = steps_of(text, kind)
     assert accepted(step)
@@ -165,12 +158,12 @@ OTHERS = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "text"), OTHERS)
+@each(*OTHERS)
 def test_others_are_left_alone(kind: StepKind, text: str) -> None:
     assert not steps_of(text, kind)
 
 
-@pytest.mark.parametrize(("kind", "text"), UNKNOWN)
+@each(*UNKNOWN)
 def test_a_producer_that_takes_all_for_known_is_not_believed(
     kind: StepKind, text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -1,7 +1,5 @@
 """Two variables that can be exchanged: sum and product in their place, values on the way back, forgeries refused."""
 
-from __future__ import annotations
-
 import random
 from typing import NoReturn
 
@@ -24,6 +22,7 @@ from qe.rules.exchange import symmetric
 from qe.rules.lift import holds_at
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
+from tests.tables import each
 from tests.unit.proving.elaborated import refused
 
 
@@ -70,20 +69,17 @@ def test_the_way_back_gives_values(text: str) -> None:
     assert holds_at(sentence.body, answer.witness) is isinstance(sentence, Exists)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x, y. x^3 + y^3 = a and x > 1",
-        "ex x, y. x^3 + 2*y^3 = a and x*y > 1",
-        "ex x, y. x^3 + y^3 = a and (x > 1 or y > 2)",
-        "ex x, y. x^3 + y^3 = a and (x + y > 1 or y > 2)",
-        "ex x, y. x^3 + y^3 = a and (x > y or x*y > 1)",
-        "ex x, y. x^3 + y^3 = a and (all y. y^2 > x)",
-        "ex x, y. x^2 + y^2 < a and x + y > b",
-        "ex x, y. x*y = a and x + y > b",
-        "ex x, y. x^3 + y^3 = a and x /= 1",
-        "ex x, y. x^3 + y^3 = a and x + 2*y = 1",
-    ],
+@each(
+    "ex x, y. x^3 + y^3 = a and x > 1",
+    "ex x, y. x^3 + 2*y^3 = a and x*y > 1",
+    "ex x, y. x^3 + y^3 = a and (x > 1 or y > 2)",
+    "ex x, y. x^3 + y^3 = a and (x + y > 1 or y > 2)",
+    "ex x, y. x^3 + y^3 = a and (x > y or x*y > 1)",
+    "ex x, y. x^3 + y^3 = a and (all y. y^2 > x)",
+    "ex x, y. x^2 + y^2 < a and x + y > b",
+    "ex x, y. x*y = a and x + y > b",
+    "ex x, y. x^3 + y^3 = a and x /= 1",
+    "ex x, y. x^3 + y^3 = a and x + 2*y = 1",
 )
 def test_what_changes_or_is_easy_anyway_is_left_alone(text: str) -> None:
     assert step_of(text) is None

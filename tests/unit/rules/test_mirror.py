@@ -1,7 +1,5 @@
 """Blocks that are their own mirror image and convex: only the fixed points are looked at, and the steps are checked."""
 
-from __future__ import annotations
-
 import random
 
 import pytest
@@ -20,6 +18,7 @@ from qe.proof.step import Step
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
 
 CHEBYSHEV = "ex p, q. all x. x < -1 or x > 1 or (x^3 + p*x + q <= m and x^3 + p*x + q >= -m)"
 RING = Ring.of(("a", "p", "q", "x"))
@@ -46,16 +45,13 @@ def test_values_come_back() -> None:
     assert 1 < found["p"] <= 3
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex p. p^2 = a",  # two points are not convex
-        "ex p. p /= 0 and a > 1",
-        "ex p. p > 1 or p < -1",
-        "ex p. p > a and p < 1",  # not its own image
-        "ex p. all x. x^2 + p*x > a or p*x > 1",
-        "all p. p < 1 and p > -1",
-    ],
+@each(
+    "ex p. p^2 = a",  # two points are not convex
+    "ex p. p /= 0 and a > 1",
+    "ex p. p > 1 or p < -1",
+    "ex p. p > a and p < 1",  # not its own image
+    "ex p. all x. x^2 + p*x > a or p*x > 1",
+    "all p. p < 1 and p > -1",
 )
 def test_nothing_is_done(text: str) -> None:
     assert not steps(read_formula(text))
@@ -100,14 +96,11 @@ def test_the_rule_finds_something_to_do() -> None:
     assert sum(len(steps(symmetric(random.Random(seed)))) for seed in range(80)) >= 8
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "text"),
-    [
-        ("is_convex", lambda formula, moved: True, "ex p. p > 1 or p < -1"),
-        ("is_convex", lambda formula, moved: True, "ex p. p /= 0 and a*p /= 1 and a*p /= -1"),
-        ("_shape", lambda formula, mirror: ("", ""), "ex p. all x. p*x > a or x >= 1 or x < -1"),
-        ("_shape", lambda formula, mirror: ("", ""), "ex p, q. p > a and q < 1 and 2*p + q > 1 and p < 3"),
-    ],
+@each(
+    ("is_convex", lambda formula, moved: True, "ex p. p > 1 or p < -1"),
+    ("is_convex", lambda formula, moved: True, "ex p. p /= 0 and a*p /= 1 and a*p /= -1"),
+    ("_shape", lambda formula, mirror: ("", ""), "ex p. all x. p*x > a or x >= 1 or x < -1"),
+    ("_shape", lambda formula, mirror: ("", ""), "ex p, q. p > a and q < 1 and 2*p + q > 1 and p < 3"),
 )
 def test_a_broken_producer_is_refused(name: str, value: object, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mirror, name, value)

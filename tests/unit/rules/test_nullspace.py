@@ -1,7 +1,5 @@
 """Vectors that annihilate rows."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Ranges that exclude a condition: what is found, that it is right, and what the checker refuses."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
@@ -22,6 +20,7 @@ from qe.proof.step import Step
 from qe.proving.prover import Prover
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
+from tests.tables import each
 from tests.unit.proving.elaborated import refused
 
 ONLY = frozenset({StepKind.RANGES})
@@ -70,16 +69,13 @@ def test_what_is_false_by_ranges(text: str) -> None:
     assert accepted(step)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        small_product(3, "<= 3", ">= 1"),  # at one point
-        "ex x, y. x^2 + y^2 <= 2 and x*y >= 1",
-        "ex x, y. x^2 - y^2 <= 1 and x > 5",  # nothing bounds y
-        "ex x, y. x^2 + y^2 <= 1 and x*y /= 5",
-        "ex x, y. x < 1 and x > 2 + y and y > 0",  # linear: left to others
-        "ex x, y. x^2 + y^2 <= 1 or x*y > 3",
-    ],
+@each(
+    small_product(3, "<= 3", ">= 1"),  # at one point
+    "ex x, y. x^2 + y^2 <= 2 and x*y >= 1",
+    "ex x, y. x^2 - y^2 <= 1 and x > 5",  # nothing bounds y
+    "ex x, y. x^2 + y^2 <= 1 and x*y /= 5",
+    "ex x, y. x < 1 and x > 2 + y and y > 0",  # linear: left to others
+    "ex x, y. x^2 + y^2 <= 1 or x*y > 3",
 )
 def test_what_is_left_to_others(text: str) -> None:
     assert not steps(read(text))

@@ -1,7 +1,5 @@
 """Blocks that look at a variable by a linear form in it: the form becomes the variable, and the steps are checked."""
 
-from __future__ import annotations
-
 import random
 
 import pytest
@@ -22,6 +20,7 @@ from qe.proof.step import Step
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
 
 BY_FORM, SHEAR_CASES = shear.by_form, shear._cases
 RING = Ring.of(("a", "b", "x", "y", "z"))
@@ -77,13 +76,10 @@ def without_parity(p: Poly, x: int, m: Poly, n: Poly, *, even: bool, most_terms:
 ODD = "ex x, y. (x*y + z)^3 + (x*y + z)^2 + a > 0 and (x*y + z)^4 + (x*y + z)^2 + x*y + z > b and x > a"
 
 
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("by_form", without_parity),
-        ("_cases", lambda *args: SHEAR_CASES(*args).children[1]),
-        ("_cases", lambda *args: SHEAR_CASES(*args).children[0]),
-    ],
+@each(
+    ("by_form", without_parity),
+    ("_cases", lambda *args: SHEAR_CASES(*args).children[1]),
+    ("_cases", lambda *args: SHEAR_CASES(*args).children[0]),
 )
 def test_a_broken_producer_is_refused(name: str, value: object, monkeypatch: pytest.MonkeyPatch) -> None:
     assert steps(read_formula(ODD))

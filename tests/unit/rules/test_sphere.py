@@ -1,7 +1,5 @@
 """Spheres and balls that are seen along a form: short conditions, side conditions, numbers put in, forged steps."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -20,37 +18,32 @@ from qe.proof.step import Step
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
 
 ALONE = frozenset({StepKind.SPHERE})
 LINKS = "ex a, b, c, d. a^2 + b^2 = 4 and (a - c)^2 + (b - d)^2 = 9 and (c - x)^2 + (d - y)^2 = 1"
 SQUARE = "ex a, b, c, d, u, v, w, z. a^2 + b^2 = 1 and c^2 + d^2 = 1 and u^2 + v^2 = 1 and w^2 + z^2 = 1"
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        (LINKS, "x^2 + y^2 - 36 <= 0"),
-        (f"{SQUARE} and a*d - b*c + c*v - d*u + u*z - v*w + w*b - z*a = s", "s - 4 <= 0 and s + 4 >= 0"),
-        ("ex x, y. x^2 + y^2 = 4 and a*x + b*y > 1", "4*a^2 + 4*b^2 - 1 > 0"),
-        ("ex x, y, z. x^2 + y^2 + z^2 < 1 and x + 2*y > a and z > -2", "a <= 0 or a^2 - 5 < 0"),
-        ("all x, y. x^2 + y^2 /= 1 or (x - a)^2 + y^2 > 1", "a^2 - 4 > 0"),
-    ],
+@each(
+    (LINKS, "x^2 + y^2 - 36 <= 0"),
+    (f"{SQUARE} and a*d - b*c + c*v - d*u + u*z - v*w + w*b - z*a = s", "s - 4 <= 0 and s + 4 >= 0"),
+    ("ex x, y. x^2 + y^2 = 4 and a*x + b*y > 1", "4*a^2 + 4*b^2 - 1 > 0"),
+    ("ex x, y, z. x^2 + y^2 + z^2 < 1 and x + 2*y > a and z > -2", "a <= 0 or a^2 - 5 < 0"),
+    ("all x, y. x^2 + y^2 /= 1 or (x - a)^2 + y^2 > 1", "a^2 - 4 > 0"),
 )
 def test_the_condition_is_short(text: str, answer: str) -> None:
     assert str(qe.eliminate(text).formula) == answer
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x, y. x^2 + 2*y^2 = a and x + y = b",
-        "ex x, y. x^2 + y^2 = a and x + y > b and x - y > b",
-        "ex x, y. x^2 + y^2 < a and b*x + c*y > 1",
-        "ex x, y. x^2 + y^2 <= a and x^2 + y^2 + x > b",
-        "ex x, y. x^2 + y^2 >= a and x + y = b",
-        "ex x, y. x^2 + y^2 = a",
-        "ex x. x^2 = a and x > b",
-    ],
+@each(
+    "ex x, y. x^2 + 2*y^2 = a and x + y = b",
+    "ex x, y. x^2 + y^2 = a and x + y > b and x - y > b",
+    "ex x, y. x^2 + y^2 < a and b*x + c*y > 1",
+    "ex x, y. x^2 + y^2 <= a and x^2 + y^2 + x > b",
+    "ex x, y. x^2 + y^2 >= a and x + y = b",
+    "ex x, y. x^2 + y^2 = a",
+    "ex x. x^2 = a and x > b",
 )
 def test_others_are_left_alone(text: str) -> None:
     assert prepare(read(text), enabled=ALONE).formula == prepare(read(text), enabled=set()).formula

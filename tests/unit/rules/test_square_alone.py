@@ -1,7 +1,5 @@
 """Variables that one comparison of degree 2 looks at: what stands in their place, and their values."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
