@@ -36,7 +36,6 @@ pytestmark = pytest.mark.processes
 SQRT2 = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 DISC = "x^2 + y^2 <= 2"
 SHADOW = "ex u. x^2 + y^2 + u^2 <= 2 and x + y >= u"
-HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 LIMIT, BOUND = 0.04, 15.0
 """Seconds; the worker is killed 0.25 s after its limit, and the machine may be busy."""
 ASKED_BEFORE = 0.5

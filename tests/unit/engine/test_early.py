@@ -10,8 +10,6 @@ from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from tests.tables import each
 
-INSIDE = "(all x, y. x^2 + y^2 /= 2 or (x - a)^2 + (y - b)^2 <= c)"
-AROUND = "(all x, y. x^2 + y^2 >= 2 or (x - a)^2 + (y - b)^2 < c)"
 ONTO = "(all x, y. x^2 + y^2 = 2 or (x - a)^2 + (y - b)^2 /= c)"
 ONCE_MORE = "(all x, y. x^2 + y^2 /= 2 or (x - a)^2 + (y - b)^2 = c)"
 REST = "(all u. ex v, w. v^3 + u*v = a + w and w^3 + b*v = c)"

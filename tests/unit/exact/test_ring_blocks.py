@@ -16,7 +16,6 @@ from tests.strategies import polynomials, rationals
 
 RING = Ring.of(("a", "b", "x", "y"))
 POLYS = polynomials(RING, max_degree=4, max_terms=6)
-BLOCKS = st.sets(st.integers(0, 3)).map(sorted)
 
 
 @given(POLYS, polynomials(RING, max_degree=1), polynomials(RING, max_degree=1), st.tuples(*[rationals()] * 4))

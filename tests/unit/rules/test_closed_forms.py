@@ -8,17 +8,14 @@ import pytest
 import qe
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import Formula, Relation
-from qe.io.text import read
+from qe.formula.syntax import Relation
 from qe.kernel.statements import theorem
-from qe.proof.run_log import RunLog
-from qe.proof.step import Step
 from qe.rules import closed_forms
 from qe.rules.closed_forms import square_root
-from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
 from tests.tables import each
+from tests.unit.rules.applied import steps_of
 
 BALLS, PLANE, QUADRICS, CUBIC = StepKind.BALLS, StepKind.HALF_PLANE, StepKind.QUADRICS, StepKind.CUBIC_INTERVAL
 
@@ -34,13 +31,6 @@ PID = (
 )
 FORM = "a*(1 - x)^3 + b*x*(1 - x)^2 + c*x^2*(1 - x) + d*x^3"
 UNIT = f"ex x. 0 <= x and x <= 1 and {FORM}"
-
-
-def steps_of(text: str | Formula, kind: StepKind) -> list[Step]:
-    """The steps of this rule alone."""
-    log = RunLog()
-    prepare(read(text) if isinstance(text, str) else text, enabled={kind, StepKind.MINISCOPE}, log=log)
-    return [step for step in log.steps() if step.rule == kind.value]
 
 
 @each(
@@ -107,7 +97,7 @@ TAKEN = [
 
 @each(*TAKEN)
 def test_the_step_is_taken_and_accepted(kind: StepKind, text: str) -> None:
-    (step,) = steps_of(text, kind)
+    (step,) = steps_of(text, kind, StepKind.MINISCOPE)
     assert accepted(step)
 
 
@@ -160,7 +150,7 @@ OTHERS = [
 
 @each(*OTHERS)
 def test_others_are_left_alone(kind: StepKind, text: str) -> None:
-    assert not steps_of(text, kind)
+    assert not steps_of(text, kind, StepKind.MINISCOPE)
 
 
 @each(*UNKNOWN)
@@ -168,14 +158,14 @@ def test_a_producer_that_takes_all_for_known_is_not_believed(
     kind: StepKind, text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(closed_forms, "_holds", lambda given, context: True)
-    steps = steps_of(text, kind)
+    steps = steps_of(text, kind, StepKind.MINISCOPE)
     assert steps and not any(map(accepted, steps))
 
 
 def test_a_square_root_of_another_sign_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
     """The first root that there is counts as positive."""
     monkeypatch.setattr(closed_forms, "_holds", lambda given, context: True)
-    steps = steps_of(DISCS, BALLS)
+    steps = steps_of(DISCS, BALLS, StepKind.MINISCOPE)
     assert steps and not any(map(accepted, steps))
 
 
@@ -186,9 +176,9 @@ def test_determinants_out_of_reach_are_left_alone() -> None:
     used = theorem("a polynomial has a root in a half-plane", ("4",))
     assert used is not None
     letters = {**{f"c{k}": large + k for k in range(5)}, "k": ring.constant(1), "m": ring.constant(0)}
-    assert not steps_of(used.formula("block", letters, {"x": "x", "y": "y"}, ring), PLANE)
+    assert not steps_of(used.formula("block", letters, {"x": "x", "y": "y"}, ring), PLANE, StepKind.MINISCOPE)
     body = conj((atom(ring.var("x"), Relation.GE), atom(ring.var("y"), Relation.EQ), atom(large, Relation.EQ)))
-    assert not steps_of(exists(("x", "y"), body), PLANE)
+    assert not steps_of(exists(("x", "y"), body), PLANE, StepKind.MINISCOPE)
 
 
 def test_the_ellipse_of_kahan() -> None:

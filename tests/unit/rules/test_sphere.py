@@ -13,12 +13,12 @@ from qe.formula.syntax import Exists
 from qe.formula.traverse import polynomials
 from qe.io.text import read
 from qe.proof.derivation import moved
-from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
 from tests.tables import each
+from tests.unit.rules.applied import steps_of
 
 ALONE = frozenset({StepKind.SPHERE})
 LINKS = "ex a, b, c, d. a^2 + b^2 = 4 and (a - c)^2 + (b - d)^2 = 9 and (c - x)^2 + (d - y)^2 = 1"
@@ -53,12 +53,6 @@ SMALL = st.integers(-2, 2)
 RELATIONS = st.sampled_from(["<", "<=", "=", ">", "/="])
 
 
-def steps_of(text: str) -> list[Step]:
-    log = RunLog()
-    prepare(read(text), enabled=ALONE, log=log)
-    return [step for step in log.steps() if step.rule == StepKind.SPHERE.value]
-
-
 @settings(max_examples=15, derandomize=True, deadline=None)
 @given(st.lists(SMALL, min_size=4, max_size=4), st.sampled_from(["<", "<=", "="]), RELATIONS, RELATIONS, SMALL, SMALL)
 def test_numbers_put_in_before_or_after(at: list[int], kind: str, one: str, two: str, m: int, n: int) -> None:
@@ -68,7 +62,7 @@ def test_numbers_put_in_before_or_after(at: list[int], kind: str, one: str, two:
     centre = f"3*({slopes})" if kind == "=" else "x - a*y"
     text = f"ex x, y. 2*x^2 + 2*y^2 + {centre} {kind} c and {slopes} {one} b + {n} and ({second} {two} 0 or d > a)"
     asked, found = read(text), prepare(read(text), enabled=ALONE).formula
-    steps = steps_of(text)
+    steps = steps_of(text, StepKind.SPHERE)
     assert (steps or one == "=") and all(map(accepted, steps))
     point = dict(zip("abcd", map(Fraction, at), strict=True))
     assert isinstance(asked, Exists) and isinstance(found, Exists)
@@ -118,8 +112,8 @@ def test_forged_steps_are_refused() -> None:
 
 def test_a_producer_that_forgets_the_radius(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where the form vanishes, nothing else says that the sphere is not empty."""
-    assert all(map(accepted, steps_of(BEFORE)))
+    assert all(map(accepted, steps_of(BEFORE, StepKind.SPHERE)))
     real = sphere_rule.conj
     monkeypatch.setattr(sphere_rule, "conj", lambda parts: real(list(parts)[1:]))
-    broken = steps_of(BEFORE)
+    broken = steps_of(BEFORE, StepKind.SPHERE)
     assert broken and not any(map(accepted, broken))
