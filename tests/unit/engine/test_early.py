@@ -1,5 +1,8 @@
 """Blocks first: parts that say equations of few variables are eliminated before what stands beside them."""
 
+from __future__ import annotations
+
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -8,8 +11,9 @@ from qe.engine.early import BOUND, FREE, early_parts, equations
 from qe.formula.syntax import Exists
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
-from tests.tables import each
 
+INSIDE = "(all x, y. x^2 + y^2 /= 2 or (x - a)^2 + (y - b)^2 <= c)"
+AROUND = "(all x, y. x^2 + y^2 >= 2 or (x - a)^2 + (y - b)^2 < c)"
 ONTO = "(all x, y. x^2 + y^2 = 2 or (x - a)^2 + (y - b)^2 /= c)"
 ONCE_MORE = "(all x, y. x^2 + y^2 /= 2 or (x - a)^2 + (y - b)^2 = c)"
 REST = "(all u. ex v, w. v^3 + u*v = a + w and w^3 + b*v = c)"
@@ -29,13 +33,16 @@ def test_the_small_blocks_come_first() -> None:
     assert len(conjuncts(found[1])) == 2
 
 
-@each(
-    f"ex a, b, c. c > 0 and {ONTO} and {ONCE_MORE}",  # nothing else is quantified
-    f"ex a, b, c. c > 0 and {ONTO} and {REST}",  # one block alone
-    f"ex a, b, c. {ONTO} and {REST} and (all x. x > a or x < b)",  # two about different variables
-    "ex a, b, c, d. (all x. a*x > b or c*x < d) and (all x. a*x + b*x > c + d) and (ex u, v, w. u*v*w = a)",  # four
-    "ex a. (all x, y, z. x*y*z > a) and (ex x, y, z. x + y + z > a) and (ex u. all v. u*v > a)",  # of three
-    "ex a. (all x. x > 1 or x < 2) and (ex x. x > 3) and (ex u. all v. u*v > a)",  # about nothing
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"ex a, b, c. c > 0 and {ONTO} and {ONCE_MORE}",  # nothing else is quantified
+        f"ex a, b, c. c > 0 and {ONTO} and {REST}",  # one block alone
+        f"ex a, b, c. {ONTO} and {REST} and (all x. x > a or x < b)",  # two about different variables
+        "ex a, b, c, d. (all x. a*x > b or c*x < d) and (all x. a*x + b*x > c + d) and (ex u, v, w. u*v*w = a)",  # four
+        "ex a. (all x, y, z. x*y*z > a) and (ex x, y, z. x + y + z > a) and (ex u. all v. u*v > a)",  # of three
+        "ex a. (all x. x > 1 or x < 2) and (ex x. x > 3) and (ex u. all v. u*v > a)",  # about nothing
+    ],
 )
 def test_what_is_left_as_it_stands(text: str) -> None:
     assert early_parts(body(text).body) is None
@@ -51,11 +58,14 @@ def test_equations_bind_a_variable_of_the_block() -> None:
 SAME = f"{ONTO} and {ONCE_MORE}"
 
 
-@each(
-    (f"ex a, b, c. {SAME} and (all u. ex v. v^3 + u*v = a + c - 2)", True),
-    (f"ex a, b, c. {SAME} and (ex u. all v. v^2 + u*v > c)", False),
-    (f"all a, b, c. not ({SAME}) or (all u. ex v. v^3 + u*v = b)", True),
-    (f"all a, b, c. not ({SAME}) or (ex u. all v. v^2 + u*v > c)", False),
+@pytest.mark.parametrize(
+    ("question", "truth"),
+    [
+        (f"ex a, b, c. {SAME} and (all u. ex v. v^3 + u*v = a + c - 2)", True),
+        (f"ex a, b, c. {SAME} and (ex u. all v. v^2 + u*v > c)", False),
+        (f"all a, b, c. not ({SAME}) or (all u. ex v. v^3 + u*v = b)", True),
+        (f"all a, b, c. not ({SAME}) or (ex u. all v. v^2 + u*v > c)", False),
+    ],
 )
 def test_two_circles_that_are_one(question: str, truth: bool) -> None:
     """The circles are the same iff a = b = 0 and c = 2."""
