@@ -17,10 +17,7 @@ from qe.io.parser import TERM
 from qe.io.text_parser import TextParser
 from qe.io.total import Fill, Total
 from tests.tables import each
-
-
-def fail(message: str, at: int) -> InputError:
-    return InputError(f"{at}: {message}")
+from tests.unit.io.failing import fail
 
 
 def meaning(text: str, **more: object) -> Formula:

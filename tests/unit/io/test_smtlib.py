@@ -19,10 +19,7 @@ from qe.io.smtlib_terms import Terms
 from qe.io.smtlib_words import Macro, is_real
 from qe.io.text import read as text
 from tests.tables import each
-
-
-def fail(message: str, at: int) -> InputError:
-    return InputError(f"{at}: {message}")
+from tests.unit.io.failing import fail
 
 
 def made(real: str = "x y z", boolean: str = "p q") -> Terms:

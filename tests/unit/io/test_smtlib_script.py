@@ -10,11 +10,7 @@ from qe.errors import InputError
 from qe.io.smtlib_parser import Ends, Expression, parse, place, show
 from qe.io.smtlib_script import Script
 from tests.tables import each
-
-
-def fail(message: str, at: int) -> InputError:
-    return InputError(f"{at}: {message}")
-
+from tests.unit.io.failing import fail
 
 WORDS = st.one_of(
     st.from_regex(r"[a-z+<=][a-z0-9!@.-]{0,4}", fullmatch=True),

@@ -15,14 +15,12 @@ from qe.io.terms import TermError, Value
 from qe.io.text_parser import TextParser
 from qe.io.valuation import Valuation
 from tests.tables import each
+from tests.unit.io.failing import fail
 
 RING = Ring.of(("x", "y", "s1", "s2", "s3"))
 
 
 def made() -> Valuation:
-    def fail(message: str, at: int) -> InputError:
-        return InputError(f"{at}: {message}")
-
     return Valuation(RING, fail, ("s1", "s2", "s3"), None, lambda node, place: TRUE)
 
 
