@@ -1,7 +1,5 @@
 """Every method that is offered can answer; what cannot is not offered."""
 
-from __future__ import annotations
-
 import pytest
 from typer.testing import CliRunner
 

@@ -1,7 +1,5 @@
 """Small modules that others rest on: services looked up when they are used."""
 
-from __future__ import annotations
-
 import runpy
 import sys
 

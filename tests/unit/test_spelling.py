@@ -1,7 +1,5 @@
 """Names in text: what the printer quotes is what the reader would take for something else."""
 
-from __future__ import annotations
-
 import pytest
 
 from qe.io import text_lexer

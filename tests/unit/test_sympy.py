@@ -1,7 +1,5 @@
 """Questions with SymPy objects as answers, and z3 objects as questions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest
@@ -126,22 +124,3 @@ def test_mistakes_are_told_in_one_line(wrong: Callable[[], object], part: str) -
     with pytest.raises(qe.InputError, match=part) as caught:
         wrong()
     assert "\n" not in str(caught.value)
-
-
-def test_z3() -> None:
-    z3 = pytest.importorskip("z3")
-    u, v = z3.Reals("u v")
-    assert qe.equivalent(qe.from_z3(z3.Exists([u], z3.And(u * u == v, u > 1))), "v > 1")
-    assert qe.equivalent(qe.from_z3([u > 0, z3.Or(v < u, z3.Not(v < 2))]), "u > 0 and (v < u or v >= 2)")
-    solver = z3.Solver()
-    solver.add(u > v)
-    assert qe.equivalent(qe.from_z3(solver), "u > v")
-    assert qe.equivalent([u > 0, v < u], "u > 0 and v < u")
-    optimiser = z3.Optimize()
-    assert qe.equivalent(optimiser, "true")
-    optimiser.add(u > v)
-    assert qe.equivalent(optimiser, u > v) and qe.equivalent(u > v, "u > v")
-    with pytest.raises(qe.InputError, match="Int"):
-        qe.from_z3(z3.Int("k") > 0)
-    with pytest.raises(qe.InputError, match="Boolean"):
-        qe.from_z3(u + 1)

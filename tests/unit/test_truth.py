@@ -1,7 +1,5 @@
 """Kleene's three truth values: what is said is right however the unknown ones turn out."""
 
-from __future__ import annotations
-
 from itertools import product
 
 from qe.truth import conjunction, disjunction, negation

@@ -1,7 +1,5 @@
 """What users hold in their hands: short, printed so that it can be read back, picturable, picklable, connected."""
 
-from __future__ import annotations
-
 import inspect
 import pickle
 from decimal import Decimal

@@ -1,7 +1,5 @@
 """``check=True`` for regions, optima and witnesses in parameters: the same answers, with checked derivations."""
 
-from __future__ import annotations
-
 import copy
 import json
 import pickle

@@ -1,6 +1,4 @@
-"""``timeout`` ends every public function, also while it is in a call that never looks at its budget."""
-
-from __future__ import annotations
+"""Limits end every public function; what was known before is kept."""
 
 import pickle
 import time
@@ -15,20 +13,29 @@ import sympy
 
 import qe
 import qe.api.eliminate  # else this is a function
-from qe.errors import BudgetExceeded, Unable
+from qe.api.limits import limits_of, reading
+from qe.api.race import raced
+from qe.api.verify import with_derivation
+from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.options import Budget
+from qe.io.text import read
+from qe.options import Budget, Method
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
 from qe.processes.worker import end_idle
 from qe.progress import Event
+from qe.proof.answer import UNPROVED, Answer, Status
 from tests.tables import each
-from tests.workers import large, replace_in_worker, stuck
+from tests.unit.api.doors import DOORS
+from tests.workers import killed, large, replace_in_worker, stuck
+
+# ``timeout`` ends every public function, also while it is in a call that never looks at its budget.
 
 pytestmark = pytest.mark.processes
 
 SQRT2 = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 DISC = "x^2 + y^2 <= 2"
 SHADOW = "ex u. x^2 + y^2 + u^2 <= 2 and x + y >= u"
-HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 LIMIT, BOUND = 0.04, 15.0
 """Seconds; the worker is killed 0.25 s after its limit, and the machine may be busy."""
 ASKED_BEFORE = 0.5
@@ -42,102 +49,75 @@ def afresh() -> Iterator[None]:
     end_idle()
 
 
-NOTHING, OF_DISC, OF_SHADOW = dict, partial(qe.region, DISC), partial(qe.region, SHADOW)
 SOON = partial(qe.region, SHADOW, timeout=ASKED_BEFORE)
-SYSTEM = partial(qe.comprehensive_groebner, ["x^2 - a"], "x")
+
+STUCK_IN = {
+    "decide": "qe.engine.run.answered",
+    "find_instance": "qe.engine.run.answered",
+    "equivalent": "qe.engine.run.answered",
+    "check_witness": "qe.engine.run.answered",
+    "comprehensive_groebner": "qe.groebner.question.segments",
+    "real_root_classification": "qe.groebner.question.segments",
+    "ComprehensiveGroebnerSystem.solutions_at": "qe.groebner.system.solve_system",
+    "ComprehensiveGroebnerSystem.basis_at": "qe.groebner.system.parametric_basis",
+    "minimize": "qe.convex.feasible.solve",
+    "maximize": "qe.convex.feasible.solve",
+    "parametric_witnesses": "qe.elimination.vs.parametric.eliminate_block",
+    "ParametricWitness.at": "qe.elimination.vs.parametric.witness",
+    "region": "qe.regions.region.decompose",
+    "Region.contains": "qe.regions.region.truth_under",
+    "Region.fibre": "qe.regions.region.fibre_of",
+    "Region.bounds": "qe.regions.region.decompose",
+    "Region.sample_points": "qe.regions.region.coordinates",
+    "Region.closure": "qe.regions.planar.decompose",
+    "Region.components": "qe.regions.planar.decompose",
+    "Region.complement": "qe.regions.region.decompose",
+    "Region.is_subset": "qe.api.region_operators.eliminated",
+    "Region.section": "qe.regions.region.decompose",
+    "Region.bounding_box": "qe.regions.region.decompose",
+    "Region.distance": "qe.convex.feasible.solve",
+    "Region.exact_volume": "qe.api.measure._measured",
+    "Region.find_instances": "qe.regions.region.fibre_of",
+    "Region.volume": "qe.regions.volume.ends",
+    "Region.plot": "qe.regions.sketch.sketch",
+    "solve": "qe.regions.region.decompose",
+    "find_instances": "qe.regions.region.decompose",
+    "ConvexRegion.bounds": "qe.regions.convex_region.minimize",
+}
+"""Where a public function works for long, by its title in the table of doors."""
+WITH = {
+    "Region.contains": {"point": {"x": SQRT2, "y": 0}},
+    "Region.fibre": {"prefix": [SQRT2]},
+    "Region.bounds": {"variable": "y"},
+}
+"""Arguments that take the long way, where those of the table do not."""
+AFRESH = {"Region": partial(qe.region, DISC), "ConvexRegion": partial(qe.region, SHADOW)}
+"""Objects that keep what they have learned: others than those of the table, which may know the answer."""
+
+
+@each(*STUCK_IN.items())
+def test_the_limit_holds(title: str, place: str):
+    door = DOORS[title]
+    given = {name: door.around.get(name, lambda value: value)(v) for name, v in door.given.items()}
+    kind, _, name = title.partition(".")
+    call = getattr(AFRESH[kind](), name) if kind in AFRESH else door.call
+    replace_in_worker(place, stuck)
+    start = time.monotonic()
+    with pytest.raises(Unable, match="limit"):
+        call(**{**given, **WITH.get(title, {})}, timeout=LIMIT)
+    assert LIMIT <= time.monotonic() - start < BOUND
 
 
 @each(
-    {
-        "eliminate": ("qe.engine.run.answered", NOTHING, lambda of: qe.decide("ex x. x > 2", timeout=LIMIT)),
-        "find_instance": ("qe.engine.run.answered", NOTHING, lambda of: qe.find_instance("x > 2", timeout=LIMIT)),
-        "equivalent": ("qe.engine.run.answered", NOTHING, lambda of: qe.equivalent("x > 2", "x > 3", timeout=LIMIT)),
-        "check_witness": (
-            "qe.engine.run.answered",
-            NOTHING,
-            lambda of: qe.check_witness("all a. ex x. x > a", {"x": "a + 1"}, timeout=LIMIT),
-        ),
-        "comprehensive_groebner": (
-            "qe.groebner.question.segments",
-            NOTHING,
-            lambda of: qe.comprehensive_groebner(["a*x - 1"], "x", timeout=LIMIT),
-        ),
-        "ComprehensiveGroebnerSystem.solutions_at": (
-            "qe.groebner.system.solve_system",
-            SYSTEM,
-            lambda of: of.solutions_at([2], timeout=LIMIT),
-        ),
-        "ComprehensiveGroebnerSystem.basis_at": (
-            "qe.groebner.system.parametric_basis",
-            SYSTEM,
-            lambda of: of.basis_at([2], timeout=LIMIT),
-        ),
-        "real_root_classification": (
-            "qe.groebner.question.segments",
-            NOTHING,
-            lambda of: qe.real_root_classification(["a*x - 1"], "x", timeout=LIMIT),
-        ),
-        "minimize": ("qe.convex.feasible.solve", NOTHING, lambda of: qe.minimize("x", "x >= 1", timeout=LIMIT)),
-        "maximize": ("qe.convex.feasible.solve", NOTHING, lambda of: qe.maximize("x", "x <= 1", timeout=LIMIT)),
-        "parametric_witnesses": (
-            "qe.elimination.vs.parametric.eliminate_block",
-            NOTHING,
-            lambda of: qe.parametric_witnesses("ex x. x > a", timeout=LIMIT),
-        ),
-        "ParametricWitness.at": (
-            "qe.elimination.vs.parametric.witness",
-            lambda: qe.parametric_witnesses("ex x. a*x^2 + b*x + 1 = 0")[0],
-            lambda of: of.at({"a": 1, "b": 9}, timeout=LIMIT),
-        ),
-        "region": ("qe.regions.region.decompose", NOTHING, lambda of: qe.region(DISC, timeout=LIMIT)),
-        "region of a quantified formula": (
-            "qe.regions.build.answered",
-            NOTHING,
-            lambda of: qe.region("ex z. z^3 = x*y and z > 0", timeout=LIMIT),
-        ),
-        "Region.contains": (
-            "qe.regions.region.truth_under",
-            OF_DISC,
-            lambda of: of.contains({"x": SQRT2, "y": 0}, timeout=LIMIT),
-        ),
-        "Region.fibre": ("qe.regions.region.fibre_of", OF_DISC, lambda of: of.fibre([SQRT2], timeout=LIMIT)),
-        "Region.bounds": ("qe.regions.region.decompose", OF_DISC, lambda of: of.bounds("y", timeout=LIMIT)),
-        "Region.sample_points": ("qe.regions.region.coordinates", OF_DISC, lambda of: of.sample_points(timeout=LIMIT)),
-        "Region.closure": ("qe.regions.planar.decompose", OF_DISC, lambda of: of.closure(timeout=LIMIT)),
-        "Region.components": ("qe.regions.planar.decompose", OF_DISC, lambda of: of.components(timeout=LIMIT)),
-        "Region.complement": ("qe.regions.region.decompose", OF_DISC, lambda of: of.complement(timeout=LIMIT)),
-        "Region.is_subset": (
-            "qe.api.region_operators.eliminated",
-            OF_DISC,
-            lambda of: of.is_subset("x < 2", timeout=LIMIT),
-        ),
-        "Region.project": ("qe.regions.region.decompose", OF_DISC, lambda of: of.section({"x": 0}, timeout=LIMIT)),
-        "Region.bounding_box": ("qe.regions.region.decompose", OF_DISC, lambda of: of.bounding_box(timeout=LIMIT)),
-        "Region.distance": ("qe.convex.feasible.solve", OF_DISC, lambda of: of.distance([2, 2], timeout=LIMIT)),
-        "Region.exact_volume": ("qe.api.measure._measured", OF_DISC, lambda of: of.exact_volume(timeout=LIMIT)),
-        "Region.find_instances": (
-            "qe.regions.region.fibre_of",
-            OF_DISC,
-            lambda of: of.find_instances(2, timeout=LIMIT),
-        ),
-        "solve": ("qe.regions.region.decompose", NOTHING, lambda of: qe.solve(DISC, timeout=LIMIT)),
-        "find_instances": (
-            "qe.regions.region.decompose",
-            NOTHING,
-            lambda of: qe.find_instances(DISC, 2, timeout=LIMIT),
-        ),
-        "Region.volume": ("qe.regions.volume.ends", OF_DISC, lambda of: of.volume(timeout=LIMIT)),
-        "Region.plot": ("qe.regions.sketch.sketch", OF_DISC, lambda of: of.plot("nowhere.png", timeout=LIMIT)),
-        "Region.formula": ("qe.regions.build.solve", SOON, lambda of: of.formula),
-        "Region.cells": ("qe.regions.convex_region.decompose", SOON, lambda of: of.cells),
-        "bounds of a convex region": (
-            "qe.regions.convex_region.minimize",
-            OF_SHADOW,
-            lambda of: of.bounds("x", timeout=LIMIT),
-        ),
-    }
+    (
+        "qe.regions.build.answered",
+        lambda: None,
+        lambda of: qe.region("ex z. z^3 = x*y and z > 0", timeout=LIMIT),
+    ),
+    ("qe.regions.build.solve", SOON, lambda of: of.formula),
+    ("qe.regions.convex_region.decompose", SOON, lambda of: of.cells),
 )
-def test_the_limit_holds(place: str, made: Callable[[], Any], call: Callable[[Any], object]):
+def test_the_limit_holds_for_what_is_made_later(place: str, made: Callable[[], Any], call: Callable[[Any], object]):
     given = made()
     replace_in_worker(place, stuck)
     start = time.monotonic()
@@ -177,7 +157,7 @@ def test_what_a_question_has_learned_is_kept():
     assert region.bounds("x") is region.bounds("x")
 
 
-@pytest.mark.parametrize("text", [DISC, SHADOW, "x^2 = 2 and y^3 > x", "x + y + z + w < 1 and x^2 + w^2 <= 3"])
+@each(DISC, SHADOW, "x^2 = 2 and y^3 > x", "x + y + z + w < 1 and x^2 + w^2 <= 3")
 def test_regions_of_another_process_are_whole(text):
     seen: list[Event] = []
     far, near = qe.region(text, timeout=60, progress=seen.append), qe.region(text, process=False)
@@ -251,3 +231,112 @@ def test_no_time_left_is_a_limit_and_no_wrong_argument():
     assert Budget().time_left("later") is None and 0 < Budget(60).time_left("later") <= 60
     with pytest.raises(Unable, match="limit"):
         Budget(-1).time_left("later")
+
+
+# An answer that is known is not lost while it is proved: a proof that is ended leaves it behind, as derived.
+
+KEPT_LONG = 600.0
+"""Seconds; no test waits for them."""
+
+CALLS: dict[str, Callable[[], object]] = {
+    "eliminate": lambda: qe.eliminate("ex x, y. x^2 + y^2 = a and x + y = b", timeout=KEPT_LONG, check=True),
+    "a race": lambda: qe.eliminate("ex x. a*x^2 + b*x + 1 = 0", timeout=KEPT_LONG, check=True, race=["vs"]),
+    "region": lambda: qe.region("ex y. x^2 + y^2 < 4", timeout=KEPT_LONG, check=True),
+    "minimize": lambda: qe.minimize("x^4 - x*y", "ex z. y = z^3 and z^2 <= 4*x", timeout=KEPT_LONG, check=True),
+    "minimize with a parameter": lambda: qe.minimize("x^2 - p*x", parameters="p", timeout=KEPT_LONG, check=True),
+    "parametric_witnesses": lambda: qe.parametric_witnesses("ex x. a*x = b and x > 1", timeout=KEPT_LONG, check=True),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_an_answer_whose_proof_was_ended_comes_back_derived(name):
+    replace_in_worker("qe.proving.certificates.derived", killed)
+    replace_in_worker("qe.optimization.values.proved", killed)
+    found = CALLS[name]()
+    answer = found if isinstance(found, qe.Answer) else found.answer  # type: ignore[attr-defined]
+    assert answer.formula is not None and answer.certificate is None
+    for part in (answer, found):
+        if hasattr(part, "guarantee"):
+            assert (part.guarantee, part.reason) == (qe.Guarantee.DERIVED, UNPROVED)
+
+
+def test_an_answer_found_before_the_limit_is_not_lost_by_a_slow_proof():
+    asked = "ex x, y. x^2 + y^2 = a and x + y = b"
+    replace_in_worker("qe.proving.certificates.derived", stuck)
+    answer = qe.eliminate(asked, timeout=3, check=True)
+    assert answer.guarantee is qe.Guarantee.DERIVED and answer.reason == UNPROVED
+    assert answer.formula == qe.eliminate(asked).formula
+
+
+def test_a_slow_derivation_of_a_known_answer_ends_at_its_limit():
+    answer = qe.eliminate("ex x. a*x^2 + b*x + 1 = 0")
+    replace_in_worker("qe.proving.certificates.derived", stuck)
+    found = with_derivation(answer, timeout=0.2)
+    assert found.formula == answer.formula and found.certificate is None and UNPROVED in found.why_unchecked
+
+
+def keeps(then: Callable[[], object], at: float, budget: Budget) -> object:
+    """Work that keeps two results after some seconds, and goes on."""
+    end = time.monotonic() + at
+    while time.monotonic() < end:
+        budget.check("waiting")
+        time.sleep(0.002)
+    budget.keep("first")
+    budget.keep("last")
+    return then()
+
+
+def done() -> str:
+    return "done"
+
+
+def unable() -> None:
+    raise Unable("cannot")
+
+
+def wrong() -> None:
+    raise InternalError("wrong")
+
+
+@each(
+    (Limits(process=False), False, 0.0),  # in this process
+    (Limits(), False, 0.0),  # in this process, from which it might move
+    (Limits(), False, 0.5),  # moved
+    (Limits(timeout=KEPT_LONG), True, 0.0),  # in another one from the start
+)
+def test_work_that_is_unable_to_go_on_gives_what_it_kept_last(limits, at_once, seconds):
+    assert perform(partial(keeps, unable, seconds), limits, at_once=at_once) == "last"
+    assert perform(partial(keeps, done, seconds), limits, at_once=at_once) == "done"
+    with pytest.raises(InternalError):  # a fault is not hidden by what was known before it
+        perform(partial(keeps, wrong, seconds), limits, at_once=at_once)
+
+
+# Limits and clusters that callers name, checked.
+
+
+def test_limits() -> None:
+    listener = [].append
+    limits = limits_of({"timeout": 2, "memory": 100, "progress": listener, "process": False})
+    assert isinstance(limits, Limits) and limits.timeout == 2 and limits.process is False
+    assert limits.start is not None and 0 <= time.monotonic() - limits.start < 10
+
+
+def test_reading() -> None:
+    limits = Limits(None)
+    assert reading("x > 0", "text", limits) == read("x > 0")
+    asked: list[tuple[object, ...]] = []
+    reading(read("x > 0"), "text", limits, True, reader=lambda *given: asked.append(given) or given[0])  # type: ignore
+    assert asked == [(read("x > 0"), "text", True)]
+
+
+def asked(method: Method, budget: Budget) -> Answer:
+    if method is Method.CAD:
+        return Answer(Status.SOLVED, read("x > 0"))
+    return Answer(Status.UNABLE, None, reason="not mine")
+
+
+def test_the_first_answer_wins_and_reasons_are_told() -> None:
+    won = raced(asked, [Method.VS, Method.CAD], Limits(60))
+    assert won.formula == read("x > 0") and "first answer was that of cad, ahead of vs" in won.explanation
+    lost = raced(asked, [Method.VS], Limits(60))
+    assert lost.status is Status.UNABLE and lost.reason == "vs: not mine"

@@ -1,7 +1,5 @@
 """Everything that public functions give or raise travels between processes, and is short where it is shown."""
 
-from __future__ import annotations
-
 import pickle
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Settings: one table, from which signatures, checks, documentation and options are made."""
 
-from __future__ import annotations
-
 import ast
 import inspect
 import subprocess

@@ -1,7 +1,5 @@
 """Every result has a form for notebooks: LaTeX or HTML, and is a plain value all the same."""
 
-from __future__ import annotations
-
 import pickle
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Single steps of derivations, written by hand, and what their checkers say."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from qe.certify.registry import RULES

@@ -1,13 +1,16 @@
-"""What certificates claim, in words, and whether that is about a question."""
-
-from __future__ import annotations
+"""What certificates claim, which theorems there are, and what is trusted."""
 
 from fractions import Fraction
 
 import pytest
 
+import qe
 from qe.certify.claims import claim_of, is_about
+from qe.certify.registry import RULES
+from qe.certify.theorems import theorem_of
+from qe.certify.trusts import expert_parts
 from qe.exact.ring import Ring
+from qe.expert.rules import EXPERT
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.groebner.evidence import solutions_certificate
@@ -16,6 +19,9 @@ from qe.kernel.parts import true_where
 from qe.kernel.renaming import is_same
 from qe.proof.certificate import Certificate
 from tests.certificates.producing import cell_table
+from tests.tables import each
+
+# What certificates claim, in words, and whether that is about a question.
 
 
 def witness(text: str, *values: str) -> Certificate:
@@ -84,23 +90,68 @@ def decided(where: str, question: str, truth: bool) -> tuple[Formula, Formula]:
 QUESTION = "ex x. x^2 < a and b*x > 1"
 
 
-@pytest.mark.parametrize(
-    ("equivalence", "expected"),
-    [
-        ((read(QUESTION), read("a > 0 and b /= 0")), "a > 0 and b /= 0"),
-        ((read("all x. x^2 >= a or b*x <= 1"), read("a > 0")), "a <= 0"),
-        (decided("a > 1", QUESTION, True), "a > 1"),
-        (decided("a > 1 and b > 1", QUESTION, True), "a - 1 > 0 and b - 1 > 0"),
-        (decided("a > 1 or b > 1", "ex y. 1 < b*y and a > y^2", True), "a - 1 > 0 or b - 1 > 0"),
-        (decided("a < 0", "all x. x^2 >= a or b*x <= 1", False), "a < 0"),
-        (decided("a > 1", QUESTION, False), None),  # about the negation
-        (decided("a > 1", "all x. x^2 >= a or b*x <= 1", True), None),
-        ((decided("a > 1", QUESTION, True)[0], read("a > 0")), None),
-        (decided("a > 1", "ex x. x^2 <= a and b*x > 1", True), None),
-    ],
+@each(
+    ((read(QUESTION), read("a > 0 and b /= 0")), "a > 0 and b /= 0"),
+    ((read("all x. x^2 >= a or b*x <= 1"), read("a > 0")), "a <= 0"),
+    (decided("a > 1", QUESTION, True), "a > 1"),
+    (decided("a > 1 and b > 1", QUESTION, True), "a - 1 > 0 and b - 1 > 0"),
+    (decided("a > 1 or b > 1", "ex y. 1 < b*y and a > y^2", True), "a - 1 > 0 or b - 1 > 0"),
+    (decided("a < 0", "all x. x^2 >= a or b*x <= 1", False), "a < 0"),
+    (decided("a > 1", QUESTION, False), None),  # about the negation
+    (decided("a > 1", "all x. x^2 >= a or b*x <= 1", True), None),
+    ((decided("a > 1", QUESTION, True)[0], read("a > 0")), None),
+    (decided("a > 1", "ex x. x^2 <= a and b*x > 1", True), None),
 )
 def test_what_an_equivalence_says_to_imply_a_formula(
     equivalence: tuple[Formula, Formula], expected: str | None
 ) -> None:
     found = true_where(equivalence, read(QUESTION))
     assert (None if found is None else str(found)) == (None if expected is None else str(read(expected)))
+
+
+# Theorems of rules: what the modules of their checkers say.
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_every_rule_with_a_checker_has_its_theorem(rule: str) -> None:
+    assert theorem_of(rule), f'the docstring of the module of the checker of "{rule}" says THEOREM'
+
+
+def test_a_rule_has_the_theorem_of_its_checker_and_no_other() -> None:
+    assert "intermediate values" in theorem_of("root")[0]
+    assert len(theorem_of("solutions")) == 1
+    assert theorem_of("no such rule") == ()
+
+
+# What a certificate rests on, and that the core alone refuses what needs more.
+
+CORE = [
+    "ex x. x^2 + b*x + c = 0",
+    "ex x, y. x*y = a and x + y = b and x^3 + y^3 > 1",
+    "ex x. x >= 0 and x <= 1 and a*x^3 + b*x^2 + c*x + d < 0",
+    "all x. ex y. y^3 = x",
+    "ex x. x > 0 and x^4 + a*x^3 + b*x + c = 0",
+]
+NEEDS = {"ex x. (x - a)^2 <= 1 and x^2 <= 4": "critical values"}
+
+
+@pytest.mark.parametrize("question", CORE)
+def test_the_core_suffices(question: str) -> None:
+    certificate = qe.eliminate(question, check=True).certificate
+    assert certificate is not None and qe.verify(certificate, core=True).accepted
+    assert not expert_parts(certificate)
+
+
+@pytest.mark.parametrize("question", NEEDS)
+def test_the_core_refuses_what_needs_the_expert_ring(question: str) -> None:
+    certificate = qe.eliminate(question, method="critical", check=True).certificate
+    assert certificate is not None and qe.verify(certificate).accepted
+    verdict = qe.verify(certificate, core=True)
+    assert not verdict.accepted and verdict.step == "core" and NEEDS[question] in verdict.reason
+    assert NEEDS[question] in certificate.trusts
+    bundle = Certificate.bundle((("one", certificate),))
+    assert qe.verify(bundle).accepted and not qe.verify(bundle, core=True).accepted
+
+
+def test_every_expert_rule_has_a_checker() -> None:
+    assert set(RULES) >= set(EXPERT)

@@ -1,7 +1,5 @@
 """Triangular points and fibres over them, on cases with known answers."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import pairwise
 
@@ -15,6 +13,7 @@ from qe.io.text import read
 from qe.kernel.arithmetic.fibre import AlgebraicFibre, SimplePart, fibre, lazard_evaluation, values
 from qe.kernel.arithmetic.sturm import count_real_roots, real_among
 from qe.kernel.arithmetic.triangular import ORIGIN, Coordinate, Point
+from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
 
@@ -37,20 +36,17 @@ FOURTH = point(("x^2 - 2", 1, 2), ("y^2 - x", 1, 2))  # y = 2^(1/4)
 SPLIT = point(("x^2 - 2", 1, 2), ("y^2 - 2", 1, 2))  # the second polynomial is reducible over the first
 
 
-@pytest.mark.parametrize(
-    ("at", "text", "sign"),
-    [
-        (SQRT2, "x^2 - 2", 0),
-        (SQRT2, "x^4 - 4", 0),
-        (SQRT2, "1414213562373095048801688724209698078569*x - 2000000000000000000000000000000000000000", -1),
-        (SQRT2, "x + 1", 1),
-        (FOURTH, "y^4 - 2", 0),
-        (FOURTH, "y^3 - x*y", 0),
-        (FOURTH, "y - x", -1),
-        (SPLIT, "x - y", 0),
-        (SPLIT, "x + y", 1),
-        (SPLIT, "x*y - 2", 0),
-    ],
+@each(
+    (SQRT2, "x^2 - 2", 0),
+    (SQRT2, "x^4 - 4", 0),
+    (SQRT2, "1414213562373095048801688724209698078569*x - 2000000000000000000000000000000000000000", -1),
+    (SQRT2, "x + 1", 1),
+    (FOURTH, "y^4 - 2", 0),
+    (FOURTH, "y^3 - x*y", 0),
+    (FOURTH, "y - x", -1),
+    (SPLIT, "x - y", 0),
+    (SPLIT, "x + y", 1),
+    (SPLIT, "x*y - 2", 0),
 )
 def test_signs(at: Point, text: str, sign: int) -> None:
     assert at.sign(poly(text)) == sign
@@ -63,18 +59,15 @@ def test_a_variable_without_a_value_is_refused() -> None:
         SQRT2.sign(poly("y - 1"))
 
 
-@pytest.mark.parametrize(
-    ("text", "degree", "count"),
-    [
-        ("z^2 - x", 2, 2),
-        ("z^2 + y", 2, 0),
-        ("(z - y)^2*(z^2 - x)*(z - 3)", 5, 3),  # z = y is a root of the second factor too
-        ("(z - y)^2*(z - x)^2", 4, 2),
-        ("(z - y)^2*(z^2 + x)", 4, 1),
-        ("(z - y)^3*(z + 1)", 4, 2),
-        ("(y^2 - x)*z^3 + z - y", 1, 1),
-        ("z^4 - 3*x*z^2 + z", 4, 4),
-    ],
+@each(
+    ("z^2 - x", 2, 2),
+    ("z^2 + y", 2, 0),
+    ("(z - y)^2*(z^2 - x)*(z - 3)", 5, 3),  # z = y is a root of the second factor too
+    ("(z - y)^2*(z - x)^2", 4, 2),
+    ("(z - y)^2*(z^2 + x)", 4, 1),
+    ("(z - y)^3*(z + 1)", 4, 2),
+    ("(y^2 - x)*z^3 + z - y", 1, 1),
+    ("z^4 - 3*x*z^2 + z", 4, 4),
 )
 def test_counts_over_a_tower(text: str, degree: int, count: int) -> None:
     f = fibre(FOURTH, poly(text), 2)

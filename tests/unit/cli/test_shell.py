@@ -1,7 +1,5 @@
 """The border to the shell: exit statuses, one line for each error, whole files or none."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

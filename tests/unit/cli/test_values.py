@@ -1,7 +1,5 @@
 """Numbers, arguments and sources on the command line."""
 
-from __future__ import annotations
-
 import io
 import sys
 from fractions import Fraction
@@ -28,8 +26,6 @@ from qe.io.formats import BY_ENDING, Format
 from tests.tables import each
 
 NUMBERS = ("5", "0.25", "007", "1e3", "-1", " 5", "5 ", "1_000", "inf", "nan", "٣", "12345678901234567890", "5.", "0")
-
-
 OTHERS = ("", "abc", "text", "TEXT", "vs", "x", "\udcff")
 
 

@@ -1,7 +1,5 @@
 """Quadratic forms written short."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from fractions import Fraction
 

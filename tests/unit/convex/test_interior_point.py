@@ -1,7 +1,5 @@
 """In floats: linear algebra, interior points; faces."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 
@@ -147,30 +145,31 @@ def holding(text: str, at: dict[str, int]) -> bool:
     )
 
 
-def test_discs_that_touch() -> None:
-    found = equations(TOUCH)
-    assert found and holding(TOUCH, {"x": 1, "y": 0})
-    assert not holding(TOUCH, {"x": 1, "y": 1}) and not holding(TOUCH, {"x": 0, "y": 0})
+@each(
+    (TOUCH, [(1, 0)], [(1, 1), (0, 0)]),
+    ("x + y <= 1 and x + y >= 1 and x^2 <= 4", [(2, -1), (0, 1)], [(0, 0)]),  # a slab of no width
+)
+def test_equations_of_the_flat(text: str, on: list[tuple[int, int]], off: list[tuple[int, int]]) -> None:
+    assert equations(text) and all(holding(text, {"x": x, "y": y}) for x, y in on)
+    assert not any(holding(text, {"x": x, "y": y}) for x, y in off)
 
 
-def test_a_slab_of_no_width() -> None:
-    text = "x + y <= 1 and x + y >= 1 and x^2 <= 4"
-    assert holding(text, {"x": 2, "y": -1}) and holding(text, {"x": 0, "y": 1})
-    assert not holding(text, {"x": 0, "y": 0}) and equations(text)
-
-
-@each("x^2 + y^2 <= 1", "x^2 + y^2 <= 1 and x >= 0", "x^2 < 1", "x = 1", "true")
-def test_no_equations_of_what_has_interior_points_or_is_not_weak(text: str) -> None:
-    assert equations(text) == []
-
-
-def test_a_contradiction() -> None:
-    assert equations("x^2 + y^2 <= 1 and (x - 3)^2 + y^2 <= 1") is None
+@each(
+    ("x^2 + y^2 <= 1", True),
+    ("x^2 + y^2 <= 1 and x >= 0", True),
+    ("x^2 < 1", True),
+    ("x = 1", True),
+    ("true", True),
+    ("x^2 + y^2 <= 1 and (x - y)^2 <= 1", True),
+    ("x^2 + y^2 <= 1 and (x - 3)^2 + y^2 <= 1", False),
+    ("x^2 + y^2 <= 1 and x^2 - 3*x + y^2 - 3*y + 4 <= 0", False),
+)
+def test_no_equations_of_what_has_interior_points_or_is_not_weak(text: str, points: bool) -> None:
+    assert equations(text) == ([] if points else None)
 
 
 def test_a_line_that_touches() -> None:
-    assert equations("x^2 + y^2 <= 2 and x + y >= 2") and equations("x^2 + y^2 <= 1 and (x - y)^2 <= 1") == []
-    assert equations("x^2 + y^2 <= 1 and x^2 - 3*x + y^2 - 3*y + 4 <= 0") is None
+    assert equations("x^2 + y^2 <= 2 and x + y >= 2")
 
 
 def test_the_block_without_the_variables_that_the_equations_give() -> None:

@@ -1,7 +1,5 @@
 """Optima whose exact numbers need a field of high degree: rational numbers on both sides of them, with proofs."""
 
-from __future__ import annotations
-
 import json
 from fractions import Fraction as F
 

@@ -1,7 +1,5 @@
 """The optima of formulas (7) and (8): the values that are known, exactly."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 from qe.certify.verify import verify

@@ -1,7 +1,5 @@
 """Systems of linear and convex conditions: feasible points, frames, the simplex method."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import combinations
 
@@ -161,8 +159,6 @@ def test_conditions_that_a_known_point_satisfies(rows: list[tuple], at: tuple[Fr
 
 
 WHOLE = Flat.whole(2)
-
-
 HUGE = Fraction(2**40)
 
 

@@ -1,7 +1,5 @@
 """How far constraints are from being satisfied together: what is proposed is checked exactly here."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import given, settings
@@ -10,24 +8,15 @@ from hypothesis import strategies as st
 from qe.convex.violation import height, proposed, violation_form, violation_forms
 from qe.exact.quadratic_form import Quadratic, combine, solve_linear
 from tests.tables import each
+from tests.unit.convex.quadratics import ball, line
 
 ZERO = Fraction(0)
-
-
-def ball(x: Fraction, y: Fraction, square: Fraction) -> Quadratic:
-    """(u - x)^2 + (v - y)^2 - square."""
-    two = Fraction(2)
-    return Quadratic(((two, ZERO), (ZERO, two)), (-2 * x, -2 * y), x * x + y * y - square)
-
-
-def line(a: int, b: int, c: int) -> Quadratic:
-    return Quadratic(((ZERO, ZERO), (ZERO, ZERO)), (Fraction(a), Fraction(b)), Fraction(c))
 
 
 POINTS = [(Fraction(x), Fraction(y)) for x in (-1, 0, 3) for y in (-2, 0, 1)]
 
 
-@each(ball(Fraction(1), Fraction(2), Fraction(5)), line(3, -6, 4), line(0, 0, 5))
+@each(ball((1, 2), 5), line(3, -6, constant=4), line(0, 0, constant=5))
 def test_the_violation_is_the_scaled_form_less_the_height(form: Quadratic) -> None:
     found, scale = violation_form(form)
     assert scale > 0
@@ -39,7 +28,7 @@ def test_the_violation_is_the_scaled_form_less_the_height(form: Quadratic) -> No
 
 
 def test_the_height_is_bounded_below() -> None:
-    forms, scales = violation_forms([line(1, 0, 0), line(0, 1, 0)], 2)
+    forms, scales = violation_forms([line(1, 0), line(0, 1)], 2)
     assert len(forms) == 3 and len(scales) == 2
     assert forms[-1].value((ZERO, ZERO, Fraction(-3))) == 2  # -1 - t <= 0 is violated below -1
     assert height(2).value((Fraction(7), Fraction(8), Fraction(9))) == 9
@@ -52,7 +41,7 @@ NUMBERS = st.integers(-4, 4).map(Fraction)
 @given(st.lists(st.tuples(NUMBERS, NUMBERS, st.integers(1, 9).map(Fraction)), min_size=1, max_size=3))
 def test_proposals_prove_themselves(balls: list[tuple[Fraction, Fraction, Fraction]]) -> None:
     """A point inside all balls, or weights with which the sum of the forms is positive everywhere."""
-    forms = [ball(*b) for b in balls]
+    forms = [ball((x, y), square) for x, y, square in balls]
     witness, weights = proposed(forms)
     assert witness is None or weights is None
     if witness is not None:
@@ -65,7 +54,7 @@ def test_proposals_prove_themselves(balls: list[tuple[Fraction, Fraction, Fracti
 
 
 def test_what_is_clear_is_found() -> None:
-    inside, none = proposed([ball(ZERO, ZERO, Fraction(4)), ball(Fraction(1), ZERO, Fraction(4))])
+    inside, none = proposed([ball((0, 0), 4), ball((1, 0), 4)])
     assert inside is not None and none is None
-    none, weights = proposed([ball(ZERO, ZERO, Fraction(1)), ball(Fraction(5), ZERO, Fraction(1))])
+    none, weights = proposed([ball((0, 0), 1), ball((5, 0), 1)])
     assert none is None and weights is not None

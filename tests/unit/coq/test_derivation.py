@@ -1,7 +1,5 @@
 """Derivations for Coq: every step is a lemma, what is believed has a name, and Coq accepts the right alone."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Callable, Sequence

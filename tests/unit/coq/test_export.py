@@ -1,7 +1,5 @@
 """Certificates for Coq: what is written, what is refused, and (where installed) that Coq accepts the right alone."""
 
-from __future__ import annotations
-
 import copy
 import shutil
 import subprocess

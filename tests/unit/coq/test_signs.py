@@ -1,7 +1,5 @@
 """Trees of cases on signs: what is refuted, and what is not."""
 
-from __future__ import annotations
-
 import pytest
 
 from qe.coq.signs import Tree

@@ -1,6 +1,4 @@
-"""Where the truth changes only once along the last free variable, that place is found by bisection, and checked."""
-
-from __future__ import annotations
+"""Decompositions that look at less: values told apart by bisection, and sectors only."""
 
 import random
 from dataclasses import replace
@@ -12,7 +10,8 @@ from hypothesis import strategies as st
 import qe
 from qe.certify.verify import verify
 from qe.decomposition.decompose import Tactics, decompose
-from qe.exact.ring import Ring
+from qe.decomposition.lifting import sector_levels
+from qe.exact.ring import Ring, format_poly
 from qe.formula.build import atom, conj, convert, disj
 from qe.formula.monotone import direction
 from qe.formula.syntax import Formula, Relation
@@ -21,6 +20,9 @@ from qe.kernel.cells import one_way
 from qe.options import Budget, Projection
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
+from tests.tables import each
+
+# Where the truth changes only once along the last free variable, that place is found by bisection, and checked.
 
 ORDER = ("m", "x", "y")
 
@@ -45,7 +47,7 @@ def undecomposed(cell: Cell, depth: int = 1) -> int:
 QUESTION = "m >= x^2 + y^2 + 1 and x*y >= 1 and x <= 4"
 
 
-@pytest.mark.parametrize(("text", "way"), [(QUESTION, 1), (QUESTION.replace("m", "(-m)"), -1)])
+@each((QUESTION, 1), (QUESTION.replace("m", "(-m)"), -1))
 def test_one_change_along_the_last_free_variable(text: str, way: int) -> None:
     matrix = convert(read(text), Ring.of(ORDER))
     whole, part = table(matrix, "EE", monotone=False), table(matrix, "EE")
@@ -55,22 +57,19 @@ def test_one_change_along_the_last_free_variable(text: str, way: int) -> None:
     assert verify(Certificate.cells(part, None)).accepted
 
 
-@pytest.mark.parametrize(
-    ("text", "way"),
-    [
-        ("m > x", 1),
-        ("m <= x", -1),
-        ("m*x^2 > 1 and y > 0", 1),
-        ("m*x > 1", 0),
-        ("m^2 > x", 0),
-        ("x > m*y^2", -1),
-        ("m*y^2 >= x and m > 1", 1),
-        ("m*(x^2 + 1) <= x or m < y", -1),
-        ("m^3 + m > x or x < 0", 1),
-        ("m > x and m < y", 0),
-        ("m = x", 0),
-        ("x > y", 0),
-    ],
+@each(
+    ("m > x", 1),
+    ("m <= x", -1),
+    ("m*x^2 > 1 and y > 0", 1),
+    ("m*x > 1", 0),
+    ("m^2 > x", 0),
+    ("x > m*y^2", -1),
+    ("m*y^2 >= x and m > 1", 1),
+    ("m*(x^2 + 1) <= x or m < y", -1),
+    ("m^3 + m > x or x < 0", 1),
+    ("m > x and m < y", 0),
+    ("m = x", 0),
+    ("x > y", 0),
 )
 def test_directions(text: str, way: int) -> None:
     matrix = convert(read(text), Ring.of(ORDER))
@@ -101,7 +100,7 @@ def test_the_same_truth_with_and_without(seed: int) -> None:
     assert verify(Certificate.cells(part, None)).accepted
 
 
-@pytest.mark.parametrize("wanted", [True, False])
+@each(True, False)
 def test_an_altered_truth_is_refused(wanted: bool) -> None:
     part = table(convert(read(QUESTION), Ring.of(ORDER)), "EE")
     stack = part.root.stack
@@ -113,7 +112,7 @@ def test_an_altered_truth_is_refused(wanted: bool) -> None:
     assert not verify(Certificate.cells(altered, None)).accepted
 
 
-@pytest.mark.parametrize("wanted", [True, False])
+@each(True, False)
 def test_truth_follows_from_decomposed_cells_alone(wanted: bool) -> None:
     """Cells that say the same, and of which none is decomposed, do not prove each other."""
     part = table(convert(read(QUESTION), Ring.of(ORDER)), "EE")
@@ -140,3 +139,56 @@ def test_a_direction_that_is_not_there_is_refused(monkeypatch: pytest.MonkeyPatc
 def test_an_answer_by_bisection_has_its_certificate() -> None:
     answer = qe.eliminate("ex x, y. m >= x^2*y - x and x^2 + y^2 >= 1 and x >= 2 - m and y < 0", check=True)
     assert not answer.unchecked_steps
+
+
+# Strict problems: sections are left out, and answers and certificates stand.
+
+
+@each(
+    ("x < y and y /= 0", ("", "E"), 1),
+    ("x < y and y /= 0", ("E", "E"), 0),
+    ("x < y and y /= 0", ("A", "E"), 1),
+    ("x <= y", ("", "E"), 2),
+    ("x <= y or y = 1", ("", "A"), 1),
+    ("x <= y or y > 1", ("", "A"), 2),
+    ("x < y", ("", ""), 2),
+)
+def test_where_sections_can_be_left_out(text: str, quantifiers: tuple[str, ...], level: int) -> None:
+    assert sector_levels(convert(read(text), Ring.of(("x", "y"))), quantifiers) == level
+
+
+def _table(text: str, order: tuple[str, ...], quantifiers: tuple[str, ...]) -> CellTable:
+    return decompose(read(text), order, quantifiers, budget=Budget()).table
+
+
+def test_certificate_without_sections_is_accepted_only_for_strict_problems() -> None:
+    strict = _table("x^2 + y^2 < 1 and x + y > 2", ("x", "y"), ("E", "E"))
+    assert strict.root.truth is False
+    assert verify(Certificate.cells(strict)).accepted
+    weak = _table("x^2 + y^2 <= 1 and x + y >= 2", ("x", "y"), ("E", "E"))
+    assert verify(Certificate.cells(weak)).accepted
+    stack = weak.root.stack
+    assert stack is not None
+    forged = tuple(Cell(c.signs, None) if p % 2 else c for p, c in enumerate(stack.cells))
+    table = replace(weak, root=replace(weak.root, stack=replace(stack, cells=forged)))
+    assert not verify(Certificate.cells(table)).accepted
+
+
+def test_a_solution_on_a_section_only_is_found() -> None:
+    assert qe.decide("ex x, y. x^2 + y^2 <= 1 and x >= 1", method="cad")
+    assert not qe.decide("ex x, y. x^2 + y^2 < 1 and x >= 1", method="cad")
+    assert not qe.decide("all x. x^2 > 0", method="cad")
+
+
+terms = st.dictionaries(st.tuples(st.integers(0, 2), st.integers(0, 2)), st.integers(-3, 3), min_size=1, max_size=4)
+
+
+@settings(max_examples=25)
+@given(terms, terms, st.sampled_from(["<", ">", "/="]), st.sampled_from(["<", ">", "/="]))
+def test_strict_sentences_agree_with_substitution(f: dict, g: dict, r: str, s: str) -> None:
+    ring = Ring.of(("x", "y"))
+    text = f"{format_poly(ring.from_terms(f))} {r} 0 and {format_poly(ring.from_terms(g))} {s} 0"
+    answer = qe.eliminate(f"ex x, y. {text}", method="cad", check=True)
+    assert answer.truth == qe.decide(f"ex x, y. {text}")
+    whole = qe.decide(f"all x, y. {text}", method="cad")
+    assert whole == qe.decide(f"all x, y. {text}")

@@ -1,11 +1,8 @@
 """Equational constraints: which equations count, what they save, and that answers stay the same."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -22,6 +19,7 @@ from qe.io.text import read
 from qe.options import Budget
 from qe.proof.cells import Cell
 from qe.proof.certificate import Certificate
+from tests.tables import each
 from tests.unit.elimination.vs.line import satisfiable, specialise
 
 ORDER = ("a", "x", "y")
@@ -31,17 +29,14 @@ def _matrix(text: str) -> Formula:
     return convert(read(text), Ring.of(ORDER))
 
 
-@pytest.mark.parametrize(
-    ("text", "factors"),
-    [
-        ("y^2 + x = 0 and y > a", {"y^2 + x"}),
-        ("y^3 - x = 0 and y - a = 0", {"y - a"}),  # the cheaper one
-        ("(y - x)*(y - a) = 0", {"y - x", "y - a"}),
-        ("x*(y - a) = 0 and y > 0", None),  # x = 0 satisfies it between the sections of y - a
-        ("x^2 - a = 0 and y > 0", None),
-        ("y = a or y > 0", None),
-        ("y >= a", None),
-    ],
+@each(
+    ("y^2 + x = 0 and y > a", {"y^2 + x"}),
+    ("y^3 - x = 0 and y - a = 0", {"y - a"}),  # the cheaper one
+    ("(y - x)*(y - a) = 0", {"y - x", "y - a"}),
+    ("x*(y - a) = 0 and y > 0", None),  # x = 0 satisfies it between the sections of y - a
+    ("x^2 - a = 0 and y > 0", None),
+    ("y = a or y > 0", None),
+    ("y >= a", None),
 )
 def test_which_equations_restrict_the_projection(text: str, factors: set[str] | None) -> None:
     found = equational_constraints(_matrix(text), 3).factors.get(2)
@@ -88,31 +83,25 @@ def test_same_truth_as_the_full_lazard_projection(e: dict, f: dict, g: dict, rel
             assert holds_at(restricted, at) is satisfiable(specialise(body, at), ring.index["y"])
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        ("ex y. y^2 = x and y > 1", "x > 1"),  # the resultant with y - 1 is what separates x = 1
-        ("ex y. y^3 = x and y^2 < 2 and y > 0", "x > 0 and x^2 < 8"),
-        ("ex y. y^2 = x and y - a < 0 and y >= 0", "x >= 0 and a > 0 and a^2 > x"),
-    ],
+@each(
+    ("ex y. y^2 = x and y > 1", "x > 1"),  # the resultant with y - 1 is what separates x = 1
+    ("ex y. y^3 = x and y^2 < 2 and y > 0", "x > 0 and x^2 < 8"),
+    ("ex y. y^2 = x and y - a < 0 and y >= 0", "x >= 0 and a > 0 and a^2 > x"),
 )
 def test_resultants_with_the_other_polynomials_are_kept(text: str, answer: str) -> None:
     assert qe.equivalent(qe.eliminate(text, method="cad").formula, answer)
 
 
-@pytest.mark.parametrize(
-    ("text", "quantifiers", "restricted"),
-    [
-        ("x^2 + y^2 = 4 and x*y = 1", ("E", "E", "E"), ("x", "y")),  # the resultant restricts x
-        ("y^2 = a and y = x^2 - 1 and x > 0", ("", "", "E"), ("x", "y")),  # a free variable as well
-        ("y^2 + x = 0 and y > a", ("", "E", "E"), ("y",)),
-        ("x^2 + y^2 /= 4 or x*y /= 1", ("A", "A", "A"), ("x", "y")),  # dually
-        ("(y = x or y = 1 - x) and y > a", ("E", "E", "E"), ("y",)),  # one of two
-        ("(y = x and y > 3 or y^2 = 2) and y > a", ("E", "E", "E"), ("y",)),
-        ("y = x or y > a", ("E", "E", "E"), ()),  # nothing is implied, and two conditions would be needed to deny
-        ("y^2 = x and y > a", ("", "", ""), ()),  # a region keeps all its cells
-        ("y^2 = x", ("E", "E", "E"), ()),  # all factors are the constraint's
-    ],
+@each(
+    ("x^2 + y^2 = 4 and x*y = 1", ("E", "E", "E"), ("x", "y")),  # the resultant restricts x
+    ("y^2 = a and y = x^2 - 1 and x > 0", ("", "", "E"), ("x", "y")),  # a free variable as well
+    ("y^2 + x = 0 and y > a", ("", "E", "E"), ("y",)),
+    ("x^2 + y^2 /= 4 or x*y /= 1", ("A", "A", "A"), ("x", "y")),  # dually
+    ("(y = x or y = 1 - x) and y > a", ("E", "E", "E"), ("y",)),  # one of two
+    ("(y = x and y > 3 or y^2 = 2) and y > a", ("E", "E", "E"), ("y",)),
+    ("y = x or y > a", ("E", "E", "E"), ()),  # nothing is implied, and two conditions would be needed to deny
+    ("y^2 = x and y > a", ("", "", ""), ()),  # a region keeps all its cells
+    ("y^2 = x", ("E", "E", "E"), ()),  # all factors are the constraint's
 )
 def test_which_levels_are_restricted(text: str, quantifiers: tuple[str, ...], restricted: tuple[str, ...]) -> None:
     found = decompose(_matrix(text), ORDER, quantifiers, budget=Budget())

@@ -1,7 +1,5 @@
 """The sealed list of factors: whatever comes in is factored, constants stay out, nothing is there twice."""
 
-from __future__ import annotations
-
 from hypothesis import given
 from hypothesis import strategies as st
 

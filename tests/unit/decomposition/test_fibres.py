@@ -1,7 +1,5 @@
 """What is left for the next variable: the intervals over a point, against the formula."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -17,6 +15,7 @@ from qe.io.text import read
 from qe.options import Budget, Projection
 from qe.proof.cells import CellTable
 from tests.certificates.producing import cell_table, table_in
+from tests.tables import each
 
 
 def table(text: str, order: str, projection: Projection = Projection.BROWN_MCCALLUM) -> CellTable:
@@ -31,22 +30,19 @@ ROOT = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
 @pytest.mark.parametrize("projection", Projection)
-@pytest.mark.parametrize(
-    ("text", "values", "ends"),
-    [
-        ("x^2 + y^2 <= 4", (), [(-2, 2, True, True)]),
-        ("x^2 + y^2 < 4", (), [(-2, 2, False, False)]),
-        ("x^2 + y^2 <= 4", (Fraction(0),), [(-2, 2, True, True)]),
-        ("x^2 + y^2 <= 4", (ROOT,), [(-ROOT, ROOT, True, True)]),
-        ("x^2 + y^2 <= 4", (Fraction(2),), [(0, 0, True, True)]),
-        ("x^2 + y^2 <= 4", (Fraction(3),), []),
-        ("x^2 + y^2 < 4 and y /= 0", (Fraction(0),), [(-2, 0, False, False), (0, 2, False, False)]),
-        ("y^2 > x", (Fraction(4),), [(None, -2, False, False), (2, None, False, False)]),
-        ("y^2 > x", (Fraction(-1),), [(None, None, False, False)]),
-        ("y^2 = x", (), [(0, None, True, False)]),
-        ("x = 1 or y > 0 and y <= x", (), [(0, None, False, False)]),
-        ("x = 1 or y > 0 and y <= x", (Fraction(1),), [(None, None, False, False)]),
-    ],
+@each(
+    ("x^2 + y^2 <= 4", (), [(-2, 2, True, True)]),
+    ("x^2 + y^2 < 4", (), [(-2, 2, False, False)]),
+    ("x^2 + y^2 <= 4", (Fraction(0),), [(-2, 2, True, True)]),
+    ("x^2 + y^2 <= 4", (ROOT,), [(-ROOT, ROOT, True, True)]),
+    ("x^2 + y^2 <= 4", (Fraction(2),), [(0, 0, True, True)]),
+    ("x^2 + y^2 <= 4", (Fraction(3),), []),
+    ("x^2 + y^2 < 4 and y /= 0", (Fraction(0),), [(-2, 0, False, False), (0, 2, False, False)]),
+    ("y^2 > x", (Fraction(4),), [(None, -2, False, False), (2, None, False, False)]),
+    ("y^2 > x", (Fraction(-1),), [(None, None, False, False)]),
+    ("y^2 = x", (), [(0, None, True, False)]),
+    ("x = 1 or y > 0 and y <= x", (), [(0, None, False, False)]),
+    ("x = 1 or y > 0 and y <= x", (Fraction(1),), [(None, None, False, False)]),
 )
 def test_intervals(
     text: str, values: tuple[Number, ...], ends: list[tuple[object, ...]], projection: Projection
@@ -59,9 +55,7 @@ def test_whether_a_cell_has_a_true_one_over_it() -> None:
     assert any_true(table("x^2 + y^2 < 1", "x y").root) and not any_true(table("x^2 + y^2 < 0 and x = 1", "x y").root)
 
 
-@pytest.mark.parametrize(
-    "text", ["x^2 + y^2 <= 4 and x < y", "y^2 > x and y < 3", "x*y = 1", "x = 1 and y > 0 or x > 2 and y^2 <= x"]
-)
+@each("x^2 + y^2 <= 4 and x < y", "y^2 > x and y < 3", "x*y = 1", "x = 1 and y > 0 or x > 2 and y^2 <= x")
 def test_the_extended_formula_says_the_same(text: str) -> None:
     found = extended_formula(table(text, "x y"))
     for x in range(-5, 6):

@@ -1,7 +1,5 @@
 """The matrix by signs of factors: against the truth at points, however many levels are known."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -17,6 +15,7 @@ from qe.formula.syntax import And, Formula
 from qe.formula.traverse import polynomials
 from qe.io.text import read
 from tests.strategies import formulas, points
+from tests.tables import each
 
 NAMES = ("x", "y")
 RING = Ring.of(NAMES)
@@ -84,16 +83,13 @@ def test_what_is_no_matrix() -> None:
         compile_matrix(read("ex x. x > y"), {})
 
 
-@pytest.mark.parametrize(
-    ("text", "condition"),
-    [
-        ("y^2 + x <= 0 and y > 1", "x <= 0"),
-        ("y^2 + x < 0 and y > 1", "x < 0"),
-        ("y^2 + x = 0 and y > 1", "x <= 0"),
-        ("-y^2 + x >= 0 and y > 1", "x >= 0"),
-        ("y^2 + x > 0 and y > 1", None),
-        ("x*y^2 + 1 <= 0 and y > 1", None),  # the sign of the leading coefficient is not known
-    ],
+@each(
+    ("y^2 + x <= 0 and y > 1", "x <= 0"),
+    ("y^2 + x < 0 and y > 1", "x < 0"),
+    ("y^2 + x = 0 and y > 1", "x <= 0"),
+    ("-y^2 + x >= 0 and y > 1", "x >= 0"),
+    ("y^2 + x > 0 and y > 1", None),
+    ("x*y^2 + 1 <= 0 and y > 1", None),  # the sign of the leading coefficient is not known
 )
 def test_discriminants_that_a_condition_implies(text: str, condition: str | None) -> None:
     matrix = formula(text)

@@ -1,10 +1,6 @@
 """Variable orders: what the heuristics prefer."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-
-import pytest
 
 import qe
 from qe.decomposition.order import Candidate, brown_order, choose_order, greedy_order, preferred, sotd
@@ -12,20 +8,18 @@ from qe.exact.ring import Poly
 from qe.formula.traverse import polynomials
 from qe.io.text import read
 from qe.options import Budget
+from tests.tables import each
 
 
 def _polys(text: str) -> list[Poly]:
     return polynomials(read(text))
 
 
-@pytest.mark.parametrize(
-    ("text", "order"),
-    [
-        ("x^3 + y^2 + z = 0", ("x", "y", "z")),  # z has the lowest degree and is projected first
-        ("x^2*y + y = 0 and x > 0", ("x", "y")),
-        ("x*y^2 + x*z^2 + z = 0", ("z", "y", "x")),
-        ("1 = 1", ("x", "y", "z")),
-    ],
+@each(
+    ("x^3 + y^2 + z = 0", ("x", "y", "z")),  # z has the lowest degree and is projected first
+    ("x^2*y + y = 0 and x > 0", ("x", "y")),
+    ("x*y^2 + x*z^2 + z = 0", ("z", "y", "x")),
+    ("1 = 1", ("x", "y", "z")),
 )
 def test_brown(text: str, order: tuple[str, ...]) -> None:
     assert brown_order(_polys(text), sorted(order)) == order
@@ -48,9 +42,7 @@ def test_sotd() -> None:
     assert sotd(_polys("x^2*y + 3*x + 5 = 0 and y > 0")) == 3 + 1 + 0 + 1
 
 
-@pytest.mark.parametrize(
-    ("other", "taken"), [((9, 4), True), ((9, 3), True), ((9, 5), False), ((10, 1), False), ((11, 4), False)]
-)
+@each(((9, 4), True), ((9, 3), True), ((9, 5), False), ((10, 1), False), ((11, 4), False))
 def test_an_order_is_changed_only_for_a_smaller_projection(other: tuple[int, int], taken: bool) -> None:
     usual, found = Candidate("brown", ("x",), 10, 4), Candidate("greedy", ("x",), *other)
     assert preferred(usual, found) is (found if taken else usual)

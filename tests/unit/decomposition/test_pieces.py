@@ -1,11 +1,8 @@
 """Bounds of cells: their values without sample points, and text that stays short and quick."""
 
-from __future__ import annotations
-
 import pickle
 import time
 
-import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -16,6 +13,7 @@ from qe.exact.algebraic_brief import brief_algebraic
 from qe.exact.algebraic_text import square_part
 from qe.exact.ring import Ring
 from qe.regions.region import Region
+from tests.tables import each
 
 X = Ring.of(("x",)).gen(0)
 PRIMES = (10**59 + 19, 3 * 10**59 + 13)
@@ -72,7 +70,7 @@ def test_a_long_number_is_an_interval_around_it():
     assert brief_algebraic(root, 5000) == str(root)
 
 
-@pytest.mark.parametrize("n", [PRIMES[0] * PRIMES[1], PRIMES[0] ** 2 * PRIMES[1] ** 2, 49 * PRIMES[0] * PRIMES[1]])
+@each(PRIMES[0] * PRIMES[1], PRIMES[0] ** 2 * PRIMES[1] ** 2, 49 * PRIMES[0] * PRIMES[1])
 def test_text_of_a_square_root_never_waits_for_a_factorization(n):
     start = time.process_time()
     s = square_part(n)

@@ -1,7 +1,5 @@
 """Levels that are to be told apart by signs, where a factor is nullified."""
 
-from __future__ import annotations
-
 from itertools import permutations
 
 import pytest

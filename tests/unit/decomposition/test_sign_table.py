@@ -1,7 +1,5 @@
 """Free cells of a table and the literals on them; whether an answer follows from the signs."""
 
-from __future__ import annotations
-
 import random
 from math import prod
 
@@ -15,11 +13,12 @@ from qe.decomposition.sign_table import Columns, SignTable, free_cells
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Not, Or, Relation
+from qe.formula.syntax import And, Atom, Formula, Not, Or, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.options import Budget
 from qe.proof.cells import CellTable, FreeCell
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.gen(0), RING.gen(1)
@@ -74,37 +73,37 @@ def test_a_sign_that_is_not_known_covers_nothing_and_excludes_nothing() -> None:
     assert all(a.poly == X for a in deeper.literals)
 
 
-@pytest.mark.parametrize(
-    ("answer", "right"),
-    [
-        ("b < 0", True),
-        ("b < 0 and b /= 0", True),
-        ("b <= 0", False),
-        ("b > 0", False),
-        ("b < 1", False),
-        ("b^3 < 0", True),
-        ("b*(b^2) < 0 or b^2 < 0", True),
-    ],
+@each(
+    ("b < 0", True),
+    ("b < 0 and b /= 0", True),
+    ("b <= 0", False),
+    ("b > 0", False),
+    ("b < 1", False),
+    ("b^3 < 0", True),
+    ("b*(b^2) < 0 or b^2 < 0", True),
 )
 def test_whether_an_answer_follows(answer: str, right: bool) -> None:
     assert follows(read(answer), table("x^2 + b < 0", "b x", ("", "E"))) is right
 
 
-def test_answers_that_are_constants() -> None:
-    whole = table("x^2 + b < 0", "b x", ("", "E"))
-    assert not follows(TRUE, whole) and not follows(FALSE, whole)
-    assert follows(TRUE, table("x^2 >= 0", "x", ("A",))) and not follows(FALSE, table("x^2 >= 0", "x", ("A",)))
-    assert not is_listed(read("b + 1 < 0"), whole) and is_listed(read("b^2 > 0"), whole)
+@each(
+    ("x^2 + b < 0", "b x", "E", "true", False),
+    ("x^2 + b < 0", "b x", "E", "false", False),
+    ("x^2 >= 0", "x", "A", "true", True),
+    ("x^2 >= 0", "x", "A", "false", False),
+    ("x^2 + b + c < 0", "b c x", "E", "b + c < 0", True),
+    ("x^2 + b + c < 0", "b c x", "E", "b + c <= 0", False),
+    ("x^2 < 2", "x", "", "x > root(1, x^2 - 2)", True),  # of root atoms only the polynomials are looked at
+    ("x^2 < 2", "x", "", "x > root(1, x^2 - 3)", False),
+)
+def test_answers_that_a_table_gives(text: str, order: str, last: str, answer: str, given: bool) -> None:
+    free = ("",) * (len(order.split()) - 1)
+    assert follows(read(answer), table(text, order, (*free, last))) is given
 
 
-def test_two_free_variables() -> None:
-    whole = table("x^2 + b + c < 0", "b c x", ("", "", "E"))
-    assert follows(read("b + c < 0"), whole) and not follows(read("b + c <= 0"), whole)
-
-
-def test_of_root_atoms_only_the_polynomials_are_looked_at() -> None:
-    whole = table("x^2 < 2", "x", ("",))
-    assert follows(read("x > root(1, x^2 - 2)"), whole) and not follows(read("x > root(1, x^2 - 3)"), whole)
+@each(("b + 1 < 0", False), ("b^2 > 0", True))
+def test_answers_whose_polynomials_are_listed(answer: str, listed: bool) -> None:
+    assert is_listed(read(answer), table("x^2 + b < 0", "b x", ("", "E"))) is listed
 
 
 def test_polynomials_of_huge_degree_are_told_apart() -> None:

@@ -1,7 +1,5 @@
 """One stack over a sample point, whole or restricted to a constraint; nullified factors."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from qe.decomposition.stack import is_nullified, restricted_stack, stack_over

@@ -1,8 +1,5 @@
 """Existential sentences about convex sets: the same truth as by decomposition, with proofs either way."""
 
-from __future__ import annotations
-
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -12,6 +9,7 @@ from qe.elimination.convex import decide_convex
 from qe.formula.syntax import Exists
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Root
+from tests.tables import each
 
 SMALL = st.integers(-3, 3)
 DISC = st.tuples(SMALL, SMALL, st.integers(1, 8), st.sampled_from(["<", "<="])).map(
@@ -47,7 +45,7 @@ def test_many_variables_get_a_witness_that_is_checked() -> None:
     assert answer.guarantee is qe.Guarantee.CHECKED
 
 
-@pytest.mark.parametrize("bound", ["7/2", "4"])
+@each("7/2", "4")
 def test_an_empty_set_gets_a_proof(bound: str) -> None:
     # a + b + c <= 2*sqrt(3) on the ball, so no bound above 3.4642 is reached
     answer = qe.eliminate(f"ex a, b, c, d, e, f. {SIX.format(bound)}", check=True)

@@ -1,7 +1,5 @@
 """Coverings as a method: any prefix, with values of sentences, answers over parameters, and a proof."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -18,6 +16,7 @@ from qe.io.text import read
 from qe.options import Budget, Options
 from qe.proof.on_demand import OnDemand
 from qe.proof.run_log import RunLog
+from tests.tables import each
 
 METHOD = Coverings()
 
@@ -33,21 +32,18 @@ def run(text: str, options: Options, budget: Budget | None = None) -> tuple[Outc
     return METHOD.run(problem(text), Context(options, budget or Budget(), log)), log
 
 
-@pytest.mark.parametrize("text", ["ex x. x^2 = 2", "all x. x^2 > 2", "ex x. x^2 = a", "ex x. all y. x < y^2"])
+@each("ex x. x^2 = 2", "all x. x^2 > 2", "ex x. x^2 = a", "ex x. all y. x < y^2")
 def test_everything_suits(text: str) -> None:
     assert METHOD.suits(problem(text), Options())
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        ("ex x. x^2 + b*x + c = 0", "b^2 - 4*c >= 0"),
-        ("all x. x^2 + a*x + b > 0", "a^2 - 4*b < 0"),
-        ("ex x. all y. y^2 > x and x > a", "a < 0"),
-        ("all x. ex y. x^2 + y^2 = a*x*y + b", "b >= 0 and (a - 2 >= 0 or a + 2 <= 0)"),
-        ("ex x. x < a or x > a", "true"),
-        ("all x. ex y. x*y = a", "a = 0"),
-    ],
+@each(
+    ("ex x. x^2 + b*x + c = 0", "b^2 - 4*c >= 0"),
+    ("all x. x^2 + a*x + b > 0", "a^2 - 4*b < 0"),
+    ("ex x. all y. y^2 > x and x > a", "a < 0"),
+    ("all x. ex y. x^2 + y^2 = a*x*y + b", "b >= 0 and (a - 2 >= 0 or a + 2 <= 0)"),
+    ("ex x. x < a or x > a", "true"),
+    ("all x. ex y. x*y = a", "a = 0"),
 )
 def test_answers_over_parameters(text: str, answer: str) -> None:
     found, log = run(text, Options(certify=True))
@@ -82,7 +78,7 @@ def test_values_of_the_first_block_of_a_sentence() -> None:
     assert run("all x. ex y. y^2 > x", Options())[0].witness is None
 
 
-@pytest.mark.parametrize("text", ["ex x, y. x^2 + y^2 = 4 and x*y > 1", "all x, y. x^2 + y^2 /= 4 or x*y <= 1"])
+@each("ex x, y. x^2 + y^2 = 4 and x*y > 1", "all x, y. x^2 + y^2 /= 4 or x*y <= 1")
 @pytest.mark.parametrize("order", [None, ("y", "x"), ("y",)])
 def test_values(text: str, order: tuple[str, ...] | None) -> None:
     found, _ = run(text, Options(order=order))
@@ -90,7 +86,7 @@ def test_values(text: str, order: tuple[str, ...] | None) -> None:
     assert verify(witness_of(problem(text), found.witness)).accepted
 
 
-@pytest.mark.parametrize("text", ["ex x, y. x^2 + y^2 < 1 and x*y > 1", "all x, y. x^2 + y^2 >= 1 or x*y <= 1"])
+@each("ex x, y. x^2 + y^2 < 1 and x*y > 1", "all x, y. x^2 + y^2 >= 1 or x*y <= 1")
 def test_a_covering_is_evidence_where_it_is_asked_for(text: str) -> None:
     for certify in (True, False):
         found, log = run(text, Options(certify=certify))

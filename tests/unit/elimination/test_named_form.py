@@ -1,7 +1,5 @@
 """A linear form that gets a name: short answers, what is left alone, the same truth at points, forged steps."""
 
-from __future__ import annotations
-
 import random
 from dataclasses import replace
 from fractions import Fraction
@@ -22,6 +20,7 @@ from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from tests.certificates.test_broken_producers import accepted as accepted_in_its_ring
+from tests.tables import each
 from tests.unit.proving.elaborated import refused
 
 SIMPLEX = "x >= 0 and y >= 0 and x + y <= 1"
@@ -61,18 +60,15 @@ def test_sum_and_product_of_barycentric_combinations() -> None:
         assert not holds_at(answer, {**point, "s": one + two, "p": (one + two) ** 2 / 4 + 1})
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x, y. x^2 + y^2 = a and x + b*y > c",
-        "ex x, y. x*y = a and x + b > c",
-        "ex x, y. x + b*y = s and b*x*y = p and x > a",
-        "ex x, y. (x + a*y)^3 = b and x > c",
-        "ex x, y. (x + a*y)^2 = b or x > c",
-        "ex x, y. (x + a*y)^2 = b and (x - a*y)^2 = c and x > 0",
-        "ex x, y. x^2 + y^2 = 1",
-        "all x. ex y. (x + a*y)^2 = b and x > c",
-    ],
+@each(
+    "ex x, y. x^2 + y^2 = a and x + b*y > c",
+    "ex x, y. x*y = a and x + b > c",
+    "ex x, y. x + b*y = s and b*x*y = p and x > a",
+    "ex x, y. (x + a*y)^3 = b and x > c",
+    "ex x, y. (x + a*y)^2 = b or x > c",
+    "ex x, y. (x + a*y)^2 = b and (x - a*y)^2 = c and x > 0",
+    "ex x, y. x^2 + y^2 = 1",
+    "all x. ex y. (x + a*y)^2 = b and x > c",
 )
 def test_others_are_left_alone(text: str) -> None:
     assert step_of(read(text)) is None
@@ -123,20 +119,17 @@ PRODUCT = "ex x, y. x + y = a and x^2 + x*y >= b"
 NAMED = "ex z. a*z - b >= 0 and (ex x, y. x + y = a and z = x)"
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "scale", "reason"),
-    [
-        (PRODUCT, NAMED, "1", ""),
-        (PRODUCT, NAMED, "2", "not the one of the block"),
-        (PRODUCT.replace("= a", ">= a"), NAMED.replace("= a", ">= a"), "1", "not the one of the block"),
-        (PRODUCT, NAMED.replace("z = x", "2*z = x").replace("a*z - b", "a*z - 2*b"), "2", "coefficient"),
-        (PRODUCT, NAMED.replace("z = x", "(z = x or z > 5)"), "1", "an equation that is linear"),
-        (PRODUCT, NAMED.replace("ex z", "all z"), "1", "a block of one variable"),
-        (PRODUCT, "ex z. a*z - b >= 0 and z > x", "1", "one block"),
-        (PRODUCT, NAMED.replace("z = x", "z = x and y > 5"), "1", "not those of the block"),
-        (PRODUCT, NAMED.replace("ex x, y", "ex x"), "1", "the same block"),
-        (PRODUCT + " and z > 0", NAMED.replace("= x", "= x and z > 0"), "1", "new variable"),
-    ],
+@each(
+    (PRODUCT, NAMED, "1", ""),
+    (PRODUCT, NAMED, "2", "not the one of the block"),
+    (PRODUCT.replace("= a", ">= a"), NAMED.replace("= a", ">= a"), "1", "not the one of the block"),
+    (PRODUCT, NAMED.replace("z = x", "2*z = x").replace("a*z - b", "a*z - 2*b"), "2", "coefficient"),
+    (PRODUCT, NAMED.replace("z = x", "(z = x or z > 5)"), "1", "an equation that is linear"),
+    (PRODUCT, NAMED.replace("ex z", "all z"), "1", "a block of one variable"),
+    (PRODUCT, "ex z. a*z - b >= 0 and z > x", "1", "one block"),
+    (PRODUCT, NAMED.replace("z = x", "z = x and y > 5"), "1", "not those of the block"),
+    (PRODUCT, NAMED.replace("ex x, y", "ex x"), "1", "the same block"),
+    (PRODUCT + " and z > 0", NAMED.replace("= x", "= x and z > 0"), "1", "new variable"),
 )
 def test_what_the_checker_says(before: str, after: str, scale: str, reason: str) -> None:
     """x^2 + x*y is a*x where x + y = a, but not where x + y >= a; an equation for 2*z gives no z."""

@@ -1,7 +1,5 @@
 """Points found by trials: they hold exactly, nothing is said where there is none, and bounds are implied ones."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import inf
 
@@ -18,6 +16,7 @@ from qe.formula.evaluate import holds_at
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
 
 THREAD = (
     "ex p, P, q, Q, r, R, s, S. R*S - p*(1 - Q) <= -95000 and 0 < p and p < P and P < 1000000 and 0 < q and q < Q"
@@ -28,7 +27,7 @@ OPEN = "ex a, b, c, d. a*b > c^2 + 1 and c*d > 3 and a + b < 5 and (d^2 < a*b or
 NONE = "ex a, b, c, d. a*b > 1 and a > 0 and b < 0 and c*d > a"
 
 
-@pytest.mark.parametrize("text", [THREAD, OPEN])
+@each(THREAD, OPEN)
 def test_a_point_of_an_open_set_is_found(text: str) -> None:
     answer = qe.eliminate(text, check=True, process=False)
     assert answer.truth and answer.witness is not None and not answer.unchecked_steps
@@ -42,7 +41,7 @@ def test_where_there_is_none_nothing_is_said() -> None:
     assert qe.decide(NONE, process=False) is False
 
 
-@pytest.mark.parametrize("text", ["ex x. x^2 = 2", "ex x, y. x > 0 and y = x^2", "ex x. x > a"])
+@each("ex x. x^2 = 2", "ex x, y. x > 0 and y = x^2", "ex x. x > a")
 def test_other_problems_do_not_suit(text: str) -> None:
     problem = Block.of(read_formula(text))
     assert problem is not None and samples.SampledPoints().suits(problem, Options()) is None
@@ -60,7 +59,7 @@ def test_nothing_is_amiss_where_all_holds_by_far(values: list[int]) -> None:
     assert (amiss == 0) is holds_at(body, point)
 
 
-@pytest.mark.parametrize("last", ["x^2 < {huge}", "{huge}*x + y > 1", "x^4000*y > 2"])
+@each("x^2 < {huge}", "{huge}*x + y > 1", "x^4000*y > 2")
 def test_numbers_that_no_float_holds_were_a_crash(last: str) -> None:
     body = read_formula(f"x > 3 and y > x and x*y > {{huge}} and {last}".format(huge=10**400))
     assert samples.find(body, Budget()) is None
@@ -91,7 +90,7 @@ BEYOND = (
 )
 
 
-@pytest.mark.parametrize(("text", "truth"), BEYOND)
+@each(*BEYOND)
 def test_numbers_beyond_floating_point_are_no_error(text: str, truth: bool) -> None:
     """They ended in an ``OverflowError``."""
     assert qe.decide(text, process=False) is truth

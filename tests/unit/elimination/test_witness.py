@@ -1,7 +1,5 @@
 """Polynomial witnesses: what they prove is so, and what is not so is never proved."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -16,6 +14,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
 from qe.options import Budget
 from qe.proof.run_log import RunLog
+from tests.tables import each
 
 TRUE = [
     "all a, b. ex x. 4*(x - a)^2 <= (a - b)^2 and 4*(x - b)^2 <= (a - b)^2",
@@ -97,9 +96,7 @@ def test_substitution_multiplies_by_a_positive_number(a: Fraction, b: Fraction, 
         assert holds_at(replaced, {"a": a, "b": b}) == holds_at(formula, {"a": a, "b": b, "x": u * a + v * b})
 
 
-@pytest.mark.parametrize(
-    ("witness", "expected"), [({"x": "a"}, True), ({"x": "(a + b)/2"}, True), ({"x": "2*b"}, False)]
-)
+@each(({"x": "a"}, True), ({"x": "(a + b)/2"}, True), ({"x": "2*b"}, False))
 def test_an_offered_witness_is_checked(witness: dict[str, str], expected: bool) -> None:
     assert qe.check_witness("all a, b. ex x. (x - a)^2 <= (a - b)^2", witness) is expected
 
@@ -112,16 +109,13 @@ def test_part_of_a_witness_may_be_offered() -> None:
     assert qe.check_witness("not (ex a. all x. not x = a^2)", {"x": "a^2"}) is True
 
 
-@pytest.mark.parametrize(
-    ("sentence", "witness", "message"),
-    [
-        ("all a. ex x. x = a", {"z": "a"}, "z not found"),
-        ("all a. ex x. x = a", {"a": "1"}, "a not found"),
-        ("all a. ex x. all b. x + b^2 > a", {"x": "a + b"}, "depends on b"),
-        ("all a. ex x, y. x = y", {"x": "y", "y": "a"}, "depends on y"),
-        ("all a. ex x. x = a", {"x": "a +"}, "expected"),
-        ("all a. ex x. x = a", {"x": "1/a"}, "division"),
-    ],
+@each(
+    ("all a. ex x. x = a", {"z": "a"}, "z not found"),
+    ("all a. ex x. x = a", {"a": "1"}, "a not found"),
+    ("all a. ex x. all b. x + b^2 > a", {"x": "a + b"}, "depends on b"),
+    ("all a. ex x, y. x = y", {"x": "y", "y": "a"}, "depends on y"),
+    ("all a. ex x. x = a", {"x": "a +"}, "expected"),
+    ("all a. ex x. x = a", {"x": "1/a"}, "division"),
 )
 def test_a_witness_that_makes_no_sense_is_refused(sentence: str, witness: dict[str, str], message: str) -> None:
     with pytest.raises(qe.InputError, match=message):

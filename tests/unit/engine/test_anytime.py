@@ -1,11 +1,8 @@
 """What is said of a question that is not answered as a whole is true, and true, false and open cover the space."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -21,6 +18,7 @@ from qe.io.text import read
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("a", "b", "x", "y"))
 POINTS = [dict(zip("ab", map(Fraction, p), strict=True)) for p in product((-3, -1, 0, Fraction(1, 2), 1, 4), repeat=2)]
@@ -56,10 +54,7 @@ def test_parts_are_right_and_cover_the_space(blocks: list[Formula], join: object
             assert holds_at(answer, point) is held[0]
 
 
-@pytest.mark.parametrize(
-    ("text", "work"),
-    [("ex x, y. x^2 + y^2 <= 1 and a*x + b*y^2 >= 2", 200), ("all x, y. x^4 + y^4 + a*x*y + b > 0", 120)],
-)
+@each(("ex x, y. x^2 + y^2 <= 1 and a*x + b*y^2 >= 2", 200), ("all x, y. x^4 + y^4 + a*x*y + b > 0", 120))
 def test_decided_cells_are_described(text: str, work: int) -> None:
     """Something is proved, something is open, and more work leaves nothing open."""
     question = read(text)

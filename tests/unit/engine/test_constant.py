@@ -1,12 +1,11 @@
 """A formula that is true or false everywhere is found out; for most a few points show that it is neither."""
 
-import pytest
-
 import qe
 import qe.api.eliminate as api
 from qe.engine.constant import constant_value
 from qe.formula.syntax import FALSE, TRUE
 from qe.io import formats
+from tests.tables import each
 
 BALLS = "(x+2)^2 + (y-6)^2 + (z-6)^2 <= 27 and x^2 + y^2 + z^2 <= 27 and (x-2)^2 + (y-6)^2 + (z-6)^2 <= 27"
 
@@ -15,7 +14,7 @@ def never(sentence):
     raise AssertionError("a point should have settled it")
 
 
-@pytest.mark.parametrize("text", [BALLS, "x > 0", "x^2 < 2", "(x - 100)^2 <= 1", "x = y", f"not ({BALLS})"])
+@each(BALLS, "x > 0", "x^2 < 2", "(x - 100)^2 <= 1", "x = y", f"not ({BALLS})")
 def test_a_point_shows_that_it_is_neither(text):
     assert constant_value(api.read_formula(text), never) is None
 
@@ -23,7 +22,7 @@ def test_a_point_shows_that_it_is_neither(text):
 ALWAYS = [("x^2 + y^2 >= 0", TRUE), ("x^2 + 1 < 0", FALSE), ("x^2 - x + 1 > 0", TRUE)]
 
 
-@pytest.mark.parametrize(("text", "value"), ALWAYS)
+@each(*ALWAYS)
 def test_always_the_same(text, value):
     found = constant_value(api.read_formula(text), lambda s: qe.decide(s, method="cad"))
     assert found == value
@@ -70,20 +69,15 @@ def test_equations_of_an_answer_are_taken_apart():
     assert qe.equivalent(kept.formula, "x*y = 0 and x + y > 1")
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "x^2 + y^2 + z^2 <= 25 and (x - 7)^2 + y^2 + (z - 1)^2 <= 9 and (x - 5)^2 + (y - 5)^2 + z^2 < 16",
-        "(x - 100)^2 + (y + 70)^2 <= 4 and (x - 103)^2 + (y + 70)^2 <= 4 and 10*y + 703 < 0",
-        "x >= 1000 and y >= 1000 and x + y <= 2001",
-    ],
+@each(
+    "x^2 + y^2 + z^2 <= 25 and (x - 7)^2 + y^2 + (z - 1)^2 <= 9 and (x - 5)^2 + (y - 5)^2 + z^2 < 16",
+    "(x - 100)^2 + (y + 70)^2 <= 4 and (x - 103)^2 + (y + 70)^2 <= 4 and 10*y + 703 < 0",
+    "x >= 1000 and y >= 1000 and x + y <= 2001",
 )
 def test_the_conditions_pull_a_point_into_a_convex_set(text):
     assert constant_value(formats.read(text), never) is None
 
 
-@pytest.mark.parametrize(
-    "text", ["x^2 + y^2 <= 1 and (x - 3)^2 + y^2 <= 1", "x > 5*10^400 and x < 0", "x^2 + y^2 < 0 and x > 7"]
-)
+@each("x^2 + y^2 <= 1 and (x - 3)^2 + y^2 <= 1", "x > 5*10^400 and x < 0", "x^2 + y^2 < 0 and x > 7")
 def test_nothing_pulls_a_point_into_an_empty_set(text):
     assert constant_value(formats.read(text), lambda sentence: False) is FALSE

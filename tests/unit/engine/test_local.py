@@ -1,7 +1,5 @@
 """Local variables first: what is left is equivalent, its values are completed, the derivation is checked."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

@@ -1,7 +1,5 @@
 """Parts of answers that make no difference: which are dropped, that nothing changes, and that each step is proved."""
 
-from __future__ import annotations
-
 import random
 from dataclasses import replace
 from fractions import Fraction

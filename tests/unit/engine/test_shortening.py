@@ -1,7 +1,5 @@
 """Shorter answers: equations of an answer and of its negation taken apart, and cells within little work."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -18,6 +16,7 @@ from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
+from tests.tables import each
 
 
 def context() -> Context:
@@ -44,22 +43,19 @@ def test_products_are_not_split_where_that_makes_it_longer(monkeypatch: pytest.M
     assert qe.decide(f"all a, b, c, d. ({found}) <-> (a^2 /= b^2 or c /= 0 or d > 0)", process=False)
 
 
-@pytest.mark.parametrize(
-    ("question", "expected", "most"),
-    [
-        (  # an ellipse inside the unit circle
-            "all x, y. a > 0 and b > 0 and (b^2*(x-c)^2 + a^2*y^2 - a^2*b^2 = 0 -> x^2 + y^2 - 1 <= 0)",
-            "a > 0 and b > 0 and c + a - 1 <= 0 and c - a + 1 >= 0 and"
-            " (b^2 - a < 0 or b^2*c^2 + b^4 - a^2*b^2 - b^2 + a^2 <= 0)",
-            160,
-        ),
-        (
-            "all x, y. b^2*(x-c)^2 + a^2*y^2 - a^2*b^2 = 0 -> x^2 + y^2 <= 1",
-            "a /= 0 and b /= 0 and a + c <= 1 and a - c <= 1 and c - a <= 1 and -c - a <= 1 and"
-            " (2*b^2 + c^2 < a^2 + 1 or b^4 - a^2*b^2 + b^2*c^2 + a^2 - b^2 <= 0)",
-            400,
-        ),
-    ],
+@each(
+    (  # an ellipse inside the unit circle
+        "all x, y. a > 0 and b > 0 and (b^2*(x-c)^2 + a^2*y^2 - a^2*b^2 = 0 -> x^2 + y^2 - 1 <= 0)",
+        "a > 0 and b > 0 and c + a - 1 <= 0 and c - a + 1 >= 0 and"
+        " (b^2 - a < 0 or b^2*c^2 + b^4 - a^2*b^2 - b^2 + a^2 <= 0)",
+        160,
+    ),
+    (
+        "all x, y. b^2*(x-c)^2 + a^2*y^2 - a^2*b^2 = 0 -> x^2 + y^2 <= 1",
+        "a /= 0 and b /= 0 and a + c <= 1 and a - c <= 1 and c - a <= 1 and -c - a <= 1 and"
+        " (2*b^2 + c^2 < a^2 + 1 or b^4 - a^2*b^2 + b^2*c^2 + a^2 - b^2 <= 0)",
+        400,
+    ),
 )
 def test_ellipses_in_a_circle(question: str, expected: str, most: int) -> None:
     """Lengths as a guard against blunders: the answers were 501 and 578 characters long."""

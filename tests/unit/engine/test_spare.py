@@ -1,7 +1,5 @@
 """A complete answer that is long is taken after all where the next method does not end in little work."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

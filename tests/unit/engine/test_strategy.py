@@ -1,7 +1,5 @@
 """The strategy is data: it loads, its conditions are pure, a method asked for is alone, and no clock decides a form."""
 
-from __future__ import annotations
-
 import random
 import time
 
@@ -18,6 +16,7 @@ from qe.io import formats
 from qe.options import Budget, Method, Options, Stage
 from qe.rules.step import StepKind, steps_without
 from tests.differential.generate import LARGE, NESTED, SMALL, random_formula
+from tests.tables import each
 
 CONVEX = "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 <= 1 and x + y + z + u >= 2"
 QUESTIONS = {
@@ -49,7 +48,7 @@ def test_every_method_that_can_be_asked_for_has_a_question() -> None:
     assert set(QUESTIONS) == {method.value for method in Method} - {"auto"}
 
 
-@pytest.mark.parametrize("second", ["y^2 + z^2 < 4", "x + y + z >= 1", "y^2 - z^2 <= 4"])
+@each("y^2 + z^2 < 4", "x + y + z >= 1", "y^2 - z^2 <= 4")
 def test_critical_values_go_first_for_weak_convex_conditions_only(second: str) -> None:
     assert convex_conditions(problem(QUESTIONS["critical"]), Options()) is not None
     first = "y + z <= a + b" if ">=" in second else "(y - a)^2 + (z - b)^2 <= 1"

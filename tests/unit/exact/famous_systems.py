@@ -1,7 +1,5 @@
 """Systems on which Groebner bases are measured, as exponents -> coefficients."""
 
-from __future__ import annotations
-
 Terms = dict[tuple[int, ...], int]
 
 

@@ -1,7 +1,5 @@
 """Membership in an ideal and in its radical."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from qe.errors import Unable

@@ -1,7 +1,5 @@
 """Counts and balls settle multiple and common roots over a point as exact arithmetic at the point does."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

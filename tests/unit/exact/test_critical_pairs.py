@@ -1,7 +1,5 @@
 """The criteria of Gebauer and Möller keep enough pairs: what passes with them is a Groebner basis."""
 
-from __future__ import annotations
-
 from flint import fmpz_mpoly_ctx, fmpz_mpoly_vec
 from hypothesis import given, settings
 from hypothesis import strategies as st

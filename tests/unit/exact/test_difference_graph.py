@@ -1,7 +1,5 @@
 """Bounds of differences: shortest paths as a naive computation has them, reasons that suffice, and the way back."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from random import Random
 

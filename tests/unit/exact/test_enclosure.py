@@ -1,7 +1,5 @@
 """Enclosures of functions over boxes: every value inside lies in the ball, with its derivative."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import asin, sqrt
 

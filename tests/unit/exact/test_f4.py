@@ -1,7 +1,5 @@
 """F4 modulo primes: what is learned with one prime holds for others, and gives what Buchberger's algorithm gives."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

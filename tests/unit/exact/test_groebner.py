@@ -1,7 +1,5 @@
 """The Groebner engine: reduced bases, normal forms with their scalar, elimination blocks, limits."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """Leading minors of matrices of polynomials, and the signatures of Hankel matrices by their signs."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

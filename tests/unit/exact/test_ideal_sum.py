@@ -1,7 +1,5 @@
 """Members of a sum of two ideals taken apart."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Real roots isolated: by sign changes, over balls, counted."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import pairwise
 
@@ -56,10 +54,7 @@ def test_roots_beside_roots_that_are_ends(roots: str) -> None:
 
 
 dyadic = st.builds(Fraction, st.integers(-16, 16), st.sampled_from((1, 2, 4)))
-
-
 other = st.builds(Fraction, st.integers(-60, 60), st.sampled_from((3, 5, 7, 11)))
-
 
 far_or_close = st.builds(lambda near, by: near + by, dyadic, st.sampled_from([Fraction(h) for h in HUGE])) | st.builds(
     lambda near, by: near + 1 / by, dyadic, st.sampled_from([Fraction(h) for h in HUGE])
@@ -99,8 +94,6 @@ def test_the_simplest_number_is_neither_end(low: str, high: str, between: str) -
 
 
 RING = Ring.of(("a", "x"))
-
-
 TERMS = st.dictionaries(st.integers(0, 9), st.integers(-20, 20).filter(bool), min_size=1, max_size=5)
 
 

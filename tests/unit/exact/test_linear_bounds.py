@@ -1,7 +1,5 @@
 """Bounds of linear forms: contradictions with reasons that suffice and are needed, points that keep all bounds."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import given, settings

@@ -1,6 +1,4 @@
-"""Bases by F4 modulo primes: the same as FLINT's, proved over Q, and used where FLINT's algorithm gets long."""
-
-from __future__ import annotations
+"""Gröbner bases modulo primes and from them, of packed exponents, of ideals that are translated."""
 
 from fractions import Fraction
 
@@ -17,8 +15,12 @@ from qe.exact.modular_groebner import FIRST_PRIME, Work, _fraction, _is_basis, m
 from qe.exact.packed import PackedMonomials
 from qe.exact.quotient import Quotient
 from qe.exact.ring import Poly, Ring
+from qe.exact.translate import put_in, translated
+from tests.strategies import polynomials, rationals
 from tests.tables import each
 from tests.unit.exact.famous_systems import Terms, cyclic, katsura
+
+# Bases by F4 modulo primes: the same as FLINT's, proved over Q, and used where FLINT's algorithm gets long.
 
 LONG = Limits(elements=600, terms=4000, bits=40_000, modular=True)
 
@@ -134,3 +136,60 @@ def test_katsura_seven() -> None:
 @given(POLYS)
 def test_what_flint_finds_often(polys: list[Terms]) -> None:
     assert reduced(modular_basis(polys, 3), 3) == plain_reduced(polys, 3)
+
+
+# Packed monomials: products, order, divisibility, least common multiples.
+
+MONOMIALS = PackedMonomials(4, 12)
+EXPONENTS = st.tuples(*(st.integers(0, 9),) * 4)
+packed = MONOMIALS.packed
+
+
+@given(EXPONENTS, EXPONENTS)
+def test_integers_behave_as_the_monomials_do(a: tuple[int, ...], b: tuple[int, ...]) -> None:
+    key = MonomialOrder.DEGREVLEX.key
+    assert MONOMIALS.exponents(packed(a)) == a and MONOMIALS.degree(packed(a)) == sum(a)
+    assert packed(a) + packed(b) == packed([i + j for i, j in zip(a, b, strict=True)])
+    assert (packed(a) < packed(b)) == (key(a) < key(b))
+    assert MONOMIALS.exponents(MONOMIALS.lcm(packed(a), packed(b))) == tuple(map(max, a, b))
+    divides = all(i <= j for i, j in zip(a, b, strict=True))
+    assert MONOMIALS.divides(MONOMIALS.fields(packed(a)), MONOMIALS.fields(packed(b))) == divides
+    assert MONOMIALS.are_coprime(packed(a), packed(b)) == (not any(i and j for i, j in zip(a, b, strict=True)))
+
+
+def test_a_degree_that_does_not_fit() -> None:
+    assert packed((1023, 0, 0, 0))
+    with pytest.raises(Unable):
+        packed((1000, 0, 0, 24))
+
+
+# Polynomials in coordinates counted from another point, and with numbers put in.
+
+RING = Ring.of(("x", "y", "z"))
+POINT = st.tuples(rationals(), rationals(), rationals())
+
+
+@given(polynomials(RING, max_degree=3).filter(bool), POINT, POINT)
+def test_the_sign_is_that_at_the_moved_point(p: Poly, origin: tuple[Fraction, ...], at: tuple[Fraction, ...]) -> None:
+    moved = translated(p, origin)
+    there = p.evaluate([a + b for a, b in zip(at, origin, strict=True)])
+    here = moved.evaluate(list(at))
+    assert (here > 0) - (here < 0) == (there > 0) - (there < 0)
+    assert translated(moved, [-v for v in origin]).normal()[1] == p.normal()[1]
+    assert abs(moved.normal()[0]) == 1  # it is primitive
+
+
+def test_a_sign_is_kept() -> None:
+    x, y, _ = (RING.gen(i) for i in range(3))
+    assert translated(-x * y, [Fraction(1), Fraction(0), Fraction(0)]) == -(x + 1) * y
+    assert translated(2 * x - 1, [Fraction(1, 2)] * 3) == x
+    assert translated(x, [Fraction(1, 3)] * 3) == 3 * x + 1
+
+
+@given(polynomials(RING, max_degree=3), st.dictionaries(st.integers(0, 2), rationals()), POINT)
+def test_numbers_put_in_at_once(p: Poly, values: dict[int, Fraction], at: tuple[Fraction, ...]) -> None:
+    found = put_in(p, values)
+    there = p.evaluate([values.get(i, v) for i, v in enumerate(at)])
+    here = found.evaluate(list(at))
+    assert (here > 0) - (here < 0) == (there > 0) - (there < 0)
+    assert not {*values} & {*found.variables}

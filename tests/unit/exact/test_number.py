@@ -1,7 +1,5 @@
 """Real algebraic numbers: square roots, radicals, digits, fields that hold several."""
 
-from __future__ import annotations
-
 import math
 import pickle
 from fractions import Fraction
@@ -148,7 +146,6 @@ FIELDS = [
     NumberField.from_root([-1, -1, 0, 0, 0, 1], 1, 2),
     NumberField.from_root([-3, 0, 2, 7], 0, 1),
 ]
-
 
 numbers = rationals(5, 7)
 

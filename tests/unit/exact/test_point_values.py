@@ -1,7 +1,5 @@
 """Roots above points, values there, and angles as intervals: against values that are known."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Polynomials against their terms: what each operation means, worked out with dictionaries."""
 
-from __future__ import annotations
-
 import pickle
 from fractions import Fraction
 from itertools import product

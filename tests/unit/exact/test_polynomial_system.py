@@ -1,7 +1,5 @@
 """Real solutions of systems with finitely many complex ones: counts, multiplicities, constants, degenerate cases."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 

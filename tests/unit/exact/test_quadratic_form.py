@@ -1,7 +1,5 @@
 """Quadratic polynomials, semidefiniteness and linear systems over Q and over number fields."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Rigorous integrals of |f| sqrt(q): closed forms, enclosures of coefficients, and the width asked for."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import asinh, pi, sqrt
 

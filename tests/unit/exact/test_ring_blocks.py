@@ -1,7 +1,5 @@
 """Polynomials by blocks of variables, quotients put in, and stacks: the docstrings' identities, on random input."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -18,26 +16,6 @@ from tests.strategies import polynomials, rationals
 
 RING = Ring.of(("a", "b", "x", "y"))
 POLYS = polynomials(RING, max_degree=4, max_terms=6)
-BLOCKS = st.sets(st.integers(0, 3)).map(sorted)
-
-
-@given(POLYS, BLOCKS)
-def test_collected_is_the_polynomial_again(p: Poly, block: list[int]) -> None:
-    parts = p.collected(block)
-    total = RING.constant(0)
-    for exponents, coefficient in parts.items():
-        assert coefficient and not set(block) & set(coefficient.variables)
-        for i, k in zip(block, exponents, strict=True):
-            coefficient = coefficient * RING.gen(i) ** k
-        total = total + coefficient
-    assert total == p
-
-
-@given(POLYS, BLOCKS)
-def test_coefficients_in_a_block_are_those_collected(p: Poly, block: list[int]) -> None:
-    found = p.coefficients_in(block)
-    assert len(set(found)) == len(found)
-    assert set(found) == set(p.collected(block).values())
 
 
 @given(POLYS, polynomials(RING, max_degree=1), polynomials(RING, max_degree=1), st.tuples(*[rationals()] * 4))

@@ -1,7 +1,5 @@
 """Polynomials in rings with many variables do what those in a ring of their own variables do."""
 
-from __future__ import annotations
-
 import pickle
 from fractions import Fraction
 from math import prod

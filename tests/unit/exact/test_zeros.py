@@ -1,7 +1,5 @@
 """Zeros of polynomials: at algebraic points, at angles, near others, known beforehand."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from fractions import Fraction as F
 from math import cos, sin, sqrt
@@ -84,11 +82,7 @@ def test_a_double_zero_and_zeros_that_are_not_real() -> None:
 
 
 RING = Ring.of(("w", "s", "c", "z"))
-
-
 W, S, C, Z = (RING.gen(k) for k in range(4))
-
-
 ROOT = NumberField.from_root([-2, 0, 1], 1, 2).theta
 
 
@@ -115,11 +109,7 @@ def test_double_zeros_are_not() -> None:
 
 
 PLANE = Ring.of(("x", "y"))
-
-
 X, Y = PLANE.gen(0), PLANE.gen(1)
-
-
 SQRT2 = RealAlgebraic.from_root((-2, 0, 1), 1, 2)
 
 
@@ -171,8 +161,6 @@ def test_approximation() -> None:
 
 
 SPACE = Ring.of(("x", "y", "z"))
-
-
 x, y, z = (SPACE.gen(i) for i in range(3))
 
 

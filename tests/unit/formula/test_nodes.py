@@ -1,7 +1,5 @@
 """Formulas as values: nodes, relations, constructors, counting, blocks."""
 
-from __future__ import annotations
-
 import copy
 import os
 import pickle
@@ -34,8 +32,6 @@ from tests.strategies import RELATIONS, formulas
 from tests.tables import each
 
 ROOT = Path(__file__).resolve().parents[3]
-
-
 FACTS = ("_free", "_hash", "_is_quantifier_free", "_ring")
 
 
@@ -163,7 +159,7 @@ def test_and_or_of_the_same_parts_differ() -> None:
     assert Exists(("x",), parts[0]) != ForAll(("x",), parts[0])
 
 
-@pytest.mark.parametrize("ask", [lambda f: f.free, is_quantifier_free, hash, ring_of, lambda f: convert(f, f.ring)])
+@each(lambda f: f.free, is_quantifier_free, hash, ring_of, lambda f: convert(f, f.ring))
 def test_questions_to_large_formulas_are_answered_at_once(ask) -> None:
     ring = Ring.of(("x", "y", "z"))
     x, y, z = (ring.var(name) for name in ring.names)
@@ -202,14 +198,8 @@ def test_negation_turning_and_strictness_by_definition(relation: Relation) -> No
 
 
 NARROW, WIDE = Ring.of(("x",)), Ring.of(("x", "y"))
-
-
 SMALL = atom(NARROW.var("x"), Relation.GT)
-
-
 LARGE = atom(WIDE.var("x") - 1, Relation.LT)
-
-
 ROOT_ATOM = root_atom("x", Relation.EQ, WIDE.var("x") ** 3 - WIDE.var("y"), 1)
 
 
@@ -251,8 +241,6 @@ def test_constants_go_with_every_ring() -> None:
 
 
 POLYNOMIALS = ["x^2 - y", "x^3 - 3*x + y", "y*x^2 + x - 1", "y*x", "x^2*(x - y)", "x^2 + 1 + y^2", "y^2 - 1"]
-
-
 INDICES = [1, 2, 3, -1, -2, -3]
 
 

@@ -1,7 +1,5 @@
 """Normal forms, walks of formulas, values at points."""
 
-from __future__ import annotations
-
 import itertools
 from fractions import Fraction
 
@@ -44,8 +42,6 @@ def nots(formula: Formula) -> list[Formula]:
 
 
 quantified = formulas(names=("x", "y"), max_quantifiers=4, root_atoms=True)
-
-
 places = st.fixed_dictionaries({name: st.sampled_from(UNIVERSE) for name in ("x", "y")})
 
 
@@ -106,19 +102,24 @@ def test_shadowing_and_clashes_are_resolved() -> None:
     assert ring is not None and ring.names[:2] == ("x", "y")
 
 
-def test_fresh_names_avoid_all_names_in_use() -> None:
-    apart = rename_apart(read("x + x_1 > 0 and (ex x. x > x_1)"))
-    assert str(apart) == "x + x_1 > 0 and ex x_2. x_1 - x_2 < 0"
-
-
-def test_a_bound_root_variable_is_renamed_with_its_polynomial() -> None:
-    apart = rename_apart(read("x > 0 and (ex x. x < root(1, x^2 - y))"))
-    assert str(apart) == "x > 0 and ex x_1. x_1 < root(1, x_1^2 - y)"
-
-
-def test_a_first_quantifier_keeps_its_name() -> None:
-    formula = read("(ex x. x > a) and (ex x. x < a)")
-    assert str(rename_apart(formula)) == "(ex x. a - x < 0) and ex x_1. a - x_1 > 0"
+@each(
+    {
+        "fresh names avoid all names in use": (
+            "x + x_1 > 0 and (ex x. x > x_1)",
+            "x + x_1 > 0 and ex x_2. x_1 - x_2 < 0",
+        ),
+        "a bound root variable is renamed with its polynomial": (
+            "x > 0 and (ex x. x < root(1, x^2 - y))",
+            "x > 0 and ex x_1. x_1 < root(1, x_1^2 - y)",
+        ),
+        "a first quantifier keeps its name": (
+            "(ex x. x > a) and (ex x. x < a)",
+            "(ex x. a - x < 0) and ex x_1. a - x_1 > 0",
+        ),
+    }
+)
+def test_names_apart(text: str, apart: str) -> None:
+    assert str(rename_apart(read(text))) == apart
 
 
 def test_rename_keeps_the_meaning() -> None:

@@ -1,7 +1,5 @@
 """Formulas as text: how they are printed, what may have been meant otherwise, what they are made of."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from hypothesis import given
@@ -22,8 +20,6 @@ from tests.strategies import formulas, polynomials
 from tests.tables import each
 
 RING = Ring.of(("x", "y"))
-
-
 X, Y = RING.var("x"), RING.var("y")
 
 
@@ -133,20 +129,11 @@ def test_the_product_that_may_be_meant(letter: str, variable: str, power: int) -
     assert noted(f"ex {variable}. {letter}*{variable}^{power} + 1 = 0") == ()
 
 
-def test_a_typical_problem() -> None:
-    found = features(read("ex p, q. all s. p = 2*a - 1 and p^2 + q^2*s <= 27 and s^3 /= a"))
-    assert found.free == ("a",)
-    assert found.bound == ("p", "q", "s")
-    assert (found.atoms, found.total_degree) == (3, 3)
-
-
-def test_quantifiers_inside_and_root_atoms() -> None:
-    found = features(read("(ex x. x > y) and not (all z, x. x < root(1, x^2*y - 2*z))"))
-    assert found.free == ("y",)
-    assert found.bound == ("x", "z")
-    assert found.atoms == 2
-
-
-def test_nothing() -> None:
-    found = features(read("true"))
-    assert (found.free, found.bound, found.atoms, found.total_degree) == ((), (), 0, 0)
+@each(
+    ("ex p, q. all s. p = 2*a - 1 and p^2 + q^2*s <= 27 and s^3 /= a", "a", "pqs", 3, 3),
+    ("(ex x. x > y) and not (all z, x. x < root(1, x^2*y - 2*z))", "y", "xz", 2, 3),
+    ("true", "", "", 0, 0),
+)
+def test_features(text: str, free: str, bound: str, atoms: int, degree: int) -> None:
+    found = features(read(text))
+    assert (found.free, found.bound, found.atoms, found.total_degree) == (tuple(free), tuple(bound), atoms, degree)

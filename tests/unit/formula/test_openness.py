@@ -1,7 +1,5 @@
 """Openness by syntax: what is called open has room around every solution, and what is left out has no interior."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import given, settings

@@ -1,7 +1,5 @@
 """Random points of sets given by equations and inequations, and ideals specialised there, in exact arithmetic."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction

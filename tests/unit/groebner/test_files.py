@@ -1,7 +1,5 @@
 """Systems and partitions written as JSON and read back; damaged and altered texts."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """A parametric system with constants and side conditions, solved."""
 
-from __future__ import annotations
-
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import BlockOrder
 from qe.exact.ring import Ring

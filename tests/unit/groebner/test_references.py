@@ -1,7 +1,5 @@
 """Comprehensive Groebner systems from the literature: the same specialised ideals at random points of every segment."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from random import Random

@@ -1,7 +1,5 @@
 """Comprehensive Groebner systems as objects: points, membership, constants, faithful bases, forms, bad input."""
 
-from __future__ import annotations
-
 import json
 import pickle
 from fractions import Fraction

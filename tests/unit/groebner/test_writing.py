@@ -1,7 +1,5 @@
 """Systems in LaTeX and HTML: every row with its condition, its equations and its dimension."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 
 from qe.exact.ring import Ring

@@ -1,7 +1,5 @@
 """Names for values in one formula: given out in order, once for each value, and used up."""
 
-from __future__ import annotations
-
 import pytest
 
 from qe.exact.ring import Ring

@@ -1,7 +1,5 @@
 """Quotients with guards: what arithmetic makes of them, evaluated at points where they have a value and where not."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import assume, given

@@ -1,25 +1,19 @@
 """Sums and products that are collected while they are read mean what the trees mean, and stay small."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.errors import InputError
 from qe.io import collected
 from qe.io import surface as s
 from qe.io.lowering import lower_term
 from qe.io.terms import Value
+from tests.unit.io.failing import fail
 
 NAMES = [s.Name(name, 0) for name in "xyz"]
 NUMBERS = [s.Number(value) for value in (0, 1, -1, 7, Fraction(-2, 3), Fraction(1, 6), 10**30)]
-
-
-def fail(message: str, at: int) -> InputError:
-    return InputError(f"{at}: {message}")
 
 
 def both(parts: list[tuple[s.Term, s.Term]]) -> st.SearchStrategy[tuple[s.Term, s.Term]]:

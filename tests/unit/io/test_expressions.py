@@ -1,7 +1,5 @@
 """Formulas written with Python's operators: they mean what the same text means."""
 
-from __future__ import annotations
-
 import pickle
 from collections.abc import Callable
 from decimal import Decimal

@@ -1,7 +1,5 @@
 """From surface trees to formulas: functions, chains, case distinctions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 
@@ -16,14 +14,10 @@ from qe.io import surface as s
 from qe.io.functions import FUNCTIONS, RELATIONS
 from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM
-from qe.io.text_errors import SyntaxFailure
 from qe.io.text_parser import TextParser
 from qe.io.total import Fill, Total
 from tests.tables import each
-
-
-def fail(message: str, at: int) -> InputError:
-    return InputError(f"{at}: {message}")
+from tests.unit.io.failing import fail
 
 
 def meaning(text: str, **more: object) -> Formula:
@@ -169,21 +163,6 @@ X, Y = s.Comparison([name("x", 0), s.Number(0)], [Relation.GT], 2), s.Truth(True
 )
 def test_formulas(text: str, tree: s.Node) -> None:
     assert TextParser(text).whole() == tree
-
-
-@each(
-    ("1 + abs(a, b)", 4, "abs takes 1 argument"),
-    ("min(" + ", ".join(["a"] * 1001) + ")", 0, "min takes 1 argument"),
-    ("1 + f(a)", 4, "unknown function f"),
-    ("root(a)", 0, "root takes a number"),
-    ("root(1, a, b, c)", 0, "root takes a number"),
-    ("root(1, a, b + 1)", 0, "root takes a number"),
-    ("a + 1e99999", 4, "exponent of the number"),
-)
-def test_what_is_refused(text: str, at: int, said: str) -> None:
-    with pytest.raises(SyntaxFailure) as error:
-        term(text)
-    assert error.value.at == at and said in error.value.message
 
 
 def test_all_spellings_of_relations_and_functions() -> None:

@@ -1,7 +1,5 @@
 """LaTeX, MathML and the notations of other programs."""
 
-from __future__ import annotations
-
 import json
 from xml.etree import ElementTree
 

@@ -1,7 +1,5 @@
 """Comparisons freed of auxiliary values: by substitution of square roots, and by quantifiers elsewhere."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from math import isqrt
 

@@ -1,7 +1,5 @@
 """SMT-LIB: what terms and scripts mean, what is refused and where, and scripts that solvers read."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 
@@ -21,10 +19,7 @@ from qe.io.smtlib_terms import Terms
 from qe.io.smtlib_words import Macro, is_real
 from qe.io.text import read as text
 from tests.tables import each
-
-
-def fail(message: str, at: int) -> InputError:
-    return InputError(f"{at}: {message}")
+from tests.unit.io.failing import fail
 
 
 def made(real: str = "x y z", boolean: str = "p q") -> Terms:
@@ -177,38 +172,40 @@ def test_terms(term: str, printed: str) -> None:
     assert str(smtlib.read(f"{X}(assert {term})")) == printed
 
 
-def test_a_whole_script() -> None:
-    script = """
-        ; a comment
-        (set-logic QF_NRA) (set-info :status sat) (set-option :produce-models true)
-        (declare-const |my name| Real)
-        (define-const c Real (/ 1 2))
-        (define-fun square ((t Real)) Real (* t t))
-        (define-fun near ((a Real) (b Real)) Bool (< (square (- a b)) c))
-        (assert (near |my name| 2))
-        (assert (> |my name| 0))
-        (check-sat) (get-model) (echo "done")
-        (exit)
-        (push 1)
-    """
-    assert str(smtlib.read(script)) == "2*`my name`^2 - 8*`my name` + 7 < 0 and `my name` > 0"
+def chain(step: str, count: int, last: str) -> str:
+    """A script in which each of the definitions is made of the one before."""
+    steps = "".join(f"(let ((y{i + 1} (+ y{i} {step.format(i)})))" for i in range(count))
+    return f"(declare-const x Real)(assert (let ((y0 x)) {steps}(> y{count} {last}){')' * count}))"
 
 
-def test_a_definition_does_not_capture() -> None:
-    script = "(define-fun below ((x Real)) Bool (exists ((y Real)) (< x y)))(declare-const y Real)(assert (below y))"
-    assert str(smtlib.read(script)) == "ex y_1. y - y_1 < 0"
+SCRIPT = """
+    ; a comment
+    (set-logic QF_NRA) (set-info :status sat) (set-option :produce-models true)
+    (declare-const |my name| Real)
+    (define-const c Real (/ 1 2))
+    (define-fun square ((t Real)) Real (* t t))
+    (define-fun near ((a Real) (b Real)) Bool (< (square (- a b)) c))
+    (assert (near |my name| 2))
+    (assert (> |my name| 0))
+    (check-sat) (get-model) (echo "done")
+    (exit)
+    (push 1)
+"""
 
 
-def test_long_chains_of_definitions() -> None:
-    steps = "".join(f"(let ((y{i + 1} (+ y{i} 1)))" for i in range(500))
-    script = f"(declare-const x Real)(assert (let ((y0 x)) {steps}(> y500 0){')' * 500}))"
-    assert str(smtlib.read(script)) == "x + 500 > 0"
-
-
-def test_shared_definitions_are_evaluated_once() -> None:
-    steps = "".join(f"(let ((y{i + 1} (+ y{i} y{i})))" for i in range(60))
-    script = f"(declare-const x Real)(assert (let ((y0 x)) {steps}(> y60 (* {2**60} 3)){')' * 60}))"
-    assert str(smtlib.read(script)) == "x - 3 > 0"
+@each(
+    {
+        "a whole script": (SCRIPT, "2*`my name`^2 - 8*`my name` + 7 < 0 and `my name` > 0"),
+        "a definition does not capture": (
+            "(define-fun below ((x Real)) Bool (exists ((y Real)) (< x y)))(declare-const y Real)(assert (below y))",
+            "ex y_1. y - y_1 < 0",
+        ),
+        "long chains of definitions": (chain("1", 500, "0"), "x + 500 > 0"),
+        "shared definitions are evaluated once": (chain("y{}", 60, f"(* {2**60} 3)"), "x - 3 > 0"),
+    }
+)
+def test_scripts(script: str, printed: str) -> None:
+    assert str(smtlib.read(script)) == printed
 
 
 @each(

@@ -1,7 +1,5 @@
 """S-expressions and scripts of them: offsets, where a text that may go on has ended, declarations, levels."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import pytest
@@ -12,18 +10,13 @@ from qe.errors import InputError
 from qe.io.smtlib_parser import Ends, Expression, parse, place, show
 from qe.io.smtlib_script import Script
 from tests.tables import each
-
-
-def fail(message: str, at: int) -> InputError:
-    return InputError(f"{at}: {message}")
-
+from tests.unit.io.failing import fail
 
 WORDS = st.one_of(
     st.from_regex(r"[a-z+<=][a-z0-9!@.-]{0,4}", fullmatch=True),
     st.sampled_from(("|two words|", "||", "|a(b|", "|1x|", "|;|", "|1|")),
     st.sampled_from(("0", "12", "1.50", ":named", ":a-b", '"a ""quoted"" (word"', '""', "#x1F", "#b01")),
 )
-
 
 EXPRESSIONS: st.SearchStrategy[Expression] = st.recursive(
     WORDS, lambda inner: st.lists(inner, max_size=3), max_leaves=6

@@ -1,7 +1,5 @@
 """The SymPy door."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Real algebraic numbers as SymPy numbers and back."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

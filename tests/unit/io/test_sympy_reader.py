@@ -1,7 +1,5 @@
 """SymPy trees as surface trees."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

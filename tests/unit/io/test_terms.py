@@ -1,7 +1,5 @@
 """Arithmetic on terms: exact values, bounds of the coefficients that hold, and growth refused before it happens."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

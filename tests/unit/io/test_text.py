@@ -1,12 +1,10 @@
 """The text syntax: what it means, how it is printed, and what is said about mistakes."""
 
-from __future__ import annotations
-
 import pytest
 
 from qe.errors import InputError, ParseError
 from qe.exact.ring import Ring
-from qe.formula.syntax import FALSE, TRUE, Exists, RootAtom
+from qe.formula.syntax import FALSE, TRUE, RootAtom
 from qe.formula.traverse import ring_of
 from qe.io.text import read, write
 from tests.tables import each
@@ -68,68 +66,6 @@ def test_meaning_and_printing(text: str, printed: str) -> None:
     assert write(read(printed)) == printed
 
 
-@each(
-    ("ex x. x^2 +", 12, "ends too early"),
-    ("x ** ** 2 = 0", 6, "unexpected"),
-    ("x^2 < ", 6, "ends too early"),
-    ("ex . x = 0", 4, "the name of a variable"),
-    ("1/2x = 1", 4, "1/(2*x)"),
-    ("x y = 1", 3, "x*y"),
-    ("x^99999999 = 0", 2, "above the limit"),
-    ("x = 1/0", 6, "division by zero"),
-    ("(x = 1", 1, "never closed"),
-    ("x = 1)", 6, "no partner"),
-    ("x === 1", 5, "one ="),
-    ("ex x, x = 0", 12, "'.' or ','"),
-    ("sin(x) = 0", 1, "sin(x): sin is not algebraic; put c and s"),
-    ("2 < ln[x + (1)] + 1", 5, "ln[x + (1)]: ln is not algebraic"),
-    ("floor(x) = 0", 1, "needs integers"),
-    ("f(x) = 0", 1, "unknown function f"),
-    ("sqrt(x, y) = 0", 1, "takes 1 argument"),
-    ("", 1, "empty"),
-    ("x^y = 1", 2, "rational number"),
-    ("2^x = 1", 2, "rational number"),
-    ("x^(1/99999) = 1", 2, "root of degree"),
-    ("(x)(y) = 0", 4, "(…)*(…)"),
-    ("x^2^3 = 1", 4, "ambiguous"),
-    ("x => 1", 4, ">="),
-    ("2|x| > 0", 2, "2*|x|"),
-    ("x > 2|y|", 8, "2*|x|"),
-    ("|my name| > 0", 5, "an operator is missing"),
-    ("x! > 0", 2, "no factorial"),
-    ("oo + 1 > x", 1, "infinity is no number"),
-    ("Exists[x, x > 0, x > 1, x > 2]", 1, "perhaps a condition"),
-    ("Eq(x)", 1, "two terms"),
-    ("Implies(x > 0)", 1, "two formulas"),
-    ("`x > 0", 1, "needs both"),
-    ("x < ``", 5, "not empty"),
-    ("x < `a\\q`", 5, "backquote or u"),
-    ("x < `a\\u{7c}b`", 5, "a bar"),
-    ("x + pi > 0", 5, "write `pi`"),
-    ("(ex π. π > 0) and π > 0", 19, "π is no number"),
-    ("2*π < x", 3, "π is no number"),
-    ("x < root(1, x^2 - pi)", 19, "pi is no number"),
-    ("(x > 0) = (y > 0)", 9, "<->"),
-    ("x", 2, "a relation"),
-    ("x and y > 0", 3, "a relation"),
-    ("(x + y + z + w + 1)^1000 = 0", 20, "million"),
-    ("1e99999999 = x", 1, "exponent of the number"),
-    ("x < root(0, x)", 5, "no such root"),
-    ("x < root(1, y*z)", 5, "does not contain x"),
-    ("x + 1 < root(1, x*y)", 9, "needs its variable"),
-    ("x < root(1)", 5, "root takes"),
-    ("x < root(1, x, y)", 5, "in a variable of the polynomial"),
-    ("x = 'a'", 5, "unknown character"),
-)
-def test_mistakes_are_explained_in_one_line(text: str, column: int, part: str) -> None:
-    with pytest.raises(ParseError) as caught:
-        read(text, source="input")
-    assert part in str(caught.value)
-    assert "\n" not in str(caught.value)
-    assert (caught.value.line, caught.value.column) == (1, column)
-    assert str(caught.value).startswith(f"input:1:{column}: ")
-
-
 def test_lines_are_counted() -> None:
     with pytest.raises(ParseError) as caught:
         read("x = 1\n  and y >< 2")
@@ -145,41 +81,37 @@ def test_nesting_has_a_limit_and_says_so() -> None:
         read(deep)
 
 
-def test_long_inputs_are_not_deep() -> None:
-    assert write(read("+".join(["x"] * 3000) + " = 0")) == "x = 0"
-    assert write(read("*".join(["x"] * 3000) + " = 0")) == "x^3000 = 0"
-    assert write(read(" and ".join(f"x > {i}" for i in range(1000)))).count("and") == 999
+DIGITS = "1234567890" * 1000
 
 
-def test_numbers_of_any_length() -> None:
-    digits = "1234567890" * 1000
-    formula = read(f"x = {digits}")
-    assert write(formula) == f"x - {digits} = 0"
-    assert read(f"x = {digits}.0") == formula
+@each(
+    ("+".join(["x"] * 3000) + " = 0", "x = 0"),
+    ("*".join(["x"] * 3000) + " = 0", "x^3000 = 0"),
+    (" and ".join(f"x > {i}" for i in range(1, 1000)), " and ".join(f"x - {i} > 0" for i in range(1, 1000))),
+    (f"x = {DIGITS}", f"x - {DIGITS} = 0"),
+    (f"x = {DIGITS}.0", f"x - {DIGITS} = 0"),
+    ("ex x. x = y and (ex y. y > x)", "ex x. y - x = 0 and ex y. y - x > 0"),  # free and bound
+)
+def test_long_inputs_are_not_deep_and_numbers_have_any_length(text: str, printed: str) -> None:
+    assert write(read(text)) == printed
+
+
+@each(
+    ("ex x, y. x + b = y*a and (ex z. z > a)", "baxyz"),
+    ("x > 0 and (ex y. ex x. x = y)", "xy"),
+    ("x > root(3, x^3 - y*x)", "xy"),
+)
+def test_ring_order_is_free_then_bound(text: str, names: str) -> None:
+    assert ring_of(read(text)) is Ring.of(tuple(names))
+
+
+def test_constants_have_no_ring_and_root_atoms_their_number() -> None:
+    assert read("true") is TRUE and read("x < x") is FALSE
+    formula = read("x > root(3, x^3 - y*x)")
+    assert isinstance(formula, RootAtom) and formula.k == 3 and formula.variable == "x"
 
 
 def test_powers_that_would_not_fit_are_refused_before_they_are_computed() -> None:
     for text in ("((2*x + 1)^99)^99 = 0", "((7^10000)^10000)^10000 = x", "(123456789^9999*x)^9999 = 1"):
         with pytest.raises(ParseError):
             read(text)
-
-
-def test_ring_order_is_free_then_bound() -> None:
-    assert ring_of(read("ex x, y. x + b = y*a and (ex z. z > a)")) is Ring.of(("b", "a", "x", "y", "z"))
-    assert ring_of(read("x > 0 and (ex y. ex x. x = y)")) is Ring.of(("x", "y"))
-
-
-def test_constants_have_no_ring() -> None:
-    assert read("true") is TRUE
-    assert read("x < x") is FALSE
-
-
-def test_a_name_may_be_free_and_bound() -> None:
-    formula = read("ex x. x = y and (ex y. y > x)")
-    assert isinstance(formula, Exists)
-    assert write(formula) == "ex x. y - x = 0 and ex y. y - x > 0"
-
-
-def test_root_atoms() -> None:
-    formula = read("x > root(3, x^3 - y*x)")
-    assert isinstance(formula, RootAtom) and formula.k == 3 and formula.variable == "x"

@@ -1,7 +1,5 @@
 """From tokens to surface trees: operators, the grammar against the plain way to write the same, names, depth."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from contextlib import suppress
 from itertools import product
@@ -167,19 +165,6 @@ def test_exclusive_or(count: int) -> None:
     formula = read(f"Xor({', '.join(f'{name} > 0' for name in names)})")
     for signs in product((0, 1), repeat=count):
         assert holds_at(formula, dict(zip(names, signs))) == bool(sum(signs) % 2)
-
-
-@each(
-    ("y > 0 and Not(x > 0, y > 0)", 10, "Not takes one formula"),
-    ("Implies(x > 0)", 0, "Implies takes two formulas"),
-    ("Implies(x > 0, x > 1, x > 2)", 0, "Implies takes two formulas"),
-    ("Less(x)", 0, "Less compares two terms"),
-    ("ForAll[x, x > 0, x > 1, x > 2]", 0, "a quantifier takes variables, perhaps a condition"),
-)
-def test_wrong_numbers_of_parts(text: str, at: int, said: str) -> None:
-    with pytest.raises(SyntaxFailure) as error:
-        TextParser(text).whole()
-    assert error.value.at == at and said in error.value.message
 
 
 def test_offsets_of_sets_and_functions() -> None:

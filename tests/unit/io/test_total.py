@@ -1,7 +1,5 @@
 """Values outside domains: what a lowering notes of them, and what they are at a point."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """The values of terms: polynomials, quotients, roots and case distinctions, at points."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -17,14 +15,12 @@ from qe.io.terms import TermError, Value
 from qe.io.text_parser import TextParser
 from qe.io.valuation import Valuation
 from tests.tables import each
+from tests.unit.io.failing import fail
 
 RING = Ring.of(("x", "y", "s1", "s2", "s3"))
 
 
 def made() -> Valuation:
-    def fail(message: str, at: int) -> InputError:
-        return InputError(f"{at}: {message}")
-
     return Valuation(RING, fail, ("s1", "s2", "s3"), None, lambda node, place: TRUE)
 
 

@@ -1,7 +1,5 @@
 """Global optima: finitely many candidates, their values, what callers get."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
@@ -41,7 +39,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize(("objective", "constraints", "value", "attained"), CASES)
+@each(*CASES)
 def test_known_minima(objective, constraints, value, attained):
     found = qe.minimize(objective, constraints)
     assert (str(found.value), found.attained, found.status) == (value, attained, OptimumStatus.OPTIMAL)
@@ -49,7 +47,7 @@ def test_known_minima(objective, constraints, value, attained):
         assert qe.verify(found.certificate).accepted
 
 
-@pytest.mark.parametrize(("objective", "constraints", "value", "attained"), CASES)
+@each(*CASES)
 def test_a_maximum_is_minus_the_minimum_of_the_negative(objective, constraints, value, attained):
     found = qe.maximize(f"-({objective})", constraints)
     assert (str(found.value), found.attained) == (str(-qe.minimize(objective, constraints).value), attained)
@@ -192,8 +190,6 @@ def test_the_command_prints_all_points(capsys: pytest.CaptureFixture[str]) -> No
 
 
 RING = Ring.of(("x", "y"))
-
-
 X, Y = RING.var("x"), RING.var("y")
 
 

@@ -1,7 +1,5 @@
 """Optima as functions of parameters: cases, and agreement with the optimum at single parameter values."""
 
-from __future__ import annotations
-
 import json
 from fractions import Fraction
 

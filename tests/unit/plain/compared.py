@@ -1,7 +1,5 @@
 """Random values for the plain arithmetic and for FLINT, and both results in one form."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """Balls contain what they are said to contain, and enclosures of roots hold exactly one root each."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Polynomials in several variables in plain Python are those of FLINT."""
 
-from __future__ import annotations
-
 import random
 
 import flint

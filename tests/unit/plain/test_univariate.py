@@ -1,7 +1,5 @@
 """Polynomials in one variable, and numbers, in plain Python are those of FLINT."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 

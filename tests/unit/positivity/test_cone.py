@@ -1,7 +1,5 @@
 """Polynomials without negative coefficients in linear forms: found where they are, proved, and nothing else claimed."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 

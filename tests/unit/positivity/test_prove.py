@@ -1,7 +1,5 @@
 """Polynomials that are nowhere negative: each way, its identities multiplied out, and what must not be claimed."""
 
-from __future__ import annotations
-
 import builtins
 import random
 

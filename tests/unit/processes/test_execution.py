@@ -1,6 +1,4 @@
-"""Work moves to another process once it takes long: results, errors, limits, Ctrl-C, and the switches against it."""
-
-from __future__ import annotations
+"""Work in this process and others: limits hold, of several methods the first answers, no process is left over."""
 
 import os
 import pickle
@@ -9,17 +7,19 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
 import pytest
 
 import qe
-from qe.errors import BudgetExceeded, InputError, InternalError, Unable
+from qe.errors import BudgetExceeded, InputError, InternalError, QEError, Unable
 from qe.formula.weight import may_block, text_may_block
+from qe.processes.channel import Channel, WorkerDied
 from qe.processes.execution import COLD, HERE, SWITCH, perform
 from qe.processes.limits import Limits
+from qe.processes.racing import first
 from qe.processes.worker import IDLE, end_idle
 from qe.progress import Event
 from tests.conftest import ROOT
@@ -27,6 +27,8 @@ from tests.tables import each
 from tests.unit.processes.works import (
     asleep,
     failing,
+    given,
+    gone,
     heedless,
     inside,
     loading,
@@ -36,9 +38,12 @@ from tests.unit.processes.works import (
     slowly_counting,
     spent,
     work,
+    wrong,
 )
-from tests.waiting import ending
+from tests.waiting import ending, limit
 from tests.workers import only_idle_children
+
+# Work moves to another process once it takes long: results, errors, limits, Ctrl-C, and the switches against it.
 
 pytestmark = pytest.mark.processes
 
@@ -215,3 +220,76 @@ def test_what_may_block_moves_at_once():
 def test_limits_are_pickled_without_the_listener():
     limits = Limits(3.0, 100, lambda event: None, process=False)
     assert pickle.loads(pickle.dumps(limits)) == Limits(3.0, 100, process=False)
+
+
+# Methods side by side: the first answer wins, and no process is left behind.
+
+EARLY, UNABLE = partial(given, "early"), partial(failing, qe.Unable("cannot"))
+
+
+def raced(**works: Callable[[Channel], str]) -> tuple[str | None, dict[str, str | QEError]]:
+    with only_idle_children():
+        return first(works, lambda value: value == "early", Limits(timeout=60))
+
+
+def test_the_first_answer_ends_the_others_and_errors_are_results() -> None:
+    winner, found = raced(slow=asleep, fast=EARLY, wrong=UNABLE)
+    assert winner == "fast" and found["fast"] == "early" and "slow" not in found
+    winner, found = raced(wrong=UNABLE, dead=gone)
+    assert winner is None and str(found["wrong"]) == "cannot" and isinstance(found["dead"], WorkerDied)
+    winner, found = raced(bad=wrong, fast=EARLY)
+    assert winner == "fast" and isinstance(found.get("bad", InternalError("")), InternalError)
+
+
+def test_raced_methods_give_an_equivalent_answer() -> None:
+    answer = qe.eliminate("ex x. x^2 + b*x + c = 0", race=("cad", "vs"), timeout=120)
+    assert qe.equivalent(answer, "b^2 >= 4*c") and "the first answer was" in answer.explanation
+
+
+def test_a_method_that_cannot_loses() -> None:
+    answer = qe.eliminate("all x. x^6 + a*x > 0", race=["vs", "cad"], timeout=120, check=True)
+    assert answer.status is qe.Status.SOLVED and answer.guarantee is qe.Guarantee.CHECKED
+    alone = qe.eliminate("all x. x^6 + a*x > 0", race="vs", timeout=120)
+    assert alone.status is qe.Status.UNABLE and alone.reason.startswith("vs: ")
+
+
+def test_a_race_holds_the_limit() -> None:
+    answer = qe.eliminate(HARD, race=("auto", "cad"), timeout=0.5)
+    assert answer.status is qe.Status.UNABLE and "time" in answer.reason
+
+
+@each({"method": "cad"}, {"workers": 2}, {"process": False})
+def test_a_race_stands_alone(other: dict[str, object]) -> None:
+    with pytest.raises(qe.InputError, match="race: cannot go with"):
+        qe.eliminate("x > 0", race="cad", **other)  # type: ignore[arg-type]
+
+
+def test_the_command_races() -> None:
+    command = [Path(sys.executable).parent / "qe", "eliminate", "ex x. x^2 + b*x + c = 0", "--race", "vs,cad"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout) == (0, "b^2 - 4*c >= 0\n")
+    refused = subprocess.run([*command[:-1], "fast"], capture_output=True, text=True, timeout=120)
+    assert refused.returncode == 2 and "race" in refused.stderr
+
+
+# Processes of a local cluster end with the process that started them, also where it is killed.
+
+CHILD = "import os; from qe.processes import leash; print(os.getpid(), flush=True); leash.watch({parent})"
+PARENT = "import subprocess, sys, os; subprocess.run([sys.executable, '-c', sys.argv[1].format(parent=os.getpid())])"
+
+
+def test_a_process_ends_when_its_parent_is_killed() -> None:
+    pytest.importorskip("click")
+    with ending(subprocess.Popen([sys.executable, "-c", PARENT, CHILD], stdout=subprocess.PIPE, text=True)) as parent:
+        assert parent.stdout is not None
+        watching = int(parent.stdout.readline())
+        os.kill(watching, 0)
+        parent.kill()
+        with limit(60):
+            assert parent.stdout.read() == ""  # comes only when both processes, which have the other end, are gone
+
+
+def test_a_process_ends_when_its_parent_was_gone_before_it_looked() -> None:
+    pytest.importorskip("click")
+    code = "from qe.processes import leash; leash.watch(1 << 30)"
+    assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 1

@@ -1,7 +1,5 @@
 """Errors from one process to another: they come out as they went in."""
 
-from __future__ import annotations
-
 import errno
 import pickle
 

@@ -1,7 +1,5 @@
 """Questions in a worker: results, errors, limits, partial knowledge, and no process left behind at work."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

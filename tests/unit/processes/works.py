@@ -1,7 +1,5 @@
 """What the tests of this folder let workers do. A worker loads this, and with it nothing of the tests themselves."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys

@@ -1,7 +1,5 @@
 """Derivations replay from the question to the answer, and every step is an equivalence."""
 
-from __future__ import annotations
-
 import pickle
 import random
 import xml.etree.ElementTree as ET

@@ -1,7 +1,5 @@
 """A run in words: numbered steps with their formulas, and what was chosen and done between them."""
 
-from __future__ import annotations
-
 from qe.io.text import read
 from qe.proof.explanation import LONGEST, explained
 from qe.proof.run_log import RunLog

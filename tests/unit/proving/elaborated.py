@@ -1,14 +1,14 @@
 """Steps of rules that are no primitives: why they are none of the kernel's."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from qe.certify.registry import RULES
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
-from qe.formula.build import convert
-from qe.formula.syntax import Formula
+from qe.formula.build import convert, neg
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import conjuncts
 from qe.kernel.step import Claim
 from qe.kernel.verdict import CRASHES
@@ -32,3 +32,19 @@ def refused(rule: str, before: str | Formula, after: str | Formula, evidence: An
     except (CertificateRejected, *CRASHES) as error:
         return str(error) or type(error).__name__
     return ""
+
+
+Row = tuple[str | Formula, str | Formula, Any]
+"""Before, after, evidence."""
+
+
+def rows(table: Mapping[str, Sequence[Row]]) -> list[tuple[object, ...]]:
+    """The rows of all rules, each with the name of its rule."""
+    return [(rule, *row) for rule, listed in table.items() for row in listed]
+
+
+def is_a_step_and_no_other_is(rule: str, before: str | Formula, after: str | Formula, evidence: Any) -> bool:
+    """Whether the step is one of the kernel, and none that leads elsewhere: to the negation, or to a constant."""
+    right = formula(after) if isinstance(after, str) else after
+    wrong = (nnf(neg(right)), *({TRUE, FALSE} - {right}))
+    return refused(rule, before, after, evidence) == "" and all(refused(rule, before, f, evidence) for f in wrong)

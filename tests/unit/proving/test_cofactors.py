@@ -1,7 +1,5 @@
 """Cofactors: combinations multiply out, and none is found where there is none."""
 
-from __future__ import annotations
-
 from hypothesis import given
 from hypothesis import strategies as st
 

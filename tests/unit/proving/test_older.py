@@ -1,11 +1,7 @@
 """Certificates of former releases: steps by signs had many names, and their lemmas came without cases."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
-
-import pytest
 
 import qe
 from qe.exact.ring import Ring
@@ -13,6 +9,7 @@ from qe.formula.build import convert
 from qe.io.text import read
 from qe.proof.certificate import Certificate
 from qe.proof.entry import formula_to_json
+from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS
 
 RING = Ring.of(("a", "b", "x", "y"))
@@ -34,7 +31,7 @@ def verdict(rule: str, before: str, after: str, evidence: dict[str, Any]) -> Any
     return qe.verify(Certificate.from_json(json.dumps({**made, "digest": read_again.digests[1]})))  # type: ignore[index]
 
 
-@pytest.mark.parametrize("rule", ["simplification", "standard simplification", "case split on factors"])
+@each("simplification", "standard simplification", "case split on factors")
 def test_lemmas_without_cases_get_them(rule: str) -> None:
     """Neither propagation alone nor the alternatives of the last formula refute it."""
     assert verdict(rule, TURNS, "false", BARE).accepted
@@ -74,7 +71,7 @@ def root(*coefficients: str) -> Any:
     return {"point": point, "guard": True, "formula": None, "settled": []}
 
 
-@pytest.mark.parametrize("more", [{}, {"exponent": 1}])
+@each({}, {"exponent": 1})
 def test_test_points_at_roots_of_cubics_become_a_decomposition(more: dict[str, Any]) -> None:
     """The kernel knew a table of what holds at such roots; of the old evidence only that it has them is looked at."""
     points = [root("b", "a", "0", "1")]

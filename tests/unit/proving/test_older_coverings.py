@@ -1,7 +1,5 @@
 """Coverings as certificates of former releases have them, made when they had a checker of their own."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

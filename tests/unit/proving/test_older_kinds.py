@@ -1,7 +1,5 @@
 """Certificates of kinds of former releases: read as derivations, and no better than they were."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 
@@ -19,6 +17,7 @@ from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import formula_to_json
 from qe.proving.older_kinds import recent
 from tests.certificates.producing import cell_table
+from tests.tables import each
 
 
 def written(text: str, names: str) -> Any:
@@ -87,7 +86,7 @@ def test_what_was_accepted_is_accepted(name: str) -> None:
     assert verify_json(new.to_json()).accepted
 
 
-@pytest.mark.parametrize(("name", "entry", "value"), [(n, e, v) for n, (_, _, made) in OLD.items() for e, v in made])
+@each(*[(n, e, v) for n, (_, _, made) in OLD.items() for e, v in made])
 def test_what_was_rejected_is_rejected(name: str, entry: str, value: Any) -> None:
     kind, payload, _ = OLD[name]
     verdict = qe.verify(Certificate.from_json(text_of(kind, {**payload, entry: value})), timeout=None)

@@ -1,7 +1,5 @@
 """The degree shift before an elimination set, in steps of the kernel."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest
@@ -16,6 +14,7 @@ from qe.kernel.step import Claim
 from qe.proof.entry import Entry
 from qe.proving.made import FRESH, Made
 from qe.proving.shifts import elimination_set, lower_first, raised
+from tests.tables import each
 from tests.unit.certify.claims import RING, formula, limits, written
 
 ORDER = Ring.of((*RING.names, *FRESH))
@@ -37,34 +36,28 @@ def lowered(text: str, exponent: int) -> Formula:
     return found
 
 
-@pytest.mark.parametrize(
-    ("text", "exponent", "after"),
-    [
-        ("x^6 + a*x^3 = y", 3, "x^2 + a*x = y"),
-        ("x^3 < a and x > 0 and x^3 > y", 3, "x < a and x > 0 and x > y"),
-        ("x^4 + y < 0", 2, "x^2 + y < 0 and x > 0"),  # an open set contains more than 0
-        ("x^4 + y <= 0", 2, "x^2 + y <= 0 and x >= 0"),
-        ("x^4 < a and x^2 /= y and y <= 0", 2, "x^2 < a and x /= y and y <= 0 and x > 0"),
-        ("x^2 = y and x > 0", 2, "x = y and x > 0 and x >= 0"),
-        ("x^2 < y and x >= 0", 2, "x < y and x >= 0"),
-    ],
+@each(
+    ("x^6 + a*x^3 = y", 3, "x^2 + a*x = y"),
+    ("x^3 < a and x > 0 and x^3 > y", 3, "x < a and x > 0 and x > y"),
+    ("x^4 + y < 0", 2, "x^2 + y < 0 and x > 0"),  # an open set contains more than 0
+    ("x^4 + y <= 0", 2, "x^2 + y <= 0 and x >= 0"),
+    ("x^4 < a and x^2 /= y and y <= 0", 2, "x^2 < a and x /= y and y <= 0 and x > 0"),
+    ("x^2 = y and x > 0", 2, "x = y and x > 0 and x >= 0"),
+    ("x^2 < y and x >= 0", 2, "x < y and x >= 0"),
 )
 def test_exponents_are_divided(text: str, exponent: int, after: str) -> None:
     assert unordered(lowered(text, exponent)) == unordered(convert(formula(f"ex x, y. {after}"), ORDER))
 
 
-@pytest.mark.parametrize(
-    ("text", "exponent"),
-    [
-        ("x^3 = y", 2),
-        ("x^4 + x^2 + y = 0", 4),
-        ("x^2 = y and x < 0", 2),
-        ("x^2 = y and x <= 0", 2),
-        ("x^2 = y and (x > 0 or y > 1)", 2),  # it is no conjunct
-        ("x^2 = y or x > 0", 2),
-        ("x^2 = a and y*x > 0", 2),  # the sign of x is not known
-        ("x^2 = y and x < root(1, x^2 - a)", 2),
-    ],
+@each(
+    ("x^3 = y", 2),
+    ("x^4 + x^2 + y = 0", 4),
+    ("x^2 = y and x < 0", 2),
+    ("x^2 = y and x <= 0", 2),
+    ("x^2 = y and (x > 0 or y > 1)", 2),  # it is no conjunct
+    ("x^2 = y or x > 0", 2),
+    ("x^2 = a and y*x > 0", 2),  # the sign of x is not known
+    ("x^2 = y and x < root(1, x^2 - a)", 2),
 )
 def test_what_the_theorem_does_not_allow(text: str, exponent: int) -> None:
     with pytest.raises(CertificateRejected):
@@ -76,7 +69,7 @@ def point(*coefficients: str) -> dict[str, Any]:
     return {"point": where, "guard": True, "formula": None, "settled": []}
 
 
-@pytest.mark.parametrize(("after", "accepted"), [("a >= 0", True), ("a > 0", False), ("true", False)])
+@each(("a >= 0", True), ("a > 0", False), ("true", False))
 def test_an_elimination_set_of_a_former_release_with_a_power(after: str, accepted: bool) -> None:
     """x^2 = a was solved for x^2, with what that is at least."""
     block = convert(formula("ex x. x^2 = a"), ORDER)

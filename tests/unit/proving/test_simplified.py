@@ -1,7 +1,5 @@
 """Simplifications whose proof in one step is out of reach are proved piece by piece; every step is checked."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 
@@ -23,6 +21,7 @@ from qe.proving.remembering import remembering
 from qe.proving.simplified import Simplified
 from qe.simplify.simplify import simplify
 from tests.strategies import formulas
+from tests.tables import each
 
 WIDE = " and ".join(f"(a{k} > 0 or b{k} > 0 and c{k} = 0 or a{k} < 0 and b{k} < 0)" for k in range(6))
 CASES = {
@@ -36,7 +35,6 @@ CASES = {
         "false",
     ),
 }
-
 
 RING = Ring.of(("k", "x", "y", "z"))
 
@@ -61,7 +59,7 @@ def test_a_simplification_beyond_one_step_is_proved_in_several(name):
     assert found is not None and qe.verify(found, formula=before).accepted
 
 
-@pytest.mark.parametrize("depth", [2, 5])
+@each(2, 5)
 def test_what_is_simplified_outside_helps_deep_inside_with_one_search_more_a_quantifier(depth: int) -> None:
     """Each block is simpler only under what the one around it becomes: x0 = 0 is known when x1 is looked at."""
     text = f"x{depth - 1}*y + x0 > 0 and w^2 + y^2 + x{depth - 1} >= y"
@@ -93,17 +91,14 @@ def test_what_is_proved_of_a_simplification_is_accepted_from_scratch(first, seco
     assert found is None or qe.verify(found).accepted
 
 
-@pytest.mark.parametrize(
-    ("before", "after"),
-    [
-        ("x > 0 and (y > 0 or z > 0)", "x > 0 and y > 0"),
-        ("x > 0 or y > 0 and z > 0", "x > 0 or y > 0"),
-        ("x > 0 and (all k. y > 0)", "x > 0"),
-        ("x > 0 or y > 0", "y > 0"),
-        ("x > 0 and y > 0", "x > 0"),
-        ("x > 0 and y > 0", "true"),
-        ("x > 0 or y > 0", "false"),
-    ],
+@each(
+    ("x > 0 and (y > 0 or z > 0)", "x > 0 and y > 0"),
+    ("x > 0 or y > 0 and z > 0", "x > 0 or y > 0"),
+    ("x > 0 and (all k. y > 0)", "x > 0"),
+    ("x > 0 or y > 0", "y > 0"),
+    ("x > 0 and y > 0", "x > 0"),
+    ("x > 0 and y > 0", "true"),
+    ("x > 0 or y > 0", "false"),
 )
 def test_what_both_sides_share_hides_no_difference(before, after):
     for left, right in ((before, after), (after, before)):

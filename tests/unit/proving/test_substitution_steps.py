@@ -1,7 +1,5 @@
 """The trace of virtual substitution as steps: each is accepted by the checkers, and none where evidence is missing."""
 
-from __future__ import annotations
-
 import pytest
 
 from qe.certify.registry import RULES
@@ -20,6 +18,7 @@ from qe.proving.lemmas import refuting
 from qe.proving.made import FRESH
 from qe.proving.substitution_steps import steps
 from qe.simplify.simplify import simplify
+from tests.tables import each
 
 LIMITS = limits_of(Budget(), RULES)
 
@@ -43,16 +42,13 @@ def eliminated(text: str) -> tuple[Exists, Formula, list[Json], Ring]:
     return block, found.formula, steps(block, found.trace, found.formula, ring, simplification, LIMITS), ring
 
 
-@pytest.mark.parametrize(
-    ("text", "rules"),
-    [
-        ("ex x. x > a and x < b", ["elimination set"]),
-        ("ex x. a*x = b and x > 0", ["elimination set"]),
-        ("ex x, y. x > a and y < b and y > 0", ["quantifiers", "steps", "steps"]),
-        ("ex x. x > a and x < 0 or x < b and x > 1", ["quantifiers", "steps", "steps"]),
-        ("ex x. x^2 = 2", ["instance"]),
-        ("ex x. x^2 < a", ["steps", "converse", "quantifiers", "root", "quantifiers", "elimination set"]),
-    ],
+@each(
+    ("ex x. x > a and x < b", ["elimination set"]),
+    ("ex x. a*x = b and x > 0", ["elimination set"]),
+    ("ex x, y. x > a and y < b and y > 0", ["quantifiers", "steps", "steps"]),
+    ("ex x. x > a and x < 0 or x < b and x > 1", ["quantifiers", "steps", "steps"]),
+    ("ex x. x^2 = 2", ["instance"]),
+    ("ex x. x^2 < a", ["steps", "converse", "quantifiers", "root", "quantifiers", "elimination set"]),
 )
 def test_steps_lead_from_the_block_to_the_answer(text: str, rules: list[str]) -> None:
     block, answer, made, ring = eliminated(text)

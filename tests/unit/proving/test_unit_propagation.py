@@ -1,7 +1,5 @@
 """Unit propagation against truth tables: what it derives is implied, and it derives what it should."""
 
-from __future__ import annotations
-
 from itertools import product
 
 from hypothesis import given

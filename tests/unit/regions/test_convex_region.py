@@ -1,7 +1,5 @@
 """Convex regions without a decomposition: membership, fibres, bounds, walks, and the way to the formula."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 import pytest

@@ -1,7 +1,5 @@
 """Sets and their operators, against what they mean."""
 
-from __future__ import annotations
-
 import pickle
 from fractions import Fraction
 
@@ -93,18 +91,6 @@ def test_convex_sets_stay_convex() -> None:
     assert isinstance(part, ConvexRegion) and isinstance(whole.project("x, y"), ConvexRegion)
     assert part.components() == [part] and (part & "z < 0").components() == []
     assert whole.contains(whole.sample(3))
-
-
-@each(
-    ("x^2 + y^2 + z^2 < 1 and x > 0", "x^2 + y^2 + z^2 <= 1 and x >= 0", "x^2 + y^2 + z^2 < 1 and x > 0"),
-    ("x^2 + y^2 < 1 and x > 1 and z > 0", "false", "false"),  # the weak conditions have points
-    ("x^2 + y^2 <= 1 and x = 1 and z > 0", "x = 1 and y = 0 and z >= 0", "false"),
-    ("z*(x^2 + y^2) > 0", "z >= 0", "z*(x^2 + y^2) > 0"),
-)
-def test_topology_in_space(text: str, closed: str, opened: str) -> None:
-    given = qe.region(text, order="x, y, z")
-    assert qe.equivalent(given.closure().formula, closed)
-    assert qe.equivalent(given.interior().formula, opened)
 
 
 def test_points() -> None:

@@ -1,7 +1,5 @@
 """The three parts in three colours."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

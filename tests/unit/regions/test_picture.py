@@ -1,7 +1,5 @@
 """Pictures: on the caller's axes, on new ones, in files and pages; the backend stays as it is."""
 
-from __future__ import annotations
-
 import itertools
 import subprocess
 import sys

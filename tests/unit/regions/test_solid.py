@@ -1,7 +1,5 @@
 """Surfaces of regions in space: closed, with the right volume, with walls, cut by the frame where they go on."""
 
-from __future__ import annotations
-
 from collections import Counter
 from math import pi, sqrt
 

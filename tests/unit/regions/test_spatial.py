@@ -1,7 +1,5 @@
 """Regions in the plane and in space: connected components, closure and interior, fibres."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction as F
 from itertools import combinations
@@ -27,10 +25,7 @@ from tests.strategies import formulas
 from tests.tables import each
 
 ORDER = ("x", "y", "z")
-
-
 TORUS = "(x^2 + y^2 + z^2 + 3)^2 <= 16*(x^2 + y^2)"
-
 
 KNOWN = {
     "x^2 + y^2 + z^2 <= 1 or (x - 2)^2 + y^2 + z^2 <= 1": 1,
@@ -51,7 +46,6 @@ KNOWN = {
     "x^2 > 1": 2,
     "x^2 + y^2 + z^2 < 0": 0,
 }
-
 
 ON_LINES = {  # x*z - y is zero on the whole line x = y = 0
     "x*z = y": 1,
@@ -100,11 +94,7 @@ def test_four_variables_are_refused() -> None:
 
 
 SMALL = st.integers(-3, 3)
-
-
 BALLS = st.lists(st.tuples(SMALL, SMALL, SMALL, st.integers(1, 2)), min_size=2, max_size=3, unique=True)
-
-
 BOXES = st.lists(st.tuples(SMALL, SMALL, SMALL), min_size=2, max_size=4, unique=True)
 
 
@@ -153,35 +143,6 @@ def _parts(size: int, pairs: list[tuple[int, int]]) -> int:
     return len(set(part))
 
 
-@each(
-    ("x > 0 and x < 1 or x = 2 or x > 3", 3),
-    ("x^3 - 3*x + 1 = 0", 3),
-    ("x*y > 1", 2),
-    ("x*y = 1", 2),
-    ("x*y >= 0", 1),
-    ("x*y > 0", 2),
-    ("x*y = 0 and x^2 + y^2 > 0", 4),
-    ("x^2 + y^2 < 1 or x = 1 and y = 0", 1),
-    ("y^2 = x^3 - x", 2),
-    ("y^2 = x^2*(x - 1)", 2),
-    ("y^2 = x^2*(x + 1)", 1),
-    ("y^2 > x^2*(x + 1)", 1),
-    ("y^2 < x^2*(x + 1)", 2),
-    ("x*y^2 > 1", 2),
-    ("x*y^2 < 1 and x > 0", 1),
-    ("1 < x^2 + y^2 and x^2 + y^2 < 4 and y /= 0", 2),
-    ("x^2 < 0", 0),
-    ("ex y. x = y^2", 1),
-)
-def test_components(text: str, count: int) -> None:
-    whole = qe.region(text)
-    parts = whole.components()
-    assert len(parts) == count
-    assert all(len(part.components()) == 1 for part in parts)
-    assert not any(a.is_subset(b) or not a.is_disjoint(b) for a in parts for b in parts if a is not b)
-    assert not parts or qe.equivalent(disj(over_one_ring(*(p.formula for p in parts))), whole.formula)
-
-
 @settings(max_examples=6)
 @given(formulas(names=("x",), max_degree=3))
 def test_closure_and_interior_on_the_line(formula) -> None:
@@ -210,48 +171,7 @@ def _agrees(formula, order: tuple[str, ...]) -> None:
 
 
 SQRT2 = RealAlgebraic.from_root((-2, 0, 1), 1, 2)
-
-
 ANNULUS = "x^2 + y^2 <= 4 and x^2 + y^2 > 1"
-
-
-def test_fibres_of_an_annulus() -> None:
-    region = qe.region(ANNULUS)
-    assert region.fibre() == [Interval(F(-2), F(2), True, True)]
-    low, high = region.fibre([0])
-    assert low == Interval(F(-2), F(-1), True, False) and high == Interval(F(1), F(2), False, True)
-    (whole,) = region.fibre({"x": F(3, 2)})
-    assert whole.lower == -whole.upper and whole.lower_closed and whole.upper_closed
-    assert whole.upper * whole.upper == F(7, 4)
-
-
-def test_fibres_at_the_rim_and_beyond() -> None:
-    region = qe.region(ANNULUS)
-    assert region.fibre([2]) == [Interval(F(0), F(0), True, True)]
-    assert region.fibre([3]) == []
-    low, high = region.fibre([1])
-    assert (low.upper, low.upper_closed, high.lower, high.lower_closed) == (0, False, 0, False)
-    assert high.upper == -low.lower and high.upper * high.upper == 3
-
-
-def test_algebraic_prefix() -> None:
-    (found,) = qe.region(ANNULUS).fibre([SQRT2])
-    assert found == Interval(-SQRT2, SQRT2, True, True)
-
-
-def test_isolated_points_and_rays() -> None:
-    region = qe.region("(y^2 = x or y = 5) and (x <= 1 or x = 4)", order=("x", "y"))
-    assert region.fibre() == [Interval(None, F(1), False, True), Interval(F(4), F(4), True, True)]
-    assert region.fibre([4]) == [Interval(F(v), F(v), True, True) for v in (-2, 2, 5)]
-    assert region.fibre([-3]) == [Interval(F(5), F(5), True, True)]
-    assert region.fibre([2]) == []
-
-
-def test_undecomposed_directions() -> None:
-    region = qe.region("x > 0", order=("x", "y"))
-    assert region.fibre() == [Interval(F(0), None, False, False)]
-    assert region.fibre([1]) == [Interval(None, None, False, False)]
-    assert region.fibre([0]) == []
 
 
 def test_three_variables_walk_to_a_point() -> None:

@@ -1,7 +1,5 @@
 """What the rules of one block share: allowances are charged, facts are added to a copy, steps say what is known."""
 
-from __future__ import annotations
-
 from qe.formula.build import conj
 from qe.io.text import read
 from qe.options import Budget

@@ -1,8 +1,5 @@
 """Multiples of equations subtracted where products remain: what changes, and what must not."""
 
-from __future__ import annotations
-
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,6 +13,7 @@ from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from qe.simplify.facts import factor_list
 from tests.strategies import polynomials
+from tests.tables import each
 
 RING = Ring.of(("p", "q", "x", "y"))
 P, Q, X, Y = (RING.gen(i) for i in range(4))
@@ -27,20 +25,17 @@ def sentence(text: str) -> Formula:
     return prepare(read(text), enabled=ONLY).formula
 
 
-@pytest.mark.parametrize(
-    ("poly", "equation", "found"),
-    [
-        (Y**3 + P * Y + Q, CUBIC, (Y - X) * (Y**2 + X * Y + X**2 + P)),
-        (-2 * (Y**3 + P * Y + Q), CUBIC, -2 * (Y - X) * (Y**2 + X * Y + X**2 + P)),
-        (2 * (Y**3 + P * Y + Q), -3 * CUBIC, 6 * (Y - X) * (Y**2 + X * Y + X**2 + P)),
-        (CUBIC, CUBIC, None),  # itself
-        (Y**3 + P * Y + 2 * Q, CUBIC, None),  # no product remains
-        (Y**3 + P * Y + Q + X, CUBIC, None),  # not as many terms, and only one in common
-        (Y**2 + P * Y, X**2 + P * X, None),  # no term in common
-        (Y**2 + X**2 - 1, (X - 1) ** 2 + Y**2 - 1, None),  # one factor is left: nothing to split
-        (X**2 - Y**2, X**2 - Y**2 - P * Q, None),  # a product already
-        (X + P + Q, X**3 + P + Q, None),  # the equation has a higher degree
-    ],
+@each(
+    (Y**3 + P * Y + Q, CUBIC, (Y - X) * (Y**2 + X * Y + X**2 + P)),
+    (-2 * (Y**3 + P * Y + Q), CUBIC, -2 * (Y - X) * (Y**2 + X * Y + X**2 + P)),
+    (2 * (Y**3 + P * Y + Q), -3 * CUBIC, 6 * (Y - X) * (Y**2 + X * Y + X**2 + P)),
+    (CUBIC, CUBIC, None),  # itself
+    (Y**3 + P * Y + 2 * Q, CUBIC, None),  # no product remains
+    (Y**3 + P * Y + Q + X, CUBIC, None),  # not as many terms, and only one in common
+    (Y**2 + P * Y, X**2 + P * X, None),  # no term in common
+    (Y**2 + X**2 - 1, (X - 1) ** 2 + Y**2 - 1, None),  # one factor is left: nothing to split
+    (X**2 - Y**2, X**2 - Y**2 - P * Q, None),  # a product already
+    (X + P + Q, X**3 + P + Q, None),  # the equation has a higher degree
 )
 def test_differences(poly: Poly, equation: Poly, found: Poly | None) -> None:
     known = difference(poly, equation)

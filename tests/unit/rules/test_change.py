@@ -1,7 +1,5 @@
 """A change of variables: its image says what the formula says at the values, and the way back gives these."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from hypothesis import given

@@ -3,23 +3,19 @@
 The theorems themselves are tested in ``tests/unit/kernel/test_theorems.py``, all in the same ways.
 """
 
-from __future__ import annotations
-
 import pytest
 
 import qe
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import Formula, Relation
-from qe.io.text import read
+from qe.formula.syntax import Relation
 from qe.kernel.statements import theorem
-from qe.proof.run_log import RunLog
-from qe.proof.step import Step
 from qe.rules import closed_forms
 from qe.rules.closed_forms import square_root
-from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
+from tests.unit.rules.applied import steps_of
 
 BALLS, PLANE, QUADRICS, CUBIC = StepKind.BALLS, StepKind.HALF_PLANE, StepKind.QUADRICS, StepKind.CUBIC_INTERVAL
 
@@ -37,51 +33,38 @@ FORM = "a*(1 - x)^3 + b*x*(1 - x)^2 + c*x^2*(1 - x) + d*x^3"
 UNIT = f"ex x. 0 <= x and x <= 1 and {FORM}"
 
 
-def steps_of(text: str | Formula, kind: StepKind) -> list[Step]:
-    """The steps of this rule alone."""
-    log = RunLog()
-    prepare(read(text) if isinstance(text, str) else text, enabled={kind, StepKind.MINISCOPE}, log=log)
-    return [step for step in log.steps() if step.rule == kind.value]
-
-
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        (f"r >= 0 and s > 0 and ({DISCS})", "r >= 0 and s > 0 and r^2 + 2*r*s + s^2 - a^2 - b^2 >= 0"),
-        (f"r >= 0 and s <= 0 and ({DISCS})", "r >= 0 and s <= 0 and r^2 - 2*r*s + s^2 - a^2 - b^2 >= 0"),
-        (DISCS, "r^2 + 2*r*s - a^2 - b^2 + s^2 >= 0 or r^2 - 2*r*s - a^2 - b^2 + s^2 >= 0"),
-        ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
-        ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "a - 2 < 0 and a + 2 > 0"),
-        ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 - 9 >= 0"),
-        ("all x, y. (x-a)^2 + (y-b)^2 <= 4 -> x^2 + y^2 <= 9", "a^2 + b^2 - 1 <= 0"),
-        (f"r > 0 and s > 0 and ({DISCS.replace('<', '')})", f"r > 0 and s > 0 and {NEAR} >= 0 and {FAR} <= 0"),
-        (f"r > 0 and s > 0 and not ({DISCS.replace('<=', '>', 1)})", f"r > 0 and s > 0 and {FAR} >= 0 and r - s >= 0"),
-        (
-            f"r > 0 and s > 0 and ({DISCS.replace('<=', '=', 1)})",
-            f"r > 0 and s > 0 and {NEAR} >= 0 and ({FAR} <= 0 or r - s <= 0)",
-        ),
-        ("ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b", "a - b <= 0 and a >= 0"),
-        ("ex x, y. x^2 + y^2 > a and x^2 + y^2 <= b", "b >= 0 and a - b < 0"),
-        (
-            "a > 0 and ex t. t >= 0 and t <= a and u*t + p >= 0 and u*t + p <= 1",
-            "a > 0 and (p >= 0 or a*u + p >= 0) and (p - 1 <= 0 or a*u + p - 1 <= 0)",
-        ),
-    ],
+@each(
+    (f"r >= 0 and s > 0 and ({DISCS})", "r >= 0 and s > 0 and r^2 + 2*r*s + s^2 - a^2 - b^2 >= 0"),
+    (f"r >= 0 and s <= 0 and ({DISCS})", "r >= 0 and s <= 0 and r^2 - 2*r*s + s^2 - a^2 - b^2 >= 0"),
+    (DISCS, "r^2 + 2*r*s - a^2 - b^2 + s^2 >= 0 or r^2 - 2*r*s - a^2 - b^2 + s^2 >= 0"),
+    ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
+    ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "a - 2 < 0 and a + 2 > 0"),
+    ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 - 9 >= 0"),
+    ("all x, y. (x-a)^2 + (y-b)^2 <= 4 -> x^2 + y^2 <= 9", "a^2 + b^2 - 1 <= 0"),
+    (f"r > 0 and s > 0 and ({DISCS.replace('<', '')})", f"r > 0 and s > 0 and {NEAR} >= 0 and {FAR} <= 0"),
+    (f"r > 0 and s > 0 and not ({DISCS.replace('<=', '>', 1)})", f"r > 0 and s > 0 and {FAR} >= 0 and r - s >= 0"),
+    (
+        f"r > 0 and s > 0 and ({DISCS.replace('<=', '=', 1)})",
+        f"r > 0 and s > 0 and {NEAR} >= 0 and ({FAR} <= 0 or r - s <= 0)",
+    ),
+    ("ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b", "a - b <= 0 and a >= 0"),
+    ("ex x, y. x^2 + y^2 > a and x^2 + y^2 <= b", "b >= 0 and a - b < 0"),
+    (
+        "a > 0 and ex t. t >= 0 and t <= a and u*t + p >= 0 and u*t + p <= 1",
+        "a > 0 and (p >= 0 or a*u + p >= 0) and (p - 1 <= 0 or a*u + p - 1 <= 0)",
+    ),
 )
 def test_the_condition_is_short(text: str, answer: str) -> None:
     assert str(qe.eliminate(text).formula) == answer
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        (f"all x, y. {QUADRATIC} -> x < 0", "b > 0 and c > 0"),
-        (f"all y, x. {QUADRATIC} -> x > 0", "b < 0 and c > 0"),
-        (f"all x, y. {QUADRATIC} -> 2*x < a", "a + b > 0 and a^2 + 2*a*b + 4*c > 0"),
-        ("all x, y. a*x + b = 0 and a*y = 0 -> x < 0", "a*b > 0 or a = 0 and b /= 0"),
-        (PID, "i > 0 and p + 1 > 0 and 3*(3+d)*(1+p) - (1+p)^2 - 9*i > 0"),
-        (f"ex b. all x, y. {QUADRATIC} -> x < 0", "c > 0"),
-    ],
+@each(
+    (f"all x, y. {QUADRATIC} -> x < 0", "b > 0 and c > 0"),
+    (f"all y, x. {QUADRATIC} -> x > 0", "b < 0 and c > 0"),
+    (f"all x, y. {QUADRATIC} -> 2*x < a", "a + b > 0 and a^2 + 2*a*b + 4*c > 0"),
+    ("all x, y. a*x + b = 0 and a*y = 0 -> x < 0", "a*b > 0 or a = 0 and b /= 0"),
+    (PID, "i > 0 and p + 1 > 0 and 3*(3+d)*(1+p) - (1+p)^2 - 9*i > 0"),
+    (f"ex b. all x, y. {QUADRATIC} -> x < 0", "c > 0"),
 )
 def test_the_condition_is_that_of_hurwitz(text: str, answer: str) -> None:
     assert qe.equivalent(qe.eliminate(text).formula, answer)
@@ -112,9 +95,9 @@ TAKEN = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "text"), TAKEN)
+@each(*TAKEN)
 def test_the_step_is_taken_and_accepted(kind: StepKind, text: str) -> None:
-    (step,) = steps_of(text, kind)
+    (step,) = steps_of(text, kind, StepKind.MINISCOPE)
     assert accepted(step)
 
 
@@ -165,24 +148,24 @@ OTHERS = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "text"), OTHERS)
+@each(*OTHERS)
 def test_others_are_left_alone(kind: StepKind, text: str) -> None:
-    assert not steps_of(text, kind)
+    assert not steps_of(text, kind, StepKind.MINISCOPE)
 
 
-@pytest.mark.parametrize(("kind", "text"), UNKNOWN)
+@each(*UNKNOWN)
 def test_a_producer_that_takes_all_for_known_is_not_believed(
     kind: StepKind, text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(closed_forms, "_holds", lambda given, context: True)
-    steps = steps_of(text, kind)
+    steps = steps_of(text, kind, StepKind.MINISCOPE)
     assert steps and not any(map(accepted, steps))
 
 
 def test_a_square_root_of_another_sign_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
     """The first root that there is counts as positive."""
     monkeypatch.setattr(closed_forms, "_holds", lambda given, context: True)
-    steps = steps_of(DISCS, BALLS)
+    steps = steps_of(DISCS, BALLS, StepKind.MINISCOPE)
     assert steps and not any(map(accepted, steps))
 
 
@@ -193,9 +176,9 @@ def test_determinants_out_of_reach_are_left_alone() -> None:
     used = theorem("a polynomial has a root in a half-plane", ("4",))
     assert used is not None
     letters = {**{f"c{k}": large + k for k in range(5)}, "k": ring.constant(1), "m": ring.constant(0)}
-    assert not steps_of(used.formula("block", letters, {"x": "x", "y": "y"}, ring), PLANE)
+    assert not steps_of(used.formula("block", letters, {"x": "x", "y": "y"}, ring), PLANE, StepKind.MINISCOPE)
     body = conj((atom(ring.var("x"), Relation.GE), atom(ring.var("y"), Relation.EQ), atom(large, Relation.EQ)))
-    assert not steps_of(exists(("x", "y"), body), PLANE)
+    assert not steps_of(exists(("x", "y"), body), PLANE, StepKind.MINISCOPE)
 
 
 def test_the_ellipse_of_kahan() -> None:

@@ -1,9 +1,6 @@
 """Two variables that can be exchanged: sum and product in their place, values on the way back, forgeries refused."""
 
-from __future__ import annotations
-
 import random
-from typing import NoReturn
 
 import pytest
 from hypothesis import given, settings
@@ -15,24 +12,15 @@ from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import Exists, ForAll, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
-from qe.kernel.step import Claim, Limits
-from qe.options import Budget
+from qe.kernel.step import Claim
 from qe.proof.entry import Entry
-from qe.proof.run_log import RunLog
-from qe.proof.step import Step
 from qe.rules.exchange import symmetric
 from qe.rules.lift import holds_at
-from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
+from tests.tables import each
 from tests.unit.proving.elaborated import refused
+from tests.unit.rules.applied import steps_of
 
-
-def unused(*_: object) -> NoReturn:
-    """The rule replays no steps and has no certificates inside."""
-    raise AssertionError
-
-
-LIMITS = Limits(Budget(), unused)
 TRIANGLE = "ex b, c. 1 + b > c and b + c > 1 and c + 1 > b and b^3 + c^3 + 1 = m*(b*c + b + c)"
 WITH_VALUES = [
     "ex x, y. x^3 + y^3 = 9 and x*y = 2",
@@ -54,15 +42,9 @@ def test_symmetric_polynomials_by_sum_and_product(seed: int) -> None:
     assert symmetric(poly, 1, 2).compose({1: x + y, 2: x * y}) == poly
 
 
-def step_of(text: str) -> Step | None:
-    log = RunLog()
-    prepare(read(text), enabled={StepKind.EXCHANGE}, log=log)
-    return next((step for step in log.steps() if step.rule == StepKind.EXCHANGE.value), None)
-
-
 @pytest.mark.parametrize("text", WITH_VALUES)
 def test_the_way_back_gives_values(text: str) -> None:
-    assert step_of(text) is not None
+    assert steps_of(text, StepKind.EXCHANGE)
     answer = qe.eliminate(text)
     assert answer.formula == qe.eliminate(text, without=("exchange",)).formula
     sentence = read(text)
@@ -70,23 +52,20 @@ def test_the_way_back_gives_values(text: str) -> None:
     assert holds_at(sentence.body, answer.witness) is isinstance(sentence, Exists)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x, y. x^3 + y^3 = a and x > 1",
-        "ex x, y. x^3 + 2*y^3 = a and x*y > 1",
-        "ex x, y. x^3 + y^3 = a and (x > 1 or y > 2)",
-        "ex x, y. x^3 + y^3 = a and (x + y > 1 or y > 2)",
-        "ex x, y. x^3 + y^3 = a and (x > y or x*y > 1)",
-        "ex x, y. x^3 + y^3 = a and (all y. y^2 > x)",
-        "ex x, y. x^2 + y^2 < a and x + y > b",
-        "ex x, y. x*y = a and x + y > b",
-        "ex x, y. x^3 + y^3 = a and x /= 1",
-        "ex x, y. x^3 + y^3 = a and x + 2*y = 1",
-    ],
+@each(
+    "ex x, y. x^3 + y^3 = a and x > 1",
+    "ex x, y. x^3 + 2*y^3 = a and x*y > 1",
+    "ex x, y. x^3 + y^3 = a and (x > 1 or y > 2)",
+    "ex x, y. x^3 + y^3 = a and (x + y > 1 or y > 2)",
+    "ex x, y. x^3 + y^3 = a and (x > y or x*y > 1)",
+    "ex x, y. x^3 + y^3 = a and (all y. y^2 > x)",
+    "ex x, y. x^2 + y^2 < a and x + y > b",
+    "ex x, y. x*y = a and x + y > b",
+    "ex x, y. x^3 + y^3 = a and x /= 1",
+    "ex x, y. x^3 + y^3 = a and x + 2*y = 1",
 )
 def test_what_changes_or_is_easy_anyway_is_left_alone(text: str) -> None:
-    assert step_of(text) is None
+    assert not steps_of(text, StepKind.EXCHANGE)
 
 
 def test_a_triangle_inequality_has_the_same_answer() -> None:
@@ -97,8 +76,8 @@ def test_a_triangle_inequality_has_the_same_answer() -> None:
 
 @pytest.fixture
 def right() -> Claim:
-    step = step_of(TRIANGLE)
-    assert step is not None and step.before.ring is not None
+    (step,) = steps_of(TRIANGLE, StepKind.EXCHANGE)
+    assert step.before.ring is not None
     proof = Entry({"variables": ["b", "c"]}, "step")
     return Claim(step.rule, step.before, step.after, step.before.ring, proof, "step")
 

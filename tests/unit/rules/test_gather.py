@@ -1,8 +1,5 @@
 """Blocks gathered, equations that reach inside, disjuncts with equations apart: what changes and what must not."""
 
-from __future__ import annotations
-
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -15,6 +12,7 @@ from qe.io.text import read
 from qe.rules.equations import reduce_by_equations
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
+from tests.tables import each
 
 GATHER = frozenset({StepKind.GATHERING})
 
@@ -23,20 +21,17 @@ def blocks(formula: Formula) -> list[tuple[str, ...]]:
     return [f.variables for f in subformulas(formula) if isinstance(f, Exists | ForAll)]
 
 
-@pytest.mark.parametrize(
-    ("text", "left"),
-    [
-        ("ex x. x > a and ex y. x*y = 1 and ex z. z^2 = y", [("x", "y", "z")]),
-        ("all x. x > a or (all y. x*y > 1)", [("x", "y")]),
-        ("ex x. x > a and (all y. x*y > 1)", [("x",), ("y",)]),
-        ("ex x. x > a or ex y. x*y > 1", [("x",), ("y",)]),
-        ("ex x. (all y. x*y > 1) and ex z. x*z^3 > a", [("x",), ("y",), ("z",)]),  # inner blocks go first
-        ("ex x. (all y. x*y > 1) and ex z. x*z^3 = a", [("x", "z"), ("y",)]),  # but for an equation to solve
-        ("all x. (ex y. x*y > 1) or (all z. x*z^3 = a)", [("x",), ("y",), ("z",)]),
-        ("all x. (ex y. x*y > 1) or (all z. x*z^3 /= a)", [("x", "z"), ("y",)]),
-        ("ex x. x^3 = 1 and (all y. x*y > 1) and ex z. z > a", [("x", "z"), ("y",)]),
-        ("ex x. a^3 = 1 and (all y. x*y > 1) and ex z. z > a", [("x",), ("y",), ("z",)]),
-    ],
+@each(
+    ("ex x. x > a and ex y. x*y = 1 and ex z. z^2 = y", [("x", "y", "z")]),
+    ("all x. x > a or (all y. x*y > 1)", [("x", "y")]),
+    ("ex x. x > a and (all y. x*y > 1)", [("x",), ("y",)]),
+    ("ex x. x > a or ex y. x*y > 1", [("x",), ("y",)]),
+    ("ex x. (all y. x*y > 1) and ex z. x*z^3 > a", [("x",), ("y",), ("z",)]),  # inner blocks go first
+    ("ex x. (all y. x*y > 1) and ex z. x*z^3 = a", [("x", "z"), ("y",)]),  # but for an equation to solve
+    ("all x. (ex y. x*y > 1) or (all z. x*z^3 = a)", [("x",), ("y",), ("z",)]),
+    ("all x. (ex y. x*y > 1) or (all z. x*z^3 /= a)", [("x", "z"), ("y",)]),
+    ("ex x. x^3 = 1 and (all y. x*y > 1) and ex z. z > a", [("x", "z"), ("y",)]),
+    ("ex x. a^3 = 1 and (all y. x*y > 1) and ex z. z > a", [("x",), ("y",), ("z",)]),
 )
 def test_blocks_of_one_kind_are_one_block(text: str, left: list[tuple[str, ...]]) -> None:
     assert blocks(prepare(read(text), enabled=GATHER).formula) == left

@@ -1,7 +1,5 @@
 """Exact values on the way back: polynomials at algebraic points, quotients, roots, perturbations."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import reduce
 from operator import mul
@@ -18,6 +16,7 @@ from qe.exact.ring import Ring
 from qe.formula.syntax import TRUE
 from qe.io.text import read
 from qe.rules.lift import Solve, holds_at, perturb, root, sign_at, simplest, value_at
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 x, y = RING.gen(0), RING.gen(1)
@@ -41,7 +40,7 @@ def test_quotients() -> None:
         Solve("z", x, y).value({"x": Fraction(1), "y": Fraction(0)})
 
 
-@pytest.mark.parametrize("sign", [1, -1])
+@each(1, -1)
 def test_roots_pick_the_right_conjugate(sign: int) -> None:
     lo, hi = (5, 6) if sign > 0 else (0, 1)
     value = RealAlgebraic.from_root([4, -6, 1], lo, hi)  # 3 + sqrt(5) and 3 - sqrt(5), both positive

@@ -1,11 +1,8 @@
 """Linear equations: which one is chosen, and that what is put in means the same at every point."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -17,6 +14,7 @@ from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.rules.linear import Pivot, choose_pivot, substitute
 from qe.simplify.facts import NOTHING
+from tests.tables import each
 
 RING = Ring.of(("a", "b", "x"))
 A, B, X = (RING.gen(i) for i in range(3))
@@ -29,17 +27,14 @@ def pivot_of(text: str, variables: str = "x", known: str = "") -> Pivot | None:
     return choose_pivot(conjuncts(convert(read(text), WIDER)), variables.split(), lambda position: facts)
 
 
-@pytest.mark.parametrize(
-    ("text", "position", "name", "sign", "alone"),
-    [
-        ("a + 2*x = 1 and x^2 > b", 0, "x", 1, False),
-        ("x^2 > b and b - 3*x = a", 1, "x", 1, False),
-        ("a*x = b and x > 0", 0, "x", None, False),
-        ("a*x = b and b > 0", 0, "x", None, True),
-        ("a*x = b and x > 1 and 2*x = a", 2, "x", 1, False),
-        ("(a^2 + 1)*x = b and x > 0", 0, "x", 1, False),
-        ("(-a^2 - 1)*x = b and x > 0", 0, "x", 1, False),
-    ],
+@each(
+    ("a + 2*x = 1 and x^2 > b", 0, "x", 1, False),
+    ("x^2 > b and b - 3*x = a", 1, "x", 1, False),
+    ("a*x = b and x > 0", 0, "x", None, False),
+    ("a*x = b and b > 0", 0, "x", None, True),
+    ("a*x = b and x > 1 and 2*x = a", 2, "x", 1, False),
+    ("(a^2 + 1)*x = b and x > 0", 0, "x", 1, False),
+    ("(-a^2 - 1)*x = b and x > 0", 0, "x", 1, False),
 )
 def test_the_equation_that_is_chosen(text: str, position: int, name: str, sign: int | None, alone: bool) -> None:
     found = pivot_of(text)
@@ -61,7 +56,7 @@ def test_what_is_known_of_the_leading_coefficient() -> None:
         assert found is not None and found.sign == sign and found.guarded == (sign is None)
 
 
-@pytest.mark.parametrize("text", ["x^2 = a", "x > 1", "a*b = 1 and x > 0", "x^2 + x = a", "x /= a"])
+@each("x^2 = a", "x > 1", "a*b = 1 and x > 0", "x^2 + x = a", "x /= a")
 def test_no_equation(text: str) -> None:
     assert pivot_of(text) is None
 
@@ -106,7 +101,7 @@ def test_where_nothing_can_be_put_in() -> None:
     assert put("x < root(1, x^3 - 2)") is None and put("a < root(1, a^3 - b)") is not None
 
 
-@pytest.mark.parametrize("text", ["x^2 > b and x < root(1, x^2 - a)", "b > 0 or x < root(1, x^2 - a)"])
+@each("x^2 > b and x < root(1, x^2 - a)", "b > 0 or x < root(1, x^2 - a)")
 def test_one_part_in_which_nothing_can_be_put_is_enough_to_leave_all(text: str) -> None:
     found = pivot_of("2*x = b and x > a")
     assert found is not None and substitute(convert(read(text), WIDER), found) is None

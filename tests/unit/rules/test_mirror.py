@@ -1,7 +1,5 @@
 """Blocks that are their own mirror image and convex: only the fixed points are looked at, and the steps are checked."""
 
-from __future__ import annotations
-
 import random
 
 import pytest
@@ -15,20 +13,14 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, iff
 from qe.formula.syntax import Formula, Relation
 from qe.proof.derivation import moved
-from qe.proof.run_log import RunLog
 from qe.proof.step import Step
-from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
+from tests.unit.rules.applied import steps_of
 
 CHEBYSHEV = "ex p, q. all x. x < -1 or x > 1 or (x^3 + p*x + q <= m and x^3 + p*x + q >= -m)"
 RING = Ring.of(("a", "p", "q", "x"))
-
-
-def steps(formula: Formula) -> list[Step]:
-    log = RunLog()
-    prepare(formula, enabled={StepKind.MIRROR}, log=log)
-    return [step for step in log.steps() if step.rule == StepKind.MIRROR.value]
 
 
 def test_best_approximation_of_an_odd_function_is_odd() -> None:
@@ -46,19 +38,16 @@ def test_values_come_back() -> None:
     assert 1 < found["p"] <= 3
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex p. p^2 = a",  # two points are not convex
-        "ex p. p /= 0 and a > 1",
-        "ex p. p > 1 or p < -1",
-        "ex p. p > a and p < 1",  # not its own image
-        "ex p. all x. x^2 + p*x > a or p*x > 1",
-        "all p. p < 1 and p > -1",
-    ],
+@each(
+    "ex p. p^2 = a",  # two points are not convex
+    "ex p. p /= 0 and a > 1",
+    "ex p. p > 1 or p < -1",
+    "ex p. p > a and p < 1",  # not its own image
+    "ex p. all x. x^2 + p*x > a or p*x > 1",
+    "all p. p < 1 and p > -1",
 )
 def test_nothing_is_done(text: str) -> None:
-    assert not steps(read_formula(text))
+    assert not steps_of(read_formula(text), StepKind.MIRROR)
 
 
 def symmetric(rng: random.Random) -> Formula:
@@ -86,32 +75,29 @@ def symmetric(rng: random.Random) -> Formula:
 @given(seed=st.integers(0, 10**9))
 def test_what_the_rule_does_is_right(seed: int) -> None:
     """Some steps no elaborator makes of the kernel's: a decomposition takes their place in a proof, and here."""
-    for step in steps(symmetric(random.Random(seed))):
+    for step in steps_of(symmetric(random.Random(seed)), StepKind.MIRROR):
         said = iff(step.before, step.after)
         assert accepted(step) or qe.decide(forall(said.free, said), without=("symmetry",)), (step.before, step.after)
 
 
 def test_some_steps_are_made_of_those_of_the_kernel() -> None:
-    listed = [step for seed in range(80) for step in steps(symmetric(random.Random(seed)))]
+    listed = [step for seed in range(80) for step in steps_of(symmetric(random.Random(seed)), StepKind.MIRROR)]
     assert sum(map(accepted, listed)) >= len(listed) / 8
 
 
 def test_the_rule_finds_something_to_do() -> None:
-    assert sum(len(steps(symmetric(random.Random(seed)))) for seed in range(80)) >= 8
+    assert sum(len(steps_of(symmetric(random.Random(seed)), StepKind.MIRROR)) for seed in range(80)) >= 8
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "text"),
-    [
-        ("is_convex", lambda formula, moved: True, "ex p. p > 1 or p < -1"),
-        ("is_convex", lambda formula, moved: True, "ex p. p /= 0 and a*p /= 1 and a*p /= -1"),
-        ("_shape", lambda formula, mirror: ("", ""), "ex p. all x. p*x > a or x >= 1 or x < -1"),
-        ("_shape", lambda formula, mirror: ("", ""), "ex p, q. p > a and q < 1 and 2*p + q > 1 and p < 3"),
-    ],
+@each(
+    ("is_convex", lambda formula, moved: True, "ex p. p > 1 or p < -1"),
+    ("is_convex", lambda formula, moved: True, "ex p. p /= 0 and a*p /= 1 and a*p /= -1"),
+    ("_shape", lambda formula, mirror: ("", ""), "ex p. all x. p*x > a or x >= 1 or x < -1"),
+    ("_shape", lambda formula, mirror: ("", ""), "ex p, q. p > a and q < 1 and 2*p + q > 1 and p < 3"),
 )
 def test_a_broken_producer_is_refused(name: str, value: object, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mirror, name, value)
-    broken = steps(read_formula(text))
+    broken = steps_of(read_formula(text), StepKind.MIRROR)
     assert broken
     assert not accepted(broken[0])
 

@@ -1,7 +1,5 @@
 """Directions along which polynomials are constant, and weights by which they are homogeneous."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """Preparation of whole formulas: the paper's formulas, geometry, switches, lifts."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from fractions import Fraction
 
@@ -18,6 +16,7 @@ from qe.rules.preparation import prepare
 from qe.rules.step import ALL_STEPS, StepKind
 from qe.simplify.simplify import simplify
 from tests.property.prepare_support import prepared_with_rules
+from tests.tables import each
 
 BALL = "{0}1^2 + {0}2^2 + {0}3^2 - r^2 <= 0"
 
@@ -31,7 +30,7 @@ def formula_8(symbolic: bool) -> str:
     return text if symbolic else text.replace("r^2", "27")
 
 
-@pytest.mark.parametrize("symbolic", [False, True])
+@each(False, True)
 def test_formula_8_becomes_three_balls(symbolic: bool) -> None:
     result = prepare(read(formula_8(symbolic))).formula
     assert is_quantifier_free(result)
@@ -66,22 +65,19 @@ def test_formula_7_keeps_six_balls_in_six_variables() -> None:
     assert len(list(atoms(result))) == 6
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("ex x. x*y = 1", "y /= 0"),
-        ("ex x. (x*y = 1 and x > 0)", "y > 0"),
-        ("all x. (x*y /= 1 or x <= 0)", "y <= 0"),
-        ("ex x. (a*x + b = 0)", "a /= 0 or b = 0"),
-        ("ex x, y. (x + y = 1 and x - y = a and x*y > 0)", "a^2 < 1"),
-        ("ex x, y. (x^2 + y^2 = 0 and a*x + b > y)", "b > 0"),
-        ("ex x, y. (x*y = 0 and x = 1 and a > y)", "a > 0"),
-        ("ex y. (x^2 + y = 0 and x > 0 and (y > 5 or y < -4))", "x > 2"),
-        ("y > 0 and ex x. (x*y = 1 and x < 2)", "2*y > 1"),
-        ("ex x. (a*x^3 + b*x + c /= 0)", "a /= 0 or b /= 0 or c /= 0"),
-        ("ex x, y. (a*x*y + b*y^2 /= 0 and x - y /= b)", "a /= 0 or b /= 0"),
-        ("ex x, y, z. (x + y + z = 0 and x*y + y*z + z*x = 0 and x*y*z = 1)", "false"),
-    ],
+@each(
+    ("ex x. x*y = 1", "y /= 0"),
+    ("ex x. (x*y = 1 and x > 0)", "y > 0"),
+    ("all x. (x*y /= 1 or x <= 0)", "y <= 0"),
+    ("ex x. (a*x + b = 0)", "a /= 0 or b = 0"),
+    ("ex x, y. (x + y = 1 and x - y = a and x*y > 0)", "a^2 < 1"),
+    ("ex x, y. (x^2 + y^2 = 0 and a*x + b > y)", "b > 0"),
+    ("ex x, y. (x*y = 0 and x = 1 and a > y)", "a > 0"),
+    ("ex y. (x^2 + y = 0 and x > 0 and (y > 5 or y < -4))", "x > 2"),
+    ("y > 0 and ex x. (x*y = 1 and x < 2)", "2*y > 1"),
+    ("ex x. (a*x^3 + b*x + c /= 0)", "a /= 0 or b /= 0 or c /= 0"),
+    ("ex x, y. (a*x*y + b*y^2 /= 0 and x - y /= b)", "a /= 0 or b /= 0"),
+    ("ex x, y, z. (x + y + z = 0 and x*y + y*z + z*x = 0 and x*y*z = 1)", "false"),
 )
 def test_equations_disappear(text: str, expected: str) -> None:
     result = prepare(read(text)).formula

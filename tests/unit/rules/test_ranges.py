@@ -1,7 +1,5 @@
 """Ranges that exclude a condition: what is found, that it is right, and what the checker refuses."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
@@ -14,24 +12,18 @@ from hypothesis import strategies as st
 import qe
 import qe.rules.ranges as ranges
 from qe.formula.evaluate import holds_at
-from qe.formula.syntax import FALSE, Exists, Formula
+from qe.formula.syntax import FALSE, Exists
 from qe.io.text import read
 from qe.options import Budget, Options
-from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.prover import Prover
-from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
+from tests.tables import each
 from tests.unit.proving.elaborated import refused
+from tests.unit.rules.applied import steps_of
 
 ONLY = frozenset({StepKind.RANGES})
 RULE = StepKind.RANGES.value
-
-
-def steps(formula: Formula) -> list[Step]:
-    log = RunLog()
-    prepare(formula, enabled=ONLY, log=log)
-    return [step for step in log.steps() if step.rule == RULE]
 
 
 def prover(step: Step) -> Prover:
@@ -65,24 +57,21 @@ FALSE_ONES = (
 
 @pytest.mark.parametrize("text", FALSE_ONES)
 def test_what_is_false_by_ranges(text: str) -> None:
-    (step,) = steps(read(text))
+    (step,) = steps_of(read(text), StepKind.RANGES)
     assert step.after == FALSE
     assert accepted(step)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        small_product(3, "<= 3", ">= 1"),  # at one point
-        "ex x, y. x^2 + y^2 <= 2 and x*y >= 1",
-        "ex x, y. x^2 - y^2 <= 1 and x > 5",  # nothing bounds y
-        "ex x, y. x^2 + y^2 <= 1 and x*y /= 5",
-        "ex x, y. x < 1 and x > 2 + y and y > 0",  # linear: left to others
-        "ex x, y. x^2 + y^2 <= 1 or x*y > 3",
-    ],
+@each(
+    small_product(3, "<= 3", ">= 1"),  # at one point
+    "ex x, y. x^2 + y^2 <= 2 and x*y >= 1",
+    "ex x, y. x^2 - y^2 <= 1 and x > 5",  # nothing bounds y
+    "ex x, y. x^2 + y^2 <= 1 and x*y /= 5",
+    "ex x, y. x < 1 and x > 2 + y and y > 0",  # linear: left to others
+    "ex x, y. x^2 + y^2 <= 1 or x*y > 3",
 )
 def test_what_is_left_to_others(text: str) -> None:
-    assert not steps(read(text))
+    assert not steps_of(read(text), StepKind.RANGES)
 
 
 def test_sentences_are_decided_with_a_certificate() -> None:
@@ -107,7 +96,7 @@ POLYS = ("x^2 + y^2", "x*y", "x^3", "x + y^2", "x^2*y", "-x^2 + y", "2*x - y^3",
 )
 def test_no_point_is_lost(conditions: list[tuple[str, str, int]]) -> None:
     """Where the rule says false, the checker agrees and none of many points satisfies all conditions."""
-    found = steps(read("ex x, y. " + " and ".join(f"{p} {r} {c}" for p, r, c in conditions)))
+    found = steps_of(read("ex x, y. " + " and ".join(f"{p} {r} {c}" for p, r, c in conditions)), StepKind.RANGES)
     if not found:
         return
     (step,) = found
@@ -122,7 +111,7 @@ def test_no_point_is_lost(conditions: list[tuple[str, str, int]]) -> None:
 
 def said(text: str, change: Callable[[dict[str, Any]], None] = lambda evidence: None) -> str:
     """Why a step with this evidence is none of the kernel's; nothing where it is."""
-    (step,) = steps(read(text))
+    (step,) = steps_of(read(text), StepKind.RANGES)
     evidence = prover(step)._plain(step.evidence["proof"])  # type: ignore[arg-type]
     change(evidence)
     return refused(RULE, step.before, step.after, evidence)
@@ -153,7 +142,7 @@ def test_what_is_refused(name: str) -> None:
 
 
 def test_only_a_block_that_becomes_false() -> None:
-    (step,) = steps(read(FALSE_ONES[0]))
+    (step,) = steps_of(read(FALSE_ONES[0]), StepKind.RANGES)
     evidence = prover(step)._plain(step.evidence["proof"])  # type: ignore[arg-type]
     for before, after in ((step.before, read("x0 > 1")), (read("x0*x1 > 1"), FALSE)):
         assert refused(RULE, before, after, evidence)
@@ -164,10 +153,10 @@ def test_the_rough_search_misses_no_refutation(rows: list[tuple[int, int, int]])
     conditions = " and ".join(f"{a}*x^{k} + y {'<=' if b % 2 else '>='} {b}" for a, k, b in rows)
     for scale in (1, 10**40):
         text = f"ex x, y. x^2 + y^2 <= {9 * scale} and {conditions} and x >= {scale}*y"
-        found = [bool(steps(read(text)))]
+        found = [bool(steps_of(read(text), StepKind.RANGES))]
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(ranges, "_may_fail", lambda conditions: True)
-            found.append(bool(steps(read(text))))
+            found.append(bool(steps_of(read(text), StepKind.RANGES)))
         assert found[0] == found[1]
 
 
@@ -189,8 +178,8 @@ BROKEN: dict[str, tuple[str, Callable[..., Any], str]] = {
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_broken_search_is_not_believed(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     function, broken, text = BROKEN[name]
-    assert not steps(read(text))
+    assert not steps_of(read(text), StepKind.RANGES)
     monkeypatch.setattr(ranges, function, broken)
     monkeypatch.setattr(ranges, "_may_fail", lambda conditions: True)
-    (step,) = steps(read(text))
+    (step,) = steps_of(read(text), StepKind.RANGES)
     assert not accepted(step)

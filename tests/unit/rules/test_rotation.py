@@ -1,10 +1,7 @@
 """Rotations: which are found, what they leave, and that nothing is fixed that is not free."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,6 +13,7 @@ from qe.rules.lift import holds_at
 from qe.rules.rotation import invariant_plane, rotations
 from qe.rules.step import StepKind
 from tests.property.prepare_support import prepared_with_rules
+from tests.tables import each
 
 VECTORS = "ex a1, a2, a3, b1, b2, b3. a1^2 + a2^2 + a3^2 = 1 and b1^2 + b2^2 + b3^2 = 4 and a1*b1 + a2*b2 + a3*b3 = c"
 
@@ -49,16 +47,13 @@ def test_all_rotations_of_space_are_found() -> None:
     assert all(len(skew) == 2 for skew in found)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x, y. x^2 + y^2 < a and x > b",  # a direction is named
-        "ex x, y. x^2 + 2*y^2 < a and x*y > 1",  # an ellipse
-        "ex x, y. x^2 - y^2 > a and x*y > 1",  # hyperbolic angles only
-        "ex x. all y. x^2 + y^2 > a and x^2*y^2 < b",  # a rotation would mix two quantifiers
-        "all x, y. x^3 + y^3 > 0 or x^2 + y^2 > a",
-        "ex x, y. (x = 0 or y /= 0) and x^2 + y^2 < a",  # components in a formula that is no vector's
-    ],
+@each(
+    "ex x, y. x^2 + y^2 < a and x > b",  # a direction is named
+    "ex x, y. x^2 + 2*y^2 < a and x*y > 1",  # an ellipse
+    "ex x, y. x^2 - y^2 > a and x*y > 1",  # hyperbolic angles only
+    "ex x. all y. x^2 + y^2 > a and x^2*y^2 < b",  # a rotation would mix two quantifiers
+    "all x, y. x^3 + y^3 > 0 or x^2 + y^2 > a",
+    "ex x, y. (x = 0 or y /= 0) and x^2 + y^2 < a",  # components in a formula that is no vector's
 )
 def test_what_is_not_symmetric_stays(text: str) -> None:
     assert prepared_with_rules(read(text), enabled={StepKind.ROTATION})[1] == []

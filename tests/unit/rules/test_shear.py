@@ -1,7 +1,5 @@
 """Blocks that look at a variable by a linear form in it: the form becomes the variable, and the steps are checked."""
 
-from __future__ import annotations
-
 import random
 
 import pytest
@@ -17,21 +15,15 @@ from qe.formula.normal import without_clashes
 from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import atoms
 from qe.proof.derivation import moved
-from qe.proof.run_log import RunLog
 from qe.proof.step import Step
-from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
+from tests.unit.rules.applied import steps_of
 
 BY_FORM, SHEAR_CASES = shear.by_form, shear._cases
 RING = Ring.of(("a", "b", "x", "y", "z"))
 CHORDS = "ex x, y, z. y /= z and (x*(y - z) + y)^4 + a*(x*(y - z) + y)^2 + (x*(y - z) + y) + b = 0"
-
-
-def steps(formula: Formula) -> list[Step]:
-    log = RunLog()
-    prepare(formula, enabled={StepKind.SHEAR}, log=log)
-    return [step for step in log.steps() if step.rule == StepKind.SHEAR.value]
 
 
 def test_a_line_by_two_points_and_a_parameter() -> None:
@@ -62,12 +54,12 @@ def random_question(rng: random.Random) -> Formula:
 @settings(deadline=None, max_examples=25, derandomize=True)
 @given(seed=st.integers(0, 10**9))
 def test_what_the_rule_does_is_accepted(seed: int) -> None:
-    for step in steps(random_question(random.Random(seed))):
+    for step in steps_of(random_question(random.Random(seed)), StepKind.SHEAR):
         assert accepted(step), (step.before, step.after)
 
 
 def test_the_rule_finds_something_to_do() -> None:
-    assert sum(len(steps(random_question(random.Random(seed)))) for seed in range(40)) >= 8
+    assert sum(len(steps_of(random_question(random.Random(seed)), StepKind.SHEAR)) for seed in range(40)) >= 8
 
 
 def without_parity(p: Poly, x: int, m: Poly, n: Poly, *, even: bool, most_terms: int | None = None) -> Poly:
@@ -77,18 +69,15 @@ def without_parity(p: Poly, x: int, m: Poly, n: Poly, *, even: bool, most_terms:
 ODD = "ex x, y. (x*y + z)^3 + (x*y + z)^2 + a > 0 and (x*y + z)^4 + (x*y + z)^2 + x*y + z > b and x > a"
 
 
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("by_form", without_parity),
-        ("_cases", lambda *args: SHEAR_CASES(*args).children[1]),
-        ("_cases", lambda *args: SHEAR_CASES(*args).children[0]),
-    ],
+@each(
+    ("by_form", without_parity),
+    ("_cases", lambda *args: SHEAR_CASES(*args).children[1]),
+    ("_cases", lambda *args: SHEAR_CASES(*args).children[0]),
 )
 def test_a_broken_producer_is_refused(name: str, value: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert steps(read_formula(ODD))
+    assert steps_of(read_formula(ODD), StepKind.SHEAR)
     monkeypatch.setattr(shear, name, value)
-    broken = steps(read_formula(ODD))
+    broken = steps_of(read_formula(ODD), StepKind.SHEAR)
     assert broken
     assert not accepted(broken[0])
 

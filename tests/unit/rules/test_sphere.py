@@ -1,7 +1,5 @@
 """Spheres and balls that are seen along a form: short conditions, side conditions, numbers put in, forged steps."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -15,42 +13,37 @@ from qe.formula.syntax import Exists
 from qe.formula.traverse import polynomials
 from qe.io.text import read
 from qe.proof.derivation import moved
-from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.tables import each
+from tests.unit.rules.applied import steps_of
 
 ALONE = frozenset({StepKind.SPHERE})
 LINKS = "ex a, b, c, d. a^2 + b^2 = 4 and (a - c)^2 + (b - d)^2 = 9 and (c - x)^2 + (d - y)^2 = 1"
 SQUARE = "ex a, b, c, d, u, v, w, z. a^2 + b^2 = 1 and c^2 + d^2 = 1 and u^2 + v^2 = 1 and w^2 + z^2 = 1"
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        (LINKS, "x^2 + y^2 - 36 <= 0"),
-        (f"{SQUARE} and a*d - b*c + c*v - d*u + u*z - v*w + w*b - z*a = s", "s - 4 <= 0 and s + 4 >= 0"),
-        ("ex x, y. x^2 + y^2 = 4 and a*x + b*y > 1", "4*a^2 + 4*b^2 - 1 > 0"),
-        ("ex x, y, z. x^2 + y^2 + z^2 < 1 and x + 2*y > a and z > -2", "a <= 0 or a^2 - 5 < 0"),
-        ("all x, y. x^2 + y^2 /= 1 or (x - a)^2 + y^2 > 1", "a^2 - 4 > 0"),
-    ],
+@each(
+    (LINKS, "x^2 + y^2 - 36 <= 0"),
+    (f"{SQUARE} and a*d - b*c + c*v - d*u + u*z - v*w + w*b - z*a = s", "s - 4 <= 0 and s + 4 >= 0"),
+    ("ex x, y. x^2 + y^2 = 4 and a*x + b*y > 1", "4*a^2 + 4*b^2 - 1 > 0"),
+    ("ex x, y, z. x^2 + y^2 + z^2 < 1 and x + 2*y > a and z > -2", "a <= 0 or a^2 - 5 < 0"),
+    ("all x, y. x^2 + y^2 /= 1 or (x - a)^2 + y^2 > 1", "a^2 - 4 > 0"),
 )
 def test_the_condition_is_short(text: str, answer: str) -> None:
     assert str(qe.eliminate(text).formula) == answer
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x, y. x^2 + 2*y^2 = a and x + y = b",
-        "ex x, y. x^2 + y^2 = a and x + y > b and x - y > b",
-        "ex x, y. x^2 + y^2 < a and b*x + c*y > 1",
-        "ex x, y. x^2 + y^2 <= a and x^2 + y^2 + x > b",
-        "ex x, y. x^2 + y^2 >= a and x + y = b",
-        "ex x, y. x^2 + y^2 = a",
-        "ex x. x^2 = a and x > b",
-    ],
+@each(
+    "ex x, y. x^2 + 2*y^2 = a and x + y = b",
+    "ex x, y. x^2 + y^2 = a and x + y > b and x - y > b",
+    "ex x, y. x^2 + y^2 < a and b*x + c*y > 1",
+    "ex x, y. x^2 + y^2 <= a and x^2 + y^2 + x > b",
+    "ex x, y. x^2 + y^2 >= a and x + y = b",
+    "ex x, y. x^2 + y^2 = a",
+    "ex x. x^2 = a and x > b",
 )
 def test_others_are_left_alone(text: str) -> None:
     assert prepare(read(text), enabled=ALONE).formula == prepare(read(text), enabled=set()).formula
@@ -58,12 +51,6 @@ def test_others_are_left_alone(text: str) -> None:
 
 SMALL = st.integers(-2, 2)
 RELATIONS = st.sampled_from(["<", "<=", "=", ">", "/="])
-
-
-def steps_of(text: str) -> list[Step]:
-    log = RunLog()
-    prepare(read(text), enabled=ALONE, log=log)
-    return [step for step in log.steps() if step.rule == StepKind.SPHERE.value]
 
 
 @settings(max_examples=15, derandomize=True, deadline=None)
@@ -75,7 +62,7 @@ def test_numbers_put_in_before_or_after(at: list[int], kind: str, one: str, two:
     centre = f"3*({slopes})" if kind == "=" else "x - a*y"
     text = f"ex x, y. 2*x^2 + 2*y^2 + {centre} {kind} c and {slopes} {one} b + {n} and ({second} {two} 0 or d > a)"
     asked, found = read(text), prepare(read(text), enabled=ALONE).formula
-    steps = steps_of(text)
+    steps = steps_of(text, StepKind.SPHERE)
     assert (steps or one == "=") and all(map(accepted, steps))
     point = dict(zip("abcd", map(Fraction, at), strict=True))
     assert isinstance(asked, Exists) and isinstance(found, Exists)
@@ -125,8 +112,8 @@ def test_forged_steps_are_refused() -> None:
 
 def test_a_producer_that_forgets_the_radius(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where the form vanishes, nothing else says that the sphere is not empty."""
-    assert all(map(accepted, steps_of(BEFORE)))
+    assert all(map(accepted, steps_of(BEFORE, StepKind.SPHERE)))
     real = sphere_rule.conj
     monkeypatch.setattr(sphere_rule, "conj", lambda parts: real(list(parts)[1:]))
-    broken = steps_of(BEFORE)
+    broken = steps_of(BEFORE, StepKind.SPHERE)
     assert broken and not any(map(accepted, broken))

@@ -1,29 +1,17 @@
 """Variables that one comparison of degree 2 looks at: what stands in their place, and their values."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.api.input import read_formula
 from qe.io.text import read
-from qe.proof.run_log import RunLog
-from qe.proof.step import Step
 from qe.rules.lift import holds_at
-from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from tests.certificates.test_broken_producers import accepted
+from tests.unit.rules.applied import steps_of
 
 CYLINDER = "ex x, y, z. x^2 + y^2 <= 1 and (x - a)^2 + (y - b)^2 + (z - c)^2 {} r^2"
-
-
-def steps_of(text: str) -> list[Step]:
-    """The steps of this rule alone."""
-    log = RunLog()
-    prepare(read_formula(text), enabled={StepKind.SQUARE_ALONE}, log=log)
-    return [step for step in log.steps() if step.rule == StepKind.SQUARE_ALONE.value]
 
 
 @pytest.mark.parametrize(
@@ -41,7 +29,7 @@ def steps_of(text: str) -> list[Step]:
     ],
 )
 def test_where_it_applies(text: str, count: int) -> None:
-    steps = steps_of(text)
+    steps = steps_of(text, StepKind.SQUARE_ALONE)
     assert len(steps) == count and all(map(accepted, steps))
 
 
@@ -56,7 +44,7 @@ def test_a_ball_meets_a_cylinder() -> None:
 def test_values_come_back(k: list[int], relation: str) -> None:
     """A variable that is gone gets a value, in sentences with and without solutions."""
     body = f"{abs(k[0]) + 1}*z^2 + {k[1]}*z + x*y + {k[2]}*x {relation} {k[3]} and x^2 + y^2 <= 2 and y >= {k[4]}"
-    (step,) = steps_of(f"ex x, y, z. {body}")
+    (step,) = steps_of(f"ex x, y, z. {body}", StepKind.SQUARE_ALONE)
     assert accepted(step)
     answer = qe.eliminate(f"ex x, y, z. {body}", process=False)
     other = qe.eliminate(f"ex x, y, z. {body}", process=False, without="values")

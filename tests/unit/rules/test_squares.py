@@ -1,7 +1,5 @@
 """Rule "signs by sums of squares": answers as without it, proofs accepted, forged ones refused."""
 
-from __future__ import annotations
-
 import json
 import random
 from collections.abc import Callable, Iterator
@@ -17,6 +15,7 @@ from qe.kernel.verdict import Verdict
 from qe.proof.answer import Guarantee
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
+from tests.tables import each
 
 RULE = "signs by sums of squares"
 
@@ -36,13 +35,10 @@ def test_true_with_a_proof(text: str) -> None:
     assert qe.eliminate(text, without="squares", timeout=60).formula == answer.formula
 
 
-@pytest.mark.parametrize(
-    ("text", "left"),
-    [
-        ("ex x, y, z. x^4 + y^4 + z^4 + 1 <= 4*x*y*z and x*y = a and a > 0", "a - 1 = 0"),
-        ("ex x, y, z. x^4 + y^4 + z^4 + 2 <= 4*x*y*z or x = a", "true"),
-        ("ex x. x >= 0 and a >= 0 and x^3 + a^3 + 1 >= 3*x*a and x + a = b", "a >= 0 and a - b <= 0"),
-    ],
+@each(
+    ("ex x, y, z. x^4 + y^4 + z^4 + 1 <= 4*x*y*z and x*y = a and a > 0", "a - 1 = 0"),
+    ("ex x, y, z. x^4 + y^4 + z^4 + 2 <= 4*x*y*z or x = a", "true"),
+    ("ex x. x >= 0 and a >= 0 and x^3 + a^3 + 1 >= 3*x*a and x + a = b", "a >= 0 and a - b <= 0"),
 )
 def test_what_is_left_of_a_condition(text: str, left: str) -> None:
     answer = qe.eliminate(text, check=True, timeout=60)
@@ -53,18 +49,15 @@ def test_what_is_left_of_a_condition(text: str, left: str) -> None:
 MEANS = "a^4 + b^4 + c^4 + d^4 - 4*a*b*c*d"
 
 
-@pytest.mark.parametrize(
-    ("condition", "left"),
-    [
-        (f"{MEANS} >= 0", "true"),
-        (f"{MEANS} < 0", "false"),
-        (f"{MEANS} <= 0", f"{MEANS} = 0"),
-        (f"{MEANS} > 0", f"{MEANS} > 0"),
-        (f"{MEANS} /= 0", f"{MEANS} /= 0"),
-        (f"{MEANS} + 1 <= 0", "false"),
-        ("2*a^4 + 2*b^4 + 2*c^4 + 2*d^4 < 1", None),  # with 1 added it would be nowhere negative
-        ("a >= 0 and b >= 0 and d >= 0 and a*b*d < 1", None),
-    ],
+@each(
+    (f"{MEANS} >= 0", "true"),
+    (f"{MEANS} < 0", "false"),
+    (f"{MEANS} <= 0", f"{MEANS} = 0"),
+    (f"{MEANS} > 0", f"{MEANS} > 0"),
+    (f"{MEANS} /= 0", f"{MEANS} /= 0"),
+    (f"{MEANS} + 1 <= 0", "false"),
+    ("2*a^4 + 2*b^4 + 2*c^4 + 2*d^4 < 1", None),  # with 1 added it would be nowhere negative
+    ("a >= 0 and b >= 0 and d >= 0 and a*b*d < 1", None),
 )
 def test_what_one_sign_leaves_of_each_comparison(condition: str, left: str | None) -> None:
     found = prepare(read(f"ex d. {condition}"), enabled={StepKind.SQUARES}).formula
@@ -109,7 +102,7 @@ def nothing(lemmas: list[Any]) -> Iterator[None]:
     yield
 
 
-@pytest.mark.parametrize("change", [other_numbers, other_exponents, nothing])
+@each(other_numbers, other_exponents, nothing)
 @pytest.mark.parametrize("text", SENTENCES[::2])
 def test_altered_identities_are_refused(text: str, change: Callable[[list[Any]], Iterator[None]]) -> None:
     verdicts = altered(text, change)

@@ -4,8 +4,6 @@ Many numbers are zeros of what the rule has made, or huge, or tiny: there leadin
 points, and the ends of intervals coincide.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 from fractions import Fraction

@@ -1,10 +1,7 @@
 """Atoms that are met whatever the rest is: found only where they are, with a value to show for it."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,6 +13,7 @@ from qe.rules.lift import holds_at
 from qe.rules.step import StepKind
 from qe.rules.takes_value import TakesValue
 from tests.property.prepare_support import prepared_with_rules
+from tests.tables import each
 
 ALONE = frozenset({StepKind.TAKES_VALUE})
 
@@ -24,26 +22,23 @@ def taken(text: str) -> bool:
     return prepared_with_rules(read(text), enabled=ALONE)[1] != []
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("ex x. x^6 + a*x^5 + b*x^4 + c > 0", True),
-        ("ex x. x^6 + a*x^5 + b*x^4 + c >= 0", True),
-        ("ex x. x^6 + a*x^5 + b*x^4 + c < 0", False),
-        ("ex x. -2*x^6 + a*x^5 + c <= 0", True),
-        ("ex x. x^6 + a*x^5 + c = 0", False),
-        ("ex x. x^6 + a*x^5 + c /= 0", True),
-        ("ex x. x^7 + a*x^5 + b*x^4 + c = 0", True),
-        ("ex x. x^7 + a*x^5 + b*x^4 + c <= 0 and b > 0", True),
-        ("ex x. a*x^7 + x^5 + c = 0", False),
-        ("ex x, y. x^7*y + x^5 + c = 0 and y > 0", True),
-        ("ex x, y. x^7*y + x^5 + c = 0 and y >= 0", False),
-        ("ex x, y. x^6*y + x^5 + c > 0 and y < 0", False),
-        ("ex x. x^7 + a*x + 1 = 0 and x > b", False),
-        ("ex x. (x^7 + a*x + 1 = 0 or b > 0) and c > 0", False),
-        ("ex x. x^7 + a = 0 and ex y. y*x > 1", False),
-        ("all x. x^6 + a*x^5 + b < 0", True),
-    ],
+@each(
+    ("ex x. x^6 + a*x^5 + b*x^4 + c > 0", True),
+    ("ex x. x^6 + a*x^5 + b*x^4 + c >= 0", True),
+    ("ex x. x^6 + a*x^5 + b*x^4 + c < 0", False),
+    ("ex x. -2*x^6 + a*x^5 + c <= 0", True),
+    ("ex x. x^6 + a*x^5 + c = 0", False),
+    ("ex x. x^6 + a*x^5 + c /= 0", True),
+    ("ex x. x^7 + a*x^5 + b*x^4 + c = 0", True),
+    ("ex x. x^7 + a*x^5 + b*x^4 + c <= 0 and b > 0", True),
+    ("ex x. a*x^7 + x^5 + c = 0", False),
+    ("ex x, y. x^7*y + x^5 + c = 0 and y > 0", True),
+    ("ex x, y. x^7*y + x^5 + c = 0 and y >= 0", False),
+    ("ex x, y. x^6*y + x^5 + c > 0 and y < 0", False),
+    ("ex x. x^7 + a*x + 1 = 0 and x > b", False),
+    ("ex x. (x^7 + a*x + 1 = 0 or b > 0) and c > 0", False),
+    ("ex x. x^7 + a = 0 and ex y. y*x > 1", False),
+    ("all x. x^6 + a*x^5 + b < 0", True),
 )
 def test_where_it_applies(text: str, expected: bool) -> None:
     assert taken(text) is expected

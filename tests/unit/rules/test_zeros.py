@@ -1,10 +1,7 @@
 """Conditions on zeros that follow from others: dropped, and only these; and the steps are the kernel's."""
 
-from __future__ import annotations
-
 from itertools import product
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,44 +16,37 @@ from qe.io.text import read
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 from qe.rules.zeros import needed
+from tests.tables import each
 from tests.unit.proving.elaborated import refused
 
 VECTORS = "x*v - y*u /= 0 and x^2 + y^2 + u^2 + v^2 < a"
-
-
 RULE = "conditions on zeros that follow"
 
 
-@pytest.mark.parametrize(
-    ("text", "left"),
-    [
-        (f"ex x, y, u, v. (x /= 0 or y /= 0) and {VECTORS}", f"ex x, y, u, v. {VECTORS}"),
-        (f"ex x, y, u, v. (x*u /= 0 or x*v /= 0 or y*u /= 0 or y*v /= 0) and {VECTORS}", f"ex x, y, u, v. {VECTORS}"),
-        (f"ex x, y, u, v. (x /= 0 or y = 0) and {VECTORS}", None),
-        ("ex x, y. (x /= 0 or y /= 0) and x*y + a = 0", None),
-        ("ex x, y. (x /= 0 or y /= 0) and x*y + 2 < 0", "ex x, y. x*y + 2 < 0"),
-        ("ex x, y. (x /= 0 or y /= 0) and (x = 0 or y = 0) and x*y^3 + x >= 0", None),
-        ("ex x, y. (x /= 0 or y /= 0) and x*y - 2 > 0", "ex x, y. x*y - 2 > 0"),
-        ("ex x, y. (x /= 0 or y /= 0) and x*y - 2 < 0", None),
-        ("ex x, y, z, w. (x /= 0 or y /= 0) and (z /= 0 or w /= 0) and z^2 - z*w + x < 0", None),
-        ("ex x, y, z, w. (x /= 0 or y /= 0) and (z /= 0 or w /= 0) and w^2 - z*w + x < 0", None),
-        ("all x, y. x = 0 and y = 0 or x*a - y*b = 0", "all x, y. x*a - y*b = 0"),
-        ("all x, y. x = 0 and y = 0 or x*a - y*b > 0", None),
-    ],
+@each(
+    (f"ex x, y, u, v. (x /= 0 or y /= 0) and {VECTORS}", f"ex x, y, u, v. {VECTORS}"),
+    (f"ex x, y, u, v. (x*u /= 0 or x*v /= 0 or y*u /= 0 or y*v /= 0) and {VECTORS}", f"ex x, y, u, v. {VECTORS}"),
+    (f"ex x, y, u, v. (x /= 0 or y = 0) and {VECTORS}", None),
+    ("ex x, y. (x /= 0 or y /= 0) and x*y + a = 0", None),
+    ("ex x, y. (x /= 0 or y /= 0) and x*y + 2 < 0", "ex x, y. x*y + 2 < 0"),
+    ("ex x, y. (x /= 0 or y /= 0) and (x = 0 or y = 0) and x*y^3 + x >= 0", None),
+    ("ex x, y. (x /= 0 or y /= 0) and x*y - 2 > 0", "ex x, y. x*y - 2 > 0"),
+    ("ex x, y. (x /= 0 or y /= 0) and x*y - 2 < 0", None),
+    ("ex x, y, z, w. (x /= 0 or y /= 0) and (z /= 0 or w /= 0) and z^2 - z*w + x < 0", None),
+    ("ex x, y, z, w. (x /= 0 or y /= 0) and (z /= 0 or w /= 0) and w^2 - z*w + x < 0", None),
+    ("all x, y. x = 0 and y = 0 or x*a - y*b = 0", "all x, y. x*a - y*b = 0"),
+    ("all x, y. x = 0 and y = 0 or x*a - y*b > 0", None),
 )
 def test_what_follows_is_dropped(text: str, left: str | None) -> None:
     found = prepare(read(text), enabled={StepKind.ZEROS}).formula
     assert str(found) == str(prepare(read(left or text), enabled=set()).formula)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "(x /= 0 or y > 0) and y /= 0",  # a sign is no condition on zeros: x = 0 and y = -1
-        "(x /= 0 or x + y = 0) and y /= 0",  # nor is a sum: x = 0 and y = 1
-        "(x /= 0 or y /= 0) and z^2 + x*y <= 0",  # z may be 0 where x and y are
-        "(x /= 0 or y /= 0) and z^3 + x*y > 1",
-    ],
+@each(
+    "(x /= 0 or y > 0) and y /= 0",  # a sign is no condition on zeros: x = 0 and y = -1
+    "(x /= 0 or x + y = 0) and y /= 0",  # nor is a sum: x = 0 and y = 1
+    "(x /= 0 or y /= 0) and z^2 + x*y <= 0",  # z may be 0 where x and y are
+    "(x /= 0 or y /= 0) and z^3 + x*y > 1",
 )
 def test_what_does_not_follow_stays(text: str) -> None:
     parts = conjuncts(read(text))

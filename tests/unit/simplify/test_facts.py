@@ -1,7 +1,5 @@
 """What is known about signs: facts, factors, absorption."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 
@@ -22,8 +20,6 @@ from tests.strategies import points
 from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
-
-
 MONOMIALS = [k for k in product(range(4), repeat=3) if 0 < sum(k) <= 5]
 
 
@@ -83,8 +79,6 @@ def test_a_sentence_on_a_long_sum_needs_no_decomposition() -> None:
 
 
 PLANE = Ring.of(("x", "y"))
-
-
 X, Y = PLANE.gen(0), PLANE.gen(1)
 
 
@@ -158,8 +152,6 @@ def members(formula: Formula) -> tuple[type, frozenset[Formula]]:
 
 
 NAMES = ("a", "b", "c")
-
-
 CUBE = Ring.of(NAMES)
 
 

@@ -1,11 +1,8 @@
 """Minima of quadratic polynomials and of sums of even monomials."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -33,9 +30,7 @@ def test_minimum(poly: Poly, value: int, zeros: tuple[Poly, ...]) -> None:
     assert bool(vanishing(poly)) == (value == 0)
 
 
-@pytest.mark.parametrize(
-    "poly", [X, X**3, -(X**2), X * Y, X**2 + Y, X**2 - Y**2, X**2 + 4 * X * Y, X**4 - X**2, X**4 + X, X**4 * Y + X**2]
-)
+@each(X, X**3, -(X**2), X * Y, X**2 + Y, X**2 - Y**2, X**2 + 4 * X * Y, X**4 - X**2, X**4 + X, X**4 * Y + X**2)
 def test_no_minimum_is_claimed(poly: Poly) -> None:
     assert minimum(poly) is None and vanishing(poly) == ()
     assert minimum(RING.constant(0)) is None

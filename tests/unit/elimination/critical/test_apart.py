@@ -1,11 +1,8 @@
 """Blocks taken apart by their disjuncts, each in as few parameters as it looks at."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,6 +13,7 @@ from qe.formula.build import atom, conj, disj
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Relation
 from qe.io.text import read
+from tests.tables import each
 
 LINES = "ex a, b. all x. -1 <= x and x <= 1 -> -m <= x^3 + a*x + b and x^3 + a*x + b <= m"
 
@@ -44,9 +42,7 @@ def test_a_piece_is_the_same_in_fewer_parameters(seed: int) -> None:
         assert any(truths) is holds_at(body, point)
 
 
-@pytest.mark.parametrize(
-    "text", ["y^3 + a*y + b*y^2 + c > 0", "y^3 + a*y > 0 and (y > b or y < c or y^2 > a or y = d or y = 2)"]
-)
+@each("y^3 + a*y + b*y^2 + c > 0", "y^3 + a*y > 0 and (y > b or y < c or y^2 > a or y = d or y = 2)")
 def test_other_bodies_stay_whole(text: str) -> None:
     assert taken_apart(("y",), read(text), 2) == ()
 

@@ -1,7 +1,5 @@
 """Truth sets of blocks by critical values, as tables and as convex bodies, against sets that are known."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 import pytest
@@ -17,6 +15,7 @@ from qe.formula.syntax import Exists
 from qe.io.text import read
 from qe.options import Budget
 from qe.proof.cells import CellTable
+from tests.tables import each
 
 
 def found(text: str, *parameters: str) -> list[Disjunct]:
@@ -77,7 +76,7 @@ def test_irrational_points_off_which_it_is_false() -> None:
     assert truths(part.found.table) == {"+": False, "0": True, "-": False}
 
 
-@pytest.mark.parametrize(("more", "shape"), [(" and x^2 <= 1", Shape.CONVEX), ("", Shape.CLOSED)])
+@each((" and x^2 <= 1", Shape.CONVEX), ("", Shape.CLOSED))
 def test_in_space_only_bounded_convex_sets_are_taken_for_convex(
     more: str, shape: Shape, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -102,7 +101,7 @@ def test_sentences_and_disjuncts() -> None:
     assert str(parts[1].body) == "x^2 - 1 <= 0 and x - 2 > 0"
 
 
-@pytest.mark.parametrize("text", ["ex x. x > a", "ex x. a*x = 1", "ex x. x^2 <= 1 or x > a"])
+@each("ex x. x > a", "ex x. a*x = 1", "ex x. x^2 <= 1 or x > a")
 def test_unbounded_fibres_are_refused(text: str) -> None:
     with pytest.raises(Unable, match="bounded"):
         found(text, "a")

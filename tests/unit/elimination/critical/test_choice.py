@@ -1,31 +1,25 @@
 """When the planner takes critical values."""
 
-from __future__ import annotations
-
-import pytest
-
 import qe
 from qe.engine.conditions import convex_conditions
 from qe.formula.block import Block
 from qe.io import formats
 from qe.options import Options
+from tests.tables import each
 
 BALLS = "(y - a)^2 + (z - b)^2 <= 1 and y^2 + z^2 <= 4"
 
 
-@pytest.mark.parametrize(
-    ("variables", "body", "expected"),
-    [
-        (("y", "z"), BALLS, True),
-        (("y", "z"), f"{BALLS} and 4 - y^2 - a >= 0", True),
-        (("y", "z"), BALLS.replace("<= 1", "< 1"), False),
-        (("y", "z"), f"{BALLS} and y*z <= a", False),
-        (("y", "z"), f"{BALLS} and y = a", False),
-        (("y", "z"), f"{BALLS} or y <= a", False),
-        (("y", "z"), BALLS.replace("b", "b - c"), False),
-        (("y",), "(y - a)^2 + (z - b)^2 <= 1 and y^2 <= 4", False),
-        (("y", "z"), "y + z <= a and y >= b and z >= 0", False),
-    ],
+@each(
+    (("y", "z"), BALLS, True),
+    (("y", "z"), f"{BALLS} and 4 - y^2 - a >= 0", True),
+    (("y", "z"), BALLS.replace("<= 1", "< 1"), False),
+    (("y", "z"), f"{BALLS} and y*z <= a", False),
+    (("y", "z"), f"{BALLS} and y = a", False),
+    (("y", "z"), f"{BALLS} or y <= a", False),
+    (("y", "z"), BALLS.replace("b", "b - c"), False),
+    (("y",), "(y - a)^2 + (z - b)^2 <= 1 and y^2 <= 4", False),
+    (("y", "z"), "y + z <= a and y >= b and z >= 0", False),
 )
 def test_convex_conditions_on_several_variables(variables: tuple[str, ...], body: str, expected: bool) -> None:
     problem = Block(variables, formats.read(body, "text"))

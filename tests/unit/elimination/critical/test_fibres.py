@@ -1,7 +1,5 @@
 """Deciding a block over single points: every way gives the same answers."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 import pytest
@@ -14,6 +12,7 @@ from qe.exact.sample import Point
 from qe.formula.evaluate import holds_at
 from qe.io import formats
 from qe.options import Budget
+from tests.tables import each
 from tests.unit.elimination.critical.test_side_conditions import only
 
 LENS = "y^2 + z^2 <= 4 and (y - p)^2 + (z - q)^2 <= 1 and p <= 3"
@@ -62,16 +61,13 @@ def algebraic(text: str) -> RealAlgebraic:
     return RealAlgebraic.from_root({"sqrt2": (-2, 0, 1), "sqrt3": (-3, 0, 1)}[text], 1, 2)
 
 
-@pytest.mark.parametrize(
-    ("p", "q", "expected"),
-    [
-        ("sqrt2", F(0), True),  # on the boundary
-        ("sqrt2", "sqrt2", False),
-        (F(1), F(1), True),
-        (F(1), "sqrt3", False),
-        (F(-1), "sqrt2", False),
-        (F(0), "sqrt2", True),
-    ],
+@each(
+    ("sqrt2", F(0), True),  # on the boundary
+    ("sqrt2", "sqrt2", False),
+    (F(1), F(1), True),
+    (F(1), "sqrt3", False),
+    (F(-1), "sqrt2", False),
+    (F(0), "sqrt2", True),
 )
 def test_over_algebraic_points(p: F | str, q: F | str, expected: bool) -> None:
     text = "y^2 + z^2 <= 2 and y = p and z >= q and z <= 2"

@@ -1,15 +1,13 @@
 """Quadratic conditions with parameters: the form is the polynomial, at every point and over every parameter."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.elimination.critical.forms import parametric_form
 from qe.exact.ring import Poly, Ring
+from tests.tables import each
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.gen(i) for i in range(4))
@@ -41,6 +39,6 @@ def test_the_form_has_the_values_of_the_polynomial(poly: Poly, point: tuple[int,
     assert all(over.hessian[i][j] == over.hessian[j][i] for i in range(2) for j in range(2))
 
 
-@pytest.mark.parametrize("poly", [A * X**2, X**3, X**2 * Y, X * Y * B, X**2 * Y**2])
+@each(A * X**2, X**3, X**2 * Y, X * Y * B, X**2 * Y**2)
 def test_other_polynomials_have_none(poly: Poly) -> None:
     assert parametric_form(poly + X + 1, 2) is None

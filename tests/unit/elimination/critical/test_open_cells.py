@@ -1,7 +1,5 @@
 """Open cells of convex sets, and polynomials that tell them apart."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM

@@ -1,7 +1,5 @@
 """Bounded fibres, disjuncts, convexity: what critical-value elimination checks before it works."""
 
-from __future__ import annotations
-
 import pytest
 
 import qe
@@ -14,6 +12,7 @@ from qe.formula.build import convert
 from qe.formula.normal import nnf
 from qe.io import formats
 from qe.options import Budget
+from tests.tables import each
 
 
 def parts(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> list[System]:
@@ -26,39 +25,33 @@ def only(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> System:
     return part
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "y^2 + z^2 <= p",
-        "(y - p)^2 + y*z + z^2 < p^4",
-        "y >= p and y <= 2*p + 1 and z^2 <= 3",
-        "y^2 <= 1 and z^3 = y + p",
-        "y^4 + p*y <= 1 and z >= y and 2*z <= y^2",
-        "y^2 + p*y <= 1 and z^2 <= p",
-        "y + z = p and y^2 <= p",
-        "y^2 + z <= p and z >= p",
-        "y^4 - 2*z + p*y <= 1 and z <= 3",
-    ],
+@each(
+    "y^2 + z^2 <= p",
+    "(y - p)^2 + y*z + z^2 < p^4",
+    "y >= p and y <= 2*p + 1 and z^2 <= 3",
+    "y^2 <= 1 and z^3 = y + p",
+    "y^4 + p*y <= 1 and z >= y and 2*z <= y^2",
+    "y^2 + p*y <= 1 and z^2 <= p",
+    "y + z = p and y^2 <= p",
+    "y^2 + z <= p and z >= p",
+    "y^4 - 2*z + p*y <= 1 and z <= 3",
 )
 def test_bounded(text: str) -> None:
     assert has_bounded_fibres(only(text, ("p",), ("y", "z")))
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "y^2 - z^2 <= p",
-        "y^2 <= 1 and z >= p",
-        "y^2 <= 1 and p*z^2 <= 1",
-        "y*z = 1 and y^2 <= 1",
-        "y^2 + 2*y*z + z^2 <= 1",
-        "y^2 <= p and z = z^2 + y - z^2 + z",
-        "y^3 <= p and z^2 <= 1",
-        "y^2 + z <= p and z <= p",
-        "y^2 + p*z <= 1 and z >= p",
-        "y >= 0 and z >= 0 and z <= y^2 and y <= z + 1",  # z = y^2: a lower bound of y is none of -y^2
-        "y >= 0 and z >= 0 and z + p*y <= 0 and y <= z + 1",  # p may be negative
-    ],
+@each(
+    "y^2 - z^2 <= p",
+    "y^2 <= 1 and z >= p",
+    "y^2 <= 1 and p*z^2 <= 1",
+    "y*z = 1 and y^2 <= 1",
+    "y^2 + 2*y*z + z^2 <= 1",
+    "y^2 <= p and z = z^2 + y - z^2 + z",
+    "y^3 <= p and z^2 <= 1",
+    "y^2 + z <= p and z <= p",
+    "y^2 + p*z <= 1 and z >= p",
+    "y >= 0 and z >= 0 and z <= y^2 and y <= z + 1",  # z = y^2: a lower bound of y is none of -y^2
+    "y >= 0 and z >= 0 and z + p*y <= 0 and y <= z + 1",  # p may be negative
 )
 def test_not_seen_to_be_bounded(text: str) -> None:
     assert not has_bounded_fibres(only(text, ("p",), ("y", "z")))
@@ -87,13 +80,10 @@ def surfaces(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> set[st
     return {str(f)[5:-1] for f in found}
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("y^2 + p*y + q <= 0", {"-p^2 + 4*q"}),  # one condition: its discriminant
-        ("y^2 <= p and y >= q", {"p", "q^2 - p"}),  # and where both are equations: their resultant
-        ("p*y + q <= 0 and y^2 <= 1", {"p", "p + q", "-p + q"}),  # a slope that vanishes
-    ],
+@each(
+    ("y^2 + p*y + q <= 0", {"-p^2 + 4*q"}),  # one condition: its discriminant
+    ("y^2 <= p and y >= q", {"p", "q^2 - p"}),  # and where both are equations: their resultant
+    ("p*y + q <= 0 and y^2 <= 1", {"p", "p + q", "-p + q"}),  # a slope that vanishes
 )
 def test_one_variable(text: str, expected: set[str]) -> None:
     assert surfaces(text, ("p", "q"), ("y",)) == expected

@@ -1,7 +1,5 @@
 """Cell tables made by an oracle: what the shape of a set says where its boundary polynomials vanish."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -14,6 +12,7 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.options import Budget
 from qe.proof.cells import Cell
+from tests.tables import each
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.gen(0), RING.gen(1)
@@ -46,13 +45,10 @@ CLOSED = [False, *[False, True, False], *[False, True, True, True, False], *[Fal
 OPEN = [False, *[False] * 3, *[False, False, True, False, False], *[False] * 3, False]
 
 
-@pytest.mark.parametrize(
-    ("shape", "strict", "truths", "asked"),
-    [
-        (Shape.CONVEX, False, CLOSED, 11),  # two sections lie next to a true sector
-        (Shape.CLOSED, False, CLOSED, 11),
-        (Shape.OPEN, True, OPEN, 9),  # four sections lie next to a false sector
-    ],
+@each(
+    (Shape.CONVEX, False, CLOSED, 11),  # two sections lie next to a true sector
+    (Shape.CLOSED, False, CLOSED, 11),
+    (Shape.OPEN, True, OPEN, 9),  # four sections lie next to a false sector
 )
 def test_the_disc(shape: Shape, strict: bool, truths: list[bool], asked: int) -> None:
     oracle = Oracle(DISC, strict)

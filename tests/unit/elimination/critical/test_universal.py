@@ -1,7 +1,5 @@
 """Universal blocks with a convex truth set: the formula by critical values against direct decisions at points."""
 
-from __future__ import annotations
-
 import functools
 from fractions import Fraction
 
@@ -22,6 +20,7 @@ from qe.formula.syntax import ForAll, Formula
 from qe.options import Budget, Method, Options
 from qe.proof.run_log import RunLog
 from tests.enough import enough
+from tests.tables import each
 
 ASKED = Options(method=Method.CRITICAL)
 
@@ -76,28 +75,22 @@ def test_it_is_chosen_without_being_asked_for() -> None:
     assert qe.equivalent(answer.formula, by_critical_values(DISCS))
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "all t. 0 <= t and t <= 1 -> x + y*t <= t^3",  # half-planes: an unbounded set
-        "all t. 0 <= t and t < 1 -> (1 - t)*(x^2 + y^2 - 1 - t) <= 0",  # a factor of the domain
-        "all t. t^2 <= 1 -> t^4*x^2 + t*y <= 1 and y^2 <= 2 + t",  # semidefinite only
-    ],
+@each(
+    "all t. 0 <= t and t <= 1 -> x + y*t <= t^3",  # half-planes: an unbounded set
+    "all t. 0 <= t and t < 1 -> (1 - t)*(x^2 + y^2 - 1 - t) <= 0",  # a factor of the domain
+    "all t. t^2 <= 1 -> t^4*x^2 + t*y <= 1 and y^2 <= 2 + t",  # semidefinite only
 )
 def test_other_convex_sets(text: str) -> None:
     answer = by_critical_values(text)
     assert answer is not None and agree(text, answer, GRID) == {True, False}
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "all t. 0 <= t and t <= 1 -> x^2 + t >= y",  # not convex
-        "all t. 0 <= t and t <= 1 -> x*y + t <= 1",  # indefinite
-        "all t. x^2 + y*t - t^4 <= 0",  # t is not bounded
-        "all t. 0 <= t and t <= 1 -> t*x^2 + (t - 1/2)*y^2 <= 1",  # not convex for small t
-        "all t. 0 <= t and t <= 1 and t <= x -> t^3 <= y",  # the domain depends on a parameter
-    ],
+@each(
+    "all t. 0 <= t and t <= 1 -> x^2 + t >= y",  # not convex
+    "all t. 0 <= t and t <= 1 -> x*y + t <= 1",  # indefinite
+    "all t. x^2 + y*t - t^4 <= 0",  # t is not bounded
+    "all t. 0 <= t and t <= 1 -> t*x^2 + (t - 1/2)*y^2 <= 1",  # not convex for small t
+    "all t. 0 <= t and t <= 1 and t <= x -> t^3 <= y",  # the domain depends on a parameter
 )
 def test_what_is_not_seen_to_be_convex_is_left_to_others(text: str) -> None:
     assert by_critical_values(text) is None
@@ -106,14 +99,11 @@ def test_what_is_not_seen_to_be_convex_is_left_to_others(text: str) -> None:
 coefficients = st.integers(-2, 2)
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1", "false"),
-        ("all t. 0 <= t and t < 1 -> t^3*x <= 0 and -t^3*x <= 0 and y^2 <= 1 + t^3", "x = 0 and y^2 <= 1"),
-        ("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4", "x = 0 and y = 1/2"),
-        ("all t. t^2 <= 1 -> x >= t^3 and y >= t and x + y <= 2", "x = 1 and y = 1"),
-    ],
+@each(
+    ("all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1", "false"),
+    ("all t. 0 <= t and t < 1 -> t^3*x <= 0 and -t^3*x <= 0 and y^2 <= 1 + t^3", "x = 0 and y^2 <= 1"),
+    ("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4", "x = 0 and y = 1/2"),
+    ("all t. t^2 <= 1 -> x >= t^3 and y >= t and x + y <= 2", "x = 1 and y = 1"),
 )
 def test_sets_without_interior_points(text: str, expected: str) -> None:
     """Nothing, or part of a line; found only where conditions at a few t, or the bounds, already say so."""
@@ -190,14 +180,11 @@ def test_conditions_that_the_block_implies() -> None:
     assert [holds_at(conditions, {"x": Fraction(k)}) for k in (1, 2, 3)] == [False, True, True]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "all t, u. 0 <= t and t <= 1 and 0 <= u and u <= 1 -> x >= t*u",  # two variables
-        "all t. t >= 0 -> x >= -t",  # no upper end
-        "all t. t^2 <= 2 -> x >= t",  # the ends are not linear
-        "all t. 0 <= t and t <= 1 -> x /= t",  # an equation
-    ],
+@each(
+    "all t, u. 0 <= t and t <= 1 and 0 <= u and u <= 1 -> x >= t*u",  # two variables
+    "all t. t >= 0 -> x >= -t",  # no upper end
+    "all t. t^2 <= 2 -> x >= t",  # the ends are not linear
+    "all t. 0 <= t and t <= 1 -> x /= t",  # an equation
 )
 def test_no_conditions_elsewhere(text: str) -> None:
     assert necessary_conditions(*asked(text, "x")) is None

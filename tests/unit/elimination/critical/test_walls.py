@@ -1,7 +1,5 @@
 """The walls of convex truth sets in the plane: the same as by all open cells, by far fewer questions."""
 
-from __future__ import annotations
-
 from fractions import Fraction as F
 
 import pytest

@@ -1,7 +1,5 @@
 """Blocks about one polynomial by signs: right at numbers in place of the parameters, short, and within limits."""
 
-from __future__ import annotations
-
 import random
 
 import pytest
@@ -18,6 +16,7 @@ from qe.formula.syntax import Constant, Formula
 from qe.formula.traverse import atoms
 from qe.io.text import read as formula
 from qe.options import Budget
+from tests.tables import each
 
 RELATIONS = ("=", "<", "<=", ">", ">=")
 BESIDE = (
@@ -112,7 +111,7 @@ def expanded(kind: theory.RootType, values: list[int], lead: int) -> list[Poly]:
     return found
 
 
-@pytest.mark.parametrize("degree", [2, 3, 4])
+@each(2, 3, 4)
 def test_the_signs_of_every_type_of_roots_are_listed(degree: int) -> None:
     rng, shape = random.Random(degree), Shape(degree, Place.RAY, True, invariant=degree == 4)
     listed = {(signs, kind) for signs, _, kind in theory.rows(shape)}
@@ -131,14 +130,11 @@ def test_the_signs_of_every_type_of_roots_are_listed(degree: int) -> None:
             assert (tuple((v > 0) - (v < 0) for v in numbers), kind) in listed
 
 
-@pytest.mark.parametrize(
-    ("text", "most"),
-    [
-        ("ex x. x > 0 and x^4 + a*x^3 + b*x^2 + c*x + d = 0", 14),
-        ("all x. x^4 + p*x^2 + q*x + r > 0", 5),
-        ("all x. 0 <= x and x <= 1 -> a*x^4 + b*x^3 + c*x^2 + d*x + k > 0", 18),
-        ("ex x. x^4 + p*x^2 + q*x + r = 0 and x^2 + s*x + t < 0", 22),
-    ],
+@each(
+    ("ex x. x > 0 and x^4 + a*x^3 + b*x^2 + c*x + d = 0", 14),
+    ("all x. x^4 + p*x^2 + q*x + r > 0", 5),
+    ("all x. 0 <= x and x <= 1 -> a*x^4 + b*x^3 + c*x^2 + d*x + k > 0", 18),
+    ("ex x. x^4 + p*x^2 + q*x + r = 0 and x^2 + s*x + t < 0", 22),
 )
 def test_questions_about_quartics_have_short_answers(text: str, most: int) -> None:
     found = qe.eliminate(text, process=False)

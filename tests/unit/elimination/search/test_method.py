@@ -1,7 +1,5 @@
 """Boolean search: points that hold, refutations that others confirm, reasons that suffice, the solver absent."""
 
-from __future__ import annotations
-
 import signal
 import sys
 from collections.abc import Sequence
@@ -37,6 +35,7 @@ from qe.io.text import read
 from qe.options import Budget, Options, Stage
 from qe.proof.run_log import RunLog
 from qe.rules.lift import holds_at
+from tests.tables import each
 
 pytest.importorskip("pysat")
 
@@ -175,7 +174,7 @@ def test_an_error_while_the_solver_calls_ends_the_search() -> None:
         found_point(body, Context(Options(), Budget(60, work=0), RunLog(), decide))
 
 
-@pytest.mark.parametrize("call", ["on_assignment", "on_new_level", "propagate", "check_model", "has_clause"])
+@each("on_assignment", "on_new_level", "propagate", "check_model", "has_clause")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGALRM])
 def test_a_signal_in_any_call_of_the_solver_ends_the_search(call: str, number: signal.Signals) -> None:
     """Ctrl-C was lost where it came in a call that only takes note of something: the search went on to its end."""
@@ -257,10 +256,7 @@ def many(count: int, last: str) -> Formula:
     return read(f"ex x, y, z. {' and '.join(cases)} and {last}")
 
 
-@pytest.mark.parametrize(
-    ("last", "truth"),
-    [("x < 1 and y > 20", True), ("x < 1 and y < 1 and z = 1", False), ("x < 1 and y < 1 and z = 40 - y", True)],
-)
+@each(("x < 1 and y > 20", True), ("x < 1 and y < 1 and z = 1", False), ("x < 1 and y < 1 and z = 40 - y", True))
 def test_many_choices(last: str, truth: bool) -> None:
     sentence = many(14, last)
     answer = qe.eliminate(sentence, timeout=120)

@@ -1,7 +1,5 @@
 """An independent decision of formulas in one variable: try all roots and a number between each two."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import pairwise
 

@@ -1,10 +1,6 @@
 """Elimination of blocks: named cases with known answers."""
 
-from __future__ import annotations
-
 from fractions import Fraction
-
-import pytest
 
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.candidates import bounds, in_order
@@ -22,6 +18,7 @@ from qe.io.text import read
 from qe.options import Budget
 from qe.simplify.facts import NOTHING
 from qe.simplify.simplify import simplify
+from tests.tables import each
 
 
 def run(text: str) -> BlockResult:
@@ -47,9 +44,7 @@ def agree(found: Formula, expected: str, values: tuple[Fraction | int, ...] = GR
         assert holds_at(found, point) == holds_at(wanted, point), point
 
 
-@pytest.mark.parametrize(
-    "problem", ["(a*x = b and x > 1 and x < 2 or x = 5) and x < c", "(a*x = b and x > 1 or a*x = 1) and x < 4"]
-)
+@each("(a*x = b and x > 1 and x < 2 or x = 5) and x < c", "(a*x = b and x > 1 or a*x = 1) and x < 4")
 def test_where_the_finitely_many_solutions_of_an_alternative_degenerate_its_other_conjuncts_still_begin_to_hold(
     problem: str,
 ) -> None:
@@ -59,38 +54,35 @@ def test_where_the_finitely_many_solutions_of_an_alternative_degenerate_its_othe
     assert not holds_at(found, {"a": 0, "b": 1, "c": 3})
 
 
-@pytest.mark.parametrize(
-    ("problem", "answer"),
-    [
-        ("ex x. x^2 + b*x + c = 0", "b^2 - 4*c >= 0"),
-        ("ex x. a*x^2 + b*x + c = 0", "a /= 0 and b^2 - 4*a*c >= 0 or a = 0 and (b /= 0 or c = 0)"),
-        (
-            "ex x. a*x + b = 0 and c*x + d > 0",
-            "a > 0 and a*d - b*c > 0 or a < 0 and a*d - b*c < 0 or a = 0 and b = 0 and (c /= 0 or d > 0)",
-        ),
-        ("ex x, y. x^2 + y^2 = 1 and y = a*x + b", "a^2 - b^2 + 1 >= 0"),
-        ("ex u, v. x = u*v and y = v and z = u^2", "y /= 0 and y^2*z = x^2 or y = 0 and x = 0 and z >= 0"),
-        ("ex x. x > a and x < b and x /= c", "a < b"),
-        ("ex x. x >= a and x <= b and x /= c", "a < b or a = b and a /= c"),
-        ("ex x. x^4 - a = 0 and x^2 > 1", "a > 1"),
-        ("ex x. x^2 = a and x^2 /= b", "a >= 0 and a /= b"),
-        ("ex x. x^3 = a and x^3 < b", "a < b"),
-        ("ex x. (x - a)*(x - b)*(x - c) > 0 and x < 0", LOWEST_PAIR),
-        ("ex x. (x - a)*(x - b) < 0 and x > 1", "(a < b or b < a) and (a > 1 or b > 1)"),
-        ("ex x. (x = a or x = b) and x > c", "a > c or b > c"),
-        ("ex x. (a*x = 1 or b*x = 2) and x > 3", "a > 0 and 3*a < 1 or b > 0 and 3*b < 2"),
-        ("ex x. (a*x = b or x = 2) and x > 3", "a > 0 and b > 3*a or a < 0 and b < 3*a or a = 0 and b = 0"),
-        ("ex x. a > 0", "a > 0"),
-        ("ex x, y. x > y", "true"),
-        ("ex x, y. x + z + a*x <= 100 and y > x", "true or a = 0"),
-        ("ex x. x + z + a*x <= 100", "a /= -1 or z <= 100"),
-        ("ex x. not (x >= a or x <= b)", "b < a"),
-        ("ex x. a*x^2 <= 0 and b*x = 1", "b /= 0 and a <= 0"),
-        ("ex x, y. x*y = 1 and x + y = a", "a^2 >= 4"),
-        ("ex x. x^2 + a <= 0 and x >= b", "a <= 0 and (b <= 0 or b^2 + a <= 0)"),
-        ("ex x. x^2 + a < 0 and x > b", "a < 0 and (b < 0 or b^2 + a < 0)"),
-        ("ex x. a*x^2 + x < 0 and a*x^2 + x + 1 > 0 and x > 0", "a < 0"),
-    ],
+@each(
+    ("ex x. x^2 + b*x + c = 0", "b^2 - 4*c >= 0"),
+    ("ex x. a*x^2 + b*x + c = 0", "a /= 0 and b^2 - 4*a*c >= 0 or a = 0 and (b /= 0 or c = 0)"),
+    (
+        "ex x. a*x + b = 0 and c*x + d > 0",
+        "a > 0 and a*d - b*c > 0 or a < 0 and a*d - b*c < 0 or a = 0 and b = 0 and (c /= 0 or d > 0)",
+    ),
+    ("ex x, y. x^2 + y^2 = 1 and y = a*x + b", "a^2 - b^2 + 1 >= 0"),
+    ("ex u, v. x = u*v and y = v and z = u^2", "y /= 0 and y^2*z = x^2 or y = 0 and x = 0 and z >= 0"),
+    ("ex x. x > a and x < b and x /= c", "a < b"),
+    ("ex x. x >= a and x <= b and x /= c", "a < b or a = b and a /= c"),
+    ("ex x. x^4 - a = 0 and x^2 > 1", "a > 1"),
+    ("ex x. x^2 = a and x^2 /= b", "a >= 0 and a /= b"),
+    ("ex x. x^3 = a and x^3 < b", "a < b"),
+    ("ex x. (x - a)*(x - b)*(x - c) > 0 and x < 0", LOWEST_PAIR),
+    ("ex x. (x - a)*(x - b) < 0 and x > 1", "(a < b or b < a) and (a > 1 or b > 1)"),
+    ("ex x. (x = a or x = b) and x > c", "a > c or b > c"),
+    ("ex x. (a*x = 1 or b*x = 2) and x > 3", "a > 0 and 3*a < 1 or b > 0 and 3*b < 2"),
+    ("ex x. (a*x = b or x = 2) and x > 3", "a > 0 and b > 3*a or a < 0 and b < 3*a or a = 0 and b = 0"),
+    ("ex x. a > 0", "a > 0"),
+    ("ex x, y. x > y", "true"),
+    ("ex x, y. x + z + a*x <= 100 and y > x", "true or a = 0"),
+    ("ex x. x + z + a*x <= 100", "a /= -1 or z <= 100"),
+    ("ex x. not (x >= a or x <= b)", "b < a"),
+    ("ex x. a*x^2 <= 0 and b*x = 1", "b /= 0 and a <= 0"),
+    ("ex x, y. x*y = 1 and x + y = a", "a^2 >= 4"),
+    ("ex x. x^2 + a <= 0 and x >= b", "a <= 0 and (b <= 0 or b^2 + a <= 0)"),
+    ("ex x. x^2 + a < 0 and x > b", "a < 0 and (b < 0 or b^2 + a < 0)"),
+    ("ex x. a*x^2 + x < 0 and a*x^2 + x + 1 > 0 and x > 0", "a < 0"),
 )
 def test_known_answers(problem: str, answer: str) -> None:
     result = run(problem)
@@ -106,32 +98,26 @@ def test_a_sphere_and_a_plane() -> None:
     agree(result.formula, "a^2 + b^2 > 1")
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x. x^2 < 0",
-        "ex x. x > 0 and x < 0",
-        "ex x, y. x^2 + y^2 < 0",
-        "ex x, y. x > y and y > x + 1",
-        "ex x, y. x^2 + y^2 = 1 and x + y >= 2",
-    ],
+@each(
+    "ex x. x^2 < 0",
+    "ex x. x > 0 and x < 0",
+    "ex x, y. x^2 + y^2 < 0",
+    "ex x, y. x > y and y > x + 1",
+    "ex x, y. x^2 + y^2 = 1 and x + y >= 2",
 )
 def test_unsatisfiable(text: str) -> None:
     assert run(text).formula == FALSE
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x, y. x^2 + y^2 < 1 and x + y > 1",
-        "ex x, y. x^2 = 2 and y^2 = x + 1",
-        "ex x, y, z. x*y = 1 and y*z = 2 and x + z = 5",
-        "ex x, y, z. x^2 + y^2 + z^2 = 1 and x = y and z = 2*x",
-        "ex x, y. x > 1000 and y > x^2",
-        "ex x, y. x^4 = y^2 and y > 5 and x < 0",
-        "ex x, y. (x < -3 or x > 7) and y^2 < x",
-        "ex x. x^3 = 5 and x > 0",
-    ],
+@each(
+    "ex x, y. x^2 + y^2 < 1 and x + y > 1",
+    "ex x, y. x^2 = 2 and y^2 = x + 1",
+    "ex x, y, z. x*y = 1 and y*z = 2 and x + z = 5",
+    "ex x, y, z. x^2 + y^2 + z^2 = 1 and x = y and z = 2*x",
+    "ex x, y. x > 1000 and y > x^2",
+    "ex x, y. x^4 = y^2 and y > 5 and x < 0",
+    "ex x, y. (x < -3 or x > 7) and y^2 < x",
+    "ex x. x^3 = 5 and x > 0",
 )
 def test_witnesses_satisfy(text: str) -> None:
     from tests.property.test_vs import check_witness
@@ -194,20 +180,17 @@ def test_settled_atoms_lose_only_the_zero_case() -> None:
     agree(short, "a > b")
 
 
-@pytest.mark.parametrize(
-    ("text", "alone"),
-    [
-        ("x^2 - a <= 0 and x > b", True),
-        ("x^2 - a <= 0 and x^2 - a /= 0 and x > b", True),
-        ("a*x^2 - 1 < 0 and a*x^2 - 1 > 0 and (x > b or x = 1)", True),
-        ("x^2 - a <= 0 and x^2 - a >= 0 and x > b", False),
-        ("x^2 - a = 0 or x > b", False),
-        ("(x^2 - a)*(x - b) < 0", False),
-        ("x^2 - a < 0 and x^2 - b < 0", False),
-        ("(x^2 - a)^2 > 0", False),
-        ("x > b", False),
-        ("x^3 - a < 0 and x^2 < b", False),
-    ],
+@each(
+    ("x^2 - a <= 0 and x > b", True),
+    ("x^2 - a <= 0 and x^2 - a /= 0 and x > b", True),
+    ("a*x^2 - 1 < 0 and a*x^2 - 1 > 0 and (x > b or x = 1)", True),
+    ("x^2 - a <= 0 and x^2 - a >= 0 and x > b", False),
+    ("x^2 - a = 0 or x > b", False),
+    ("(x^2 - a)*(x - b) < 0", False),
+    ("x^2 - a < 0 and x^2 - b < 0", False),
+    ("(x^2 - a)^2 > 0", False),
+    ("x > b", False),
+    ("x^3 - a < 0 and x^2 < b", False),
 )
 def test_lone_quadratic(text: str, alone: bool) -> None:
     matrix = read(text)
@@ -215,20 +198,17 @@ def test_lone_quadratic(text: str, alone: bool) -> None:
     assert (lone_quadratic(matrix, ring.index["x"]) is not None) == alone
 
 
-@pytest.mark.parametrize(
-    ("text", "size"),
-    [
-        ("x^2 - a <= 0 and x^2 - 2*x - b < 0 and x > c", 2),
-        ("a - x^2 >= 0 and (a^2 + 1)*x^2 - b < 0", 2),
-        ("x^2 - a <= 0 and x^2 - b >= 0", 1),
-        ("x^2 - a <= 0 and (x^2 - a < 0 or x > b)", 0),
-        ("x^2 - a <= 0 and (x^2 - b < 0 or x > b)", 1),
-        ("a*x^2 - 1 <= 0", 0),
-        ("a > 0 and a*x^2 - 1 <= 0", 1),
-        ("x^2 - a <= 0 or x^2 - b <= 0", 0),
-        ("x^2 - 1 <= 0", 0),
-        ("x^2 - a = 0 and x^2 - b /= 0", 0),
-    ],
+@each(
+    ("x^2 - a <= 0 and x^2 - 2*x - b < 0 and x > c", 2),
+    ("a - x^2 >= 0 and (a^2 + 1)*x^2 - b < 0", 2),
+    ("x^2 - a <= 0 and x^2 - b >= 0", 1),
+    ("x^2 - a <= 0 and (x^2 - a < 0 or x > b)", 0),
+    ("x^2 - a <= 0 and (x^2 - b < 0 or x > b)", 1),
+    ("a*x^2 - 1 <= 0", 0),
+    ("a > 0 and a*x^2 - 1 <= 0", 1),
+    ("x^2 - a <= 0 or x^2 - b <= 0", 0),
+    ("x^2 - 1 <= 0", 0),
+    ("x^2 - a = 0 and x^2 - b /= 0", 0),
 )
 def test_convex_family(text: str, size: int) -> None:
     matrix = read(text)

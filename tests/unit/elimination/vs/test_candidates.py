@@ -1,19 +1,16 @@
 """Test points of atoms: those of a degree stand only where the coefficient of that degree is not 0."""
 
-from __future__ import annotations
-
 from itertools import product
-
-import pytest
 
 import qe
 from qe.formula.evaluate import holds_at
+from tests.tables import each
 
 NAMES = ("b", "c", "d", "g")
 
 
-@pytest.mark.parametrize("relation", ["<=", ">=", "<", "=", "/="])
-@pytest.mark.parametrize("lead", ["a*x^2", "a*x^3"])
+@each("<=", ">=", "<", "=", "/=")
+@each("a*x^2", "a*x^3")
 def test_where_the_leading_coefficient_vanishes_it_is_as_if_the_term_were_not_there(lead: str, relation: str) -> None:
     """A root with 0 under its fraction turned every weak condition into 0 >= 0, which was true."""
     rest = f"b*x + c {relation} 0 and x >= d and x <= g"

@@ -1,7 +1,5 @@
 """Sign conditions at roots of cubics against the roots themselves."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator
 from fractions import Fraction
@@ -24,6 +22,7 @@ from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.options import Budget
 from qe.simplify.simplify import simplify
+from tests.tables import each
 from tests.unit.elimination.vs.line import satisfiable, specialise
 
 RING = Ring.of(("q", "u", "v", "w", "x"))
@@ -89,7 +88,7 @@ def test_factors_that_may_vanish(roots: tuple[int, int, int]) -> None:
                 assert found is (any(at) if index == SOME else at[index - 1]), (g, relation, index, here, a)
 
 
-@pytest.mark.parametrize("lead", [1, -3])
+@each(1, -3)
 def test_one_real_root(lead: int) -> None:
     for real, middle, square in ((-1, 0, 1), (0, 1, 2), (2, 2, 1), (1, -1, 1)):
         quadratic = (X - middle) ** 2 + square
@@ -104,7 +103,7 @@ def test_one_real_root(lead: int) -> None:
 LETTERS = Ring.of(("a", "b", "c", "d", "u", "v", "w", "x"))
 
 
-@pytest.mark.parametrize("text", ["u*x^2 + v*x + w = 0", "v*x^4 - x + u*w = 0", "u*(3*a*x^2 + 2*b*x + c) = 0"])
+@each("u*x^2 + v*x + w = 0", "v*x^4 - x + u*w = 0", "u*(3*a*x^2 + 2*b*x + c) = 0")
 @pytest.mark.parametrize("relation", Relation)
 def test_all_coefficients_as_letters(text: str, relation: Relation) -> None:
     """The formulas with letters, at numbers for them, against the value at the root."""
@@ -137,7 +136,7 @@ CASES = [
 any g is one of these (or f = x^3) up to a translation, positive factors of x and g, and the mirror (x3 becomes x1)."""
 
 
-@pytest.mark.parametrize(("square", "p", "q", "relation"), CASES)
+@each(*CASES)
 def test_decomposition_proves_the_table(square: int | None, p: int, q: Poly, relation: Relation) -> None:
     """There are no cubic and no quadratic polynomial for which the formula and the value at the root differ."""
     u = RING.gen(1) if square is None else RING.constant(square)
@@ -150,16 +149,13 @@ def test_decomposition_proves_the_table(square: int | None, p: int, q: Poly, rel
         assert qe.decide(question, without="cubic") is False
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("x > q", True),
-        ("x > q and u > 0 or x < w and v = 1", True),
-        ("x > q and x < u", False),
-        ("u > 0 and (x > q or (x < u and x < v))", False),
-        ("x > q and x^3 = v*x + w", True),
-        ("x > q and x^3 > v*x + u", True),
-    ],
+@each(
+    ("x > q", True),
+    ("x > q and u > 0 or x < w and v = 1", True),
+    ("x > q and x < u", False),
+    ("u > 0 and (x > q or (x < u and x < v))", False),
+    ("x > q and x^3 = v*x + w", True),
+    ("x > q and x^3 > v*x + u", True),
 )
 def test_what_asks_one_thing_of_a_root(text: str, expected: bool) -> None:
     """Of x^3 = v*x + w: what is constant there counts as nothing."""

@@ -1,7 +1,5 @@
 """Solutions near infinity first: (exists x. F) iff F(-oo) or F(+oo) or what remains, which has a lower degree."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -15,14 +13,12 @@ from qe.formula.traverse import polynomials as polynomials_of
 from qe.io.text import read
 from qe.options import Budget
 from tests.strategies import formulas, polynomials
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    ("text", "solutions"),
-    [
-        ("a*x^3 + b*x + c < 0", "a /= 0 or b /= 0 or c < 0"),
-        ("a*x^5 + b*x^2 + c <= 0 and x /= d", "a /= 0 or b < 0 or b = 0 and c <= 0"),
-    ],
+@each(
+    ("a*x^3 + b*x + c < 0", "a /= 0 or b /= 0 or c < 0"),
+    ("a*x^5 + b*x^2 + c <= 0 and x /= d", "a /= 0 or b < 0 or b = 0 and c <= 0"),
 )
 def test_odd_degrees(text: str, solutions: str) -> None:
     found = far_first("x", read(text), budget=Budget())
@@ -32,14 +28,14 @@ def test_odd_degrees(text: str, solutions: str) -> None:
         assert "x" not in p.ring.index or p.degree(p.ring.index["x"]) <= 2
 
 
-@pytest.mark.parametrize("text", ["x^3 + a*x + b < 0", "x^4 + a*x > b and x < c", "x^5 + a*x /= 0"])
+@each("x^3 + a*x + b < 0", "x^4 + a*x > b and x < c", "x^5 + a*x /= 0")
 def test_what_holds_far_out_whatever_the_parameters_are(text: str) -> None:
     far = far_first("x", read(text), budget=Budget())
     assert far is not None
     assert (far.solutions, far.rest) == (TRUE, FALSE)
 
 
-@pytest.mark.parametrize("text", ["x^3 + a*x + b = 0", "a*x^4 + b*x + c < 0", "a*x^3 + b*x + c = 0", "a*x^2 + b < 0"])
+@each("x^3 + a*x + b = 0", "a*x^4 + b*x + c < 0", "a*x^3 + b*x + c = 0", "a*x^2 + b < 0")
 def test_where_the_degree_does_not_fall(text: str) -> None:
     assert far_first("x", read(text), budget=Budget()) is None
 
@@ -79,7 +75,7 @@ def test_the_parts_are_equivalent_to_the_block(rest: Poly, side: Formula, relati
         assert not qe.decide(exists(["a"], different), timeout=60)
 
 
-@pytest.mark.parametrize("lead", ["a", "a*(2*a - 1)", "a^2*(a + 1)", "a*(a^2 - 2)", "a^2 + a"])
+@each("a", "a*(2*a - 1)", "a^2*(a + 1)", "a*(a^2 - 2)", "a^2 + a")
 @pytest.mark.parametrize("rest", ["a*x^2 - x", "x^2 + a*x + 1", "-x^2 - 2"])
 def test_the_degree_falls_or_nothing_is_said(lead: str, rest: str) -> None:
     """A leading coefficient that is a product was put beside the block and not into it: the same block, for ever."""

@@ -1,9 +1,5 @@
 """Virtual substitution as a method: what suits it, its answers, what it leaves, and values that it finds."""
 
-from __future__ import annotations
-
-import pytest
-
 from qe.certify.verify import verify
 from qe.elimination.protocol import Context, Outcome, witness_of
 from qe.elimination.vs.method import VirtualSubstitution
@@ -11,6 +7,7 @@ from qe.formula.block import Block
 from qe.io.text import read
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
+from tests.tables import each
 
 METHOD = VirtualSubstitution()
 
@@ -31,10 +28,7 @@ def test_what_suits() -> None:
     assert METHOD.suits(problem("ex x. all y. x < y^2"), Options()) is None
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [("ex x. x > a and x < b", "a - b < 0"), ("all x. x < a or x > b", "a - b > 0"), ("all x. x^2 > a", "a < 0")],
-)
+@each(("ex x. x > a and x < b", "a - b < 0"), ("all x. x < a or x > b", "a - b > 0"), ("all x. x^2 > a", "a < 0"))
 def test_answers_with_parameters(text: str, answer: str) -> None:
     found, log = run(text)
     assert str(found.formula) == answer and found.witness is None

@@ -1,7 +1,5 @@
 """Guarded terms: wherever a guard holds, the values found satisfy the body; elsewhere there are none."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 
@@ -16,18 +14,16 @@ from qe.io.text import read
 from qe.options import Budget
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
+from tests.tables import each
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "ex x. a*x = b",
-        "ex x. x > a and x < b",
-        "ex x. x^2 = a and x > b",
-        "ex x, y. x + y = a and x - y > b and y >= 0",
-        "all x. a*x > b",
-        "ex x. a*x^2 + x < b",
-    ],
+@each(
+    "ex x. a*x = b",
+    "ex x. x > a and x < b",
+    "ex x. x^2 = a and x > b",
+    "ex x, y. x + y = a and x - y > b and y >= 0",
+    "all x. a*x > b",
+    "ex x. a*x^2 + x < b",
 )
 def test_values_at_every_parameter(text: str) -> None:
     block = read(text)
@@ -59,14 +55,11 @@ def test_terms_and_errors() -> None:
         bounded[0].at({"a": -1})
 
 
-@pytest.mark.parametrize(
-    ("text", "kind", "said"),
-    [
-        ("true", InputError, "true as it stands"),
-        ("x > 0", InputError, "begins with one quantifier"),
-        ("ex x. all y. y*x > a", InputError, "quantifier-free body"),
-        ("ex x. x^5 + x^3 + a*x = 1", DegreeTooHigh, "does not eliminate x"),
-    ],
+@each(
+    ("true", InputError, "true as it stands"),
+    ("x > 0", InputError, "begins with one quantifier"),
+    ("ex x. all y. y*x > a", InputError, "quantifier-free body"),
+    ("ex x. x^5 + x^3 + a*x = 1", DegreeTooHigh, "does not eliminate x"),
 )
 def test_what_is_refused(text: str, kind: type[Exception], said: str) -> None:
     with pytest.raises(kind, match=said):

@@ -1,15 +1,12 @@
 """The choice of the next variable and of its elimination set."""
 
-from __future__ import annotations
-
-import pytest
-
 from qe.elimination.vs.plan import Plan, choose, occurring, split_equation
 from qe.elimination.vs.points import Infinity, LinearRoot
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.io.text import read
+from tests.tables import each
 
 RING = Ring.of("abcxyz")
 
@@ -39,9 +36,7 @@ def test_an_equation_that_may_vanish_leaves_a_problem() -> None:
     assert str(found.degenerate) in ("a = 0 and b = 0 and c - x^2 > 0", "a = 0 and b = 0 and x^2 - c < 0")
 
 
-@pytest.mark.parametrize(
-    ("text", "side", "count"), [("x > a and x > b and x < c", 1, 1), ("x < a and x < b and x > c", -1, 1)]
-)
+@each(("x > a and x > b and x < c", 1, 1), ("x < a and x < b and x > c", -1, 1))
 def test_the_side_with_fewer_bounds(text: str, side: int, count: int) -> None:
     found = plan(text)
     assert found is not None and len(found.candidates) == count and found.infinities == (Infinity(side),)

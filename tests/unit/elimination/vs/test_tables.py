@@ -1,7 +1,5 @@
 """Each row of the substitution tables against the numbers themselves."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

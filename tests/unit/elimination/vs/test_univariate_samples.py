@@ -1,7 +1,5 @@
 """Solutions on a line over fixed values of the other variables."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest
@@ -13,25 +11,23 @@ from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.formula.evaluate import holds_at
 from qe.io.text import read
+from tests.tables import each
 
 ROOT2 = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
-@pytest.mark.parametrize(
-    ("text", "values", "found"),
-    [
-        ("x > a and x < a + 3", {"a": Fraction(-1)}, 0),
-        ("x^2 = 2 and x < 0", {}, -ROOT2),
-        ("x = a", {"a": ROOT2}, ROOT2),
-        ("x^2 = a and x > 0 and a > 0", {"a": Fraction(4)}, 2),
-        ("x^2 = a and x > 0 and a < 0", {"a": Fraction(4)}, None),
-        ("x^2 < 0", {}, None),
-        ("a*x > 1 and a*x < 1", {"a": ROOT2}, None),
-        ("a*x^2 >= 0 and x > 0 and a^2 = 2", {"a": ROOT2}, 1),
-        ("a*x^2 >= 0 and a^2 /= 2", {"a": ROOT2}, None),
-        ("x > a and x < b", {"a": ROOT2, "b": ROOT2 + Fraction(1, 10**12)}, "between"),
-        ("x = 5", {"x": Fraction(7)}, 5),
-    ],
+@each(
+    ("x > a and x < a + 3", {"a": Fraction(-1)}, 0),
+    ("x^2 = 2 and x < 0", {}, -ROOT2),
+    ("x = a", {"a": ROOT2}, ROOT2),
+    ("x^2 = a and x > 0 and a > 0", {"a": Fraction(4)}, 2),
+    ("x^2 = a and x > 0 and a < 0", {"a": Fraction(4)}, None),
+    ("x^2 < 0", {}, None),
+    ("a*x > 1 and a*x < 1", {"a": ROOT2}, None),
+    ("a*x^2 >= 0 and x > 0 and a^2 = 2", {"a": ROOT2}, 1),
+    ("a*x^2 >= 0 and a^2 /= 2", {"a": ROOT2}, None),
+    ("x > a and x < b", {"a": ROOT2, "b": ROOT2 + Fraction(1, 10**12)}, "between"),
+    ("x = 5", {"x": Fraction(7)}, 5),
 )
 def test_solutions(text: str, values: dict[str, Fraction | RealAlgebraic], found: object) -> None:
     value = solution(read(text), "x", values)
