@@ -1,10 +1,13 @@
 """Triangular points and fibres over them, on cases with known answers."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
 import pytest
 from flint import acb, arb
+from hypothesis import given
+from hypothesis import strategies as st
 
 from qe.errors import InternalError
 from qe.exact.ring import Poly, Ring
@@ -12,7 +15,7 @@ from qe.formula.build import convert
 from qe.io.text import read
 from qe.kernel.arithmetic.fibre import AlgebraicFibre, SimplePart, fibre, lazard_evaluation, values
 from qe.kernel.arithmetic.sturm import count_real_roots, real_among
-from qe.kernel.arithmetic.triangular import ORIGIN, Coordinate, Point
+from qe.kernel.arithmetic.triangular import ORIGIN, Coordinate, Point, pseudo_remainder
 from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
@@ -149,3 +152,26 @@ def test_real_roots_are_counted(roots: int) -> None:
             q = p.to_univariate(0)
             assert count_real_roots(q) == roots == count_real_roots(-q)
             assert count_real_roots(q * q) == roots
+
+
+@given(
+    st.sampled_from([(SQRT2, 1), (FOURTH, 2), (SPLIT, 2)]),
+    st.lists(st.integers(-3, 3), min_size=4, max_size=30),
+    st.sampled_from([(0, 1), (-2, 1), (-3, 0, 0, 1), (1, -1), (-2,)]),
+    st.integers(-2, 2),
+)
+def test_a_remainder_has_the_sign_that_is_said_at_a_root_of_the_divisor(
+    over: tuple[Point, int], numbers: list[int], lead: tuple[int, ...], root: int
+) -> None:
+    """The divisor is lead * (v - root) for the variable v of the fibre."""
+    at, i = over
+    v, zero = RING.gen(i), RING.constant(0)
+
+    def in_x(given: Sequence[int]) -> Poly:
+        return sum((c * RING.gen(0) ** k for k, c in enumerate(given)), zero)
+
+    a = sum((in_x(numbers[k : k + 3]) * v ** (k // 3) for k in range(0, len(numbers), 3)), zero)
+    b = in_x(lead) * (v - root)
+    r, s = pseudo_remainder(at, a, b, i)
+    assert abs(s) == 1 and r.degree(i) == 0
+    assert at.sign(r) == s * at.sign(a.at_rational(i, Fraction(root)))
