@@ -284,7 +284,7 @@ def test_a_certificate_that_says_not_attained_without_a_proof_is_rejected() -> N
     inner = {"field": field, "point": [["1"], ["1/8"]]}
     rim = {"point": [["0"], ["0"]], "values": [["0"], ["0"], ["-1"]], "unique": False}
     verdict = _claim("x", "x >= 0 and y > 0 and 4*y < 1", **rim, attained=False, inner=inner)
-    assert not verdict.accepted and verdict.step == f"{PLACE}.attained" and "not proved" in verdict.reason
+    assert not verdict.accepted and verdict.step == f"{PLACE}.links" and "positive multiplier" in verdict.reason
     verdict = _claim("x", "x >= 0 and y > 0 and 4*y < 1", **rim)
     assert not verdict.accepted and verdict.step == f"{PLACE}.attained"
 
