@@ -230,6 +230,15 @@ def solved() -> tuple[Problem, Plane, qe.Region]:
     return given, plane, whole_curve.region(given, plane, timeout=100)
 
 
+def test_the_planar_region_of_whole_curves_keeps_its_derivation(root: Path) -> None:
+    """It was lost unnoticed: a decomposition of the whole question does not end, one for each of its pieces does."""
+    given = read_problem((root / "examples" / "cubic_joins.toml").read_text())
+    question = str(whole_curve.statement(given, Plane.through(given)))
+    answer = qe.eliminate(question, check=True, process=False)
+    assert answer.guarantee is qe.Guarantee.CHECKED and not answer.unchecked_steps
+    assert len(str(answer.formula)) < 4_000
+
+
 def inside(given: Problem, plane: Plane, u: Fraction, v: Fraction) -> bool:
     """Whether the whole curves stay in the workspace, by ``bezier.curves.containment``."""
     system = quadratic.system(given)
