@@ -75,6 +75,7 @@ def notes(comparison: Comparison) -> list[str]:
         lines.append("with that choice the path stops and turns round at both joins; the objective rules it out")
     lines += [f"planar region of {name}: {r.reason}" for name, r in planar.named.items() if r.region and r.reason]
     lines += [f"{name}: not finished, {reason}" for name, reason in comparison.unfinished.items()]
+    lines += [f"derivation of {name}: not every step checked: {why}" for name, why in comparison.unproved.items()]
     return lines
 
 
@@ -157,6 +158,7 @@ def to_json(comparison: Comparison, files: list[str]) -> dict[str, Any]:
             "witness": comparison.existence.witness,
         },
         "unfinished": dict(comparison.unfinished),
+        "unproved": dict(comparison.unproved),
         "files": files,
         "seconds": {name: round(s, 6) for name, s in comparison.seconds.items()},
     }

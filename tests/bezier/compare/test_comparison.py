@@ -142,6 +142,13 @@ def test_every_form_shows_them_and_says_why_the_rest_is_missing(found):
     assert any(line.startswith("planar region of (8*): not finished") for line in notes(found))
 
 
+def test_what_has_no_proof_is_said_in_every_form(found):
+    without = replace(found, unproved={"the planar region of (8*)": "time limit"})
+    assert "derivation of the planar region of (8*): not every step checked: time limit" in notes(without)
+    assert to_json(without, [])["unproved"] == {"the planar region of (8*)": "time limit"}
+    assert "not every step checked: time limit" in render(without, {})
+
+
 def test_a_part_gets_its_share_and_leaves_the_others_theirs():
     seen: list[float] = []
 
