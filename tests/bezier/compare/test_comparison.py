@@ -6,6 +6,7 @@ import doctest
 import json
 import random
 import time
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -58,8 +59,6 @@ def test_a_cubic_problem_for_the_quadratic_method() -> None:
 
 
 def test_other_methods_are_refused() -> None:
-    from dataclasses import replace
-
     from bezier.compare.comparison import compare
 
     with pytest.raises(InputError, match="quadratic"):
