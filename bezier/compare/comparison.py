@@ -41,9 +41,9 @@ PAPER = {PlanMethod.QUADRATIC: "about 15.4 s", PlanMethod.CUBIC: "has not yet be
 NUMBERS = {PlanMethod.QUADRATIC: "(8):", PlanMethod.CUBIC: "(7):"}
 """What the labels of the certificates of a plan begin with."""
 
-COMPARE_SECONDS, PROOF_SECONDS = 28.0, 16.0
-"""Processor time that the comparison may take without a limit of the caller, and seconds for all derivations together;
-what is not finished then is left out, and the comparison says so."""
+COMPARE_SECONDS, PROOF_SECONDS, LEAST_PROOF_SECONDS = 28.0, 16.0, 4.0
+"""Processor time that the comparison may take without a limit of the caller, and seconds for all derivations together,
+at most and at least; what is not finished then is left out, and the comparison says so."""
 PATIENCE = 20
 """A region may wait for the processor so many times as long as it may have it."""
 OUTPUT_SHARE = 0.15
@@ -203,13 +203,15 @@ class _Parts:
     begin: float = field(default_factory=processor_time)
 
     def take(self, name: str, share: int, work: Callable[[float], Found], most: float | None = None) -> Found | None:
-        """The result of a part, which gets one part in ``share`` of the time asked for; where none is asked for,
-        ``most`` seconds, or what is left of ``COMPARE_SECONDS``. None, with the reason noted."""
+        """The result of a part, which gets one part in ``share`` of the time asked for; where none is asked for, what
+        is left of ``COMPARE_SECONDS``, within the bounds for derivations where ``most`` is one of them. None, with the
+        reason noted."""
         try:
             with self.clock.step(name):
                 remaining = self.clock.remaining(name)
                 if remaining is None:
-                    return work(most or max(0.1, COMPARE_SECONDS - (processor_time() - self.begin)))
+                    left = COMPARE_SECONDS - (processor_time() - self.begin)
+                    return work(max(0.1, left) if most is None else max(LEAST_PROOF_SECONDS, min(left, most)))
                 return work(remaining * (1 - OUTPUT_SHARE) / share)
         except Unable as error:
             self.unfinished[name] = str(error)
