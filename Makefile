@@ -38,8 +38,8 @@ $(BIN)/experiments: Makefile | $(CORE)
 		'exec "$$(dirname "$$0")/python" -m experiments "$$@"' > $@
 	@chmod +x $@
 
-$(DOCS): $(DEV)
-	$(PIP) install --editable '.[docs]'
+$(DOCS): $(CORE)
+	$(PIP) install --editable '.[docs,squares]'
 	@touch $@
 
 setup: $(DEV) ## create .venv with every dependency

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import shutil
+import subprocess
+import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -21,7 +24,7 @@ extensions = [
     "sphinx_copybutton",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["gallery/*.ipynb", "gallery/*.py", "gallery/*.json", "gallery/*.zip", "sg_execution_times.rst"]
+exclude_patterns = ["notes/*", "gallery/*.ipynb", "gallery/*.py", "gallery/*.json", "gallery/*.zip", "sg_execution_times.rst"]
 suppress_warnings = ["config.cache"]
 
 html_show_copyright = False
@@ -76,6 +79,18 @@ def example_of_a_derivation(app: Any, error: Exception | None) -> None:
         (Path(app.outdir) / "derivation_example.html").write_text(answer.derivation.to_html(), "utf-8")
 
 
+def reference_of_commands(app: Any) -> None:
+    """The page of all commands and options, made of the commands themselves."""
+    pages = []
+    for name, module in (("qe", "qe.cli.app"), ("bezier", "bezier.cli.app")):
+        run = [sys.executable, "-m", "typer", module, "utils", "docs", "--name", name]
+        page = subprocess.run(run, capture_output=True, text=True, check=True).stdout
+        pages.append(re.sub(r"^Examples:\n((?:  .*\n)+)", r"**Examples**:\n\n```console\n\1```\n", page, flags=re.M))
+    text = re.sub(r"^#", "##", "\n".join(pages), flags=re.M)
+    (HERE / "commands.md").write_text(f"# The commands\n\n{text}", "utf-8")
+
+
 def setup(app: Any) -> None:
-    """The example is written when the site is."""
+    """The page of the commands is written before the site is, the example after it."""
+    app.connect("builder-inited", reference_of_commands)
     app.connect("build-finished", example_of_a_derivation)

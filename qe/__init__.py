@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from qe.regions.region import Region
     from qe.regions.solutions import Solutions
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 
 _ELSEWHERE = {

@@ -23,7 +23,7 @@ class Service(Enum):
     REGION = "the solution set of a formula"
     REGION_OPERATORS = "the module with the operators of regions"
     PARTIAL_PICTURE = "a picture of an answer in parts"
-    TRUSTS = "what a certificate needs beside the primitives of the kernel"
+    TRUSTS = "what a certificate needs besides the primitives of the kernel"
     THEOREM = "the theorems on which a rule's checker rests"
 
 

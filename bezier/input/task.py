@@ -138,7 +138,7 @@ def _refusal(xs: Values, interval: tuple[Fraction, Fraction]) -> str:
     if a <= xs[1]:
         return f"no p >= 1, since a = {a} is not beyond x_1 = {xs[1]}"
     low, high = next((u, v) for u, v in pairwise(xs) if u < a <= v)
-    return f"no q > p, since no control point has its x between a = {a} and b = {b} (x = {low} and {high} are beside)"
+    return f"no q > p, since no control point has its x between a = {a} and b = {b} (its neighbours have x = {low} and {high})"
 
 
 KEYS = ("degree", "a", "b", "height_y", "height_z", "p", "q")
@@ -175,7 +175,7 @@ def stated_via(table: Table, start: Vector, goal: Vector) -> Via | None:
     if not set(single.values) & {"a", "b", "height_y", "height_z"}:
         return None
     if "via" in table.values:
-        raise table.error("via", "no via points beside a, b and heights in [single]", "both")
+        raise table.error("via", "no via points together with a, b and heights in [single]", "both")
     a, b = single.number("a"), single.number("b")
     axes = [_axis(single, i, start, goal) for i in (1, 2)]
 

@@ -37,7 +37,7 @@ def lines(made: Plan) -> list[str]:
     accepted = all(verdict.accepted for verdict in made.checks.values())
     result.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")
     if made.derivations:
-        result.append(f"derivations: every step checked of {', '.join(made.derivations)}")
+        result.append(f"derivations checked: {', '.join(made.derivations)}")
     result += [f"derivation of {name}: not every step checked: {why}" for name, why in made.unproved.items()]
     return result
 

@@ -51,7 +51,7 @@ def always_satisfiable() -> Iterator[Evidence]:
     )
     some = SEVEN.satisfiable("xyz", LETTERS, "r^2")
     yield decided(
-        "the engine finds this itself, when it is not told the choice",
+        "the engine finds this itself, without being given the choice",
         f"all {block}. {norms} and r >= 0 -> ({some})",
         proved=True,
     )

@@ -50,7 +50,7 @@ def feasible_region_is_convex() -> Iterator[Evidence]:
     verdict=Verdict.CORRECTED,
     finding="As a definition it is reproduced: the ball of this radius is the smallest about $O$ that holds the "
     "given points. But it defeats Method 2 whenever a point to pass is the farthest one, as in the paper's own "
-    "Figure 2: then (7) and (8) force the control points beside it onto it, so that every path stops there, and (8) "
+    "Figure 2: then (7) and (8) force its neighbouring control points onto it, so that every path stops there, and (8) "
     "has no solution if both points to pass are at distance $r$. A slightly larger radius is needed, such as 5 instead "
     "of $\\sqrt{20}$ for Figure 2.",
 )

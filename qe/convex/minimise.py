@@ -97,7 +97,7 @@ def _solved(system: ConvexSystem, state: _State, budget: Budget) -> OptimumEvide
         if isinstance(step, OptimumEvidence):
             return step
         state = step
-    raise InternalError("facial reduction did not shrink the flat")
+    raise InternalError("facial reduction did not shrink the affine hull")
 
 
 def _on_flat(system: ConvexSystem, state: _State, budget: Budget) -> OptimumEvidence | _State:
@@ -243,7 +243,7 @@ def _face(system: ConvexSystem, state: _State, point: Point, weights: dict[int, 
     """The smaller flat that holds the feasible set when the least possible violation is zero."""
     chosen, place = rational_numbers(list(weights.values())), rational_numbers(point)
     if chosen is None or place is None:
-        raise Unable("the constraints touch in an irrational point or flat without common interior")
+        raise Unable("the constraints touch in an irrational point or affine hull without common interior")
     exact: dict[int, Number] = dict(zip(weights, chosen, strict=True))
     full, derived = _with_equations(system, state, place, exact, with_objective=False)
     face = Face(_fractions(full), _fractions(derived), place)
@@ -254,7 +254,7 @@ def _face(system: ConvexSystem, state: _State, point: Point, weights: dict[int, 
     nothing = ((_ZERO,) * size,) * size
     flat = Flat.whole(size).cut(rows + [Quadratic(nothing, e.row, -e.rhs) for e in known])
     if flat is None or len(flat.basis) >= len(state.flat.basis):
-        raise Unable("facial reduction found no smaller flat")
+        raise Unable("facial reduction found no smaller affine hull")
     return replace(state, faces=(*state.faces, face), derived=known, flat=state.frame(flat, system.forms))
 
 
@@ -279,7 +279,7 @@ def _with_equations(
     rows = [system.forms[i].gradient for i in linear] + [e.row for e in state.derived]
     solution = solve_linear([[row[j] for row in rows] for j in range(size)], target, len(rows))
     if solution is None:
-        raise InternalError("stationarity on a flat does not extend to the whole space")
+        raise InternalError("stationarity on an affine hull does not extend to the whole space")
     multipliers: list[Number] = [_ZERO] * len(system.forms)
     for i, w in weights.items():
         multipliers[i] = w

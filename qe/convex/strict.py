@@ -121,7 +121,7 @@ def _strictly_inside(system: ConvexSystem, x: Point, equations: Sequence[Vector]
         if any(r is FormRelation.LT and w for r, w in zip(system.relations, link.weights, strict=True)):
             return _Excluded(tuple(links))
         rows += tangents(link.weights, system.forms, system.relations, x)
-    raise InternalError("the flat of the points that count did not shrink")
+    raise InternalError("the affine hull of the points that count did not shrink")
 
 
 def _vanishes(system: ConvexSystem, i: int, slope: Sequence[Number], directions: Sequence[Vector]) -> bool:
@@ -141,7 +141,7 @@ def _link(
         target = [t - w * s for t, s in zip(target, slopes[i], strict=True)]
     solution = solve_linear([[row[j] for row in rows] for j in range(size)], target, len(rows))
     if solution is None:
-        raise InternalError("stationarity on a flat does not extend to the whole space")
+        raise InternalError("stationarity on an affine hull does not extend to the whole space")
     linear = [i for i, r in enumerate(system.relations) if r is FormRelation.EQ]
     whole: list[Number] = [weights.get(i, _ZERO) for i in range(len(system.forms))]
     for i, m in zip(linear, solution.particular, strict=False):

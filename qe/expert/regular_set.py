@@ -60,7 +60,7 @@ class _Section:
         self.low, self.high = first.sectors[k], first.sectors[k + 1]
         self.members = [table.factors[0][j] for j in first.sections[k]]
         if any(not set(_used(side)) <= set(_used(self.over)) for side in (self.left, self.right)):
-            raise CertificateRejected(path, "a stack over a section has fewer factors than those beside it")
+            raise CertificateRejected(path, "a stack over a section has fewer factors than its neighbours")
 
     def check(self) -> None:
         """Each cell over the section is true iff an open cell beside it is."""

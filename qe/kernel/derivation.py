@@ -67,7 +67,7 @@ class _Replay:
         needed = tuple(formula_from_json(e, ring, quantified=True) for e in used.items())
         for fact, told in zip(needed, used.items(), strict=True):
             if fact not in facts:
-                raise told.fail("this does not stand beside the place of the step")
+                raise told.fail("this is no other condition at the place of the step")
         check_seen(new, changed, context)
         claim = Claim(rule.text(), before, after, ring, evidence, entry.path)
         check_names(claim, needed)

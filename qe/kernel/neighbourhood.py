@@ -53,7 +53,7 @@ class Neighbourhood:
         elif cell.own is None and line.sample.is_alone:
             return Part(cell, first, last, at, used, True, None, None)
         else:
-            raise line.fail(f"{entry}.own", "factors of the line expected: it is asked what holds beside the sample")
+            raise line.fail(f"{entry}.own", "factors of the line expected: what holds around the sample is needed")
         if not self.projection.evaluates:
             own -= line.zero
         is_point = any(own.intersection(section) for section in sections[first // 2 : (last + 1) // 2])
@@ -147,7 +147,7 @@ class Neighbourhood:
         """Each cell begins where the one before ends, or before that, also around the sample."""
         line = self.line
         if any(part.cell.reach is not None and part.cell.own is None for part in parts):
-            raise line.fail("cells", "a cell covers its sample only, and it is asked what holds beside that")
+            raise line.fail("cells", "a cell covers its sample only, and what holds around that is needed")
         if not parts or parts[0].first or parts[-1].last < len(line.signs) - 1:
             raise line.fail("cells", "the line is not covered to its ends")
         for place, (one, other) in enumerate(pairwise(parts)):

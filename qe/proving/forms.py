@@ -32,7 +32,7 @@ def named(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     parts = () if inner is None else conjuncts(inner.body)
     naming = next((part for part in parts if isinstance(part, Atom) and name in part.free), None)
     if inner is None or naming is None:
-        raise claim.fail("one block beside the others, with an equation that names the form, expected")
+        raise claim.fail("one block next to the others, with an equation that names the form, expected")
     beside = [part for part in conjuncts(inner.body) if part != naming]
     given = [part for part in conjuncts(before.body) if part not in beside]
     y = ring.index[name]

@@ -268,9 +268,11 @@ def _corrected(plan: QuadraticPlan) -> str:
 
 def summary_lines(plan: QuadraticPlan) -> list[str]:
     """The lines of the summary that only this method has."""
-    gap = "control points" if plan.gap.can_leave else "no control point"
-    more = " (example in the report)" if plan.gap.can_leave else ""
-    table = f"the printed formula allows {gap} below the table z = 0 here{more}"
+    table = "formula (8) has no condition z ≥ 0; here " + (
+        "it allows control points below the table (example in the report)"
+        if plan.gap.can_leave
+        else "every admissible control point has z ≥ 0 anyway"
+    )
     if plan.path is None:
         return ['try method = "cubic"', table]
     cells = len(plan.region.cells)

@@ -47,7 +47,7 @@ from qe.proof.certificate import Certificate, table_of
 
 REGION, BELOW = "region", "below the table"
 """Labels of certificates."""
-FORMULA, TABLE, CORRECTED = "formula (8)", "the question of the table", "formula (8) with z >= 0"
+FORMULA, TABLE, CORRECTED = "formula (8)", "the condition z ≥ 0", "formula (8) with z >= 0"
 """What the engine is asked."""
 EXAMPLE_ORDER = (*quadratic.SHAPE.free, *quadratic.SHAPE.follows)
 """The control points in the order of the variables of the question about the table."""

@@ -121,7 +121,7 @@ def test_parts_that_finish_are_there(found):
 
 
 def test_derivations_are_in_the_certificate_and_linked(found):
-    assert {"formula (8)", "formula (7)", "the question of the table"} <= set(found.derivations)
+    assert {"formula (8)", "formula (7)", "the condition z ≥ 0"} <= set(found.derivations)
     labels = [member.label for member in found.certificate.payload]
     assert {"(8): optimum", "(7): optimum", "derivation of formula (7)"} <= set(labels)
     for name, page in found.derivation_pages.items():

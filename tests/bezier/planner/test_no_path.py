@@ -151,7 +151,7 @@ def members(plan):
 
 def test_only_who_asks_gets_them(plain):
     assert not plain.derivations and not any(label.startswith(derivations.PREFIX) for label in members(plain))
-    assert set(plain.eliminations) == {"formula (8)", "the question of the table"}
+    assert set(plain.eliminations) == {"formula (8)", "the condition z ≥ 0"}
 
 
 def test_each_is_accepted_and_about_its_question(plain, plan):
@@ -195,11 +195,11 @@ def test_what_a_folder_states_is_about_this_problem(plain, plan):
     found = derivations.with_stated(plain, plan.certificate)
     assert found.certificate == plan.certificate
     assert {n: d.rules for n, d in found.derivations.items()} == {n: d.rules for n, d in plan.derivations.items()}
-    table = members(plan)["derivation of the question of the table"]
+    table = members(plan)["derivation of the condition z ≥ 0"]
     for label, certificate in (
         ("derivation of formula (8)", table),
         ("derivation of formula (9)", table),
-        ("derivation of the question of the table", members(plan)["optimum"]),
+        ("derivation of the condition z ≥ 0", members(plan)["optimum"]),
     ):
         with pytest.raises(CertificateRejected) as caught:
             derivations.with_stated(plain, Certificate.bundle([(label, certificate)]))

@@ -300,7 +300,7 @@ def test_intervals_know_their_own_factors() -> None:
         ({2: (2, 2, 2, (1,))}, "none of its factors has a root at its end"),
         ({4: (4, 6, 6, (0, 1))}, "contains a root"),
         ({2: (2, 2, 2, (0, 2))}, "factors of the line expected"),
-        ({2: (2, 2, 2, None)}, "asked what holds beside the sample"),
+        ({2: (2, 2, 2, None)}, "what holds around the sample is needed"),
         ({2: (2, 2, 3, (0,))}, "are needed"),
         ({2: (2, 1, 1, (0,))}, "are needed"),
         ({4: (4, 7, 4, (0,))}, "are needed"),
