@@ -24,7 +24,7 @@ extensions = [
     "sphinx_copybutton",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["notes/*", "gallery/*.ipynb", "gallery/*.py", "gallery/*.json", "gallery/*.zip", "sg_execution_times.rst"]
+exclude_patterns = ["notes/*", *(f"gallery/*.{ending}" for ending in ("ipynb", "py", "json", "zip")), "sg_execution_times.rst"]
 suppress_warnings = ["config.cache"]
 
 html_show_copyright = False

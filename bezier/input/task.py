@@ -138,7 +138,7 @@ def _refusal(xs: Values, interval: tuple[Fraction, Fraction]) -> str:
     if a <= xs[1]:
         return f"no p >= 1, since a = {a} is not beyond x_1 = {xs[1]}"
     low, high = next((u, v) for u, v in pairwise(xs) if u < a <= v)
-    return f"no q > p, since no control point has its x between a = {a} and b = {b} (its neighbours have x = {low} and {high})"
+    return f"no q > p, since no control point has its x between a = {a} and b = {b} (but at {low} and {high})"
 
 
 KEYS = ("degree", "a", "b", "height_y", "height_z", "p", "q")

@@ -54,8 +54,8 @@ def system(length: int, point: tuple[Any, ...] = ("x", "y", "z")) -> qe.Comprehe
     title="No test point was without a solution",
     says="A thousand random points, x and y in (-200, 200), z in (0, 300): each has two or four real solutions.",
     verdict=Verdict.REPRODUCED,
-    finding="Reproduced, and no accident: the generator of the points (GenerateSamplePoint.py, published with [9]) keeps only "
-    "those within 248 mm of joint 4, on purpose, as many of the box cannot be reached; the arm with $L = 112$ reaches "
+    finding="Reproduced, and no accident: the generator of the points (GenerateSamplePoint.py, published with [9]) keeps "
+    "only those within 248 mm of joint 4, as many of the box cannot be reached; the arm with $L = 112$ reaches "
     "248.9 mm. Its filter has a slip: it subtracts $44\\sqrt 2/\\varrho$ from $X$ and $Y$, $\\varrho = \\sqrt{X^2 + "
     "Y^2}$, where $44\\sqrt 2\\,X/\\varrho$ and $44\\sqrt 2\\,Y/\\varrho$ are meant. That does no harm: it lets no "
     "point through that cannot be reached, which is proved, and throws 8.3 % of the reachable ones away. With such "

@@ -132,7 +132,7 @@ def test_without_a_degree_the_least_one_from_six_on_is_taken():
 
 
 @each(
-    ({"single": "degree = 4\na = 4\nb = 7\nheight_y = 10"}, "via: expected no via points together with a, b and heights"),
+    ({"single": "degree = 4\na = 4\nb = 7\nheight_y = 10"}, "via: expected no via points together with a, b and heigh"),
     (
         {"single": "degree = 2"},
         "single.degree: expected an interval, a degree and heights that fit together, found degree 2: no p",
