@@ -54,7 +54,7 @@ def system(length: int, point: tuple[Any, ...] = ("x", "y", "z")) -> qe.Comprehe
     title="No test point was without a solution",
     says="A thousand random points, x and y in (-200, 200), z in (0, 300): each has two or four real solutions.",
     verdict=Verdict.REPRODUCED,
-    finding="Reproduced, and no accident: the generator of the points (GenerateSamplePoint.py, published with [9]) keeps "
+    finding="Reproduced, and no accident: the generator of the points (GenerateSamplePoint.py, in its data) keeps "
     "only those within 248 mm of joint 4, as many of the box cannot be reached; the arm with $L = 112$ reaches "
     "248.9 mm. Its filter has a slip: it subtracts $44\\sqrt 2/\\varrho$ from $X$ and $Y$, $\\varrho = \\sqrt{X^2 + "
     "Y^2}$, where $44\\sqrt 2\\,X/\\varrho$ and $44\\sqrt 2\\,Y/\\varrho$ are meant. That does no harm: it lets no "
