@@ -24,7 +24,7 @@ extensions = [
     "sphinx_copybutton",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["notes/*", *(f"gallery/*.{end}" for end in ("ipynb", "py", "json", "zip")), "sg_execution_times.rst"]
+exclude_patterns = ["notes/*", *(f"gallery/*.{e}" for e in ("ipynb", "py", "json", "zip")), "sg_execution_times.rst"]
 suppress_warnings = ["config.cache"]
 
 html_show_copyright = False
