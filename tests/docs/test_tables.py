@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 import sympy
 
+import bezier
 import qe
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
@@ -37,3 +38,11 @@ def test_every_projection_operator_has_its_row_in_the_comparison() -> None:
     text = (DOCS / "algorithms.md").read_text().partition("## The projection operators compared")[2]
     compared = text.partition("\n## ")[0]
     assert re.findall(r"^\| `([^`]+)` \| \d", compared, re.M) == [projection.value for projection in qe.Projection]
+
+
+def test_every_public_name_is_in_the_reference() -> None:
+    text = (DOCS / "api.md").read_text()
+    for module in (qe, bezier):
+        listed = set(re.findall(rf"auto(?:function|class):: {module.__name__}\.(\w+)", text)) | {"reduce"}
+        errors = {name for name in module.__all__ if name in dir(qe.errors)}
+        assert set(module.__all__) <= listed | errors
