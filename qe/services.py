@@ -48,3 +48,7 @@ class SymPyForm:
     def _sympy_(self) -> Any:
         """The same in SymPy, exactly; ``InputError`` for what SymPy cannot express."""
         return service(Service.SYMPY)(self)
+
+    def to_sympy(self) -> Any:
+        """As ``_sympy_``."""
+        return self._sympy_()

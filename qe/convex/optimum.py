@@ -34,6 +34,7 @@ from qe.proof.multipliers import (
     OptimumStatus,
     derived_equations,
 )
+from qe.services import SymPyForm
 
 Exact = Fraction | RealAlgebraic
 
@@ -41,7 +42,7 @@ __all__ = ["NotConvex", "Optimum", "OptimumStatus", "maximize", "minimize"]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Optimum:
+class Optimum(SymPyForm):
     """The answer to an optimisation problem.
 
     OPTIMAL: ``value`` is the exact minimum or maximum where ``attained``, and ``point`` satisfies all constraints and

@@ -7,9 +7,12 @@ agree. Rational numbers are the degree 1 case. The isolating interval and its re
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable
+from decimal import Decimal
 from fractions import Fraction
-from functools import total_ordering
+from numbers import Rational as AnyRational
+from numbers import Real
 from typing import Any
 
 from flint import arb, fmpq, fmpz_poly
@@ -21,7 +24,7 @@ from qe.exact.algebraic_text import format_root, in_latex
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
-from qe.services import SymPyForm
+from qe.exact.python_number import PythonNumber, exact, in_floats
 
 STALLED_BITS = 8
 """An enclosure that is right to so many bits and gets no better is held up by rounding, not by the polynomial."""
@@ -29,9 +32,12 @@ STALLED_BITS = 8
 Rational = int | Fraction
 
 
-@total_ordering
-class RealAlgebraic(SymPyForm):
-    """A real algebraic number. Supports + - * / with its kind and with rationals, ==, <, hash, float."""
+class RealAlgebraic(PythonNumber):
+    """A real algebraic number, with all that Python asks of a real number (``numbers.Real``).
+
+    Arithmetic is exact with its kind and with rational numbers, ``Decimal`` included, and that of floats next to a
+    float. Comparisons are exact, with floats too, as the numbers that they are.
+    """
 
     __slots__ = ("_ball", "_bits", "_hi", "_lo", "index", "poly")
     poly: fmpz_poly
@@ -198,22 +204,27 @@ class RealAlgebraic(SymPyForm):
     def _coerce(self, other: object) -> RealAlgebraic | None:
         if isinstance(other, RealAlgebraic):
             return other
-        if isinstance(other, int | Fraction):
-            return RealAlgebraic.rational(other)
+        if isinstance(other, AnyRational | Decimal):
+            value = exact(other)
+            return RealAlgebraic.rational(value) if isinstance(value, Fraction) else None
         convert = getattr(other, "to_algebraic", None)  # an element of a number field
         return convert() if convert is not None else None
 
-    def __eq__(self, other: object) -> bool:
-        value = self._coerce(other)
-        if value is None:
-            return NotImplemented
-        return self.index == value.index and bool(self.poly == value.poly)
+    def _order(self, other: object) -> float | None:
+        if isinstance(other, RealAlgebraic):
+            return self.compare(other)
+        if hasattr(other, "to_algebraic"):
+            return self.compare(other.to_algebraic())
+        value = exact(other)
+        if value is None or isinstance(value, float):
+            return None if value is None else -value
+        return self.compare_rational(fmpq(value.numerator, value.denominator))
 
-    def __lt__(self, other: object) -> bool:
-        value = self._coerce(other)
-        if value is None:
-            return NotImplemented
-        return self.compare(value) < 0
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, RealAlgebraic):
+            return self.index == other.index and bool(self.poly == other.poly)
+        sign = self._order(other)
+        return NotImplemented if sign is None else sign == 0
 
     def __hash__(self) -> int:
         return hash(self.as_fraction()) if self.is_rational else hash((self.minimal_polynomial, self.index))
@@ -226,19 +237,22 @@ class RealAlgebraic(SymPyForm):
         return _image(self, lambda p: p(fmpz_poly([0, -1])), lambda x: -x)
 
     def __add__(self, other: object) -> Any:
-        return _combine(self, self._coerce(other), "+")
+        value = self._coerce(other)
+        return in_floats(operator.add, self, other) if value is None else _combine(self, value, "+")
 
     __radd__ = __add__
 
     def __sub__(self, other: object) -> Any:
-        return _combine(self, self._coerce(other), "-")
+        value = self._coerce(other)
+        return in_floats(operator.sub, self, other) if value is None else _combine(self, value, "-")
 
     def __rsub__(self, other: object) -> Any:
         value = self._coerce(other)
-        return NotImplemented if value is None else value - self
+        return in_floats(operator.sub, other, self) if value is None else value - self
 
     def __mul__(self, other: object) -> Any:
-        return _combine(self, self._coerce(other), "*")
+        value = self._coerce(other)
+        return in_floats(operator.mul, self, other) if value is None else _combine(self, value, "*")
 
     __rmul__ = __mul__
 
@@ -250,17 +264,15 @@ class RealAlgebraic(SymPyForm):
 
     def __truediv__(self, other: object) -> Any:
         value = self._coerce(other)
-        if value is None:
-            return NotImplemented
-        return self * value.inverse()
+        return in_floats(operator.truediv, self, other) if value is None else self * value.inverse()
 
     def __rtruediv__(self, other: object) -> Any:
         value = self._coerce(other)
-        return NotImplemented if value is None else value * self.inverse()
+        return in_floats(operator.truediv, other, self) if value is None else value * self.inverse()
 
-    def __pow__(self, exponent: int) -> RealAlgebraic:
+    def __pow__(self, exponent: object) -> Any:
         if not isinstance(exponent, int):
-            return NotImplemented
+            return in_floats(operator.pow, self, exponent) if isinstance(exponent, float) else NotImplemented
         if abs(exponent) > MAX_EXPONENT:
             raise Unable(f"powers of real algebraic numbers have exponents up to {MAX_EXPONENT} here")
         if exponent < 0:
@@ -280,6 +292,9 @@ class RealAlgebraic(SymPyForm):
 
     def _repr_latex_(self) -> str:
         return f"${in_latex(self)}$"
+
+
+Real.register(RealAlgebraic)
 
 
 def _restore(coefficients: tuple[int, ...], index: int) -> RealAlgebraic:
@@ -362,10 +377,8 @@ def _image(a: RealAlgebraic, transform: Callable[[fmpz_poly], fmpz_poly], value:
 MAX_EXPONENT = 10_000
 
 
-def _combine(a: RealAlgebraic, b: RealAlgebraic | None, operation: str) -> Any:
+def _combine(a: RealAlgebraic, b: RealAlgebraic, operation: str) -> RealAlgebraic:
     """a+b, a-b or a*b: a root of the resultant of the two minimal polynomials, picked by enclosure."""
-    if b is None:
-        return NotImplemented
     if a.is_rational and b.is_rational:
         x, y = a.as_fmpq(), b.as_fmpq()
         return RealAlgebraic.rational(x + y if operation == "+" else x - y if operation == "-" else x * y)

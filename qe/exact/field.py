@@ -8,9 +8,13 @@ The rational numbers are the field of degree 1.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterable
+from decimal import Decimal
 from fractions import Fraction
-from functools import total_ordering
+from numbers import Rational as AnyRational
+from numbers import Real
+from typing import Any
 
 from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
@@ -18,8 +22,8 @@ from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots, select_root
 from qe.exact.algebraic_text import in_latex
 from qe.exact.balls import FIRST_PRECISION, precision
+from qe.exact.python_number import PythonNumber, exact, in_floats
 from qe.exact.radicals import format_number
-from qe.services import SymPyForm
 
 Rational = int | Fraction
 
@@ -102,9 +106,9 @@ class NumberField:
         return f"NumberField({self.theta})"
 
 
-@total_ordering
-class FieldElement(SymPyForm):
-    """An element of a number field: immutable, with + - * / and comparison with its kind and with rationals.
+class FieldElement(PythonNumber):
+    """An element of a number field: immutable, with + - * / and comparison with its kind and with rationals, and
+    what else Python asks of a real number (see ``RealAlgebraic``).
 
     Arithmetic between different fields raises ``InputError``; equality between them is decided exactly.
     """
@@ -164,31 +168,32 @@ class FieldElement(SymPyForm):
             raise InputError("arithmetic between elements of different number fields")
         if isinstance(other, int | Fraction | fmpq):
             return fmpq_poly([to_fmpq(other)])
+        if isinstance(other, AnyRational | Decimal) and isinstance(value := exact(other), Fraction):
+            return fmpq_poly([to_fmpq(value)])
         return None
 
-    def __add__(self, other: object) -> FieldElement:
+    def __add__(self, other: object) -> Any:
         value = self._operand(other)
-        return NotImplemented if value is None else FieldElement(self.field, self.value + value)
+        return in_floats(operator.add, self, other) if value is None else FieldElement(self.field, self.value + value)
 
     __radd__ = __add__
 
-    def __sub__(self, other: object) -> FieldElement:
+    def __sub__(self, other: object) -> Any:
         value = self._operand(other)
-        return NotImplemented if value is None else FieldElement(self.field, self.value - value)
+        return in_floats(operator.sub, self, other) if value is None else FieldElement(self.field, self.value - value)
 
-    def __rsub__(self, other: object) -> FieldElement:
+    def __rsub__(self, other: object) -> Any:
         value = self._operand(other)
-        return NotImplemented if value is None else FieldElement(self.field, value - self.value)
+        return in_floats(operator.sub, other, self) if value is None else FieldElement(self.field, value - self.value)
 
     def __neg__(self) -> FieldElement:
         return FieldElement(self.field, -self.value)
 
-    def __abs__(self) -> FieldElement:
-        return -self if self.sign() < 0 else self
-
-    def __mul__(self, other: object) -> FieldElement:
+    def __mul__(self, other: object) -> Any:
         value = self._operand(other)
-        return NotImplemented if value is None else FieldElement(self.field, self.value * value % self.field.modulus)
+        if value is None:
+            return in_floats(operator.mul, self, other)
+        return FieldElement(self.field, self.value * value % self.field.modulus)
 
     __rmul__ = __mul__
 
@@ -206,17 +211,21 @@ class FieldElement(SymPyForm):
         solution = fmpq_mat(self._products()).transpose().solve(one)
         return FieldElement(self.field, fmpq_poly([solution[i, 0] for i in range(n)]))
 
-    def __truediv__(self, other: object) -> FieldElement:
+    def __truediv__(self, other: object) -> Any:
         value = self._operand(other)
-        return NotImplemented if value is None else self * FieldElement(self.field, value).inverse()
+        if value is None:
+            return in_floats(operator.truediv, self, other)
+        return self * FieldElement(self.field, value).inverse()
 
-    def __rtruediv__(self, other: object) -> FieldElement:
+    def __rtruediv__(self, other: object) -> Any:
         value = self._operand(other)
-        return NotImplemented if value is None else FieldElement(self.field, value) * self.inverse()
+        if value is None:
+            return in_floats(operator.truediv, other, self)
+        return FieldElement(self.field, value) * self.inverse()
 
-    def __pow__(self, exponent: int) -> FieldElement:
+    def __pow__(self, exponent: object) -> Any:
         if not isinstance(exponent, int):
-            return NotImplemented
+            return in_floats(operator.pow, self, exponent) if isinstance(exponent, float) else NotImplemented
         base = self if exponent >= 0 else self.inverse()
         result = self.field.rational(1)
         for _ in range(abs(exponent)):
@@ -224,30 +233,22 @@ class FieldElement(SymPyForm):
         return result
 
     # --- order -----------------------------------------------------------------------------
-    def __bool__(self) -> bool:
-        return bool(self.value)
-
     def __eq__(self, other: object) -> bool:
-        if isinstance(other, FieldElement) and other.field != self.field:
-            if self.is_rational or other.is_rational:
-                return self.is_rational and other.is_rational and bool(self.value == other.value)
-            return self.to_algebraic() == other.to_algebraic()
-        if isinstance(other, RealAlgebraic):
-            return self.to_algebraic() == other
-        value = self._operand(other)
-        return NotImplemented if value is None else bool(self.value == value)
+        if isinstance(other, FieldElement) and other.field != self.field and (self.is_rational or other.is_rational):
+            return self.is_rational and other.is_rational and bool(self.value == other.value)
+        sign = self._order(other)
+        return NotImplemented if sign is None else sign == 0
 
     def __hash__(self) -> int:
         # equal numbers hash alike whatever the field, and like Fraction and RealAlgebraic
         return hash(self.as_fraction()) if self.is_rational else hash(self.to_algebraic())
 
-    def __lt__(self, other: object) -> bool:
-        if isinstance(other, FieldElement) and other.field != self.field:
-            return self.to_algebraic() < other.to_algebraic()
-        if isinstance(other, RealAlgebraic):
-            return self.to_algebraic() < other
-        value = self._operand(other)
-        return NotImplemented if value is None else FieldElement(self.field, self.value - value).sign() < 0
+    def _order(self, other: object) -> float | None:
+        comparable = not isinstance(other, FieldElement) or other.field == self.field
+        value = self._operand(other) if comparable else None
+        if value is None:
+            return self.to_algebraic()._order(other)
+        return FieldElement(self.field, self.value - value).sign()
 
     def __float__(self) -> float:
         return float(self.ball(64).mid())
@@ -302,6 +303,9 @@ class FieldElement(SymPyForm):
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.field, self.coefficients)
+
+
+Real.register(FieldElement)
 
 
 def _quadratic(p: fmpz_poly, element: FieldElement) -> RealAlgebraic:

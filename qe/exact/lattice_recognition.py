@@ -137,6 +137,7 @@ def element_candidate(lattice: FieldLattice, digits: Digits) -> FieldElement | N
                 rest += v * a
             if multiples[0] != 0 and abs(rest) < arb(2) ** -(bits + _EXTRA // 2):
                 top = fmpq_poly([fmpq(-a, multiples[0]) for a in multiples[1:]])
-                return FieldElement(field, top) * lattice.slope_inverse
+                found: FieldElement = FieldElement(field, top) * lattice.slope_inverse
+                return found
         lattice.bits *= 2
     return None

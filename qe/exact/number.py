@@ -10,6 +10,7 @@ from flint import fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.algebraic_text import in_latex
+from qe.services import SymPyForm
 from qe.spelling import quoted
 
 Number = Fraction | RealAlgebraic
@@ -17,7 +18,7 @@ Assignment = Mapping[str, Number]
 Values = dict[str, Number]
 
 
-class ExactPoint(dict[str, Number]):
+class ExactPoint(dict[str, Number], SymPyForm):
     """Exact values by the names of variables: a ``dict`` that notebooks set as formulas."""
 
     def _repr_latex_(self) -> str:

@@ -17,7 +17,6 @@ from typing import Any
 
 from qe import arguments
 from qe.errors import InputError, NoTruthValue
-from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, disj, exists, forall, implies, neg
@@ -278,10 +277,19 @@ def _basic(given: object, expected: str) -> Any:
     return sympy.sympify(given)
 
 
-def sympy_form(value: Formula | RealAlgebraic | FieldElement) -> Any:
-    """What SymPy takes a value for: the Boolean of a formula, the number that equals a number."""
+def sympy_form(value: Any) -> Any:
+    """What SymPy takes a value for: the Boolean of a formula or of a set that has one, the values of a point by their
+    symbols, the number that equals a number or the value of an optimum (None: there is none)."""
+    import sympy
+
     if isinstance(value, Formula):
         return to_sympy(value)
+    if hasattr(value, "formula"):
+        return to_sympy(value.formula)
+    if isinstance(value, dict):
+        return sympy.Dict({sympy.Symbol(name): sympy.sympify(number) for name, number in value.items()})
+    if hasattr(value, "attained"):
+        return None if value.value is None else sympy.sympify(value.value)
     return number_to_sympy(value.to_algebraic() if isinstance(value, FieldElement) else value)
 
 

@@ -24,6 +24,7 @@ from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
+from qe.services import SymPyForm
 
 Number = Fraction | RealAlgebraic
 Members = list[tuple[str, Certificate]]
@@ -36,7 +37,7 @@ POINT = "point"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class GlobalOptimum:
+class GlobalOptimum(SymPyForm):
     """The answer to an optimisation problem that need not be convex.
 
     OPTIMAL: ``value`` is the exact minimum or maximum where ``attained``; otherwise it is the infimum or supremum,

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Self
 
-from qe.services import Service, service
+from qe.services import Service, SymPyForm, service
 
 if TYPE_CHECKING:  # loaded with ``qe`` itself, which loads nothing of the engine
     from qe.decomposition.interval import Coordinate, Interval, Number
 
 
-class SetOperations:
+class SetOperations(SymPyForm):
     """Operators and questions of sets in the space of the variables ``order``.
 
     The other operand is a region in the same variables, or a formula (of any kind that ``qe.region`` takes) in some of

@@ -11,10 +11,11 @@ from qe.formula.build import disj
 from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
 from qe.regions.region import Region
+from qe.services import SymPyForm
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Solutions:
+class Solutions(SymPyForm):
     """The solutions in the variables ``order`` as disjoint cases, which together are all of them.
 
     A case says for the first variables where they lie, and for each later one, over those, between which values; ends
