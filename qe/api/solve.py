@@ -22,6 +22,7 @@ from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
 from qe.proving import certificates
 from qe.regions.build import described
+from qe.regions.by_value import cases_by_value
 from qe.regions.solutions import Solutions
 from qe.regions.walk import MOST_POINTS, different_points
 
@@ -42,14 +43,19 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[Questio
     whole = replace(limits, start=None)
     given = reading(formula, settings["format"], limits, settings["total_division"], solved=wanted or ())
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
-    return performed(partial(_solutions, given, order, whole), given, limits)
+    solved = len(given.free if wanted is None else wanted)
+    return performed(partial(_solutions, given, order, solved, whole), given, limits)
 
 
-def _solutions(given: Formula, order: tuple[str, ...] | None, whole: Limits, budget: Budget) -> Solutions:
+def _solutions(given: Formula, order: tuple[str, ...] | None, solved: int, whole: Limits, budget: Budget) -> Solutions:
     region = described(given, order, budget, replace(whole, process=False))
     cases = tuple(region.cells)
+    lines = [str(case) for case in cases]
+    by_value = cases_by_value(region.table, len(region.order) - solved, budget)
+    if by_value is not None and sum(map(len, by_value)) < sum(map(len, lines)):
+        lines = by_value
     region.limits = whole
-    return Solutions(region.order, cases, region)
+    return Solutions(region.order, cases, region, tuple(lines))
 
 
 reduce = solve

@@ -52,7 +52,7 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
     data = {
         "status": "solved",
         "variables": list(solutions.order),
-        "cases": [str(case) for case in solutions],
+        "cases": list(solutions.lines),
         "seconds": round(time.perf_counter() - start, 6),
     }
     return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)

@@ -55,13 +55,7 @@ class RootFunction:
         written = self.written
         if written is None:
             return f"root({self.k}, {format_poly(self.poly)}, {quoted(self.poly.ring.names[self.poly.level])})"
-        front, inside, bottom = written
-        if inside is None:
-            return _quotient(format_poly(front), format_poly(bottom))
-        shown = f"{'-' if self.k == 1 else '+'} " if front else "-" if self.k == 1 else ""
-        return _quotient(
-            f"{format_poly(front) + ' ' if front else ''}{shown}sqrt({format_poly(inside)})", format_poly(bottom)
-        )
+        return quotient_text(*written, -1 if self.k == 1 else 1)
 
     @property
     def written(self) -> tuple[Poly, Poly | None, Poly] | None:
@@ -78,6 +72,17 @@ class RootFunction:
         if front.normal()[0] % 2 == 0 and inside.normal()[0] % 4 == 0:
             front, inside, bottom = front.exact_divide(2), inside.exact_divide(4), c[2]
         return front, inside, bottom
+
+
+def quotient_text(front: Poly, inside: Poly | None, bottom: Poly, sign: int) -> str:
+    """``(front ± sqrt(inside))/bottom``, without the square root where nothing is ``inside``."""
+    if inside is None:
+        return _quotient(format_poly(front), format_poly(bottom))
+    root = f"sqrt({format_poly(inside)})"
+    if front:
+        return _quotient(f"{format_poly(front)} {'-' if sign < 0 else '+'} {root}", format_poly(bottom))
+    below = format_poly(bottom)
+    return ("-" if sign < 0 else "") + root + ("" if below == "1" else f"/{_bracketed(below)}")
 
 
 def _quotient(top: str, bottom: str) -> str:
@@ -197,49 +202,23 @@ def merge(table: CellTable, *, distinct: bool = False, budget: Budget | None = N
     With ``distinct`` the roots in the bounds are counted without multiplicity, as root atoms do; then fewer
     cells merge. Raises ``BudgetExceeded``.
     """
-    branches = _Merging(table, distinct, budget or Budget()).branches(root_place(table))
+    budget = budget or Budget()
+    branches = _Merging(table, Sections(table, budget, distinct), budget).branches(root_place(table))
     if branches is None:
         return [_piece(table, (), root_place(table))]
     return [p for b in branches for p in _flatten(table, b, ())]
 
 
 @dataclass(slots=True)
-class _Merging:
-    """The walk through a table, with the real roots of its polynomials in one variable."""
+class Sections:
+    """What the sections of a table are, with the real roots of its polynomials in one variable."""
 
     table: CellTable
-    distinct: bool
     budget: Budget
+    distinct: bool = True
     values: dict[Poly, list[RealAlgebraic]] = field(default_factory=dict)
 
-    def branches(self, place: Place) -> tuple[_Branch, ...] | None:
-        """The description of the truth set over a cell: None for everything, () for nothing."""
-        self.budget.check("merge cells")
-        cell = place.cell
-        if cell.stack is None:
-            return None if cell.truth else ()
-        ends = self.section_roots(place)
-        merged: list[_Branch] = []
-        for position, below in enumerate(cell.stack.cells):
-            if below.stack is None and not below.truth:
-                continue
-            inner = child(self.table, place, position)
-            above = self.branches(inner)
-            if above == ():
-                continue
-            lower = ends[(position - 1) // 2] if position > 0 else None
-            upper = ends[position // 2] if position < len(cell.stack.cells) - 1 else None
-            if position % 2:
-                lower = upper = ends[position // 2]
-            branch = _Branch(position, position, lower, upper, above, inner)
-            joined = _joined(merged[-1], branch) if merged else None
-            if joined is None:
-                merged.append(branch)
-            else:
-                merged[-1] = joined
-        return tuple(merged)
-
-    def section_roots(self, place: Place) -> list[Candidates]:
+    def of(self, place: Place) -> list[Candidates]:
         """For every section the root functions that describe it (several where roots meet or factors share it)."""
         stack = place.cell.stack
         assert stack is not None
@@ -272,6 +251,42 @@ class _Merging:
             self.budget.check("merge cells")
             stored = self.values[poly] = real_roots(poly.to_univariate(poly.level))
         return stored[position]
+
+
+@dataclass(slots=True)
+class _Merging:
+    """The walk through a table."""
+
+    table: CellTable
+    sections: Sections
+    budget: Budget
+
+    def branches(self, place: Place) -> tuple[_Branch, ...] | None:
+        """The description of the truth set over a cell: None for everything, () for nothing."""
+        self.budget.check("merge cells")
+        cell = place.cell
+        if cell.stack is None:
+            return None if cell.truth else ()
+        ends = self.sections.of(place)
+        merged: list[_Branch] = []
+        for position, below in enumerate(cell.stack.cells):
+            if below.stack is None and not below.truth:
+                continue
+            inner = child(self.table, place, position)
+            above = self.branches(inner)
+            if above == ():
+                continue
+            lower = ends[(position - 1) // 2] if position > 0 else None
+            upper = ends[position // 2] if position < len(cell.stack.cells) - 1 else None
+            if position % 2:
+                lower = upper = ends[position // 2]
+            branch = _Branch(position, position, lower, upper, above, inner)
+            joined = _joined(merged[-1], branch) if merged else None
+            if joined is None:
+                merged.append(branch)
+            else:
+                merged[-1] = joined
+        return tuple(merged)
 
 
 def _joined(left: _Branch, right: _Branch) -> _Branch | None:

@@ -25,19 +25,18 @@ def free_cells(table: CellTable) -> Iterator[FreeCell]:
             assert cell.truth is not None
             yield FreeCell(path, signs, cell.truth)
             return
-        used = cell.stack.used
-        all_used = used == tuple(range(len(used)))
         for position, below in enumerate(cell.stack.cells):
-            own = (below.signs if all_used else _placed(used, below.signs)).rstrip("?")
-            yield from walk(below, (*path, position), (*signs, own))
+            yield from walk(below, (*path, position), (*signs, placed_signs(cell.stack.used, below.signs)))
 
     return walk(table.root, (), ())
 
 
-def _placed(used: tuple[int, ...], signs: str) -> str:
-    """The signs of some factors of a level among those of all."""
+def placed_signs(used: tuple[int, ...], signs: str) -> str:
+    """The signs of some factors of a level among those of all, without open ones at the end."""
+    if used == tuple(range(len(used))):
+        return signs.rstrip("?")
     known = dict(zip(used, signs, strict=True))
-    return "".join([known.get(j, "?") for j in range(max(used, default=-1) + 1)])
+    return "".join([known.get(j, "?") for j in range(max(used, default=-1) + 1)]).rstrip("?")
 
 
 Masks = Mapping[int, int]

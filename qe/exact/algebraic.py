@@ -9,9 +9,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterable
-from decimal import Decimal
 from fractions import Fraction
-from numbers import Rational as AnyRational
 from numbers import Real
 from typing import Any
 
@@ -24,7 +22,7 @@ from qe.exact.algebraic_text import format_root, in_latex
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
-from qe.exact.python_number import PythonNumber, exact, in_floats
+from qe.exact.python_number import PythonNumber, exact, exact_operand, in_floats
 
 STALLED_BITS = 8
 """An enclosure that is right to so many bits and gets no better is held up by rounding, not by the polynomial."""
@@ -204,9 +202,8 @@ class RealAlgebraic(PythonNumber):
     def _coerce(self, other: object) -> RealAlgebraic | None:
         if isinstance(other, RealAlgebraic):
             return other
-        if isinstance(other, AnyRational | Decimal):
-            value = exact(other)
-            return RealAlgebraic.rational(value) if isinstance(value, Fraction) else None
+        if (value := exact_operand(other)) is not None:
+            return RealAlgebraic.rational(value)
         convert = getattr(other, "to_algebraic", None)  # an element of a number field
         return convert() if convert is not None else None
 

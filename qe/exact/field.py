@@ -10,9 +10,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable
-from decimal import Decimal
 from fractions import Fraction
-from numbers import Rational as AnyRational
 from numbers import Real
 from typing import Any
 
@@ -22,7 +20,7 @@ from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots, select_root
 from qe.exact.algebraic_text import in_latex
 from qe.exact.balls import FIRST_PRECISION, precision
-from qe.exact.python_number import PythonNumber, exact, in_floats
+from qe.exact.python_number import PythonNumber, exact_operand, in_floats
 from qe.exact.radicals import format_number
 
 Rational = int | Fraction
@@ -168,9 +166,8 @@ class FieldElement(PythonNumber):
             raise InputError("arithmetic between elements of different number fields")
         if isinstance(other, int | Fraction | fmpq):
             return fmpq_poly([to_fmpq(other)])
-        if isinstance(other, AnyRational | Decimal) and isinstance(value := exact(other), Fraction):
-            return fmpq_poly([to_fmpq(value)])
-        return None
+        value = exact_operand(other)
+        return None if value is None else fmpq_poly([to_fmpq(value)])
 
     def __add__(self, other: object) -> Any:
         value = self._operand(other)

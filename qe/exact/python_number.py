@@ -51,6 +51,13 @@ def exact(value: object) -> Fraction | float | None:
         return float(value)
 
 
+def exact_operand(value: object) -> Fraction | None:
+    """The value of a number with which arithmetic is exact; none of SymPy's, which has an arithmetic of its own."""
+    is_exact = isinstance(value, Rational | Decimal) and not hasattr(value, "free_symbols")
+    result = exact(value) if is_exact else None
+    return result if isinstance(result, Fraction) else None
+
+
 class PythonNumber(SymPyForm):
     """What Python asks of a real number, for a class that has ``compare``, ``interval`` and its like.
 
@@ -183,7 +190,7 @@ class PythonNumber(SymPyForm):
 def in_floats(operation: Callable[[Any, Any], Any], left: object, right: object) -> Any:
     """The operation of two numbers, one of which is a float; ``NotImplemented`` for anything else."""
     other = right if isinstance(left, PythonNumber) else left
-    if not isinstance(other, float) and (isinstance(other, PythonNumber) or not isinstance(other, Real)):
+    if isinstance(other, PythonNumber) or not isinstance(other, Real) or hasattr(other, "free_symbols"):
         return NotImplemented
     return operation(float(left), float(right))  # type: ignore[arg-type]
 

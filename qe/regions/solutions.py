@@ -13,24 +13,32 @@ from qe.io.substitution import over_one_ring
 from qe.regions.region import Region
 from qe.services import SymPyForm
 
+LONGEST_LINE = 400
+"""Characters of a case in texts for people."""
+
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Solutions(SymPyForm):
-    """The solutions in the variables ``order`` as disjoint cases, which together are all of them.
+    """The solutions in the variables ``order``.
 
-    A case says for the first variables where they lie, and for each later one, over those, between which values; ends
-    are numbers, terms in the variables before, with ``sqrt`` where they can be, or ``root(k, polynomial, variable)``.
-    Iterate over them for the cases (``Piece``: ``.ranges``, ``.sample``, ``.formula``). ``str`` writes one case a line,
-    with ``or`` between them: a formula that can be read back. ``region``: the set that they are.
+    ``lines``: cases as texts, which together are all solutions; ``str`` writes them with ``or`` between them: a formula
+    that can be read back. Each value is said once, under the condition on the parameters under which it is a solution,
+    where there are finitely many values; values are numbers, terms in the variables before, with ``sqrt`` where they
+    can be, or ``root(k, polynomial, variable)``.
+
+    ``cases``: the same as disjoint pieces (``Piece``: ``.ranges``, ``.sample``, ``.formula``), over which one iterates:
+    for the first variables where they lie, and for each later one, over those, between which values. ``region``: the
+    set that they are.
     """
 
     order: tuple[str, ...]
     cases: tuple[Piece, ...]
     region: Region
+    lines: tuple[str, ...]
 
     @property
     def formula(self) -> Formula:
-        """What ``str`` says, as a formula; it may have root atoms."""
+        """The disjunction of the ``cases``, as a formula; it may have root atoms."""
         return disj(over_one_ring(*(case.formula for case in self.cases)))
 
     def __iter__(self) -> Iterator[Piece]:
@@ -43,16 +51,21 @@ class Solutions(SymPyForm):
         return self.cases[k]
 
     def __str__(self) -> str:
-        return " or\n".join(map(str, self.cases)) or "false"
+        return " or\n".join(self.lines) or "false"
 
     def brief(self) -> str:
         """As ``str``, for people: bounds that would fill more than a line or two are described only."""
-        return " or\n".join(case.brief() for case in self.cases) or "false"
+        return " or\n".join(self._brief) or "false"
+
+    @property
+    def _brief(self) -> list[str]:
+        is_short = all(len(line) <= LONGEST_LINE for line in self.lines)
+        return list(self.lines) if is_short else [case.brief() for case in self.cases]
 
     def __repr__(self) -> str:
         count = len(self.cases)
         return f"Solutions({', '.join(self.order)}: {count} case{'s' if count != 1 else ''})"
 
     def _repr_html_(self) -> str:
-        lines = "".join(f"<li><code>{escape(case.brief())}</code></li>" for case in self.cases)
+        lines = "".join(f"<li><code>{escape(line)}</code></li>" for line in self._brief)
         return f"<ul>{lines}</ul>" if lines else "<p>no solutions</p>"

@@ -300,7 +300,7 @@ def test_values_beside_a_sample_are_asked_where_the_quantifier_changes() -> None
     above = line([0], ["0", "2"], [[0]], interval(1, 1, 1, None))
     first = line([], ["1"], [], interval(0, 0, 0, [], above))
     given = about(body, [[], ["x*y - 1"]], first, "AE")
-    assert "beside the sample" in judged(formats.read("all x. ex y. x*y = 1", "text"), TRUE, given)
+    assert "around the sample" in judged(formats.read("all x. ex y. x*y = 1", "text"), TRUE, given)
 
 
 def test_an_answer_whose_signs_are_not_known_on_a_cell_is_rejected() -> None:

@@ -32,7 +32,9 @@ def test_a_wrong_step_inside_is_named() -> None:
 def test_a_step_inside_may_use_what_holds_at_the_place() -> None:
     inner = step("signs", "ex x. x > b and a > 0", "ex x. x > b", {"theory": NO_LEMMAS}, given="a > 0")
     assert objection("steps", "ex x. x > b and a > 0", "ex x. x > b", {"steps": [inner]}, given="a > 0") == ""
-    assert "beside the place" in objection("steps", "ex x. x > b and a > 0", "ex x. x > b", {"steps": [inner]})
+    assert "no other condition at the place" in objection(
+        "steps", "ex x. x > b and a > 0", "ex x. x > b", {"steps": [inner]}
+    )
 
 
 REFUTED = [solved("ex a, x. x = a and x > a", "false")]

@@ -113,4 +113,4 @@ def test_what_is_known_of_the_same_names_outside_says_nothing() -> None:
     """y < a is known of another y, so that this is no step from y < a to true."""
     wrong = cases("y < a", "true") | {"context": [written("y < a")]}
     found = objection(RULE, BLOCK, "true", by(["true"], [[]], [INNER, wrong]), given="y < a")
-    assert "does not stand beside" in found
+    assert "no other condition at the place" in found

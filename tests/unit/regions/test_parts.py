@@ -209,13 +209,13 @@ def test_elimination_as_a_value() -> None:
 
 def test_solutions_are_read_back() -> None:
     given = region("x^2 = 1 and y > x", "x y")
-    found = solutions.Solutions(given.order, tuple(given.cells), given)
+    found = solutions.Solutions(given.order, tuple(given.cells), given, tuple(map(str, given.cells)))
     assert len(found) == 2 and list(found) == [found[0], found[1]] and " or\n" in str(found)
     assert repr(found) == "Solutions(x, y: 2 cases)" and found._repr_html_().count("<li>") == 2
     for x in (-1, 0, 1):
         for y in (-2, 0, 2):
             assert holds_at(found.formula, {"x": x, "y": y}) == (x * x == 1 and y > x)
-    none = solutions.Solutions(("x",), (), region("x^2 < 0", "x"))
+    none = solutions.Solutions(("x",), (), region("x^2 < 0", "x"), ())
     assert (
         str(none) == "false" and none._repr_html_() == "<p>no solutions</p>" and repr(none) == "Solutions(x: 0 cases)"
     )

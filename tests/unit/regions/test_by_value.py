@@ -1,0 +1,98 @@
+"""Solutions by their values: as short as a person writes them, and the same set as the cells."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from statistics import median
+
+import pytest
+
+import qe
+from qe.errors import Unable
+from tests.tables import each
+
+EXPECTED = (
+    ("x^2 = b", "x", "b >= 0 and (x = -sqrt(b) or x = sqrt(b))"),
+    (
+        "a*x^2 + b*x + c = 0",
+        "x",
+        "a = 0 and b /= 0 and x = -c/b or a /= 0 and b^2 - 4*a*c >= 0 and (x = (-b - sqrt(b^2 - 4*a*c))/(2*a) or "
+        "x = (-b + sqrt(b^2 - 4*a*c))/(2*a)) or a = 0 and b = 0 and c = 0",
+    ),
+    ("x*y = 0", None, "x = 0 or y = 0"),
+    ("x*y*z = 0", None, "x = 0 or y = 0 or z = 0"),
+    ("x*y = 1", None, "x /= 0 and y = 1/x"),
+    ("a*x = b", "x", "a /= 0 and x = b/a or a = 0 and b = 0"),
+    ("a*x + b = c*x + d", "x", "a /= c and x = (d - b)/(a - c) or a = c and b = d"),
+    ("x^2 + a*x + 1 = 0", "x", "(a <= -2 or a >= 2) and (x = (-a - sqrt(a^2 - 4))/2 or x = (-a + sqrt(a^2 - 4))/2)"),
+    ("x^2 + a*x + 1 = 0 and x > 0", "x", "a <= -2 and (x = (-a - sqrt(a^2 - 4))/2 or x = (-a + sqrt(a^2 - 4))/2)"),
+    ("x + y = s and x - y = d", "x, y", "x = (s + d)/2 and y = (s - d)/2"),
+    ("a*x + b*y = 1 and x = y", "x, y", "a + b /= 0 and x = 1/(a + b) and y = x"),
+    (
+        "x + y = s and x*y = p",
+        "x, y",
+        "s^2 - 4*p >= 0 and (x = (s - sqrt(s^2 - 4*p))/2 and y = s - x or x = (s + sqrt(s^2 - 4*p))/2 and y = s - x)",
+    ),
+    ("x^2 + y^2 = 1", None, "-1 <= x <= 1 and (y = -sqrt(1 - x^2) or y = sqrt(1 - x^2))"),
+    ("x^2 + y^2 = 1 and x = y", None, "x = -sqrt(2)/2 and y = x or x = sqrt(2)/2 and y = x"),
+    ("x^2 - (a + b)*x + a*b = 0", "x", "x = a or x = b"),
+    ("|x - a| = b", "x", "b >= 0 and (x = a - b or x = a + b)"),
+    ("a*x^2 = a", "x", "a = 0 or x = -1 or x = 1"),
+    ("x/(x - a) = 2", "x", "a /= 0 and x = 2*a"),
+    ("x^3 = a*x", "x", "x = 0 or a >= 0 and (x = -sqrt(a) or x = sqrt(a))"),
+    ("x^2 = a^2", "x", "x = -a or x = a"),
+    ("x^4 - 5*x^2 + 4 = 0", None, "x = -2 or x = -1 or x = 1 or x = 2"),
+    ("x^2 + y^2 = r^2 and y = m*x", "x, y", "x = -r/sqrt(m^2 + 1) and y = m*x or x = r/sqrt(m^2 + 1) and y = m*x"),
+    ("y = x^2 and y = c", "x, y", "c >= 0 and (x = -sqrt(c) and y = c or x = sqrt(c) and y = c)"),
+    ("x^2 + y^2 <= 1", None, "-1 <= x <= 1 and -sqrt(1 - x^2) <= y <= sqrt(1 - x^2)"),
+    ("a*x > b", "x", "a = 0 and b < 0 or a < 0 and x < b/a or a > 0 and x > b/a"),
+    ("x^2 >= a", "x", "a <= 0 or a > 0 and (x <= -sqrt(a) or x >= sqrt(a))"),
+    ("x^2 + 1 = 0", None, "false"),
+    ("0*x = 0", "x", "true"),
+)
+"""Questions with answers as a textbook has them."""
+
+
+@each(*EXPECTED)
+def test_answers_are_not_much_longer_than_those_of_people(question: str, variables: str | None, expected: str) -> None:
+    solutions = qe.solve(question, variables)
+    assert len(str(solutions)) <= 1.5 * len(expected)
+    assert qe.equivalent(str(solutions), question)
+
+
+def test_in_the_median_they_are_no_longer() -> None:
+    assert median(len(str(qe.solve(question, names))) / len(text) for question, names, text in EXPECTED) <= 1
+
+
+def test_values_that_a_case_fixes_are_substituted() -> None:
+    lines = qe.solve("x^2 + y^2 = a and x*y = b", "x, y").lines
+    assert "b = 0 and a >= 0 and x = 0 and (y = -sqrt(a) or y = sqrt(a))" in lines and len(lines) <= 5
+
+
+def _question(chance: random.Random) -> tuple[str, str]:
+    def term(names: str, degree: int) -> str:
+        return " + ".join(
+            f"{chance.randint(-2, 2)}*" + "*".join(chance.choices(names, k=chance.randint(1, degree)))
+            for _ in range(chance.randint(1, 3))
+        )
+
+    relations = [chance.choice("==<>") for _ in range(chance.randint(1, 2))]
+    parts = [f"{term('abxx', 3)} {relation} {term('ab', 1)} + {chance.randint(-1, 1)}" for relation in relations]
+    return chance.choice((" and ", " or ")).join(parts), chance.choice(("x", "b, x"))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_lines_hold_where_the_question_does(seed: int) -> None:
+    """At rational points, some of them solutions, and by decision where that ends."""
+    question, names = _question(random.Random(seed))
+    try:
+        solutions = qe.solve(question, names, timeout=5)
+    except Unable:
+        pytest.skip("not described in time")
+    chance, points = random.Random(seed), [case.sample for case in solutions]
+    points += [{name: Fraction(chance.randint(-6, 6), chance.choice((1, 1, 2))) for name in "abx"} for _ in range(12)]
+    region, written = qe.region(question, "a, b, x"), qe.region(str(solutions), "a, b, x")
+    for point in points:
+        whole = {name: point.get(name, Fraction(0)) for name in "abx"}
+        assert written.contains(whole) is region.contains(whole), (question, str(solutions), whole)
