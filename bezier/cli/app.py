@@ -227,6 +227,7 @@ def certify(
     tolerance: Annotated[str, typer.Option("--tolerance", help="Largest jump that counts as continuous.")] = "1e-9",
     certificate: Evidence = None,
     check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about FILE.")] = None,
+    page: Annotated[Path | None, typer.Option("--page", help="Write a page with each quantity over time here.")] = None,
     json: Json = False,
     timeout: Timeout = None,
     memory: Memory = None,
@@ -248,7 +249,7 @@ def certify(
         raise InputError(f"--tolerance: expected a number of at least 0, found {tolerance}")
     kind = None if interpolation is None else interpolation.value
     work = partial(command.certify, file=file, limits=limits, scene=scene, interpolation=kind, tolerance=largest)
-    work = partial(work, evidence=certificate, against=check, as_json=json)
+    work = partial(work, evidence=certificate, against=check, page=page, as_json=json)
     text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
     if certificate is not None:
         write_file(certificate, evidence)

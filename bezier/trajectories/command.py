@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import qe
 from bezier.curves import bernstein as bs
@@ -22,6 +22,9 @@ from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.readers import load
 from qe.errors import InputError
 from qe.processes.channel import Channel
+
+if TYPE_CHECKING:
+    from bezier.report.html import Page
 
 KEYS = (*QUANTITIES, *(f"{name}_norm" for name in QUANTITIES[1:]))
 
@@ -87,11 +90,13 @@ def certify(
     *,
     evidence: Path | None = None,
     against: Path | None = None,
+    page: Path | None = None,
     as_json: bool = False,
 ) -> tuple[str, str]:
     """What to print, and the certificate's text where ``evidence`` is wanted.
 
-    ``against``: a certificate that is checked instead. Raises ``InputError``, and ``CertificateRejected`` there.
+    ``page``: a file for the page with a chart of each quantity. ``against``: a certificate that is checked. Raises
+    ``InputError``, and ``CertificateRejected`` for that certificate.
     """
     trajectory = load(file, interpolation)
     listed = [] if limits is None else read_limits(limits, len(trajectory.names))
@@ -106,15 +111,26 @@ def certify(
         proof = qe.Certificate.bundle([*(members(verdict) if listed else ()), *clear]).to_json()
     data = to_json(verdict) | ({} if scene is None else {"scene": [survey.to_json(f) for f in findings]})
     data["kept"] = data["kept"] and not survey.contacts(findings)
-    if as_json:
-        return json.dumps(data, indent=1, ensure_ascii=False), proof
     lines = in_words(verdict)
     lines += [survey.in_words(f) for f in survey.contacts(findings)]
     if findings and not survey.contacts(findings):
         lines.append(f"clear of all obstacles for all t: {len(findings)} pairs of pieces and obstacles")
     if against is not None:
         lines.append("the certificate proves it: accepted")
-    return "\n".join(lines), proof
+    if page is not None:
+        from bezier.report.trajectory import page as made
+
+        _write_page(page, made(verdict, lines, file.name, clear=not survey.contacts(findings)))
+    return json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines), proof
+
+
+def _write_page(file: Path, page: Page) -> None:
+    from bezier.report.html import document
+
+    try:
+        file.write_text(document(page), encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"--page {file}: expected a writable file, found: {error.strerror}") from None
 
 
 def to_json(verdict: Verdict) -> dict[str, Any]:

@@ -35,14 +35,15 @@ def limits_of(axes: int) -> list[Limit]:
     return [Limit(order, k, F(order)) for order in (1, 2) for k in range(axes)]
 
 
-def samples(path: CubicSpline, law: tuple[Any, ...], count: int) -> tuple[Any, Any]:
-    """The largest velocities and accelerations, both ends of every interval among them."""
-    per = max(count // len(law[3]), 2)
-    i = np.repeat(np.arange(len(law[3]) - 1 if len(law[3]) == len(law[0]) else len(law[3])), per)
-    u = np.tile(np.linspace(0, 1, per), len(i) // per) * np.diff(law[0])[i]
+def samples(path: CubicSpline, law: tuple[Any, ...], breaks: Any, count: int) -> Any:
+    """The largest velocities and accelerations in floats, both ends of every piece among the samples."""
+    shares = np.linspace(0, 1, max(count // (len(breaks) - 1), 2))
+    t = breaks[:-1, None] + np.diff(breaks)[:, None] * shares
+    i = np.searchsorted(law[0], (breaks[:-1] + breaks[1:]) / 2)[:, None] - 1
+    u = t - law[0][i]
     s, speed, force = law[1][i] + law[2][i] * u + law[3][i] * u * u / 2, law[2][i] + law[3][i] * u, law[3][i]
-    velocity, bend = path(s, 1) * speed[:, None], path(s, 2) * speed[:, None] ** 2
-    return np.abs(velocity).max(0), np.abs(bend + path(s, 1) * force[:, None]).max(0)
+    velocity, bend = path(s, 1) * speed[..., None], path(s, 2) * speed[..., None] ** 2
+    return np.array([np.abs(velocity).max((0, 1)), np.abs(bend + path(s, 1) * force[..., None]).max((0, 1))]).ravel()
 
 
 @pytest.mark.parametrize(("axes", "count"), [(3, 100), (6, 100), (3, 1000), (6, 1000)])
@@ -55,7 +56,7 @@ def test_paths_timed_by_toppra_break_their_limits_between_grid_points(axes: int,
     assert process_time() - start < 1
     assert not verdict.is_kept and not verdict.breaking
     assert verdict.factor is not None and 1 < verdict.factor <= F(104, 100)
-    sampled = np.concatenate(samples(path, law, 10**6))
+    sampled = samples(path, law, np.array(list(map(float, trajectory.breaks))), 10**6)
     exact = np.array([abs(o.value) for o in verdict.outcomes])
     assert np.all(exact >= sampled - 1e-12)
     assert np.all(exact <= sampled + 1e-9)
@@ -239,7 +240,9 @@ def test_the_command_proves_checks_and_rejects(tmp_path: Path, capsys: pytest.Ca
     assert main([*words, "--certificate", str(proof)]) == 0
     said = capsys.readouterr().out
     assert "velocity of y: EXCEEDED, worst 2 at t = 1" in said and "2 = 2 times as slow" in said and "clear of" in said
-    assert main([*words, "--check", str(proof)]) == 0
+    page = tmp_path / "page.html"
+    assert main([*words, "--check", str(proof), "--page", str(page)]) == 0
+    assert page.read_text().count("<figure>") == 2 and "EXCEEDED" in page.read_text()
     assert "accepted" in capsys.readouterr().out
     limits.write_text("velocity = [1, 1.5]\n")
     assert main([*words, "--check", str(proof)]) == 4
