@@ -219,7 +219,7 @@ class Interpolation(Enum):
 
 def certify(
     file: Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .yaml, .npz", show_default=False)],
-    limits: Annotated[Path | None, typer.Option("--limits", help="A TOML file: velocity = 1, ...")] = None,
+    limits: Annotated[Path | None, typer.Option("--limits", help="A TOML file, such as velocity = 1.")] = None,
     scene: Annotated[Path | None, typer.Option("--scene", help="A file with [[obstacle]] tables.")] = None,
     interpolation: Annotated[
         Interpolation | None, typer.Option("--interpolation", help="Of states; default: the highest they allow.")
