@@ -100,7 +100,11 @@ def certify(
     """
     trajectory = load(file, interpolation)
     listed = [] if limits is None else read_limits(limits, len(trajectory.names))
-    verdict = decided(trajectory, listed, tolerance)
+    try:
+        verdict = decided(trajectory, listed, tolerance)
+        data, lines = to_json(verdict), in_words(verdict)
+    except OverflowError:
+        raise InputError(f"{file}: expected quantities of usual size, found one beyond 10^308") from None
     obstacles = () if scene is None else read_obstacles(Table.load(scene))
     findings = survey.survey(curves(trajectory), obstacles, distances=False) if obstacles else ()
     clear = survey.certificates(findings)
@@ -109,9 +113,9 @@ def certify(
     proof = ""
     if evidence is not None:
         proof = qe.Certificate.bundle([*(members(verdict) if listed else ()), *clear]).to_json()
-    data = to_json(verdict) | ({} if scene is None else {"scene": [survey.to_json(f) for f in findings]})
+    if scene is not None:
+        data["scene"] = [survey.to_json(f) for f in findings]
     data["kept"] = data["kept"] and not survey.contacts(findings)
-    lines = in_words(verdict)
     lines += [survey.in_words(f) for f in survey.contacts(findings)]
     if findings and not survey.contacts(findings):
         lines.append(f"clear of all obstacles for all t: {len(findings)} pairs of pieces and obstacles")

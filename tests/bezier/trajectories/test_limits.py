@@ -246,6 +246,10 @@ def test_the_command_proves_checks_and_rejects(tmp_path: Path, capsys: pytest.Ca
     assert "accepted" in capsys.readouterr().out
     limits.write_text("velocity = [1, 1.5]\n")
     assert main([*words, "--check", str(proof)]) == 4
+    huge = tmp_path / "huge.csv"
+    huge.write_text("time,x,y\n0,0,0\n1,1e400,0\n")
+    assert main(["certify", str(huge), "--limits", str(limits)]) == 2
+    assert "beyond 10^308" in capsys.readouterr().err
     limits.write_text("speed = 1\n")
     assert main(words) == 2
     assert "unknown key" in capsys.readouterr().err
