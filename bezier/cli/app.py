@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
+from enum import Enum
 from functools import partial
 from json import dumps
 from pathlib import Path
@@ -208,10 +209,64 @@ def joints(
     return OK if is_followed else UNABLE
 
 
+class Interpolation(Enum):
+    """How states are joined."""
+
+    LINEAR = "linear"
+    CUBIC = "cubic"
+    QUINTIC = "quintic"
+
+
+def certify(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .yaml, .npz", show_default=False)],
+    limits: Annotated[Path | None, typer.Option("--limits", help="A TOML file, such as velocity = 1.")] = None,
+    scene: Annotated[Path | None, typer.Option("--scene", help="A file with [[obstacle]] tables.")] = None,
+    interpolation: Annotated[
+        Interpolation | None, typer.Option("--interpolation", help="Of states; default: the highest they allow.")
+    ] = None,
+    tolerance: Annotated[str, typer.Option("--tolerance", help="Largest jump that counts as continuous.")] = "1e-9",
+    certificate: Evidence = None,
+    check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about FILE.")] = None,
+    page: Annotated[Path | None, typer.Option("--page", help="Write a page with each quantity over time here.")] = None,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Prove for all t that a trajectory keeps its limits and is clear of a scene, or say exactly where it is not, and
+    how much slower it has to be."""
+    from bezier.input.numbers import NotANumber, parse
+    from bezier.trajectories import command
+
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    if limits is None and (certificate is not None or check is not None) and scene is None:
+        raise InputError("--certificate and --check: expected --limits or --scene, found neither")
+    try:
+        largest = parse(tolerance)
+    except NotANumber as error:
+        raise InputError(f"--tolerance: expected a number, found {error}") from None
+    if largest < 0:
+        raise InputError(f"--tolerance: expected a number of at least 0, found {tolerance}")
+    kind = None if interpolation is None else interpolation.value
+    work = partial(command.certify, file=file, limits=limits, scene=scene, interpolation=kind, tolerance=largest)
+    work = partial(work, evidence=certificate, against=check, page=page, as_json=json)
+    text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
+    if certificate is not None:
+        write_file(certificate, evidence)
+    print(text)
+    return OK
+
+
 COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
     ("plan", plan, "Plan a path, with its page and proofs.", "examples/three_balls.toml --out out"),
     ("check", check, "Verify the folder of a plan.", "out"),
     ("clearance", clearance, "Curves clear of obstacles, for all t.", "examples/obstacle_curves.toml"),
+    (
+        "certify",
+        certify,
+        "Any trajectory within its limits, for all t.",
+        "examples/joints.csv --limits examples/joints.toml",
+    ),
     ("compare", compare, "Quadratic and cubic curves side by side.", "examples/cubic_joins.toml --out out"),
     ("ik", ik, "All joint positions of an arm at a point.", "ev3-120 599/66 824/33 323/10"),
     ("certify-path", certify_path, "Whether an arm can follow a path.", "ev3-120 examples/arm_curve.toml"),

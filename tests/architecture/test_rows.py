@@ -58,6 +58,8 @@ ROWS = {
     "bezier.curves": 12,
     "bezier.input": 13,
     "bezier.obstacles": 14,
+    "bezier.trajectories": 15,
+    "bezier.trajectories.command": 24,
     "bezier.paths": 15,
     "bezier.motion": 16,
     "bezier.arm": 17,

@@ -1,0 +1,1 @@
+"""Trajectories that others made, proved or refuted for all t: polynomials between exact times."""

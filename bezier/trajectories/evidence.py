@@ -1,0 +1,172 @@
+"""That limits are kept at all times, as sentences of the kernel: one for each piece, a polynomial inequality in one
+variable; and that one is broken, by a rational time at which it is.
+
+Slowed down by k, a derivative of order r is p / k^r: that it stays within its limit L is p <= L k^r. So the claims
+about a trajectory and about a slower one differ in nothing but these numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from math import lcm
+
+import qe
+from bezier.trajectories.limits import Limit, Outcome, Verdict, limited
+from bezier.trajectories.piecewise import Trajectory
+from qe.certify.registry import RULES
+from qe.errors import CertificateRejected, Unable
+from qe.exact.rational_poly import RationalPoly
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, disj, exists
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.kernel.block import block_goals
+from qe.kernel.derivation import limits_of
+from qe.kernel.step import Claim
+from qe.options import Budget
+from qe.proof.certificate import Certificate, Evidence, Kind
+from qe.proof.entry import Entry, Json
+from qe.proving.lemma_list import Lemmas, with_cases
+
+RING = Ring.of(("t",))
+T = RING.var("t")
+
+
+def _whole(p: RationalPoly, sign: int, bound: Fraction) -> Poly:
+    """A positive multiple of sign * p - bound with whole coefficients."""
+    listed = [sign * c for c in p.coefficients()] or [Fraction(0)]
+    listed[0] -= bound
+    below = lcm(*(c.denominator for c in listed))
+    return RING.from_terms({(k,): int(c * below) for k, c in enumerate(listed) if c})
+
+
+def _ends(length: Fraction) -> tuple[Poly, Poly]:
+    return T, T * length.denominator - length.numerator
+
+
+def _sentence(length: Fraction, excesses: Sequence[Poly]) -> Formula:
+    """That there is a time in [0, length] at which one of these is positive."""
+    low, high = _ends(length)
+    inside = (atom(low, Relation.GE), atom(high, Relation.LE))
+    return exists(("t",), conj((*inside, disj(atom(p, Relation.GT) for p in excesses))))
+
+
+def _claims(
+    trajectory: Trajectory, limits: Sequence[Limit], factor: Fraction
+) -> Iterator[tuple[str, list[Poly], Formula]]:
+    """Of each piece: its label, by how much limits are exceeded, and the sentence that one is."""
+    rows = [limited(trajectory.derivative(limit.order), limit) for limit in limits]
+    for i, length in enumerate(trajectory.lengths):
+        excesses = [
+            _whole(row[i], sign, bound * factor ** (limit.order * limit.power))
+            for limit, row in zip(limits, rows, strict=True)
+            for sign, bound in limit.sides
+        ]
+        yield f"piece {i + 1}, {factor} times as slow", excesses, _sentence(length, excesses)
+
+
+def _broken(trajectory: Trajectory, outcome: Outcome) -> tuple[str, list[Poly], Formula]:
+    limit, peak = outcome.limit, outcome.peak
+    polys = limited(trajectory.derivative(limit.order)[peak.piece : peak.piece + 1], limit)
+    excess = _whole(polys[0], peak.sign, outcome.bound)
+    label = f"{limit.words(trajectory.names)} is exceeded in piece {peak.piece + 1}"
+    return label, [excess], _sentence(trajectory.lengths[peak.piece], [excess])
+
+
+def members(verdict: Verdict) -> list[tuple[str, Certificate]]:
+    """Of what is broken, that it is; and that at the repairing factor, 1 where nothing is broken, all limits are kept.
+
+    Raises ``Unable`` where there is no such proof: jumps have no sentence, and a proof may be too long.
+    """
+    trajectory, listed = verdict.trajectory, list[tuple[str, Certificate]]()
+    for outcome in verdict.outcomes:
+        if not outcome.is_kept:
+            label, _, sentence = _broken(trajectory, outcome)
+            listed.append((label, _instance(sentence, _time(trajectory, outcome))))
+    if verdict.factor is not None:
+        limits = [outcome.limit for outcome in verdict.outcomes]
+        for (label, excesses, sentence), length in zip(
+            _claims(trajectory, limits, verdict.factor), trajectory.lengths, strict=True
+        ):
+            listed.append((label, _refuted(sentence, excesses, length)))
+    if not listed:
+        raise Unable("nothing that is proved has a certificate: the trajectory is not continuous")
+    return listed
+
+
+def _time(trajectory: Trajectory, outcome: Outcome) -> Fraction:
+    """A rational time at which the limit of the outcome is exceeded."""
+    limit, peak = outcome.limit, outcome.peak
+    p = limited(trajectory.derivative(limit.order)[peak.piece : peak.piece + 1], limit)[0]
+    for bits in (16, 32, 64, 128, 256, 512, 1024, 2048):
+        low, high = peak.at.interval(bits)
+        middle = (low + high) / 2
+        short = middle.limit_denominator(1 << bits)
+        for t in (short, middle):
+            if 0 <= t <= trajectory.lengths[peak.piece] and peak.sign * p(t) > outcome.bound:
+                return t
+    raise Unable("a limit is exceeded by too little for a certificate")
+
+
+def _instance(sentence: Formula, at: Fraction) -> Certificate:
+    evidence: Evidence = {"order": ["t"], "values": [str(at)]}
+    return Certificate.step("instance", RING.names, sentence, TRUE, evidence)
+
+
+def _refuted(sentence: Formula, excesses: Sequence[Poly], length: Fraction) -> Certificate:
+    if sentence == FALSE:
+        return Certificate.derivation(RING.names, FALSE, [], FALSE)
+    lemmas, ends = Lemmas(RING), _ends(length)
+    for poly in dict.fromkeys(excesses):
+        if poly.is_constant:
+            continue
+        unit, factors = poly.factors()
+        if len(factors) > 1 or factors[0][1] > 1:
+            lemmas.identity([(1, ((poly, 1),)), (-unit, factors)])
+        lemmas.line(list(dict.fromkeys((*(e.normal()[1] for e in ends), *(f for f, _ in factors)))), 0)
+    limits = limits_of(Budget(), RULES)
+    try:
+        plain = lemmas.only(range(len(lemmas.lemmas)))
+        claim = Claim("signs", sentence, FALSE, RING, Entry({"theory": plain}, ""), "")
+        theory = with_cases(plain, block_goals(claim, ()), RING, limits)
+    except CertificateRejected as error:
+        raise Unable(f"a piece has no certificate: {error}") from None
+    if theory is None:
+        raise Unable("a piece has no certificate")
+    return Certificate.step("signs", RING.names, sentence, FALSE, {"theory": theory})
+
+
+def check(verdict: Verdict, given: Certificate, scene: Sequence[tuple[str, Certificate]] = ()) -> None:
+    """Whether a certificate proves what the verdict says of its trajectory. Raises ``CertificateRejected``.
+
+    ``scene``: what is proved about obstacles, which has to stand behind the limits as it is. The sentences
+    are made anew, from the trajectory and the limits, and have to be those of the certificate.
+    """
+    trajectory = verdict.trajectory
+    broken = [(*_broken(trajectory, o)[::2], TRUE) for o in verdict.outcomes if not o.is_kept]
+    limits = [o.limit for o in verdict.outcomes]
+    factor = verdict.factor
+    kept = [] if factor is None else [(*c[::2], FALSE) for c in _claims(trajectory, limits, factor)]
+    claims = [(label, _payload(sentence, answer)) for label, sentence, answer in (*broken, *kept)]
+    if not (claims or scene) or given.kind != Kind.BUNDLE or not isinstance(given.payload, tuple):
+        raise CertificateRejected("bundle", "expected a bundle")
+    if len(given.payload) != len(claims) + len(scene):
+        raise CertificateRejected("bundle", f"expected {len(claims) + len(scene)} members about this trajectory")
+    for member, (label, proved) in zip(given.payload[len(claims) :], scene, strict=True):
+        if (member.label, member.certificate) != (label, proved):
+            raise CertificateRejected(member.label, f"expected {label}")
+    for member, (label, expected) in zip(given.payload, claims, strict=False):
+        payload = member.certificate.payload
+        if member.label != label or member.certificate.kind != Kind.DERIVATION or not isinstance(payload, dict):
+            raise CertificateRejected(member.label, f"expected the derivation of: {label}")
+        if any(payload.get(key) != value for key, value in expected.items()):
+            raise CertificateRejected(member.label, "another sentence than that about this trajectory and these limits")
+    outcome = qe.verify(given)
+    if not outcome.accepted:
+        raise CertificateRejected(outcome.step, outcome.reason)
+
+
+def _payload(start: Formula, answer: Formula) -> dict[str, Json]:
+    listed = Certificate.derivation(RING.names, start, [], answer).payload
+    assert isinstance(listed, dict)
+    return {key: value for key, value in listed.items() if key != "steps"}

@@ -1,0 +1,285 @@
+"""Whether a trajectory keeps its limits at all times, by how much not, and the least slowing down that repairs it.
+
+A limit is about one derivative p of one axis, or about the sum of the squares of all axes: sup p <= L. The supremum
+on a piece is at an end or at a root of p'. Which pieces may hold it is told by the Bernstein coefficients (a
+polynomial on an interval lies between the least and the largest; Farouki, CAGD 2012, section 3), computed in floats
+with the bound of their rounding error; what is left is exact.
+
+Slowed down by k, velocity is 1/k, acceleration 1/k^2, jerk 1/k^3 of what it was; positions stay.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import accumulate
+from math import ceil, comb, isqrt
+from typing import Any
+
+import numpy as np
+
+from bezier.curves import bernstein as bs
+from bezier.curves.nonnegative import Negative, decide
+from bezier.trajectories.piecewise import QUANTITIES, Jump, Trajectory
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.rational_poly import RationalPoly
+
+BITS = 128
+"""Accuracy of the values at irrational times."""
+TICK = 10**7
+"""A factor of slowing down is rounded up to a multiple of 1/TICK."""
+ZERO = Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """|p| <= high for a derivative of an axis; low <= p <= high for a position. Without an axis: the Euclidean norm."""
+
+    order: int
+    axis: int | None
+    high: Fraction
+    low: Fraction | None = None
+
+    def words(self, names: Sequence[str]) -> str:
+        """What is limited."""
+        return QUANTITIES[self.order] + (" (norm)" if self.axis is None else f" of {names[self.axis]}")
+
+    @property
+    def power(self) -> int:
+        """Of the limit, in what is compared: norms are compared by their squares."""
+        return 2 if self.axis is None else 1
+
+    @property
+    def sides(self) -> tuple[tuple[int, Fraction], ...]:
+        """(sign, bound): sign * p <= bound."""
+        if self.axis is None:
+            return ((1, self.high**2),)
+        return ((1, self.high), (-1, self.high if self.low is None else -self.low))
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """Where sign * p is largest: at the time ``breaks[piece] + at``; its value there lies in ``value``."""
+
+    piece: int
+    sign: int
+    at: RealAlgebraic
+    value: tuple[Fraction, Fraction]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """Of one limit: kept at all times or not, decided exactly, and the peak; for a norm its value is the square."""
+
+    limit: Limit
+    peak: Peak
+    is_kept: bool
+
+    def time(self, trajectory: Trajectory) -> RealAlgebraic:
+        """The exact time of the peak."""
+        start = trajectory.breaks[self.peak.piece]
+        value: RealAlgebraic = self.peak.at + start
+        return value
+
+    @property
+    def value(self) -> float:
+        """The signed value of p at the peak, or the norm."""
+        middle = float(sum(self.peak.value) / 2)
+        return middle**0.5 if self.limit.axis is None else self.peak.sign * middle
+
+    @property
+    def bound(self) -> Fraction:
+        """What sign * p has to stay below."""
+        return dict(self.limit.sides)[self.peak.sign]
+
+    @property
+    def excess(self) -> float:
+        """How far beyond its limit, as a part of it; for positions in their unit."""
+        bound = float(self.limit.high) if self.limit.axis is None else float(self.bound)
+        beyond = (self.value if self.limit.axis is None else self.peak.sign * self.value) - bound
+        return beyond / bound if self.limit.order and bound else beyond
+
+    @property
+    def factor(self) -> Fraction | None:
+        """A factor of slowing down that repairs this limit, at most 2/TICK above the least; None where none does."""
+        if self.is_kept:
+            return Fraction(1)
+        if not self.limit.order or not self.bound:
+            return None
+        ratio, power = self.peak.value[1] / self.bound, self.limit.order * self.limit.power
+        return max(Fraction(1), Fraction(_root_above(ceil(ratio * TICK**power), power), TICK))
+
+
+def _root_above(value: int, power: int) -> int:
+    """The least whole number whose power is at least the value, which is positive."""
+    if power == 1:
+        return value
+    high = 1 << (value.bit_length() // power + 1)
+    low = 0 if power != 2 else isqrt(value) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if middle**power < value else (low, middle)
+    return high
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """All limits of a trajectory, and the jumps by which its derivatives are not continuous."""
+
+    trajectory: Trajectory
+    outcomes: tuple[Outcome, ...]
+    jumps: tuple[Jump, ...]
+    tolerance: Fraction
+
+    @property
+    def breaking(self) -> tuple[Jump, ...]:
+        """Jumps above the tolerance of what has to be continuous: positions, and all below a limited derivative."""
+        highest = max((o.limit.order for o in self.outcomes), default=0)
+        return tuple(j for j in self.jumps if j.order < max(highest, 1) and j.size > self.tolerance)
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether everything holds at all times."""
+        return not self.breaking and all(o.is_kept for o in self.outcomes)
+
+    @cached_property
+    def worst(self) -> Outcome | None:
+        """The limit that is broken most."""
+        broken = [o for o in self.outcomes if not o.is_kept]
+        return max(broken, key=lambda o: (o.factor is None, o.excess), default=None)
+
+    @cached_property
+    def factor(self) -> Fraction | None:
+        """A proved factor of slowing down that repairs all, within 1e-6 of the least; None where slower is no help."""
+        factors = [o.factor for o in self.outcomes]
+        if self.breaking or None in factors:
+            return None
+        return max((f for f in factors if f is not None), default=Fraction(1))
+
+
+def decided(trajectory: Trajectory, limits: Sequence[Limit], tolerance: Fraction) -> Verdict:
+    """Everything about these limits, exactly."""
+    highest = max((limit.order for limit in limits), default=0)
+    tables = _Tables(trajectory)
+    jumps = [trajectory.jump(order, tables.rows[order]) for order in range(max(highest, 1))]
+    outcomes = tuple(_outcome(limit, tables.of(limit), trajectory) for limit in limits)
+    return Verdict(trajectory, outcomes, tuple(j for j in jumps if j), tolerance)
+
+
+@dataclass(frozen=True)
+class _Tables:
+    """The polynomials that limits speak of, each made once."""
+
+    trajectory: Trajectory
+
+    @cached_property
+    def rows(self) -> list[tuple[tuple[RationalPoly, ...], ...]]:
+        step = lambda rows, _: tuple(tuple(p.derivative() for p in row) for row in rows)  # noqa: E731
+        return list(accumulate(range(3), step, initial=self.trajectory.pieces))
+
+    def of(self, limit: Limit) -> list[RationalPoly]:
+        """One for each piece."""
+        return limited(self.rows[limit.order], limit)
+
+
+def limited(rows: Sequence[Sequence[RationalPoly]], limit: Limit) -> list[RationalPoly]:
+    """What a limit compares, of each piece: a derivative of its axis, or the sum of the squares of all axes."""
+    if limit.axis is not None:
+        return [row[limit.axis] for row in rows]
+    return [sum((p * p for p in row), RationalPoly.of([])) for row in rows]
+
+
+def _outcome(limit: Limit, polys: Sequence[RationalPoly], trajectory: Trajectory) -> Outcome:
+    lengths = trajectory.lengths
+    low, high = _ranges(polys, lengths)
+    peaks, kept = list[Peak](), True
+    for sign, bound in limit.sides:
+        tops = high if sign > 0 else -low
+        peak = _peak(sign, tops, polys, lengths)
+        peaks.append(peak)
+        if peak.value[0] > bound:
+            kept = False
+        elif peak.value[1] > bound:  # so close that only an exact decision tells
+            near = [i for i, top in enumerate(tops.tolist()) if not top < bound]
+            kept = kept and all(is_below(polys[i], lengths[i], sign, bound) for i in near)
+    over = [p.value[0] - bound for p, (_, bound) in zip(peaks, limit.sides, strict=True)]
+    return Outcome(limit, peaks[over.index(max(over))], kept)
+
+
+def is_below(p: RationalPoly, length: Fraction, sign: int, bound: Fraction) -> bool:
+    """Whether sign * p <= bound on [0, length]."""
+    scaled = [-sign * c * length**k for k, c in enumerate(p.coefficients())] or [ZERO]
+    scaled[0] += bound
+    return not isinstance(decide(bs.from_power(scaled)), Negative)
+
+
+def _ranges(polys: Sequence[RationalPoly], lengths: Sequence[Fraction]) -> tuple[Any, Any]:
+    """Numbers below and above each polynomial on its interval.
+
+    A coefficient c_k h^k has a relative error of at most (k + 2) u in floats, u = 2^-53; a Bernstein coefficient of a
+    polynomial of degree n is a sum of n + 1 of them with weights in [0, 1] (Higham, "Accuracy and Stability of
+    Numerical Algorithms", section 3.1). Beyond usual sizes nothing is said.
+    """
+    degree = max(max((p.degree for p in polys), default=0), 0)
+    table = np.zeros((len(polys), degree + 1))
+    for i, p in enumerate(polys):
+        if p.degree >= 0:
+            table[i, : p.degree + 1] = p.floats()
+    h = np.array([float(length) for length in lengths])
+    weights = np.array([[comb(i, k) / comb(degree, k) for k in range(degree + 1)] for i in range(degree + 1)])
+    with np.errstate(all="ignore"):
+        scaled = table * h[:, None] ** np.arange(degree + 1)
+        values = scaled @ weights.T
+        size = np.abs(scaled).sum(axis=1)
+        error = size * (4 * degree + 20) * 2.0**-53 + 1e-200
+        usual = (h < 1e6) & (h > 1e-6) & np.isfinite(size) & (size < 1e100) & (degree <= 15)
+        return np.where(usual, values.min(axis=1) - error, -np.inf), np.where(usual, values.max(axis=1) + error, np.inf)
+
+
+def _peak(sign: int, tops: Any, polys: Sequence[RationalPoly], lengths: Sequence[Fraction]) -> Peak:
+    """The largest value of sign * p. Pieces in the order of what they may reach, until the rest cannot reach it."""
+    best: Peak | None = None
+    for i in np.argsort(-tops, kind="stable").tolist():
+        if best is not None and tops[i] < best.value[0]:
+            break
+        for at, value in _extremes(polys[i], lengths[i], sign):
+            if best is None or value[0] > best.value[0]:
+                best = Peak(i, sign, at, value)
+    assert best is not None
+    return best
+
+
+def _extremes(
+    p: RationalPoly, length: Fraction, sign: int
+) -> Iterator[tuple[RealAlgebraic, tuple[Fraction, Fraction]]]:
+    """The ends and the roots of the derivative, each with an enclosure of sign * p there."""
+    for end in (ZERO, length):
+        value = sign * p(end)
+        yield RealAlgebraic.rational(end), (value, value)
+    slope = p.derivative()
+    if slope.degree < 1:  # monotone
+        return
+    signs = {c > 0 for c in bs.from_power([c * length**k for k, c in enumerate(slope.coefficients())]) if c}
+    if len(signs) < 2:  # monotone
+        return
+    steepest = sum(abs(c) * length**k for k, c in enumerate(slope.coefficients()))
+    for root in slope.roots(ZERO, length):
+        low, high = root.interval(BITS)
+        value, error = sign * p((low + high) / 2), steepest * (high - low)
+        yield root, (value - error, value + error)
+
+
+def from_values(values: Mapping[str, Any], axes: int) -> list[Limit]:
+    """Limits from numbers, or lists of one for each axis: position (pairs), velocity, ..., velocity_norm, ..."""
+    listed: list[Limit] = []
+    for order, name in enumerate(QUANTITIES):
+        if name in values:
+            for axis in range(axes):
+                value = values[name][axis]
+                low, high = value if order == 0 else (None, value)
+                listed.append(Limit(order, axis, high, low))
+        if order and f"{name}_norm" in values:
+            listed.append(Limit(order, None, values[f"{name}_norm"]))
+    return listed
