@@ -135,8 +135,9 @@ def test_points_satisfy_the_conditions(text: str) -> None:
 def test_conditions_that_contradict_each_other_add_up_to_a_number(text: str) -> None:
     found = point(text)
     assert isinstance(found, LinearContradiction)
-    weights = [(weight, poly) for weight, poly in found.terms]
-    assert weights and sum((w * p for w, p in weights[1:]), weights[0][0] * weights[0][1]).constant_value() == found.total
+    weight, poly = found.terms[0]
+    total = sum((w * p for w, p in found.terms[1:]), weight * poly)
+    assert total.constant_value() == found.total
 
 
 @each(
