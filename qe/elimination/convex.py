@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from qe.convex.linear_point import linear_point
+from qe.convex.linear_point import LinearContradiction, linear_point
 from qe.convex.optimum import Decision, decide
 from qe.convex.system import NotConvex
 from qe.elimination.protocol import Context, Outcome, witness_of
@@ -13,6 +13,7 @@ from qe.exact.number import Number
 from qe.formula.block import Block
 from qe.formula.syntax import FALSE, TRUE, Exists
 from qe.options import Budget, Options
+from qe.proof.certificate import Certificate
 
 
 class ConvexOptimisation:
@@ -27,7 +28,13 @@ class ConvexOptimisation:
     def run(self, problem: Block, context: Context) -> Outcome | None:
         """A decision with its certificate; None where the set is not a convex one that can be read."""
         dual = problem.dual
-        known: Mapping[str, Number] | None = linear_point(dual.body, budget=context.budget)
+        point = linear_point(dual.body, budget=context.budget)
+        if isinstance(point, LinearContradiction):
+            answer = problem.asked(FALSE)
+            proof = Certificate.step("signs", problem.variables, problem.formula, answer, point.evidence())
+            context.log.step("convex", problem.formula, answer, evidence={"proof": {"certificate": proof}})
+            return Outcome(answer, certificate=proof)
+        known: Mapping[str, Number] | None = point
         if known is None:
             found = decide_convex(Exists(dual.variables, dual.body), budget=context.budget)
             if found is None:

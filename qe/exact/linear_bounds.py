@@ -156,6 +156,13 @@ class LinearBounds:
             reasons.add(reason)
         return reasons
 
+    def contradiction(self) -> list[tuple[Hashable, Fraction]]:
+        """After a conflict on a row: the reasons, each with the factor of the variable that it bounds; these multiples
+        of the variables add up to zero, and those of their bounds to a contradiction."""
+        assert self.stuck is not None
+        terms = self._contradiction(*self.stuck)
+        return [((self.upper if up else self.lower)[y][1], Fraction(int(c.p), int(c.q))) for y, up, c in terms]
+
     def side(self, x: int, bound: Fraction) -> int:
         """The sign of x - bound for the present value of x."""
         value, other = self.values[x], (fmpq(bound.numerator, bound.denominator), _ZERO)

@@ -432,4 +432,4 @@ def _rebuild(names: tuple[str, ...], terms: tuple[tuple[tuple[int, ...], int], .
 
 def format_poly(p: Poly, spelled: Callable[[str], str] = quoted) -> str:
     """Text such as ``x^2 - 2*x*y + 1``, which the text reader reads back; ``spelled`` writes a name."""
-    return sparse_text(p.sparse_terms(), [spelled(name) for name in p.ring.names])
+    return sparse_text(p.sparse_terms(), {i: spelled(p.ring.names[i]) for i in p.variables})

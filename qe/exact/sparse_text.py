@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from flint import fmpz
 
@@ -10,7 +10,7 @@ SparseTerm = tuple[tuple[tuple[int, int], ...], int]
 """((variable, exponent > 0), ...), ascending, and the coefficient."""
 
 
-def sparse_text(terms: Sequence[SparseTerm], names: Sequence[str]) -> str:
+def sparse_text(terms: Sequence[SparseTerm], names: Sequence[str] | Mapping[int, str]) -> str:
     """Text such as ``x^2 - 2*x*y + 1``, high terms first."""
     pieces: list[str] = []
     for exponents, coefficient in sorted(terms, key=_by_degree, reverse=True):

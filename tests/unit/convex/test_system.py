@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from qe.convex.feasible import feasible
 from qe.convex.frame import centred_frame, lies_far, plain_frame
 from qe.convex.linear import LinearBest, LinearConflict, LinearFall, linear_optimum
-from qe.convex.linear_point import linear_point
+from qe.convex.linear_point import LinearContradiction, linear_point
 from qe.convex.optimum import decide
 from qe.convex.simplex import Endless, Least, Nowhere, least_cost
 from qe.convex.system import ConvexSystem, NotConvex, is_convex, read_system
@@ -102,7 +102,7 @@ def test_feasible(text: str, true: bool) -> None:
     assert (decide(formula, budget=Budget()).values is not None) is true
 
 
-def point(text: str | Formula) -> dict[str, Fraction] | None:
+def point(text: str | Formula) -> dict[str, Fraction] | LinearContradiction | None:
     return linear_point(read(text) if isinstance(text, str) else text, budget=Budget(60))
 
 
@@ -119,7 +119,7 @@ def point(text: str | Formula) -> dict[str, Fraction] | None:
 )
 def test_points_satisfy_the_conditions(text: str) -> None:
     found = point(text)
-    assert found is not None and holds_at(read(text), found)
+    assert isinstance(found, dict) and holds_at(read(text), found)
 
 
 @each(
@@ -131,13 +131,23 @@ def test_points_satisfy_the_conditions(text: str) -> None:
     "x + y = 1 and x + y = 2",
     "x < y and y < z and z < x",
     "x <= y and y <= z and z <= x and x < z",
+)
+def test_conditions_that_contradict_each_other_add_up_to_a_number(text: str) -> None:
+    found = point(text)
+    assert isinstance(found, LinearContradiction)
+    weight, poly = found.terms[0]
+    total = sum((w * p for w, p in found.terms[1:]), weight * poly)
+    assert total.constant_value() == found.total
+
+
+@each(
     "x^2 < 1",
     "x /= 1",
     "x > 1 or x < 0",
     "true",
     "false",
 )
-def test_no_point_or_not_linear(text: str) -> None:
+def test_what_is_not_linear_is_not_answered(text: str) -> None:
     assert point(text) is None
 
 
