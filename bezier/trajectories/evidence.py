@@ -62,7 +62,8 @@ def _claims(
             for limit, row in zip(limits, rows, strict=True)
             for sign, bound in limit.sides
         ]
-        yield f"piece {i + 1}, {factor} times as slow", excesses, _sentence(length, excesses)
+        slower = "" if factor == 1 else f", {factor} times as slow"
+        yield f"piece {i + 1}{slower}", excesses, _sentence(length, excesses)
 
 
 def _broken(trajectory: Trajectory, outcome: Outcome) -> tuple[str, list[Poly], Formula]:

@@ -51,17 +51,21 @@ def load(file: Path, interpolation: str | None = None) -> Trajectory:
 
 def _parsed(text: str, kind: str, source: str) -> Any:
     try:
-        if kind == ".json":
-            return stored.parsed(text)
-        import yaml
+        return stored.parsed(text) if kind == ".json" else _yaml(text, source)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{source}: expected {kind[1:].upper()}, found: {' '.join(str(error).split())}") from None
 
-        return yaml.load(text, Loader=yaml.BaseLoader)  # texts only, so that decimals stay exact
+
+def _yaml(text: str, source: str) -> Any:
+    """Lists, dictionaries and texts, so that decimals stay exact."""
+    try:
+        import yaml
     except ImportError:
         raise InputError(f"{source}: reading YAML needs the package PyYAML") from None
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{source}: expected JSON, found: {error}") from None
+    try:
+        return yaml.load(text, Loader=yaml.BaseLoader)
     except yaml.YAMLError as error:
-        raise InputError(f"{source}: expected YAML, found: {' '.join(str(error).split())}") from None
+        raise ValueError(str(error)) from None
 
 
 class _Reader:

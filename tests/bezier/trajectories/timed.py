@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import pytest
 from scipy.interpolate import CubicSpline
 
 from bezier.trajectories.exact import composed
@@ -22,7 +23,7 @@ def spline(points: Any) -> CubicSpline:
 
 def least_time_law(path: CubicSpline, axes: int, count: int) -> tuple[Any, Any, Any, Any]:
     """(times, s, s', s'') of toppra on ``count`` intervals, for |v| <= 1, |a| <= 2."""
-    import toppra
+    toppra = pytest.importorskip("toppra")
     from toppra import algorithm, constraint
 
     toppra.setup_logging("ERROR")
