@@ -113,6 +113,11 @@ class Range:
         """Whether the range is a single value."""
         return self.lower is not None and self.lower == self.upper
 
+    @property
+    def is_bounded(self) -> bool:
+        """Whether there is an end."""
+        return self.lower is not None or self.upper is not None
+
     def end(self, *, lower: bool) -> tuple[RootFunction | None, bool]:
         """One end (None: there is none), and whether it is included."""
         return (self.lower, self.lower_closed) if lower else (self.upper, self.upper_closed)
@@ -174,7 +179,7 @@ class Piece:
 
     @property
     def _bounded(self) -> list[Range]:
-        return [r for r in self.ranges if r.lower is not None or r.upper is not None]
+        return [r for r in self.ranges if r.is_bounded]
 
 
 Candidates = frozenset[RootFunction]

@@ -32,6 +32,7 @@ from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
+from qe.spelling import quoted
 
 Place = tuple[Range, ...]
 
@@ -55,11 +56,17 @@ class Case:
         return f"<{self}>"
 
     def __str__(self) -> str:
-        where = ", ".join(str(r) for r in self.ranges)
+        where = _said(self.ranges)
         what = "unbounded" if self.value is None else f"{self.value}{'' if self.attained else ' (not attained)'}"
         if self.minimisers:
-            what += f" at {' or '.join(', '.join(map(str, place)) for place in self.minimisers)}"
+            points = [_said(place) or "any " + ", ".join(quoted(r.variable) for r in place) for place in self.minimisers]
+            what += f" at {' or '.join(points)}"
         return f"{what} if {where}" if where else what
+
+
+def _said(place: Place) -> str:
+    """The ranges that say something."""
+    return ", ".join(str(r) for r in place if r.is_bounded)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
