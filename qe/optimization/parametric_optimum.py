@@ -59,9 +59,12 @@ class Case:
         where = _said(self.ranges)
         what = "unbounded" if self.value is None else f"{self.value}{'' if self.attained else ' (not attained)'}"
         if self.minimisers:
-            points = [_said(place) or "any " + ", ".join(quoted(r.variable) for r in place) for place in self.minimisers]
-            what += f" at {' or '.join(points)}"
+            what += f" at {' or '.join(_said(place) or f'any {_names(place)}' for place in self.minimisers)}"
         return f"{what} if {where}" if where else what
+
+
+def _names(place: Place) -> str:
+    return ", ".join(quoted(r.variable) for r in place)
 
 
 def _said(place: Place) -> str:
