@@ -15,11 +15,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from bezier.chains.plan import ChainPlan, chain
     from bezier.interface.function import plan
     from bezier.interface.planned import NoPath, Planned
     from bezier.plans import Outcome
 
 _LATER = {
+    "ChainPlan": "bezier.chains.plan",
+    "chain": "bezier.chains.plan",
     "NoPath": "bezier.interface.planned",
     "Outcome": "bezier.plans",
     "Planned": "bezier.interface.planned",
@@ -43,4 +46,4 @@ def __dir__() -> list[str]:
     return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})
 
 
-__all__ = ["NoPath", "Outcome", "Planned", "plan"]
+__all__ = ["ChainPlan", "NoPath", "Outcome", "Planned", "chain", "plan"]

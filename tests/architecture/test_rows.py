@@ -58,6 +58,7 @@ ROWS = {
     "bezier.curves": 12,
     "bezier.input": 13,
     "bezier.obstacles": 14,
+    "bezier.chains": 15,
     "bezier.trajectories": 15,
     "bezier.trajectories.command": 24,
     "bezier.paths": 15,

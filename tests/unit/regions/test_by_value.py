@@ -84,7 +84,7 @@ def _question(chance: random.Random) -> tuple[str, str]:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_the_lines_hold_where_the_question_does(seed: int) -> None:
-    """At rational points, some of them solutions, and by decision where that ends."""
+    """At rational points and at a point of each cell."""
     question, names = _question(random.Random(seed))
     try:
         solutions = qe.solve(question, names, timeout=5)

@@ -1,0 +1,249 @@
+"""Rational proofs about chains: a point that keeps all conditions, multipliers that exclude one, and both sides of the
+optimum.
+
+THEOREM (weak duality; Boyd, Vandenberghe: Convex Optimization, 5.2.2). With weights w_i >= 0 and convex forms, the
+least value of f + sum w_i g_i is at most f wherever all g_i <= 0; if the least value of sum w_i g_i is positive,
+nowhere are all g_i <= 0. The least values here are exact: one linear system over Q. Certificates are sentences that
+the rule "multipliers" proves, and witnesses; a sentence about some of the conditions is one about all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+
+from bezier.chains import proposals
+from bezier.chains.chain import Chain, Requirement, Solved, objective_form, requirements
+from bezier.chains.form import Form, Point, weighted_sum
+from qe.convex.evidence import optimum_certificate
+from qe.convex.minimise import evidence_about, solve
+from qe.convex.near_optimum import GAP
+from qe.convex.system import ConvexSystem, constant
+from qe.errors import Unable
+from qe.exact.quadratic_form import Quadratic
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj
+from qe.formula.syntax import Relation
+from qe.options import Budget
+from qe.proof.certificate import Certificate
+from qe.proof.multipliers import FormRelation, OptimumStatus
+
+_ZERO, _ONE = Fraction(0), Fraction(1)
+MOST_EXACT = 12
+"""Variables up to which an exact method is tried where rounded multipliers prove nothing."""
+EXACT_SECONDS = 1.0
+_PLACES = (20, 30, 40, 50)  # binary, of a point, in proportion to the size of the problem
+_DROPPED = (1e-6, 1e-9, 0.0)  # shares of the largest weight below which weights are left out
+_AXES = "xyz"
+
+
+@dataclass(frozen=True, slots=True)
+class Contradiction:
+    """The conditions ``support`` exclude each other. ``weights`` by number: those of the theorem."""
+
+    support: tuple[Requirement, ...]
+    certificate: Certificate
+
+
+@dataclass(frozen=True, slots=True)
+class Best:
+    """A point that keeps all conditions, and a number below which the objective cannot be. ``is_exact``: they agree."""
+
+    free: tuple[Point, ...]
+    value: Fraction
+    bound: Fraction
+    weights: Mapping[str, Fraction]
+    """The multipliers of the bound, of the conditions that have one."""
+    certificate: Certificate
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether this is the optimum itself."""
+        return self.value == self.bound
+
+
+def decided(chain: Chain, solved: Solved, rows: Sequence[Requirement]) -> tuple[Point, ...] | Contradiction:
+    """Free points that keep these conditions, or why there are none. Raises ``Unable`` where they touch so that neither
+    can be proved."""
+    size, d = solved.size, chain.dimension
+    for row in rows:
+        if row.form.is_constant and row.form.constant > 0:
+            return contradiction(chain, size, {row.label: _ONE}, (row,))
+    varying = [row for row in rows if not row.form.is_constant]
+    if not varying:
+        return ((_ZERO,) * d,) * size
+    proposal = proposals.least_excess(chain, size, varying)
+    if proposal is not None:
+        for places in _PLACES if proposal.excess < 0 else ():
+            free = rounded_point(chain, proposal.point, places)
+            if all(row.form.value(free) <= 0 for row in varying):
+                return free
+        for share in _DROPPED:
+            weights = rounded_weights(proposal.weights, share)
+            support = [(w, row) for w, row in zip(weights, varying, strict=True) if w]
+            lowest = weighted_sum((w, row.form) for w, row in support).minimum(size, d) if support else None
+            if lowest is not None and lowest[1] > 0:
+                return contradiction(chain, size, {r.label: w for w, r in support}, [r for _, r in support])
+    if size * d <= MOST_EXACT:
+        return _exactly(chain, size, varying)
+    raise Unable("the conditions touch: neither a path nor a contradiction could be proved")
+
+
+def contradiction(
+    chain: Chain, size: int, weights: Mapping[str, Fraction], rows: Sequence[Requirement]
+) -> Contradiction:
+    """What multipliers prove, checked. Raises ``Unable`` where they prove nothing."""
+    d = chain.dimension
+    lowest = weighted_sum((weights[row.label], row.form) for row in rows).minimum(size, d)
+    if lowest is None or lowest[1] <= 0 or any(weights[row.label] < 0 for row in rows):
+        raise Unable("these multipliers contradict nothing")
+    forms = [row.form for row in rows]
+    return Contradiction(tuple(rows), _refuted(chain, size, forms, [weights[r.label] for r in rows], lowest[0]))
+
+
+def _refuted(
+    chain: Chain, size: int, forms: Sequence[Form], weights: Sequence[Fraction], at: Sequence[Point], *, strict: int = 0
+) -> Certificate:
+    """That the forms are not all <= 0 (the last ``strict`` ones: < 0) anywhere."""
+    relations = (FormRelation.LE,) * (len(forms) - strict) + (FormRelation.LT,) * strict
+    system = ConvexSystem(names_of(chain, size), *_objective_and(chain, size, forms), relations)
+    flat = tuple(c for p in at for c in p)
+    evidence = evidence_about(system, status=OptimumStatus.INFEASIBLE, point=flat, multipliers=tuple(weights))
+    return optimum_certificate(evidence)
+
+
+def _objective_and(chain: Chain, size: int, forms: Sequence[Form]) -> tuple[Quadratic, tuple[Quadratic, ...]]:
+    quadratics = tuple(form.quadratic(size, chain.dimension) for form in forms)
+    return constant(size * chain.dimension, 0), quadratics
+
+
+def _exactly(chain: Chain, size: int, rows: Sequence[Requirement]) -> tuple[Point, ...] | Contradiction:
+    """The same by the engine's exact method, which also knows conditions that touch."""
+    relations = (FormRelation.LE,) * len(rows)
+    names = names_of(chain, size)
+    system = ConvexSystem(names, *_objective_and(chain, size, [row.form for row in rows]), relations)
+    evidence = solve(system, budget=Budget(EXACT_SECONDS))
+    if evidence.status is OptimumStatus.INFEASIBLE:
+        return Contradiction(tuple(rows), optimum_certificate(evidence))
+    values = [Fraction(c) if isinstance(c, Fraction) else None for c in evidence.point]
+    exact = [c for c in values if c is not None]
+    if len(exact) < len(values):
+        raise Unable("the conditions touch in an irrational point")
+    d = chain.dimension
+    return tuple(tuple(exact[i : i + d]) for i in range(0, len(exact), d))
+
+
+def best(chain: Chain, solved: Solved, inside: Sequence[Point]) -> Best:
+    """Both sides of the optimum, at most ``GAP`` of it apart. ``inside``: free points that keep all conditions.
+
+    Raises ``Unable`` where that cannot be proved.
+    """
+    size, d, objective = solved.size, chain.dimension, objective_form(chain, solved)
+    rows = requirements(chain, solved)
+    lowest = objective.minimum(size, d)
+    if lowest is not None and all(row.form.value(lowest[0]) <= 0 for row in rows):
+        return bounded(chain, solved, lowest[0], {})
+    varying = [row for row in rows if not row.form.is_constant]
+    proposal = proposals.least_value(chain, size, varying, objective)
+    if proposal is None:
+        raise Unable("no optimum was proposed")
+    reason = "no point near the optimum keeps all conditions"
+    for free in _pushed(chain, proposal.point, inside, varying):
+        for share in _DROPPED:
+            weights = rounded_weights(proposal.weights, share)
+            named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
+            try:
+                return bounded(chain, solved, free, named)
+            except Unable as error:
+                reason = str(error)
+    raise Unable(reason)
+
+
+def bounded(chain: Chain, solved: Solved, free: Sequence[Point], weights: Mapping[str, Fraction]) -> Best:
+    """What a point and multipliers prove together. Raises ``Unable`` where the point breaks a condition, a weight is
+    negative or of no condition, or the two sides are more than ``GAP`` of the value apart."""
+    size, objective, rows = solved.size, objective_form(chain, solved), requirements(chain, solved)
+    broken = [row.label for row in rows if row.form.value(free) > 0]
+    if broken:
+        raise Unable(f"the point breaks a condition: {broken[0]}")
+    if weights.keys() - {row.label for row in rows} or any(w < 0 for w in weights.values()):
+        raise Unable("a multiplier is negative, or of no condition")
+    chosen = [row for row in rows if weights.get(row.label)]
+    lagrangian = weighted_sum([(_ONE, objective), *((weights[row.label], row.form) for row in chosen)])
+    lowest, value = lagrangian.minimum(size, chain.dimension), objective.value(free)
+    if lowest is None or value - lowest[1] > GAP * abs(value):
+        raise Unable("the two sides of the optimum are too far from each other")
+    forms = [*(row.form for row in chosen), objective.shifted(-lowest[1])]
+    below = _refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
+    reached = [*(row.form for row in rows), objective.shifted(-value)]
+    proofs = [("optimum: bound", below), ("optimum: point", _witness(chain, size, reached, free))]
+    used = {row.label: weights[row.label] for row in chosen}
+    return Best(tuple(free), value, lowest[1], used, Certificate.bundle(proofs))
+
+
+def feasible(chain: Chain, solved: Solved, rows: Sequence[Requirement], free: Sequence[Point]) -> Certificate:
+    """That the free points keep these conditions."""
+    return _witness(chain, solved.size, [row.form for row in rows], free)
+
+
+def _witness(chain: Chain, size: int, forms: Sequence[Form], free: Sequence[Point]) -> Certificate:
+    names = names_of(chain, size)
+    ring = Ring.of(names)
+    matrix = conj(tuple(atom(_poly(form, ring, size, chain.dimension), Relation.LE) for form in forms))
+    return Certificate.witness(matrix, names, [c for p in free for c in p])
+
+
+def _poly(form: Form, ring: Ring, size: int, dimension: int) -> Poly:
+    """A positive multiple with whole coefficients."""
+    terms: dict[tuple[int, ...], Fraction] = {}
+    width = size * dimension
+
+    def add(places: Sequence[int], value: Fraction) -> None:
+        if value:
+            terms[tuple(places.count(v) for v in range(width))] = value
+
+    add((), form.constant)
+    for i, g in form.gradient.items():
+        for k, value in enumerate(g):
+            add((i * dimension + k,), value)
+    for (i, j), m in form.matrix.items():
+        for k in range(dimension if i <= j else 0):
+            add((i * dimension + k, j * dimension + k), m if i == j else 2 * m)
+    scale = lcm(*(value.denominator for value in terms.values()))
+    return ring.from_terms({powers: int(value * scale) for powers, value in terms.items()})
+
+
+def names_of(chain: Chain, size: int) -> tuple[str, ...]:
+    """The variables of the sentences: the coordinates of the free points, numbered from 1."""
+    return tuple(f"{_AXES[k]}{i + 1}" for i in range(size) for k in range(chain.dimension))
+
+
+def rounded_point(chain: Chain, point: Sequence[Sequence[float]], places: int) -> tuple[Point, ...]:
+    """With so many binary places, in proportion to the largest coordinate that is given."""
+    unit = Fraction(2) ** (places - int(max(abs(c) for p in chain.points for c in p)).bit_length())
+    return tuple(tuple(Fraction(round(Fraction(c) * unit)) / unit for c in p) for p in point)
+
+
+def rounded_weights(weights: Sequence[float], share: float) -> tuple[Fraction, ...]:
+    """Without those that are below this share of the largest one, the others with 50 binary places of that."""
+    largest = max(weights, default=0.0)
+    if not largest > 0:
+        return (_ZERO,) * len(weights)
+    unit = Fraction(2) ** (50 - Fraction(largest).numerator.bit_length() + Fraction(largest).denominator.bit_length())
+    return tuple(Fraction(round(Fraction(w) * unit)) / unit if w > share * largest else _ZERO for w in weights)
+
+
+def _pushed(
+    chain: Chain, near: Sequence[Sequence[float]], inside: Sequence[Point], rows: Sequence[Requirement]
+) -> list[tuple[Point, ...]]:
+    """The first point on the way from the proposal to the inside that keeps all conditions."""
+    start = rounded_point(chain, near, 50)
+    for places in range(46, 2, -2):
+        share = Fraction(1, 2**places)
+        pairs = zip(start, inside, strict=True)
+        free = tuple(tuple(a + share * (b - a) for a, b in zip(p, q, strict=True)) for p, q in pairs)
+        if all(row.form.value(free) <= 0 for row in rows):
+            return [free]
+    return []

@@ -1,0 +1,107 @@
+"""What floating point proposes about chains (clarabel, extra ``squares``): points, multipliers, the least radius.
+Nothing of it is believed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import sqrt
+from typing import Any
+
+from bezier.chains.chain import Chain, Requirement
+from bezier.chains.form import Form
+from qe.extras import wanted
+
+TOLERANCE = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """``excess``: by how much (a length) the conditions have to be given up, negative where there is room; ``weights``:
+    one for each requirement."""
+
+    point: tuple[tuple[float, ...], ...]
+    weights: tuple[float, ...]
+    excess: float = 0.0
+
+
+def least_excess(chain: Chain, size: int, rows: Sequence[Requirement], *, balls_only: bool = False) -> Proposal | None:
+    """The smallest t such that all conditions hold with balls and half-spaces larger by t. ``balls_only``: half-spaces
+    as they are. None where clarabel gives up."""
+    return _solved(chain, size, rows, None, balls_only)
+
+
+def least_value(chain: Chain, size: int, rows: Sequence[Requirement], objective: Form) -> Proposal | None:
+    """The point where the objective is least, with multipliers."""
+    return _solved(chain, size, rows, objective, False)
+
+
+def _solved(
+    chain: Chain, size: int, rows: Sequence[Requirement], objective: Form | None, balls_only: bool
+) -> Proposal | None:
+    with wanted():
+        import clarabel
+        import numpy as np
+        from scipy import sparse
+    d, unit = chain.dimension, max(abs(float(c)) for p in chain.points for c in p)
+    n = size * d
+    width = n + (objective is None)
+    radius = 0.0 if chain.radius_squared is None else sqrt(chain.radius_squared) / unit
+    lines: list[Any] = []
+    right: list[float] = []
+    cones: list[Any] = []
+    for row in rows:
+        block = np.zeros((d, width))
+        for i, a in row.point.coefficients.items():
+            for k in range(d):
+                block[k, i * d + k] = float(a)
+        constant = np.array([float(c) for c in row.point.constant]) / unit
+        slack = np.zeros(width)
+        if row.half_space is None:
+            slack[n:] = -1.0
+            lines += [slack, *-block]
+            right += [radius, *(constant - np.array([float(c) for c in chain.centre]) / unit)]
+            cones.append(clarabel.SecondOrderConeT(d + 1))
+        else:
+            normal, offset = chain.half_spaces[row.half_space]
+            arrow = np.array([float(c) for c in normal])
+            length = float(np.linalg.norm(arrow))
+            slack[n:] = 0.0 if balls_only else -1.0
+            lines.append(slack - (arrow / length) @ block)
+            right.append(float(arrow @ constant) / length - float(offset) / length / unit)
+            cones.append(clarabel.NonnegativeConeT(1))
+    quadratic, linear = np.zeros((width, width)), np.zeros(width)
+    scale = 1.0
+    if objective is None:
+        linear[n] = 1.0
+        lines.append(np.array([0.0] * n + [-1.0]))
+        right.append(radius or 1.0)
+        cones.append(clarabel.NonnegativeConeT(1))
+    else:
+        scale = max((abs(float(m)) for m in objective.matrix.values()), default=1.0)
+        for (i, j), m in objective.matrix.items():
+            for k in range(d):
+                quadratic[i * d + k, j * d + k] = 2 * float(m) / scale
+        for i, g in objective.gradient.items():
+            linear[i * d : (i + 1) * d] = [float(c) / unit / scale for c in g]
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = TOLERANCE
+    upper, matrix = sparse.csc_matrix(np.triu(quadratic)), sparse.csc_matrix(np.array(lines).reshape(-1, width))
+    answer = clarabel.DefaultSolver(upper, linear, matrix, np.array(right), cones, settings).solve()
+    x = np.array(answer.x)
+    if not np.all(np.isfinite(x)) or not np.all(np.isfinite(np.array(answer.z))):
+        return None
+    excess = float(x[n]) if objective is None else 0.0
+    weights, at = [], 0
+    for row in rows:
+        z = max(float(answer.z[at]), 0.0)
+        if row.half_space is None:
+            weights.append(scale * z / 2 / max(radius + excess, 1e-9))
+            at += d + 1
+        else:
+            length = float(np.linalg.norm([float(c) for c in chain.half_spaces[row.half_space][0]]))
+            weights.append(scale * z * unit / length)
+            at += 1
+    point = tuple(tuple(float(c) * unit for c in x[i * d : (i + 1) * d]) for i in range(size))
+    return Proposal(point, tuple(weights), excess * unit)

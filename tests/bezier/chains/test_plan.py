@@ -1,0 +1,156 @@
+"""Chains through via points: optima between two proved numbers, conflicts, repairs; floating point is not believed."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+import bezier
+import qe
+from bezier.chains import plan, proof, proposals
+from bezier.chains.chain import Chain, Ends, Objective, objective_form, requirements
+from bezier.chains.proof import Contradiction
+from bezier.curves.curve import Bezier
+from qe.errors import InputError, Unable
+from tests.tables import each
+
+PLANE = [[0, 0], [2, 1], [3, 3], [5, 2]]
+SPACE = [["3/2", 5, 3], [-3, -2, 4], [-6, 4, 4], [0, -2, -3]]
+CROWDED = [[1, -5, -1], [-2, -4, 4], [-1, 6, 1], [1, 2, 2], [-4, -1, -3]]
+KINDS = ((2, 1, "legs"), (3, 1, "legs"), (3, 2, "legs"), (3, 2, "acceleration"), (5, 2, "jerk"), (5, 2, "snap"))
+
+
+def chain(points: Any, **given: Any) -> Any:
+    return bezier.chain(start=points[0], via=points[1:-1], goal=points[-1], **given)
+
+
+def derivative(curve: Bezier, order: int, at: int, time: Fraction) -> list[Fraction]:
+    """At the beginning (0) or the end (1), in time."""
+    points, degree, scale = [list(p) for p in curve.points], len(curve.points) - 1, Fraction(1)
+    for k in range(order):
+        points = [[b - a for a, b in zip(p, q, strict=True)] for p, q in pairwise(points)]
+        scale *= Fraction(degree - k) / time
+    return [c * scale for c in points[-at]]
+
+
+@each(*KINDS)
+@pytest.mark.parametrize("points", [PLANE, SPACE])
+def test_it_passes_all_points_smoothly_in_time_and_is_proved(points: Any, degree: int, c: int, objective: str) -> None:
+    times = [Fraction(1), Fraction(3, 2), Fraction(1, 2)]
+    best = chain(points, degree=degree, continuity=c, objective=objective, durations=times, radius=30)
+    assert best.feasible and best.bound <= best.value <= best.bound * (1 + Fraction(1, 10**9))
+    assert qe.verify(best.certificate, core=False).accepted and len(best.curves) == 3
+    for order in range(c + 1):
+        for (one, s), (two, t) in pairwise(zip(best.curves, times, strict=True)):
+            assert derivative(one, order, 1, s) == derivative(two, order, 0, t)
+    ends = [best.curves[0].points[0], *(curve.points[-1] for curve in best.curves)]
+    assert [tuple(map(Fraction, p)) for p in points] == [tuple(p) for p in ends]
+
+
+def test_closed_chains_and_rest_at_the_ends() -> None:
+    ring = bezier.chain(start=PLANE[0], via=PLANE[1:], closed=True, radius=10)
+    assert len(ring.curves) == 4 and derivative(ring.curves[-1], 2, 1, Fraction(1)) == derivative(
+        ring.curves[0], 2, 0, Fraction(1)
+    )
+    still = chain(PLANE, degree=5, ends="zero", objective="jerk")
+    assert derivative(still.curves[0], 1, 0, Fraction(1)) == [0, 0] == derivative(still.curves[-1], 2, 1, Fraction(1))
+
+
+def test_what_excludes_what_and_the_radius_that_repairs_it() -> None:
+    none = chain(CROWDED, radius="13/2")
+    assert not none.feasible and none.curves == () and none.conflict.smallest and none.repair is not None
+    for certificate in (none.certificate, none.conflict.certificate, none.repair.certificate):
+        assert qe.verify(certificate).accepted
+    assert none.repair.too_small < none.repair.radius < none.repair.too_small * (1 + Fraction(1, 10**6))
+    assert chain(CROWDED, radius=none.repair.radius * Fraction(1001, 1000)).feasible
+    assert not chain(CROWDED, radius=none.repair.too_small).feasible
+    assert "exclude each other" in str(none)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_values_are_those_of_another_optimiser(seed: int) -> None:
+    chance = random.Random(seed)
+    points = [[Fraction(chance.randint(-50, 50), 10) for _ in range(2)] for _ in range(4)]
+    given = Chain(
+        tuple(map(tuple, points)), objective=Objective.LEGS, centre=(Fraction(0),) * 2, radius_squared=Fraction(64)
+    )
+    solved = given.solved
+    assert solved is not None
+    rows, form = requirements(given, solved), objective_form(given, solved)
+
+    def value(x: Any, of: Any) -> float:
+        free = [tuple(map(Fraction, p)) for p in np.reshape(x, (solved.size, 2)).tolist()]
+        return float(of.value(free))
+
+    conditions = [{"type": "ineq", "fun": lambda x, row=row: -value(x, row.form)} for row in rows]
+    other = minimize(value, np.zeros(2 * solved.size), (form,), "SLSQP", constraints=conditions)
+    best = plan.planned(given)
+    if best.feasible:
+        assert float(best.value or 0) == pytest.approx(other.fun, rel=1e-4)
+    else:
+        assert not other.success or max(value(other.x, row.form) for row in rows) > 1e-6
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_broken_proposer_never_proves_anything_false(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    chance = random.Random(seed)
+    honest = {"least_excess": proposals.least_excess, "least_value": proposals.least_value}
+    right = [chain(PLANE, radius=6), chain(CROWDED, radius="13/2")]
+
+    def broken(name: str) -> Any:
+        def proposal(*given: Any, **named: Any) -> Any:
+            answer = honest[name](*given, **named)
+            point = tuple(tuple(c + chance.choice((0, 0, 1, -3)) for c in p) for p in answer.point)
+            weights = tuple(w * chance.choice((0, 1, 1, 7, -1)) for w in answer.weights)
+            return replace(answer, point=point, weights=weights, excess=answer.excess * chance.choice((1, -1)))
+
+        return proposal
+
+    for name in honest:
+        monkeypatch.setattr(proposals, name, broken(name))
+    for known, points, radius in zip(right, (PLANE, CROWDED), (6, "13/2"), strict=True):
+        try:
+            found = chain(points, radius=radius)
+        except Unable:
+            continue
+        assert found.feasible is known.feasible
+        if known.feasible:
+            assert found.bound <= known.value and known.bound <= found.value
+
+
+def test_multipliers_that_prove_nothing_are_refused() -> None:
+    given = Chain(tuple(tuple(map(Fraction, p)) for p in PLANE), centre=(Fraction(0),) * 2, radius_squared=Fraction(36))
+    solved = given.solved
+    assert solved is not None
+    rows = requirements(given, solved)
+    inside = proof.decided(given, solved, rows)
+    assert not isinstance(inside, Contradiction)
+    for weights in ({rows[0].label: Fraction(1)}, {rows[0].label: Fraction(-1)}):
+        with pytest.raises(Unable):
+            proof.contradiction(given, solved.size, weights, rows[:1])
+    with pytest.raises(Unable):
+        proof.bounded(given, solved, inside, {"no such condition": Fraction(1)})
+
+
+@each(
+    ({"degree": 4}, "degree"),
+    ({"radius": 0}, "radius"),
+    ({"radius": "a"}, "radius"),
+    ({"durations": [1]}, "durations"),
+    ({"objective": "length"}, "objective"),
+    ({"objective": "snap"}, "degree"),
+    ({"ends": "stop"}, "ends"),
+    ({"centre": [0]}, "coordinates"),
+    ({"closed": True}, "goal"),
+)
+def test_bad_input_is_one_line(given: dict[str, Any], word: str) -> None:
+    with pytest.raises(InputError, match=word) as refused:
+        chain(PLANE, **given)
+    assert "\n" not in str(refused.value) and isinstance(Ends("free"), Ends)
