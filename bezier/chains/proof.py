@@ -9,8 +9,8 @@ the rule "multipliers" proves, and witnesses; a sentence about some of the condi
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
 
@@ -36,6 +36,7 @@ MOST_EXACT = 12
 EXACT_SECONDS = 1.0
 _PLACES = (20, 30, 40, 50)  # binary, of a point, in proportion to the size of the problem
 _DROPPED = (1e-6, 1e-9, 0.0)  # shares of the largest weight below which weights are left out
+_SMALLER = tuple(Fraction(1, 10**k) for k in (13, 12, 11, 10))  # shares of the squared radius
 _AXES = "xyz"
 
 
@@ -150,7 +151,7 @@ def best(chain: Chain, solved: Solved, inside: Sequence[Point]) -> Best:
     if proposal is None:
         raise Unable("no optimum was proposed")
     reason = "no point near the optimum keeps all conditions"
-    for free in _pushed(chain, proposal.point, inside, varying):
+    for free in _inside(chain, proposal, inside, varying, objective):
         for share in _DROPPED:
             weights = rounded_weights(proposal.weights, share)
             named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
@@ -235,15 +236,26 @@ def rounded_weights(weights: Sequence[float], share: float) -> tuple[Fraction, .
     return tuple(Fraction(round(Fraction(w) * unit)) / unit if w > share * largest else _ZERO for w in weights)
 
 
-def _pushed(
-    chain: Chain, near: Sequence[Sequence[float]], inside: Sequence[Point], rows: Sequence[Requirement]
-) -> list[tuple[Point, ...]]:
-    """The first point on the way from the proposal to the inside that keeps all conditions."""
-    start = rounded_point(chain, near, 50)
+def _inside(
+    chain: Chain, proposal: proposals.Proposal, inside: Sequence[Point], rows: Sequence[Requirement], objective: Form
+) -> Iterator[tuple[Point, ...]]:
+    """Points near the proposal that keep all conditions: the best ones of slightly smaller balls, and the first one on
+    the way from the proposal to the inside."""
+    size, radius_squared = len(inside), chain.radius_squared
+    for share in _SMALLER:
+        if radius_squared is None:
+            break
+        smaller = replace(chain, radius_squared=radius_squared * (1 - share))
+        near = proposals.least_value(smaller, size, rows, objective)
+        free = rounded_point(chain, near.point, 50) if near is not None else ()
+        if free and all(row.form.value(free) <= 0 for row in rows):
+            yield free
+            break
+    start = rounded_point(chain, proposal.point, 50)
     for places in range(46, 2, -2):
         share = Fraction(1, 2**places)
         pairs = zip(start, inside, strict=True)
         free = tuple(tuple(a + share * (b - a) for a, b in zip(p, q, strict=True)) for p, q in pairs)
         if all(row.form.value(free) <= 0 for row in rows):
-            return [free]
-    return []
+            yield free
+            break

@@ -265,7 +265,7 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
         "certify",
         certify,
         "Any trajectory within its limits, for all t.",
-        "examples/trajectory/joints.csv --limits examples/trajectory/limits.toml",
+        "examples/joints/path.csv --limits examples/joints/limits.toml",
     ),
     ("compare", compare, "Quadratic and cubic curves side by side.", "examples/cubic_joins.toml --out out"),
     ("ik", ik, "All joint positions of an arm at a point.", "ev3-120 599/66 824/33 323/10"),
