@@ -18,9 +18,13 @@ if TYPE_CHECKING:
     from bezier.chains.plan import ChainPlan, chain
     from bezier.interface.function import plan
     from bezier.interface.planned import NoPath, Planned
+    from bezier.interface.trajectory import certify
     from bezier.plans import Outcome
+    from bezier.trajectories.command import Certified
 
 _LATER = {
+    "Certified": "bezier.trajectories.command",
+    "certify": "bezier.interface.trajectory",
     "ChainPlan": "bezier.chains.plan",
     "chain": "bezier.chains.plan",
     "NoPath": "bezier.interface.planned",
@@ -46,4 +50,4 @@ def __dir__() -> list[str]:
     return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})
 
 
-__all__ = ["ChainPlan", "NoPath", "Outcome", "Planned", "chain", "plan"]
+__all__ = ["Certified", "ChainPlan", "NoPath", "Outcome", "Planned", "certify", "chain", "plan"]

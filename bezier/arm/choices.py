@@ -15,7 +15,7 @@ from typing import Protocol
 
 from bezier.arm.elimination import Quotient
 from bezier.arm.model import Joint, JointKind
-from bezier.certify.families import arcs_of
+from bezier.proofs.families import arcs_of
 from qe.errors import InternalError, Unable
 from qe.exact.point_values import Ball, Evaluation, angle, pi_ends, roots_above, signs_around
 from qe.exact.ring import Poly

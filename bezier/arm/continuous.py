@@ -22,8 +22,8 @@ from bezier.arm.critical import Number
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.model import Arm
 from bezier.arm.vertical import SignsAlong, vertical_arm
-from bezier.certify.joint_motions import Between, Label, joined
 from bezier.curves.curve import Bezier
+from bezier.proofs.joint_motions import Between, Label, joined
 from qe.errors import InternalError
 from qe.exact.nearby import rational_between
 from qe.proof.entry import Entry

@@ -18,9 +18,9 @@ from bezier.arm.elimination import LIFTED, TURNS, Geometry, Reduction
 from bezier.arm.inverse import geometry_of
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant, reduced
-from bezier.certify.branch import powers
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly, rational
+from bezier.proofs.branch import powers
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
 from qe.exact.point_values import roots_between

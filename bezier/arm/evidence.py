@@ -16,11 +16,11 @@ from bezier.arm.model import Arm
 from bezier.arm.motion_chain import ProvedPiece
 from bezier.arm.roots_of_squares import arm_json
 from bezier.arm.vertical import SignsAlong
-from bezier.certify import branch as checked
-from bezier.certify import inverse_position, joint_motions
-from bezier.certify.square_roots import ONE, Polynomial, Surd, divided
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
+from bezier.proofs import branch as checked
+from bezier.proofs import inverse_position, joint_motions
+from bezier.proofs.square_roots import ONE, Polynomial, Surd, divided
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded, CertificateRejected, Unable
 from qe.expert.sentences import Sentence

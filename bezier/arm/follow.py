@@ -20,9 +20,9 @@ from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, JointKind
 from bezier.arm.motion_chain import MotionChain, ProvedPiece
-from bezier.certify.branch import powers
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
+from bezier.proofs.branch import powers
 from qe.exact.point_values import pi_ends
 
 FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)

@@ -11,8 +11,8 @@ from bezier.arm.evidence import POSITIONS
 from bezier.arm.inverse import Inverse, Solution
 from bezier.arm.pose import first_three, is_family, motion_of
 from bezier.arm.roots_of_squares import arm_json, chain_of, roots_of, surd_json, surds
-from bezier.certify.arm_rows import read_circle
-from bezier.certify.inverse_pose import centre
+from bezier.proofs.arm_rows import read_circle
+from bezier.proofs.inverse_pose import centre
 from qe.errors import Unable
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry, Json

@@ -22,9 +22,9 @@ from bezier.arm.limited_motions import Excess, LimitedMotions, excesses, turns_o
 from bezier.arm.model import Arm
 from bezier.arm.study import Near, Study, ends_of, study
 from bezier.arm.vertical import VerticalArm, vertical_arm
-from bezier.certify.joint_motions import Label
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import same
+from bezier.proofs.joint_motions import Label
 from qe.errors import BudgetExceeded, InputError, Unable
 
 

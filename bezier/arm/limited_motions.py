@@ -29,7 +29,7 @@ from bezier.arm.inverse import Solution, solve
 from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.study import Place, Stretch, Study, is_wide, sample_between
 from bezier.arm.vertical import vertical_arm
-from bezier.certify.joint_motions import Label
+from bezier.proofs.joint_motions import Label
 from qe.errors import InternalError, Unable
 
 Parts = Sequence[tuple[int, Branch]]

@@ -3,7 +3,7 @@
 Planar arms with three joints, also with a fourth one that slides along their axes; arms with six joints whose axes 2,
 3, 4 are parallel and whose axes 5 and 6 meet (or the same read from the hand back to the base), like the myCobot 280
 (arXiv 2509.00823) and the UR arms; spherical wrists behind three joints. The derivation is that of the rule "joint
-positions" (``bezier.certify.inverse_pose``), in its numbers; what it takes from here are the real roots of the equation
+positions" (``bezier.proofs.inverse_pose``), in its numbers; what it takes from here are the real roots of the equation
 of the first three joints, and the forward kinematics of all solutions are compared with the pose in floating point.
 
 Where axes 5 and 6 of six joints meet on axis 1, θ1 can be chosen, and the other joints follow it. Whether they can is
@@ -26,9 +26,10 @@ from bezier.arm.elimination import TURNS
 from bezier.arm.inverse import Inverse, Solution, exact_number, listed, solution_of
 from bezier.arm.model import Arm, Matrix, motion, product
 from bezier.arm.roots_of_squares import chain_of, roots_of, surds, zeros_among
-from bezier.certify.arm_rows import ArmChain
-from bezier.certify.families import Arcs, Position, arcs_of, arcs_over
-from bezier.certify.inverse_pose import (
+from bezier.curves.scalar import rational
+from bezier.proofs.arm_rows import ArmChain
+from bezier.proofs.families import Arcs, Position, arcs_of, arcs_over
+from bezier.proofs.inverse_pose import (
     ORIGIN,
     OtherShape,
     SixJoints,
@@ -40,9 +41,9 @@ from bezier.certify.inverse_pose import (
     parallel_axes,
     wrist,
 )
-from bezier.certify.inverse_position import positions_of
-from bezier.certify.nested_roots import NO_ROOT, JointValue, Nested, Place, Root, nested, square, turn_between, turn_by
-from bezier.certify.square_roots import (
+from bezier.proofs.inverse_position import positions_of
+from bezier.proofs.nested_roots import NO_ROOT, JointValue, Nested, Place, Root, nested, square, turn_between, turn_by
+from bezier.proofs.square_roots import (
     ONE,
     ZERO,
     Motion,
@@ -52,8 +53,7 @@ from bezier.certify.square_roots import (
     back,
     is_motion,
 )
-from bezier.certify.three_joints import Positions
-from bezier.curves.scalar import rational
+from bezier.proofs.three_joints import Positions
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
 from qe.exact.nearby import rational_between
 from qe.exact.point_values import Ball, angle

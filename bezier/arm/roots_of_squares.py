@@ -12,10 +12,10 @@ from operator import mul
 from typing import Any
 
 from bezier.arm.model import Angle, Arm
-from bezier.certify.arm_rows import ArmChain, read_chain
-from bezier.certify.nested_roots import Place
-from bezier.certify.square_roots import ONE, Polynomial, Surd, Triple, enclosure, primes
 from bezier.curves.scalar import rational
+from bezier.proofs.arm_rows import ArmChain, read_chain
+from bezier.proofs.nested_roots import Place
+from bezier.proofs.square_roots import ONE, Polynomial, Surd, Triple, enclosure, primes
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots, real_roots
 from qe.exact.algebraic_text import square_part

@@ -6,7 +6,7 @@ rational parameter in each of these intervals and the critical ones themselves d
 Where along a curve a joint can be at one of its limits: parameters between which no solution passes a limit.
 
 With the joint's value as a variable q (the cosine and sine of an angle) the arm whose joint is held at q gives a
-relation H(s, q) that every solution satisfies (``bezier.certify.held_joint``). If k is the least number for which the
+relation H(s, q) that every solution satisfies (``bezier.proofs.held_joint``). If k is the least number for which the
 k-th derivative of H by q is not zero for all s at q = L, then a solution whose joint is not L all along is at L only
 where this derivative vanishes: H = (q - L)^k H', so H' vanishes along the solution. At a length and at the angle 0 that
 is a polynomial over the field of the arm, with exact zeros. At an angle of another rational number of radians, whose
@@ -27,8 +27,8 @@ from bezier.arm.elimination import M, T
 from bezier.arm.inverse import Inverse, solve, solve_at
 from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.ratio import Ratio, constant, variable
-from bezier.certify.held_joint import Held, Rigid, slid, turned
 from bezier.curves.curve import Bezier
+from bezier.proofs.held_joint import Held, Rigid, slid, turned
 from qe.errors import Unable
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring

@@ -28,10 +28,10 @@ from bezier.arm.inverse import Solution, geometry_of
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant, variable
 from bezier.arm.roots_of_squares import RootPlace, chain_of, roots_of
-from bezier.certify.joint_motions import SIGNS, Along, Between, Label, Plane, norm_of, target_of
-from bezier.certify.square_roots import Polynomial
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, exactly
+from bezier.proofs.joint_motions import SIGNS, Along, Between, Label, Plane, norm_of, target_of
+from bezier.proofs.square_roots import Polynomial
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.proof.entry import Entry
 

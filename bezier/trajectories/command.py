@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import qe
 from bezier.curves import bernstein as bs
@@ -15,6 +17,7 @@ from bezier.input import stored
 from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
+from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.trajectories.evidence import check, members
 from bezier.trajectories.limits import Limit, Outcome, Verdict, decided, from_values
@@ -23,16 +26,12 @@ from bezier.trajectories.readers import load
 from qe.errors import InputError
 from qe.processes.channel import Channel
 
-if TYPE_CHECKING:
-    from bezier.report.html import Page
-
 KEYS = (*QUANTITIES, *(f"{name}_norm" for name in QUANTITIES[1:]))
 
 
-def read_limits(file: Path, axes: int) -> list[Limit]:
-    """A TOML file with ``velocity``, ``acceleration``, ``jerk``: one number, or a list of one for each axis;
+def limits_of(table: Table, axes: int) -> list[Limit]:
+    """A table with ``velocity``, ``acceleration``, ``jerk``: one number, or a list of one for each axis;
     ``velocity_norm``, ...; and ``position``: a pair, or a list of one for each axis. Raises ``InputError``."""
-    table = Table.load(file)
     table.only(KEYS)
     values: dict[str, Any] = {}
     for key in table.values:
@@ -99,46 +98,107 @@ def certify(
     ``InputError``, and ``CertificateRejected`` for that certificate.
     """
     trajectory = load(file, interpolation)
-    listed = [] if limits is None else read_limits(limits, len(trajectory.names))
+    listed = [] if limits is None else limits_of(Table.load(limits), len(trajectory.names))
+    obstacles = None if scene is None else read_obstacles(Table.load(scene))
     try:
-        verdict = decided(trajectory, listed, tolerance)
-        data, lines = to_json(verdict), in_words(verdict)
+        judged = Certified.of(trajectory, listed, obstacles, tolerance)
+        data, lines = judged.to_json(), judged.lines
     except OverflowError:
         raise InputError(f"{file}: expected quantities of usual size, found one beyond 10^308") from None
-    obstacles = () if scene is None else read_obstacles(Table.load(scene))
-    findings = survey.survey(curves(trajectory), obstacles, distances=False) if obstacles else ()
-    clear = survey.certificates(findings)
     if against is not None:
-        check(verdict, qe.Certificate.from_json(stored.text(against)), clear)
-    proof = ""
-    if evidence is not None:
-        proof = qe.Certificate.bundle([*(members(verdict) if listed else ()), *clear]).to_json()
-    if scene is not None:
-        data["scene"] = [survey.to_json(f) for f in findings]
-    data["kept"] = data["kept"] and not survey.contacts(findings)
-    lines += [survey.in_words(f) for f in survey.contacts(findings)]
-    if findings and not survey.contacts(findings):
-        lines.append(f"clear of all obstacles for all t: {len(findings)} pairs of pieces and obstacles")
-    if against is not None:
+        judged.check(qe.Certificate.from_json(stored.text(against)))
         lines.append("the certificate proves it: accepted")
+    proof = "" if evidence is None else judged.certificate.to_json()
     if page is not None:
-        from bezier.report.trajectory import page as made
-
-        _write_page(page, made(verdict, lines, file.name, clear=not survey.contacts(findings)))
+        _write_page(page, judged.page(file.name))
     return json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines), proof
 
 
-def _write_page(file: Path, page: Page) -> None:
-    from bezier.report.html import document
-
+def _write_page(file: Path, page: str) -> None:
     try:
-        file.write_text(document(page), encoding="utf-8")
+        file.write_text(page, encoding="utf-8")
     except OSError as error:
         raise InputError(f"--page {file}: expected a writable file, found: {error.strerror}") from None
 
 
+@dataclass(frozen=True)
+class Certified:
+    """What is decided about a trajectory: its limits (``verdict``), and each obstacle against each piece
+    (``findings``; None where no obstacles were asked about)."""
+
+    verdict: Verdict
+    findings: tuple[survey.Finding, ...] | None
+
+    @staticmethod
+    def of(
+        trajectory: Trajectory, limits: Sequence[Limit], obstacles: Sequence[Obstacle] | None, tolerance: Fraction
+    ) -> Certified:
+        """Everything decided, exactly. Raises ``InputError``, and ``OverflowError`` for numbers beyond floats."""
+        verdict = decided(trajectory, limits, tolerance)
+        if not obstacles:
+            return Certified(verdict, None if obstacles is None else ())
+        return Certified(verdict, survey.survey(curves(trajectory), obstacles, distances=False))
+
+    @property
+    def kept(self) -> bool:
+        """Whether all limits hold, and the trajectory is clear of all obstacles, for all t."""
+        return self.verdict.is_kept and self.clear
+
+    @property
+    def clear(self) -> bool:
+        """Whether no obstacle is met at any time."""
+        return not survey.contacts(self.findings or ())
+
+    @property
+    def slower_by(self) -> Fraction | None:
+        """A factor of slowing down with which all limits are kept, proved, within 1e-6 of the least; 1 where they are
+        kept as it is; None where going slower does not repair it."""
+        return self.verdict.factor
+
+    @property
+    def lines(self) -> list[str]:
+        """A line for each limit, each contact, and what follows."""
+        lines, contacts = in_words(self.verdict), survey.contacts(self.findings or ())
+        lines += [survey.in_words(f) for f in contacts]
+        if self.findings and not contacts:
+            lines.append(f"clear of all obstacles for all t: {len(self.findings)} pairs of pieces and obstacles")
+        return lines
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines)
+
+    @property
+    def certificate(self) -> qe.Certificate:
+        """The proof of all that is said of limits and obstacles; ``qe.verify`` checks it. Raises ``qe.Unable`` where
+        there is none: for what is not continuous."""
+        verdict = self.verdict
+        return qe.Certificate.bundle([*(members(verdict) if verdict.outcomes else ()), *self._scene()])
+
+    def check(self, certificate: qe.Certificate) -> None:
+        """Whether a certificate proves just this. Raises ``CertificateRejected``."""
+        check(self.verdict, certificate, self._scene())
+
+    def _scene(self) -> list[tuple[str, qe.Certificate]]:
+        return survey.certificates(self.findings or ())
+
+    def page(self, title: str = "trajectory") -> str:
+        """An HTML page with a chart of each quantity over time and its limit."""
+        from bezier.report.html import document
+        from bezier.report.trajectory import page
+
+        return document(page(self.verdict, self.lines, title, clear=self.clear))
+
+    def to_json(self) -> dict[str, Any]:
+        """Everything, with exact numbers."""
+        data = to_json(self.verdict)
+        if self.findings is not None:
+            data["scene"] = [survey.to_json(f) for f in self.findings]
+        data["kept"] = self.kept
+        return data
+
+
 def to_json(verdict: Verdict) -> dict[str, Any]:
-    """Everything, with exact numbers."""
+    """Everything about limits, with exact numbers."""
     names, factor = verdict.trajectory.names, verdict.factor
     return {
         "status": "solved",

@@ -14,7 +14,7 @@ from qe.formula.syntax import Constant, Formula
 from qe.kernel.negation import negation
 from qe.kernel.parts import true_where
 from qe.kernel.renaming import is_same
-from qe.proof.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate, Kind, Payload
 from qe.proof.entry import Entry, formula_from_json
 
 
@@ -32,16 +32,29 @@ def claim_of(certificate: Certificate) -> Claim:
     if isinstance(payload, tuple):
         words = [f"{m.label}: {line}" for m in payload for line in claim_of(m.certificate).words]
         return Claim((f"{len(payload)} claims", *words) if payload else ("nothing: the bundle is empty",))
-    entry = Entry(payload, "payload")
-    if certificate.kind == Kind.DERIVATION:
-        order, start, steps, answer = entry.fields("order", "start", "steps", "answer")
-        ring = Ring.of(order.names())
-        question, found = (formula_from_json(e, ring, quantified=True) for e in (start, answer))
-        said = _equivalence(question, found)
-        if question == found and certificate.evidence_for("cells") is not None:
-            said = said[0], "has one truth value on each cell of a decomposition"
-        return Claim((*said, _rules(steps)), (question, found))
-    return Claim((f"{certificate.kind.value}: nothing that is known here",))
+    sides = sides_of(certificate)
+    if sides is None:
+        return Claim((f"{certificate.kind.value}: nothing that is known here",))
+    said = _equivalence(*sides)
+    if sides[0] == sides[1] and certificate.evidence_for("cells") is not None:
+        said = said[0], "has one truth value on each cell of a decomposition"
+    return Claim((*said, _rules(_fields(payload)[2])), sides)
+
+
+def sides_of(certificate: Certificate) -> tuple[Formula, Formula] | None:
+    """Question and answer of a derivation, None for anything else. Raises ``CertificateRejected``."""
+    if certificate.kind != Kind.DERIVATION:
+        return None
+    order, start, _, answer = _fields(certificate.payload)
+    ring = Ring.of(order.names())
+    question, said = (formula_from_json(e, ring, quantified=True) for e in (start, answer))
+    return question, said
+
+
+def _fields(payload: Payload) -> list[Entry]:
+    """Order, start, steps and answer of a derivation."""
+    assert not isinstance(payload, tuple)
+    return Entry(payload, "payload").fields("order", "start", "steps", "answer")
 
 
 def is_about(certificate: Certificate, formula: Formula) -> Formula | None:
@@ -50,9 +63,9 @@ def is_about(certificate: Certificate, formula: Formula) -> Formula | None:
 
     A certificate about the negation counts, with the negated answer; of a bundle the first member that is about it.
     """
-    for claim in map(claim_of, certificate.parts):
-        if claim.equivalence is not None:
-            question, answer = claim.equivalence
+    for sides in map(sides_of, certificate.parts):
+        if sides is not None:
+            question, answer = sides
             if is_same(question, formula):
                 return answer
             if is_same(question, negation(formula)):
@@ -62,7 +75,7 @@ def is_about(certificate: Certificate, formula: Formula) -> Formula | None:
 
 def parts_of(certificate: Certificate, formula: Formula) -> tuple[Formula, Formula] | None:
     """What the certificate claims to imply this formula, and what its negation; None where it claims neither."""
-    claims = [c.equivalence for c in map(claim_of, certificate.parts) if c.equivalence is not None]
+    claims = [sides for sides in map(sides_of, certificate.parts) if sides is not None]
     sides = [[true_where(claim, side) for claim in claims] for side in (formula, negation(formula))]
     if not any(where is not None for side in sides for where in side):
         return None

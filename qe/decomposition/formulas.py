@@ -31,12 +31,12 @@ class Undistinguished(InternalError):
         self.level = next(k for k, (a, b) in enumerate(zip(one.path, other.path, strict=False)) if a != b)
 
 
-def construct(table: CellTable, refine: Refine) -> tuple[Formula, CellTable]:
+def construct(table: CellTable, refine: Refine, levels: frozenset[int] = frozenset()) -> tuple[Formula, CellTable]:
     """A formula over the free variables that is true exactly on the true cells, and the table it was read from.
 
-    ``refine(levels)`` makes a new table whose factor lists of these levels are closed under differentiation.
+    ``refine(levels)`` makes a new table whose factor lists of these levels are closed under differentiation; those of
+    ``levels`` are in this one.
     """
-    levels: frozenset[int] = frozenset()
     while True:
         try:
             return formula_of_cells(table.factors[: table.free], list(free_cells(table))), table

@@ -133,30 +133,37 @@ class _Question:
             extra=extra,
         )
 
-    def answer(self, found: Decomposed, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
-        """The formula that a decomposition gives, and the table (refined if need be) that proves it."""
+    def answer(
+        self, found: Decomposed, budget: Budget, thom_levels: frozenset[int] = frozenset(), *, whole_free: bool = False
+    ) -> tuple[Formula, CellTable, frozenset[int]]:
+        """The formula that a decomposition gives, and the table (refined if need be) that proves it; with the levels
+        whose derivatives it needs, ``thom_levels`` from the start."""
+        levels = thom_levels
 
-        def refined(levels: frozenset[int]) -> CellTable:
+        def refined(more: frozenset[int]) -> CellTable:
+            nonlocal levels
+            levels = more
             return self.table(budget, levels, whole_free=whole_free).table
 
-        answer, proof = construct(found.table, refined)
+        answer, proof = construct(found.table, refined, levels)
         if self.options.root_atoms:
             from qe.decomposition.extended_tarski import extended_formula
 
             answer = extended_formula(proof)
         simple = simplify(convert(answer, Ring.of(self.free)), watch=budget.check)
-        return simple, proof
+        return simple, proof, levels
 
     def shortest(self, first: Decomposed, budget: Budget) -> tuple[Formula, CellTable]:
         """The answer; a small one is compared with that of the whole space of the free variables, for which formula
         construction knows the signs of all factors everywhere."""
-        answer, proof = self.answer(first, budget)
+        answer, proof, levels = self.answer(first, budget)
         plain = not self.options.root_atoms and Stage.PARTIAL not in self.options.without
         if not plain or first.cells > WHOLE_FROM or not is_small(answer):
             return answer, proof
         part = budget.part(WHOLE_CELLS)
         try:
-            other, table = self.answer(self.table(part, whole_free=True), part, whole_free=True)
+            whole = self.table(part, levels, whole_free=True)
+            other, table, _ = self.answer(whole, part, levels, whole_free=True)
         except BudgetExceeded:
             return answer, proof
         return (other, table) if length(other) < length(answer) else (answer, proof)

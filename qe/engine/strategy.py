@@ -125,6 +125,11 @@ def complete_and_small(outcome: Outcome, problem: Block) -> bool:
     return complete(outcome, problem) and sum(1 for _ in atoms(outcome.formula)) <= SMALL_ATOMS
 
 
+def complete_and_shortest(outcome: Outcome, problem: Block) -> bool:
+    """A complete answer of one atom at most: no method has a shorter one."""
+    return complete(outcome, problem) and sum(1 for _ in atoms(outcome.formula)) <= 1
+
+
 def complete_and_small_or_alone(outcome: Outcome, problem: Block) -> bool:
     """The same, or any complete answer in ``ALONE_FROM`` variables or more."""
     many = len(problem.variables) + len(problem.free) >= ALONE_FROM
@@ -175,9 +180,9 @@ class Spare:
     steps: tuple[Step, ...]
 
 
-SHORTCUT, FIRST, PROBE, SPARE = 20_000, 60_000, 1_500, 20_000
+SHORTCUT, FIRST, PROBE, GLANCE, SPARE = 20_000, 60_000, 1_500, 200, 20_000
 """Units of work of shortcuts; of a first method while another could take over; of a short try before decomposition; of
-whatever might give a shorter answer than the one that is known.
+one before a quick decomposition; of whatever might give a shorter answer than the one that is known.
 
 A unit is one cell, or about the time of one (a tenth of a millisecond); see ``Budget.spend``.
 """
@@ -208,6 +213,7 @@ STRATEGY: tuple[Attempt, ...] = (
         spare=True,
     ),
     Attempt(Scope.BLOCK, "vs", on.worth_a_short_try, PROBE, complete_and_small, shorten=True, spare=True),
+    Attempt(Scope.BLOCK, "vs", on.quadratic_and_few_parameters, GLANCE, complete_and_shortest, shorten=True),
     Attempt(Scope.BLOCK, "cad", on.complete),
     Attempt(Scope.BLOCK, "vs", on.always, None, complete_if_closed, shorten=True),
     Attempt(Scope.INNER, "vs", on.always, FIRST, complete),

@@ -54,7 +54,7 @@ ROWS = {
     "qe.__main__": 11,
     "qe.sympy": 11,
     "qe": 11,
-    "bezier.certify": 12,
+    "bezier.proofs": 12,
     "bezier.curves": 12,
     "bezier.input": 13,
     "bezier.obstacles": 14,
@@ -163,7 +163,7 @@ def test_rows() -> None:
     assert not wrong
 
 
-BALLS = ("qe.kernel.arithmetic.", "qe.expert.arithmetic.", "bezier.certify.duals", "bezier.certify.square_roots")
+BALLS = ("qe.kernel.arithmetic.", "qe.expert.arithmetic.", "bezier.proofs.duals", "bezier.proofs.square_roots")
 BALLS += ("bezier.arm.motion_chain",)
 
 
@@ -207,7 +207,7 @@ def test_the_checker_shares_nothing_with_producers() -> None:
     wrong = [
         f"{module}:{line} {name}"
         for module, path in MODULES
-        if part(module) in ("qe.kernel", "qe.expert", "qe.certify", "bezier.certify")
+        if part(module) in ("qe.kernel", "qe.expert", "qe.certify", "bezier.proofs")
         for line, name in imports(path, module)
         if name.startswith(producers)
     ]

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 from typing import Any
 
-from bezier.certify import branch, inverse_position, joint_motions
+from bezier.proofs import branch, inverse_position, joint_motions
 from qe.certify.claims import claim_of
 from qe.certify.verify import verify
 from qe.errors import CertificateRejected

@@ -19,8 +19,8 @@ from bezier.arm.kinematics import pose
 from bezier.arm.model import Joint, JointKind
 from bezier.arm.pose import chain_of, rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
-from bezier.certify.inverse_pose import centre, meeting
-from bezier.certify.square_roots import Surd
+from bezier.proofs.inverse_pose import centre, meeting
+from bezier.proofs.square_roots import Surd
 from tests.bezier.arm.test_pose import SIX, SKEW, SKEW_FREE, Pairs, arm_of, at_the_pose_of, pairs_of
 from tests.bezier.made import arm_text
 from tests.tables import each

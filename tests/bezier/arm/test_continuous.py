@@ -25,8 +25,8 @@ from bezier.arm.path_report import in_words
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.study import study
 from bezier.arm.vertical import vertical_arm
-from bezier.certify.square_roots import Polynomial, Surd, constant_sign
 from bezier.motion.timelaw import Law, TimeLaw
+from bezier.proofs.square_roots import Polynomial, Surd, constant_sign
 from qe.errors import Unable
 from qe.processes.channel import Channel
 from tests.bezier.made import Points, curves_of

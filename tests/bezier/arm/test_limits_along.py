@@ -27,9 +27,9 @@ from bezier.arm.model import Arm, JointKind
 from bezier.arm.reader import load_arm
 from bezier.arm.study import ends_of, study
 from bezier.arm.vertical import vertical_arm
-from bezier.certify.joint_motions import Label
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
+from bezier.proofs.joint_motions import Label
 from qe.certify.verify import verify
 from qe.errors import Unable
 from qe.processes.channel import Channel

@@ -19,7 +19,7 @@ from bezier.arm.model import Arm
 from bezier.arm.pose import chain_of, rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from bezier.arm.robot import Robot
-from bezier.certify.inverse_pose import has_parallel_axes
+from bezier.proofs.inverse_pose import has_parallel_axes
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from tests.bezier.made import arm_text

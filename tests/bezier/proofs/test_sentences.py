@@ -18,11 +18,11 @@ from bezier.arm.inverse import solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
 from bezier.arm.reader import load_arm, read_arm
-from bezier.certify.arm_rows import ArmChain, read_chain
-from bezier.certify.arm_sentences import ArmEquations, constant, ring_of, with_roots
-from bezier.certify.branch import check_branch
-from bezier.certify.square_roots import Motion, Surd
 from bezier.curves.curve import Bezier
+from bezier.proofs.arm_rows import ArmChain, read_chain
+from bezier.proofs.arm_sentences import ArmEquations, constant, ring_of, with_roots
+from bezier.proofs.branch import check_branch
+from bezier.proofs.square_roots import Motion, Surd
 from qe.certify.verify import verify
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
@@ -128,7 +128,7 @@ def test_a_pose_holds_for_its_joints_and_not_for_others(size: int) -> None:
 
 
 def exact_pose(chain: ArmChain, quarters: list[int]) -> Motion:
-    from bezier.certify.square_roots import ZERO, together, turn
+    from bezier.proofs.square_roots import ZERO, together, turn
 
     pose = chain.constants[0]
     for turns, k, constant_part in zip(chain.turns, quarters, chain.constants[1:], strict=False):
@@ -174,7 +174,7 @@ EVERY = ArmEquations((("c1", "s1"),), ())
 @pytest.mark.parametrize("high", [(1, 0), (0, 1), (-1, 0), (0, -1), (3, 4)])
 def test_arcs_are_the_way_round_from_one_end_to_the_other(low: Any, high: Any) -> None:
     """With ends at quarter turns: which of the angles between belong to the arc."""
-    from bezier.certify.arm_sentences import _in_arc
+    from bezier.proofs.arm_sentences import _in_arc
 
     if low == high:
         return

@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from itertools import combinations
 from typing import TypeVar
 
-from bezier.certify import square_roots as sr
-from bezier.certify.arm_rows import Box, read_joint, read_number
-from bezier.certify.nested_roots import JointValue, Nested, Place, nested, turns
-from bezier.certify.square_roots import ONE, Interval, Polynomial
+from bezier.proofs import square_roots as sr
+from bezier.proofs.arm_rows import Box, read_joint, read_number
+from bezier.proofs.nested_roots import JointValue, Nested, Place, nested, turns
+from bezier.proofs.square_roots import ONE, Interval, Polynomial
 from qe.options import Budget
 from qe.proof.entry import Entry
 

@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, fmpq
 
-from bezier.certify.square_roots import Motion, Triple
+from bezier.proofs.square_roots import Motion, Triple
 
 BITS = 96
 

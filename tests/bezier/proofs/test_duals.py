@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from flint import arb
 
-from bezier.certify import duals
-from bezier.certify.duals import Dual
-from bezier.certify.inverse_position import check_positions
-from bezier.certify.square_roots import ONE, ZERO, Surd, turn
+from bezier.proofs import duals
+from bezier.proofs.duals import Dual
+from bezier.proofs.inverse_position import check_positions
+from bezier.proofs.square_roots import ONE, ZERO, Surd, turn
 from qe.errors import BudgetExceeded, CertificateRejected
 from qe.proof.entry import Entry
 from tests.certificates.test_joint_positions import payload_of

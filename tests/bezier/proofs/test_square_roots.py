@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from bezier.arm.reader import read_exact
 from bezier.arm.roots_of_squares import square_roots
-from bezier.certify import square_roots as sr
-from bezier.certify.families import bounded
-from bezier.certify.nested_roots import Nested, Place, nested, turns
-from bezier.certify.square_roots import ONE, Polynomial, Surd
+from bezier.proofs import square_roots as sr
+from bezier.proofs.families import bounded
+from bezier.proofs.nested_roots import Nested, Place, nested, turns
+from bezier.proofs.square_roots import ONE, Polynomial, Surd
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from bezier.certify import square_roots as sr
-from bezier.certify.square_roots import STILL, ZERO, Interval, Motion, Surd, Triple, back, together, turn
+from bezier.proofs import square_roots as sr
+from bezier.proofs.square_roots import STILL, ZERO, Interval, Motion, Surd, Triple, back, together, turn
 from qe.errors import Unable
 from qe.proof.entry import Entry
 

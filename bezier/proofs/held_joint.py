@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from bezier.certify.square_roots import dot, image, together
+from bezier.proofs.square_roots import dot, image, together
 
 Vector = Sequence[Any]
 Rigid = Any

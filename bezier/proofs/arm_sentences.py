@@ -14,8 +14,8 @@ from fractions import Fraction
 from itertools import combinations
 from math import lcm, prod
 
-from bezier.certify.arm_rows import ArmChain, Box
-from bezier.certify.square_roots import ONE, STILL, ZERO, Motion, Surd, Triple, primes
+from bezier.proofs.arm_rows import ArmChain, Box
+from bezier.proofs.square_roots import ONE, STILL, ZERO, Motion, Surd, Triple, primes
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, iff, implies, neg
 from qe.formula.syntax import Formula, Relation

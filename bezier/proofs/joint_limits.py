@@ -1,8 +1,8 @@
 """Whether a branch of an arm keeps the limits of its joints for every s, those that it touches included.
 
-On a piece a joint lies within a radius of a straight line in s (``bezier.certify.branch``). Where that does not tell
+On a piece a joint lies within a radius of a straight line in s (``bezier.proofs.branch``). Where that does not tell
 that it keeps a limit L, and L is a length or the angle 0, the arm with this joint held at L does: G(s) is a polynomial
-that vanishes wherever it can be at the curve's point (``bezier.certify.held_joint``). THEOREM. The joint is continuous,
+that vanishes wherever it can be at the curve's point (``bezier.proofs.held_joint``). THEOREM. The joint is continuous,
 and differs from L where G does not vanish. So if G has no zero within a piece, and the joint keeps L strictly at one
 end, it does within; if one, and it does at both ends, it does up to that zero and behind it, and at the zero it keeps L
 by continuity. If G is zero everywhere because of a relation F(s, q) that holds for all values q of this joint, F(s, L)
@@ -22,10 +22,10 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from bezier.certify import duals
-from bezier.certify.arm_rows import ArmChain
-from bezier.certify.held_joint import Held, Rigid, slid, turned
-from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, primes
+from bezier.proofs import duals
+from bezier.proofs.arm_rows import ArmChain
+from bezier.proofs.held_joint import Held, Rigid, slid, turned
+from bezier.proofs.square_roots import ONE, ZERO, Polynomial, Surd, primes
 from qe.exact.balls import precision
 from qe.exact.descartes import most_roots_between
 from qe.proof.entry import Entry

@@ -17,10 +17,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from bezier.certify.arm_rows import ArmChain
-from bezier.certify.families import Arcs, Position, bounded
-from bezier.certify.nested_roots import JointValue, Nested, Vector, Wave, angle, basis, nested, turns
-from bezier.certify.square_roots import ONE, ZERO, Motion, Surd, Triple, back, dot, image, together
+from bezier.proofs.arm_rows import ArmChain
+from bezier.proofs.families import Arcs, Position, bounded
+from bezier.proofs.nested_roots import JointValue, Nested, Vector, Wave, angle, basis, nested, turns
+from bezier.proofs.square_roots import ONE, ZERO, Motion, Surd, Triple, back, dot, image, together
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry

@@ -1,7 +1,7 @@
 """Rule "joint motions": all continuous motions of an arm along curves, limits left aside.
 
 The sentence (``sentence``): for all parameters between neighbouring places, the equations of the arm
-(``bezier.certify.arm_sentences``) have exactly so many solutions. First-order logic has no words for motions: how the
+(``bezier.proofs.arm_sentences``) have exactly so many solutions. First-order logic has no words for motions: how the
 solutions go on from there, and the number of chains of them, is checked all the same, by what follows.
 
 An arm whose first joint turns about z, while the other two keep the end point in a plane parallel to z: with a
@@ -32,12 +32,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from bezier.certify import square_roots as sr
-from bezier.certify.arm_rows import ArmChain, read_chain, read_number, read_surd
-from bezier.certify.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
-from bezier.certify.branch import coefficients, read_curve
-from bezier.certify.nested_roots import NO_ROOT, Nested, Root, nested
-from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, combined, constant_sign, dot
+from bezier.proofs import square_roots as sr
+from bezier.proofs.arm_rows import ArmChain, read_chain, read_number, read_surd
+from bezier.proofs.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
+from bezier.proofs.branch import coefficients, read_curve
+from bezier.proofs.nested_roots import NO_ROOT, Nested, Root, nested
+from bezier.proofs.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, combined, constant_sign, dot
 from qe.errors import Unable
 from qe.expert.sentences import Sentence, stated
 from qe.formula.build import conj, disj, forall, implies

@@ -18,10 +18,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from bezier.certify import square_roots as sr
-from bezier.certify.families import Arcs, Position, not_negative
-from bezier.certify.nested_roots import JointValue, Nested, Place, angle, nested
-from bezier.certify.square_roots import (
+from bezier.proofs import square_roots as sr
+from bezier.proofs.families import Arcs, Position, not_negative
+from bezier.proofs.nested_roots import JointValue, Nested, Place, angle, nested
+from bezier.proofs.square_roots import (
     ONE,
     ZERO,
     Interval,

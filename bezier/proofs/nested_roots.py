@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from bezier.certify import square_roots as sr
-from bezier.certify.square_roots import Ball, Interval, Motion, Polynomial, Surd, combined, dot
+from bezier.proofs import square_roots as sr
+from bezier.proofs.square_roots import Ball, Interval, Motion, Polynomial, Surd, combined, dot
 from qe.exact.balls import ball_sign, ends, precision
 
 BITS = (64, 400)

@@ -1,7 +1,7 @@
 """Rule "joints along curves": an arm with three joints follows curves continuously.
 
 The sentence (``sentence``): at every parameter of each curve, from the beginning of the first piece to the end of the
-last, some joints solve the equations of the arm (``bezier.certify.arm_sentences``). What first-order logic has no words
+last, some joints solve the equations of the arm (``bezier.proofs.arm_sentences``). What first-order logic has no words
 for is checked all the same: that they depend continuously on the parameter, are the only ones in boxes of angles,
 and keep the limits.
 
@@ -13,7 +13,7 @@ continuously on σ. The first joint moves everything rigidly: with its line cent
 curve's point, seen from the base, f has the same zeros, and is as tame near the axis of that joint as elsewhere.
 Neighbouring pieces belong together when the image of the one lies in the box of the other at their common parameter:
 then both have the same solution there. ``limits``: for each joint null, or two values between which it stays
-(``bezier.certify.joint_limits``).
+(``bezier.proofs.joint_limits``).
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ from itertools import pairwise
 from math import comb
 from typing import Any
 
-from bezier.certify import duals
-from bezier.certify.arm_rows import read_chain
-from bezier.certify.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
-from bezier.certify.duals import Dual, Vector
-from bezier.certify.joint_limits import Ends, JointStretch, KeptLimits, read_limits
-from bezier.certify.square_roots import STILL, Motion, Surd, back, image
+from bezier.proofs import duals
+from bezier.proofs.arm_rows import read_chain
+from bezier.proofs.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
+from bezier.proofs.duals import Dual, Vector
+from bezier.proofs.joint_limits import Ends, JointStretch, KeptLimits, read_limits
+from bezier.proofs.square_roots import STILL, Motion, Surd, back, image
 from qe.exact.balls import ends, precision
 from qe.expert.sentences import Sentence, stated
 from qe.formula.build import conj, exists, forall, implies

@@ -1,19 +1,19 @@
 """Rule "joint positions": all joint positions of an arm at a point or at a pose.
 
 The sentence (``sentence``): there are positions, one in each of the boxes, and all solutions of the equations of the
-arm (``bezier.certify.arm_sentences``) are these. Where joints can be chosen: every solution lies in the boxes of one of
+arm (``bezier.proofs.arm_sentences``) are these. Where joints can be chosen: every solution lies in the boxes of one of
 the families, or of the positions beside them, each of which is the only one there; and for which angles of the chosen
 joints the others can follow.
 
-A point, three joints that turn or slide: ``bezier.certify.three_joints``, an equation E in t, what the last joint is
+A point, three joints that turn or slide: ``bezier.proofs.three_joints``, an equation E in t, what the last joint is
 told by, and perhaps a square root. ``roots``: intervals of t; the checker counts the roots of E in each (one) and
 encloses the positions over it. Those over all listed roots have to be as many as there are in all, which Sturm's and
 Tarski's theorems count over Q with square roots. With a ``rotation`` it is a pose: six joints with a spherical wrist,
 listed in the same way, each position of the first three with those of the wrist; or three parallel axes, where square
-roots alone tell all positions, in ``solutions`` (``bezier.certify.inverse_pose``). Every position that was found has
+roots alone tell all positions, in ``solutions`` (``bezier.proofs.inverse_pose``). Every position that was found has
 to lie in one of the boxes, each of which holds one, and no two of which meet: so there are as many positions as
 boxes, one in each. An empty list proves that there is none. Families have no box for their free joints, and list
-which of these can be chosen and for exactly which values (``bezier.certify.families``); ``count`` is null then. Where
+which of these can be chosen and for exactly which values (``bezier.proofs.families``); ``count`` is null then. Where
 the third joint can be chosen alone, ``marks`` stands for ``roots``: intervals of t around the places where a sign may
 change.
 """
@@ -23,12 +23,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from bezier.certify.arm_rows import ArmChain, read_chain, read_circle, read_triple
-from bezier.certify.arm_sentences import ArmEquations, constant, ring_of, with_roots
-from bezier.certify.families import Listed, Position, ascending, read_listed
-from bezier.certify.inverse_pose import centre, parallel_axes, wrist
-from bezier.certify.square_roots import ZERO, Motion, Triple, back, image, is_motion
-from bezier.certify.three_joints import Positions, is_still
+from bezier.proofs.arm_rows import ArmChain, read_chain, read_circle, read_triple
+from bezier.proofs.arm_sentences import ArmEquations, constant, ring_of, with_roots
+from bezier.proofs.families import Listed, Position, ascending, read_listed
+from bezier.proofs.inverse_pose import centre, parallel_axes, wrist
+from bezier.proofs.square_roots import ZERO, Motion, Triple, back, image, is_motion
+from bezier.proofs.three_joints import Positions, is_still
 from qe.errors import Unable
 from qe.expert.sentences import Sentence, stated
 from qe.formula.build import conj, disj, forall, implies

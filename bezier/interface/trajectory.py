@@ -1,0 +1,99 @@
+"""``bezier.certify``: a trajectory from Python, proved or refuted for all t."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bezier.input.toml_table import Table
+from bezier.interface.function import table_value
+from bezier.obstacles.reader import read_obstacles
+from bezier.trajectories.command import Certified, limits_of
+from bezier.trajectories.objects import from_scipy
+from bezier.trajectories.piecewise import Trajectory
+from bezier.trajectories.readers import load
+from qe import arguments
+from qe.errors import InputError
+from qe.options import Budget
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
+from qe.progress import Listener, silent
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+SOURCE = "bezier.certify"
+
+
+def certify(
+    trajectory: object,
+    *,
+    position: ArrayLike | Sequence[object] | None = None,
+    velocity: object = None,
+    acceleration: object = None,
+    jerk: object = None,
+    velocity_norm: object = None,
+    acceleration_norm: object = None,
+    jerk_norm: object = None,
+    obstacles: Sequence[Mapping[str, object]] | None = None,
+    tolerance: object = "1e-9",
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Listener = silent,
+) -> Certified:
+    """Whether a trajectory keeps its limits and is clear of all obstacles for all t, exactly and with proof.
+
+    ``trajectory``: the path of a file in any form that ``bezier certify`` reads, a ``PPoly`` (``CubicSpline``, …) or
+    ``BSpline`` of SciPy, or a ``Trajectory``. Limits are the keys of the command's file: one number for all axes or one
+    for each, ``position`` a pair or a pair for each; in the units of the trajectory, and seconds. ``obstacles`` are
+    tables as for ``bezier.plan``. Positions may jump by ``tolerance``.
+
+    The result says ``kept``, ``slower_by`` (the factor of slowing down that repairs it), ``verdict.worst`` and
+    ``certificate``; ``print(result)`` a line for each limit; ``result.page()`` is a page with charts.
+
+    Raises ``qe.InputError`` naming the argument, ``qe.BudgetExceeded`` at a limit.
+
+    >>> import bezier
+    >>> from scipy.interpolate import CubicSpline
+    >>> spline = CubicSpline([0, 1, 2], [[0, 0], [1, 2], [3, 1]])
+    >>> print(bezier.certify(spline, velocity=[3, 4]))
+    2 pieces, 2 axes, from t = 0 to 2
+    velocity of q1: kept for all t, largest 2.5 at t = 2
+    velocity of q2: kept for all t, largest 3.5 at t = 0
+    all limits are kept for all t
+    """
+    names = ("position", "velocity", "acceleration", "jerk", "velocity_norm", "acceleration_norm", "jerk_norm")
+    values = (position, velocity, acceleration, jerk, velocity_norm, acceleration_norm, jerk_norm)
+    path = _trajectory(trajectory)
+    limits = limits_of(_table(dict(zip(names, values, strict=True))), len(path.names))
+    bodies = None if obstacles is None else read_obstacles(_table({"obstacle": obstacles}, {"obstacle": "obstacles"}))
+    largest = arguments.rational(tolerance, "tolerance")
+    if largest < 0:
+        raise InputError(f"{SOURCE}: tolerance: expected a number of at least 0, found {arguments.shown(tolerance)}")
+    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
+    try:
+        return perform(partial(_decided, path, limits, bodies, largest), bounds)
+    except OverflowError:
+        raise InputError(f"{SOURCE}: expected quantities of usual size, found one beyond 10^308") from None
+
+
+def _trajectory(given: Any) -> Trajectory:
+    if isinstance(given, Trajectory):
+        return given
+    if isinstance(given, str | os.PathLike):
+        return load(Path(given))
+    return from_scipy(given)
+
+
+def _table(values: Mapping[str, object], names: Mapping[str, str] | None = None) -> Table:
+    called = names or {}
+    read = {k: table_value(v, f"{SOURCE}: {called.get(k, k)}") for k, v in values.items() if v is not None}
+    return Table(read, SOURCE, names=called)
+
+
+def _decided(path: Trajectory, limits: Any, bodies: Any, tolerance: Fraction, budget: Budget) -> Certified:
+    return Certified.of(path, limits, bodies, tolerance)

@@ -1,0 +1,89 @@
+"""``bezier.certify``: the same as the command says, from Python."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bezier
+import qe
+
+ROWS = "time,x,y\n0,0,0\n1,2,1\n3,3,5\n"
+
+
+@pytest.fixture
+def states(tmp_path: Path) -> Path:
+    file = tmp_path / "states.csv"
+    file.write_text(ROWS)
+    return file
+
+
+@pytest.mark.parametrize("limit", ["2", "1.5"])
+def test_both_doors_say_the_same(states: Path, limit: str) -> None:
+    limits = states.with_name("limits.toml")
+    limits.write_text(f"velocity = [{limit}, 3]\n")
+    command = [sys.executable, "-m", "bezier", "certify", str(states), "--limits", str(limits), "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    result = bezier.certify(states, velocity=[limit, 3])
+    assert json.loads(done.stdout) == json.loads(json.dumps(result.to_json()))
+    assert result.kept is (limit == "2")
+    assert result.slower_by is not None and result.slower_by >= max(Fraction(1), 2 / Fraction(limit))
+
+
+def test_the_certificate_is_about_this_trajectory(states: Path) -> None:
+    kept = bezier.certify(states, velocity=2)
+    broken = bezier.certify(states, velocity=1)
+    for result in (kept, broken):
+        qe.verify(result.certificate)
+        result.check(result.certificate)
+    with pytest.raises(qe.CertificateRejected):
+        kept.check(broken.certificate)
+
+
+def test_obstacles_are_tables_as_for_plan(states: Path) -> None:
+    far = {"kind": "ball", "centre": [9, 9], "radius": 1}
+    near = {"kind": "ball", "centre": [1, 1], "radius": 1}
+    assert bezier.certify(states, obstacles=[far]).kept
+    met = bezier.certify(states, obstacles=[far, near])
+    assert not met.kept and not met.clear and "obstacle 2" in str(met)
+
+
+def test_splines_of_scipy() -> None:
+    from scipy.interpolate import CubicSpline
+
+    spline = CubicSpline([0, 1, 2], np.array([[0, 0], [1, 2], [3, 1]]))
+    result = bezier.certify(spline, velocity=[3, 4])
+    assert result.kept and "<svg" in result.page("two axes")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        ({"velocity": "fast"}, "velocity"),
+        ({"velocity": [1, 2, 3]}, "velocity"),
+        ({"acceleration": -1}, "acceleration"),
+        ({"position": [3, 1]}, "position"),
+        ({"obstacles": {"kind": "ball"}}, "obstacles"),
+        ({"obstacles": [3]}, "obstacles"),
+        ({"tolerance": -1}, "tolerance"),
+        ({"timeout": "soon"}, "timeout"),
+        ({"memory": 0}, "memory"),
+        ({"progress": 3}, "progress"),
+    ],
+)
+def test_a_wrong_argument_is_one_line_that_names_it(states: Path, arguments: dict[str, object], word: str) -> None:
+    with pytest.raises(qe.InputError) as caught:
+        bezier.certify(states, **arguments)
+    assert word in str(caught.value) and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("trajectory", [3, None, "no such file.csv", [[0, 1], [1, 2]]])
+def test_what_is_no_trajectory_is_refused(trajectory: object) -> None:
+    with pytest.raises(qe.InputError):
+        bezier.certify(trajectory)
