@@ -61,9 +61,7 @@ LINEAR = st.tuples(SMALL, SMALL, SMALL, SMALL, st.sampled_from(["<", "<=", "=", 
 
 @settings(max_examples=40, deadline=None)
 @given(st.lists(LINEAR, min_size=2, max_size=6), st.sampled_from(["convex", "auto"]))
-def test_linear_conditions_are_decided_as_by_substitution_with_proof(
-    parts: list[str], method: str
-) -> None:
+def test_linear_conditions_are_decided_as_by_substitution_with_proof(parts: list[str], method: str) -> None:
     text = "ex x, y, z. " + " and ".join(parts)
     answer = qe.eliminate(text, method=method, check=True, process=False)
     assert answer.truth == qe.decide(text, method="vs", process=False)
