@@ -68,13 +68,19 @@ RULES: tuple[Rule, ...] = (
 )
 
 
-def shortened(formula: Formula, context: Context, start: Start | None = None) -> Formula:
-    """A shorter equivalent of a quantifier-free formula, as far as the rules know one; ``start``: of a whole answer."""
+def shortened(
+    formula: Formula, context: Context, start: Start | None = None, known: set[Formula] | None = None
+) -> Formula:
+    """A shorter equivalent of a quantifier-free formula, as far as the rules know one; ``start``: of a whole answer.
+
+    ``known`` collects what comes out: such a formula, if not long, is not decomposed again.
+    """
     if Stage.SHORTENING in context.options.without or has_root_atoms(formula):
         return formula
     for rule in RULES:
         off = rule.stage in context.options.without or (rule.last and start is None)
-        if off or not rule.pays(formula, context):
+        again = rule.apply is read_off_cells and known is not None and formula in known and length(formula)[1] < LONG
+        if off or again or not rule.pays(formula, context):
             continue
         mark = context.log.mark()
         try:
@@ -82,4 +88,6 @@ def shortened(formula: Formula, context: Context, start: Start | None = None) ->
         except Unable:
             context.budget.check("shorten")
             context.log.forget_steps(mark)
+    if known is not None:
+        known.add(formula)
     return formula
