@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from qe.elimination.protocol import Context
 from qe.engine.constant import Start, constant
+from qe.engine.implied import affine_hull_first, is_linear_conjunction
 from qe.engine.redundant import is_worth_questions, without_redundant_parts
 from qe.engine.strategy import allows
 from qe.engine.untangle import has_equations, untangled, untangled_negation
@@ -63,6 +64,7 @@ RULES: tuple[Rule, ...] = (
     Rule("equations", untangled, has_equations, Stage.EQUATIONS),
     Rule("equations of the negation", untangled_negation, stage=Stage.EQUATIONS),
     Rule("cells", read_off_cells, _has_few_cells),
+    Rule("affine hull", affine_hull_first, is_linear_conjunction, Stage.REDUNDANT, last=True),
     Rule("redundant parts", without_redundant_parts, is_worth_questions, Stage.REDUNDANT, last=True),
     Rule("constant", constant, last=True),
 )
