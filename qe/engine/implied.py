@@ -1,4 +1,4 @@
-"""Linear inequalities of an answer whose set has no interior points: the equations of its affine hull in their place."""
+"""Linear inequalities of an answer without interior points: the equations of its affine hull in their place."""
 
 from __future__ import annotations
 
