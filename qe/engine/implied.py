@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 from math import lcm
 
-from qe.convex.facial_reduction import implied_equations
-from qe.convex.system import NotConvex
 from qe.elimination.protocol import Context
 from qe.exact.quadratic_form import Number, echelon
 from qe.exact.ring import Poly, Ring
@@ -29,6 +27,9 @@ def is_linear_conjunction(formula: Formula, context: Context) -> bool:
 
 def affine_hull_first(formula: Formula, context: Context, start: object = None) -> Formula:
     """The equations of the affine hull, solved, and the inequalities that are left on it."""
+    from qe.convex.facial_reduction import implied_equations
+    from qe.convex.system import NotConvex
+
     ring = ring_of(formula)
     assert ring is not None
     equations: list[Poly] = []
