@@ -454,4 +454,5 @@ def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:
     part, constant = subformula(parent, at[-1:]), FALSE if isinstance(parent, Or) else TRUE
     beside, _ = replaced(step.before, at, part, constant, (), Entry(None, "place"))
     evidence = {"proof": {"exceptions": [proof["steps"]]}}
-    return (*place, *at), replace(step, before=part, after=constant, context=conj(beside), evidence=evidence)
+    context = conj((*beside, step.context))
+    return (*place, *at), replace(step, before=part, after=constant, context=context, evidence=evidence)
