@@ -26,7 +26,7 @@ from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 WHOLE_FROM, WHOLE_CELLS = 300, 2000
 """A decomposition of at most so many cells is made once more with the whole space of the free variables, of at most so

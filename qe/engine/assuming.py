@@ -27,7 +27,7 @@ from qe.formula.traverse import atoms, has_root_atoms, ring_of
 from qe.options import Budget, Method, Options, Stage
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 CONSISTENT_WORK, SHORT_WORK = 5_000, 3_000
 """Units of work for the question whether the assumptions can hold, and for one way to a shorter answer."""

@@ -23,7 +23,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Rel
 from qe.formula.traverse import atoms
 from qe.options import Stage
 from qe.proof.step import Nested, Place, Step
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 WORK, QUESTION_WORK, LINEAR_WORK, PATIENCE = 500, 100, 500, 4
 """Units of work for all sentences, for one of them, and for one that is linear (the simplex method answers it with
@@ -83,7 +83,9 @@ def without_redundant_parts(
     points = _Points(conj((known, formula)).free, context.budget.check)
     options = context.options.with_(without=context.options.without | {Stage.SAMPLES})
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
-    while patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept, known), None)) is not None:
+    while (
+        patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept, known), None)) is not None
+    ):
         sentence = part.sentence
         linear = all(a.poly.total_degree <= 1 for a in atoms(sentence))
         try:
@@ -163,9 +165,7 @@ def is_cheap_sentence(sentence: Formula) -> bool:
     return degree <= DEGREES.get(len(features(sentence).bound), MANY_DEGREE) and _is_suited(sentence)
 
 
-def _unsettled(
-    formula: Formula, points: _Points, kept: set[Formula], known: Formula = TRUE
-) -> Iterator[Part]:
+def _unsettled(formula: Formula, points: _Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:
     """The parts worth a question of which no known point says that they matter, largest first."""
     parts: list[Part] = []
     for count in (FIRST, COARSE, COARSE + FINE):

@@ -30,7 +30,7 @@ from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.proof import answer as solution
 from qe.proof.run_log import RunLog
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 Number = Fraction | RealAlgebraic
 
