@@ -28,7 +28,7 @@ from qe.services import Service, provide
 
 if TYPE_CHECKING:
     from qe.api.decide import check_witness, decide, equivalent, find_instance
-    from qe.api.eliminate import eliminate, region, verify
+    from qe.api.eliminate import eliminate, region, simplify, verify
     from qe.api.groebner import comprehensive_groebner, real_root_classification
     from qe.api.optimum import maximize, minimize
     from qe.api.solve import find_instances, parametric_witnesses, reduce, solve
@@ -160,6 +160,7 @@ __all__ = [
     "real_root_classification",
     "reduce",
     "region",
+    "simplify",
     "solve",
     "variables",
     "verify",

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from qe import arguments
 from qe.api.input import AnyFormula, read_block
-from qe.api.limits import limits_of, performed, reading
+from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, Question, with_settings
 from qe.engine.run import solve as eliminated
 from qe.exact.number import Values
+from qe.formula.build import conj, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import without_clashes
-from qe.formula.syntax import Exists, ForAll, Formula
+from qe.formula.syntax import TRUE, Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
@@ -41,17 +42,20 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[Questio
     """
     limits, wanted = limits_of(settings), arguments.names(variables, "variables")
     whole = replace(limits, start=None)
-    given = reading(formula, settings["format"], limits, settings["total_division"], solved=wanted or ())
+    stated = posed(formula, settings, limits, solved=wanted or ())
+    given = stated.restricted
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
     solved = len(given.free if wanted is None else wanted)
-    return performed(partial(_solutions, given, order, solved, whole), given, limits)
+    return performed(partial(_solutions, given, stated.known, order, solved, whole), given, limits)
 
 
-def _solutions(given: Formula, order: tuple[str, ...] | None, solved: int, whole: Limits, budget: Budget) -> Solutions:
+def _solutions(
+    given: Formula, known: Formula, order: tuple[str, ...] | None, solved: int, whole: Limits, budget: Budget
+) -> Solutions:
     region = described(given, order, budget, replace(whole, process=False))
     cases = tuple(region.cells)
     lines = [str(case) for case in cases]
-    by_value = cases_by_value(region.table, len(region.order) - solved, budget)
+    by_value = cases_by_value(region.table, len(region.order) - solved, budget, known)
     if by_value is not None and sum(map(len, by_value)) < sum(map(len, lines)):
         lines = by_value
     region.limits = whole
@@ -70,7 +74,7 @@ def find_instances(formula: AnyFormula, n: int, *, seed: int = 0, **settings: Un
     """
     count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
     limits = limits_of(settings)
-    given = reading(formula, settings["format"], limits, settings["total_division"])
+    given = posed(formula, settings, limits).restricted
     return performed(partial(_points, given, count, start, replace(limits, start=None, process=False)), given, limits)
 
 
@@ -87,8 +91,13 @@ def parametric_witnesses(formula: AnyFormula, **settings: Unpack[ProvedBlock]) -
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
     limits = limits_of(settings)
-    given = reading(formula, settings["format"], limits, reader=read_block)
-    return performed(partial(_witnesses, given, settings["check"]), given, limits)
+    stated = posed(formula, settings, limits, reader=read_block)
+    given = stated.formula
+    if isinstance(given, Exists | ForAll) and stated.known != TRUE:
+        body = conj((stated.known, given.body)) if isinstance(given, Exists) else implies(stated.known, given.body)
+        given = replace(given, body=body)
+    found = performed(partial(_witnesses, given, settings["check"]), given, limits)
+    return found.under(stated.known)
 
 
 def _witnesses(given: Formula, check: bool, budget: Budget) -> ParametricWitnesses:

@@ -22,7 +22,7 @@ from qe.formula.assumed import claimed, restricted
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.features import is_small, length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, Constant, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Atom, Constant, ForAll, Formula, Relation
 from qe.formula.traverse import atoms, has_root_atoms, ring_of
 from qe.options import Budget, Method, Options, Stage
 from qe.proof.run_log import RunLog
@@ -60,8 +60,9 @@ def answered_assuming(
 
     Raises ``Unable`` where no method ends.
     """
-    if not can_hold(known, options, budget):
-        return Assumed(Outcome(TRUE), FALSE)
+    nothing = _refuted(known, options, budget)
+    if nothing is not None:
+        return Assumed(_whatever(question, known, nothing), known)
     if not question.free:
         return Assumed(answered(question, options, budget), known)
     if not generic:
@@ -79,14 +80,42 @@ def answered_assuming(
     return Assumed(outcome, conj((known, *supposed)), supposed)
 
 
+def simplified(question: Formula, known: Formula, options: Options, budget: Budget) -> Assumed:
+    """A formula that is not longer, equivalent where ``known`` holds; with the quantifiers of the question."""
+    if question.is_quantifier_free and not has_root_atoms(question):
+        made = answered_assuming(question, known, options, budget)
+        if length(made.outcome.formula) <= length(question):
+            return made
+    log = RunLog()
+    simple = simplify(question, known, watch=budget.check)
+    return Assumed(Outcome(log.step("simplification", question, simple, context=known), log=log), known)
+
+
 def can_hold(known: Formula, options: Options, budget: Budget) -> bool:
     """Whether the assumptions hold somewhere; True also where that takes too much work to tell."""
+    return _refuted(known, options, budget) is None
+
+
+def _refuted(known: Formula, options: Options, budget: Budget) -> Nested | None:
+    """How it follows that the assumptions hold nowhere; None where they do, or little work does not tell."""
+    sentence = exists(known.free, known)
     try:
-        sentence = exists(known.free, known)
-        return outcome_for(sentence, options.with_(certify=False), budget.part(CONSISTENT_WORK)).formula != FALSE
+        outcome = outcome_for(sentence, options.with_(method=Method.AUTO), budget.part(CONSISTENT_WORK))
     except Unable:
         budget.check("assumptions")
-        return True
+        return None
+    return outcome.nested(sentence) if outcome.formula == FALSE else None
+
+
+def _whatever(question: Formula, known: Formula, refuted: Nested) -> Outcome:
+    """TRUE where the assumptions hold nowhere."""
+    log, evidence = RunLog(), {"proof": {"exceptions": [refuted]}}
+    if isinstance(question, ForAll):
+        log.step("constant", known, FALSE, evidence=evidence)
+        log.step("constant", FALSE, known, evidence=evidence)
+    else:
+        log.step("constant", nnf(known, negate=True), TRUE, evidence=evidence)
+    return Outcome(TRUE, log=log)
 
 
 def _shorter(question: Formula, known: Formula, options: Options, budget: Budget) -> Outcome:

@@ -246,8 +246,8 @@ class _Points:
         if seen == len(self.listed):
             return mask
         match formula:
-            case Constant(value):
-                mask = self.everywhere if value else 0
+            case Constant():
+                mask = self.everywhere if formula == TRUE else 0
             case And(args):
                 mask = self.everywhere
                 for arg in args:

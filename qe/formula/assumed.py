@@ -7,10 +7,30 @@ block, ``(A and question) iff (A and answer)``. Inside, at the question's place,
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from enum import Enum
+
 from qe.formula.build import conj, convert, disj
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, ForAll, Formula
 from qe.formula.traverse import ring_of
+
+
+class Aim(Enum):
+    """What is wanted of an answer: that it is equivalent; so where polynomials are not zero; or a shorter formula."""
+
+    EQUIVALENT = 1
+    GENERIC = 2
+    SHORTER = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A question as the engine gets it: ``known``, without quantifiers and over the same ring, may be used."""
+
+    formula: Formula
+    known: Formula = TRUE
+    aim: Aim = Aim.EQUIVALENT
 
 
 def claimed(known: Formula, question: Formula, formula: Formula) -> Formula:
