@@ -147,6 +147,14 @@ def _raced(asked: Asked, options: Options, limits: Limits, check: bool, methods:
         return Answer(Status.UNABLE, None, reason=str(error), question=asked.formula)
 
 
+def settled(sentence: Formula, options: Options, budget: Budget) -> Answer:
+    """The answer to a sentence that has been read, in this process."""
+    answer = _answer(Asked(sentence), options, options.certify, None, budget)
+    if answer.truth is None:
+        raise Unable(answer.reason or "no decision was reached")
+    return answer
+
+
 def _answer_by(asked: Asked, options: Options, check: bool, method: Method, budget: Budget) -> Answer:
     return _answer(asked, options.with_(method=method), check, None, budget)
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
@@ -100,6 +100,34 @@ def maximize(
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The exact global maximum; see ``minimize``."""
     return _best(-1, objective, constraints, parameters, method, settings)
+
+
+@dataclass(frozen=True, slots=True)
+class Extremes:
+    """The ``least`` and the ``greatest`` value, each as ``minimize`` and ``maximize`` give it."""
+
+    least: Optimum | GlobalOptimum | ParametricOptimum
+    greatest: Optimum | GlobalOptimum | ParametricOptimum
+
+    def __iter__(self) -> Iterator[Optimum | GlobalOptimum | ParametricOptimum]:
+        return iter((self.least, self.greatest))
+
+    def __str__(self) -> str:
+        return f"least: {self.least}\ngreatest: {self.greatest}"
+
+
+@with_settings(Optimisation)
+def optimum(
+    objective: AnyFormula,
+    constraints: AnyFormula = "true",
+    *,
+    parameters: Names | None = None,
+    method: Way = "auto",
+    **settings: Unpack[Optimisation],
+) -> Extremes:
+    """The exact least and greatest value of a term; see ``minimize``."""
+    low, high = (_best(sign, objective, constraints, parameters, method, settings) for sign in (1, -1))
+    return Extremes(low, high)
 
 
 def _best(
