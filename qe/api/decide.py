@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Container, Mapping
 from fractions import Fraction
 from functools import partial
-from typing import Any, Unpack
+from typing import Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import answered_under
 from qe.api.input import AnyFormula, order_of, read_polynomial, together
 from qe.api.limits import limits_of, posed, read_under, under
-from qe.api.settings import Decision, Search, with_settings
+from qe.api.settings import Decision, Search, settings_in, with_settings
 from qe.errors import InputError, Unable
 from qe.exact.number import Assignment, ExactPoint
 from qe.exact.ring import Poly, Ring
@@ -87,13 +87,19 @@ def equivalent(left: AnyFormula, right: AnyFormula, **settings: Unpack[Search]) 
 
     Raises ``Unable`` at a limit.
     """
+    return compared(left, right, settings).truth is True
+
+
+def compared(left: AnyFormula, right: AnyFormula, given: Mapping[str, Any]) -> Answer:
+    """The answer to the question whether two formulas are equivalent; ``given``: settings, the others have defaults."""
+    settings = cast(Search, {name: s.default for name, (_, s) in settings_in(Search).items()} | {**given})
     limits = limits_of(settings)
     plain: dict[str, Any] = {**settings, "assuming": None}
     one, other = (posed(formula, plain, limits) for formula in (left, right))
     f, g, *inner = together(one.formula, other.formula, one.known, other.known)
     stated = under(iff(f, g), conj(inner), settings["assuming"], limits, others=(*f.free, *g.free))
     claim = forall(dict.fromkeys((*f.free, *g.free, *stated.known.free)), implies(stated.known, stated.formula))
-    return _decided(claim, [left, right], settings, limits).truth is True
+    return _decided(claim, [left, right], settings, limits)
 
 
 def _decided(sentence: Formula, given: AnyFormula, settings: Search, limits: Limits) -> Answer:
