@@ -22,8 +22,8 @@ from qe.io import parser as p
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.names import Renaming
-from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, parsed
-from qe.io.text_errors import Failing, SyntaxFailure
+from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, counted, parsed
+from qe.io.text_errors import Failing
 from qe.io.tokens import SIGNS, Token, kinds, matches
 
 _SESSION = re.compile(
@@ -84,8 +84,8 @@ def _check_session(session: re.Match[str], node: object, fail: s.Fail) -> None:
     """The counts of a session must fit its formula, and nothing after it may change the question."""
     names, free = _session_names(session, fail), int(session["free"])
     bound: list[str] = []
-    while isinstance(node, s.Quantification):
-        bound += node.names
+    while isinstance(node, s.Quantification | s.Quantity):
+        bound += node.names if isinstance(node, s.Quantification) else [node.name]
         node = node.body
     if names[free:] != bound:
         raise fail(f"quantifiers for {', '.join(names[free:]) or 'nothing'} expected", session.start("formula"))
@@ -115,16 +115,19 @@ class _Parser(Parser):
     def lexed(self, text: str) -> Iterator[Token]:
         at = 0
         while match := _QUANTIFIER.match(text, at):
-            if match["kind"] not in ("E", "A"):
-                message = f"the quantifier {match['kind']} is not supported; use E or A"
-                raise SyntaxFailure(message, match.start("kind"))
-            yield Token("QUANTIFIER", f"{match['kind']} {match['name']}", match.start("kind"))
+            yield Token("QUANTIFIER", f"{match['kind'].replace(' ', '')} {match['name']}", match.start("kind"))
             at = match.end()
         for kind, value, start in matches(_TOKEN, text, at):
             yield Token(_KINDS.get(value, kind), value, start)
 
     def quantifier(self) -> None:
-        kind, name = self.advance().text.split()
+        token = self.advance()
+        kind, name = token.text.split()
+        if kind not in ("E", "A"):
+            count = counted(kind[1:], token.at)
+            make = lambda body: s.Quantity(kind[0], count, name, body, token.at)  # noqa: E731
+            self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, make))
+            return
         self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, lambda body: s.Quantification(kind == "A", [name], body)))
 
     def term_in_brackets(self) -> None:
