@@ -1,8 +1,8 @@
 """Quantifiers that say how many: infinitely many, all but finitely many, exactly k, and that a set is connected.
 
 All are said by ex and all. A formula is true on finitely many intervals and points of a line. So it is true at
-infinitely many x iff it is on an open interval; and where it is quantifier-free, iff its *interior form* is true at some x:
-p = 0 becomes "all coefficients of p in x are 0", p >= 0 becomes p > 0 or that, p > 0 and p /= 0 stay.
+infinitely many x iff it is on an open interval; and where it is quantifier-free, iff its *interior form* is true at
+some x: p = 0 becomes "all coefficients of p in x are 0", p >= 0 becomes p > 0 or that, p > 0 and p /= 0 stay.
 
 THEOREM. Let f be quantifier-free without negations, g its interior form, the other variables fixed. f holds at
 infinitely many x iff g holds at some x. Proof: where g holds at x0, p > 0 and p /= 0 that hold there do so near x0, and

@@ -155,11 +155,8 @@ def _has_cases(part: s.Part) -> bool:
 
 def _times(part: s.Part, child: s.Part) -> int:
     """How often a part says what is inside it."""
-    return (
-        2
-        if isinstance(part, s.Equivalence | s.Quantity) or (isinstance(part, s.Choice) and child is part.condition)
-        else 1
-    )
+    twice = isinstance(part, s.Equivalence | s.Quantity) or (isinstance(part, s.Choice) and child is part.condition)
+    return 2 if twice else 1
 
 
 class _Naming:

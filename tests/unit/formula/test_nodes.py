@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.api.eliminate import read_formula
+from qe.api.input import read_formula
 from qe.errors import InternalError
 from qe.exact.ring import Ring
 from qe.formula import block as module
