@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from qe.api.groebner import comprehensive_groebner, real_root_classification
     from qe.api.optimum import Extremes, maximize, minimize, optimum
     from qe.api.solve import find, find_instances, parametric_witnesses, reduce, solve, witnesses
+    from qe.api.solver import Solver
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
@@ -72,6 +73,7 @@ _ELSEWHERE = {
     "ParametricWitness": "qe.elimination.vs.parametric",
     "RealAlgebraic": "qe.exact.algebraic",
     "Region": "qe.regions.region",
+    "Solver": "qe.api.solver",
     "Solutions": "qe.regions.solutions",
     "Verdict": "qe.kernel.verdict",
 }
@@ -150,6 +152,7 @@ __all__ = [
     "RealRootClassification",
     "Region",
     "Solutions",
+    "Solver",
     "Stage",
     "Statement",
     "Status",

@@ -103,7 +103,7 @@ _ANOTHER = re.compile(rf"\s+{_LIST}")
 _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
 _KINDS_OF_NUMBERS = {
-    **dict.fromkeys(("unique", "exactly"), "write it in front: exactly 1 x. x^2 = a"),
+    **dict.fromkeys(("unique", "exactly"), "there is no ∃! here; write exactly 1 x. f"),
     "positive": "a condition stands behind the variable, as in exists x > 0",
     "negative": "a condition stands behind the variable, as in exists x < 0",
     "nonzero": "a condition stands behind the variable, as in exists x /= 0",
