@@ -54,7 +54,7 @@ def eliminate(formula: AnyFormula, **settings: Unpack[Elimination]) -> Answer:
 
 @with_settings(ProvedQuestion)
 def simplify(formula: AnyFormula, **settings: Unpack[ProvedQuestion]) -> Answer:
-    """A formula that is equivalent where ``assuming`` holds, not longer and as short as an answer would be.
+    """A formula that is equivalent where ``assuming`` holds, with no more of degree, as short as an answer would be.
 
     Quantifiers stay: what stands under them is simplified (Dolzmann and Sturm 1997). A formula without any goes through
     all that shortens answers: ideals, decompositions, parts that make no difference. Limits as for ``eliminate``.

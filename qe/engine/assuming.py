@@ -82,12 +82,12 @@ def answered_assuming(
 
 def simplified(question: Formula, known: Formula, options: Options, budget: Budget) -> Assumed:
     """A formula that is not longer, equivalent where ``known`` holds; with the quantifiers of the question."""
-    if question.is_quantifier_free and not has_root_atoms(question):
-        made = answered_assuming(question, known, options, budget)
-        if length(made.outcome.formula) <= length(question):
-            return made
     log = RunLog()
     simple = simplify(question, known, watch=budget.check)
+    if question.is_quantifier_free and not has_root_atoms(question):
+        made = answered_assuming(question, known, options, budget)
+        if length(made.outcome.formula) <= length(simple):
+            return made
     return Assumed(Outcome(log.step("simplification", question, simple, context=known), log=log), known)
 
 
