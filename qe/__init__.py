@@ -8,6 +8,7 @@ b^2 - 4*c >= 0
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from qe.errors import (
@@ -28,10 +29,11 @@ from qe.services import Service, provide
 
 if TYPE_CHECKING:
     from qe.api.decide import check_witness, decide, equivalent, find_instance
-    from qe.api.eliminate import eliminate, region, verify
+    from qe.api.eliminate import eliminate, region, simplify, verify
     from qe.api.groebner import comprehensive_groebner, real_root_classification
-    from qe.api.optimum import maximize, minimize
-    from qe.api.solve import find_instances, parametric_witnesses, reduce, solve
+    from qe.api.optimum import Extremes, maximize, minimize, optimum
+    from qe.api.solve import find, find_instances, parametric_witnesses, reduce, solve, witnesses
+    from qe.api.solver import Solver
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
@@ -59,8 +61,8 @@ _ELSEWHERE = {
     "comprehensive_groebner": "qe.api.groebner",
     "real_root_classification": "qe.api.groebner",
     **dict.fromkeys(("check_witness", "decide", "equivalent", "find_instance"), "qe.api.decide"),
-    **dict.fromkeys(("maximize", "minimize"), "qe.api.optimum"),
-    **dict.fromkeys(("find_instances", "parametric_witnesses", "reduce", "solve"), "qe.api.solve"),
+    **dict.fromkeys(("Extremes", "maximize", "minimize", "optimum"), "qe.api.optimum"),
+    **dict.fromkeys(("find", "find_instances", "parametric_witnesses", "reduce", "solve", "witnesses"), "qe.api.solve"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
@@ -71,6 +73,7 @@ _ELSEWHERE = {
     "ParametricWitness": "qe.elimination.vs.parametric",
     "RealAlgebraic": "qe.exact.algebraic",
     "Region": "qe.regions.region",
+    "Solver": "qe.api.solver",
     "Solutions": "qe.regions.solutions",
     "Verdict": "qe.kernel.verdict",
 }
@@ -87,9 +90,18 @@ def __getattr__(name: str) -> Any:
     if name == "sympy":
         return import_module("qe.sympy")
     if name not in __all__:
-        raise AttributeError(f"module 'qe' has no attribute {name!r}")
+        is_module = name.startswith("_") or find_spec(f"qe.{name}") is not None  # which the import system asks for
+        raise AttributeError(f"module 'qe' has no attribute {name!r}{'' if is_module else _nearest(name)}", name=name)
     found = globals()[name] = getattr(import_module(_ELSEWHERE.get(name, "qe.api.eliminate")), name)
     return found
+
+
+def _nearest(name: str) -> str:
+    """The nearest name that there is."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, __all__, 1)
+    return f"; did you mean {near[0]!r}?" if near else ""
 
 
 provide(
@@ -121,6 +133,7 @@ __all__ = [
     "DoubtfulInput",
     "Exists",
     "Expression",
+    "Extremes",
     "ForAll",
     "GlobalOptimum",
     "Guarantee",
@@ -139,6 +152,7 @@ __all__ = [
     "RealRootClassification",
     "Region",
     "Solutions",
+    "Solver",
     "Stage",
     "Statement",
     "Status",
@@ -150,17 +164,21 @@ __all__ = [
     "eliminate",
     "equivalent",
     "exists",
+    "find",
     "find_instance",
     "find_instances",
     "forall",
     "from_z3",
     "maximize",
     "minimize",
+    "optimum",
     "parametric_witnesses",
     "real_root_classification",
     "reduce",
     "region",
+    "simplify",
     "solve",
     "variables",
     "verify",
+    "witnesses",
 ]

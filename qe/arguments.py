@@ -55,6 +55,17 @@ def shown(value: object) -> str:
     return type(value).__name__
 
 
+def content(given: bytes | bytearray | Path, what: str) -> tuple[str, str]:
+    """The text of bytes or of a file, and the ending of its name. Raises ``InputError`` where it cannot be read."""
+    try:
+        data, ending = (given, "") if isinstance(given, bytes | bytearray) else (given.read_bytes(), given.suffix)
+        return bytes(data).decode("utf-8-sig"), ending.lower()
+    except OSError as error:
+        raise InputError(f"{what}: {error.filename}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{what}: text in UTF-8 expected, other bytes found") from None
+
+
 def instance(value: object, kind: type[T], what: str, expected: str) -> T:
     """A value of this type."""
     if not isinstance(value, kind):

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Container, Mapping
 from fractions import Fraction
 from functools import partial
-from typing import Any, Unpack
+from typing import Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import answered_under
 from qe.api.input import AnyFormula, order_of, read_polynomial, together
-from qe.api.limits import limits_of, read_under, reading
-from qe.api.settings import Decision, Search, with_settings
+from qe.api.limits import limits_of, posed, read_under, under
+from qe.api.settings import Decision, Search, settings_in, with_settings
 from qe.errors import InputError, Unable
 from qe.exact.number import Assignment, ExactPoint
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import convert, exists, forall, iff
+from qe.formula.build import conj, convert, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
-from qe.formula.syntax import Formula
+from qe.formula.syntax import TRUE, Formula
 from qe.formula.traverse import bound_variables, ring_of
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer
@@ -27,13 +27,15 @@ from qe.spelling import glued
 
 @with_settings(Decision)
 def decide(formula: AnyFormula, **settings: Unpack[Decision]) -> bool:
-    """The truth of a sentence.
+    """The truth of a sentence; of a formula in variables that ``assuming`` speaks of, wherever that holds.
 
-    Raises ``InputError`` for free variables and ``Unable`` at a limit.
+    Raises ``InputError`` for other free variables and ``Unable`` at a limit.
     """
     limits = limits_of(settings)
-    given = reading(formula, settings["format"], limits, settings["total_division"])
-    return _decided(given, formula, settings, limits).truth is True
+    given = posed(formula, settings, limits)
+    strange = [name for name in given.formula.free if name not in given.known.free]
+    sentence = given.formula if strange else given.closed(given.formula)
+    return _decided(sentence, formula, settings, limits).truth is True
 
 
 @with_settings(Decision)
@@ -43,7 +45,7 @@ def find_instance(formula: AnyFormula, **settings: Unpack[Decision]) -> Assignme
     Raises ``Unable`` at a limit.
     """
     limits = limits_of(settings)
-    given = reading(formula, settings["format"], limits, settings["total_division"])
+    given = posed(formula, settings, limits).restricted
     free = given.free
     answer = _decided(exists(free, given), formula, settings, limits)
     if answer.truth is False:
@@ -64,14 +66,15 @@ def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **set
     from qe.elimination.witness import Term, instantiate
 
     limits = limits_of(settings)
-    given = without_root_atoms(reading(sentence, settings["format"], limits))
+    stated = posed(sentence, settings, limits)
+    given = without_root_atoms(stated.formula)
     offered, known = arguments.by_name(witness, "witness"), features(given).bound
     read = read_under(limits, partial(_polynomials, offered, known), offered)
     rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
-    asked = instantiate(convert(given, ring), terms)
-    return _decided(asked, sentence, settings, limits).truth is True
+    asked = under(instantiate(convert(given, ring), terms), TRUE, stated.known, limits)
+    return _decided(asked.closed(asked.formula), sentence, settings, limits).truth is True
 
 
 def _polynomials(offered: Mapping[str, AnyFormula], known: Container[str]) -> dict[str, tuple[Poly, Fraction]]:
@@ -80,14 +83,23 @@ def _polynomials(offered: Mapping[str, AnyFormula], known: Container[str]) -> di
 
 @with_settings(Search)
 def equivalent(left: AnyFormula, right: AnyFormula, **settings: Unpack[Search]) -> bool:
-    """Whether two formulas have the same solutions in all their free variables together.
+    """Whether two formulas have the same solutions in all their free variables together, where ``assuming`` holds.
 
     Raises ``Unable`` at a limit.
     """
+    return compared(left, right, settings).truth is True
+
+
+def compared(left: AnyFormula, right: AnyFormula, given: Mapping[str, Any]) -> Answer:
+    """The answer to the question whether two formulas are equivalent; ``given``: settings, the others have defaults."""
+    settings = cast(Search, {name: s.default for name, (_, s) in settings_in(Search).items()} | {**given})
     limits = limits_of(settings)
-    f, g = together(*(reading(formula, settings["format"], limits) for formula in (left, right)))
-    claim = forall(dict.fromkeys((*f.free, *g.free)), iff(f, g))
-    return _decided(claim, [left, right], settings, limits).truth is True
+    plain: dict[str, Any] = {**settings, "assuming": None}
+    one, other = (posed(formula, plain, limits) for formula in (left, right))
+    f, g, *inner = together(one.formula, other.formula, one.known, other.known)
+    stated = under(iff(f, g), conj(inner), settings["assuming"], limits, others=(*f.free, *g.free))
+    claim = forall(dict.fromkeys((*f.free, *g.free, *stated.known.free)), implies(stated.known, stated.formula))
+    return _decided(claim, [left, right], settings, limits)
 
 
 def _decided(sentence: Formula, given: AnyFormula, settings: Search, limits: Limits) -> Answer:

@@ -1,4 +1,4 @@
-"""``eliminate``, ``region`` and ``verify``, which all other public functions go through."""
+"""``eliminate``, ``simplify``, ``region`` and ``verify``, which all other public functions go through."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Unpack, cast
 
 from qe import arguments
-from qe.api.input import AnyFormula, order_of, read_formula
-from qe.api.limits import limits_of, performed, reading
+from qe.api.input import AnyFormula, order_of, read_posed
+from qe.api.limits import limits_of, performed, posed, under
 from qe.api.settings import Elimination, Order, ProvedQuestion, Search, with_settings
 from qe.errors import InputError, Unable
+from qe.formula.assumed import Aim, Asked, claimed
 from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
 from qe.processes.limits import Limits
@@ -43,17 +44,35 @@ def eliminate(formula: AnyFormula, **settings: Unpack[Elimination]) -> Answer:
     """
     limits = limits_of(settings)
     try:
-        given = reading(formula, settings["format"], limits, settings["total_division"])
+        given = posed(formula, settings, limits)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error))
-    order = order_of(settings["order"], formula, given)
-    return answered_under(given, order, settings, limits, anytime=settings["anytime"])
+    order = order_of(settings["order"], formula, given.restricted)
+    asked = Asked(given.formula, given.known, Aim.GENERIC if settings["generic"] else Aim.EQUIVALENT)
+    return answered_under(asked, order, settings, limits, anytime=settings["anytime"])
+
+
+@with_settings(ProvedQuestion)
+def simplify(formula: AnyFormula, **settings: Unpack[ProvedQuestion]) -> Answer:
+    """A formula that is equivalent where ``assuming`` holds, with no more of degree, as short as an answer would be.
+
+    Quantifiers stay: what stands under them is simplified (Dolzmann and Sturm 1997). A formula without any goes through
+    all that shortens answers: ideals, decompositions, parts that make no difference. Limits as for ``eliminate``.
+    """
+    limits = limits_of(settings)
+    try:
+        given = posed(formula, settings, limits)
+    except Unable as error:
+        return Answer(Status.UNABLE, None, reason=str(error))
+    asked, options = Asked(given.formula, given.known, Aim.SHORTER), Options(certify=settings["check"])
+    return _limited(asked, options, limits, settings["check"], None)
 
 
 def answered_under(
-    formula: Formula, order: tuple[str, ...] | None, settings: Search, limits: Limits, *, anytime: bool = False
+    asked: Formula | Asked, order: tuple[str, ...] | None, settings: Search, limits: Limits, *, anytime: bool = False
 ) -> Answer:
-    """The answer to a formula that has been read; ``order`` is that of the settings, of its variables alone."""
+    """The answer to a question that has been read; ``order`` is that of the settings, of its variables alone."""
+    asked = asked if isinstance(asked, Asked) else Asked(asked)
     check, methods = settings["check"], cast(frozenset[Method], settings["race"])
     options = Options(
         method=Method(settings["method"]),
@@ -68,11 +87,11 @@ def answered_under(
         raise InputError("race: cannot go with method, workers, cluster or process=False")
     whole = limits.shared(WHOLE_SHARE) if anytime else limits
     if methods:
-        answer = _raced(formula, options, whole, check, methods)
+        answer = _raced(asked, options, whole, check, methods)
     else:
-        answer = _limited(formula, options, whole, check, helpers)
+        answer = _limited(asked, options, whole, check, helpers)
     if anytime and answer.formula is None:
-        answer = replace(answer, partial=_partial(formula, options, limits))
+        answer = replace(answer, partial=_partial(asked.formula, options, limits))
     if settings["explain"]:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
@@ -86,13 +105,13 @@ def _cluster(settings: Search) -> Cluster | None:
     return None if address is None and not count else Cluster(count, address)
 
 
-def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
+def _limited(asked: Asked, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
     """The answer, found in a worker process where it takes long or a limit is to hold."""
-    work = partial(_answer, formula, options, check, cluster)
+    work = partial(_answer, asked, options, check, cluster)
     try:
-        return performed(work, formula, limits, at_once=cluster is not None)
+        return performed(work, asked.formula, limits, at_once=cluster is not None)
     except Unable as error:
-        return Answer(Status.UNABLE, None, reason=str(error), question=formula)
+        return Answer(Status.UNABLE, None, reason=str(error), question=asked.formula)
 
 
 def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
@@ -118,21 +137,29 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
     return replace(known, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
 
 
-def _raced(formula: Formula, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:
+def _raced(asked: Asked, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:
     """The first answer that one of the methods has."""
     from qe.api.race import raced
 
     try:
-        return raced(partial(_answer_by, formula, options, check), methods, limits)
+        return raced(partial(_answer_by, asked, options, check), methods, limits)
     except Unable as error:
-        return Answer(Status.UNABLE, None, reason=str(error), question=formula)
+        return Answer(Status.UNABLE, None, reason=str(error), question=asked.formula)
 
 
-def _answer_by(formula: Formula, options: Options, check: bool, method: Method, budget: Budget) -> Answer:
-    return _answer(formula, options.with_(method=method), check, None, budget)
+def settled(sentence: Formula, options: Options, budget: Budget) -> Answer:
+    """The answer to a sentence that has been read, in this process."""
+    answer = _answer(Asked(sentence), options, options.certify, None, budget)
+    if answer.truth is None:
+        raise Unable(answer.reason or "no decision was reached")
+    return answer
 
 
-def _answer(formula: Formula, options: Options, check: bool, cluster: Cluster | None, budget: Budget) -> Answer:
+def _answer_by(asked: Asked, options: Options, check: bool, method: Method, budget: Budget) -> Answer:
+    return _answer(asked, options.with_(method=method), check, None, budget)
+
+
+def _answer(asked: Asked, options: Options, check: bool, cluster: Cluster | None, budget: Budget) -> Answer:
     """What the engine finds, which is loaded at the first call; verified where that is asked, or costs little.
 
     Where the answer is to be proved, it is kept before. The processes of a cluster help.
@@ -141,23 +168,23 @@ def _answer(formula: Formula, options: Options, check: bool, cluster: Cluster | 
         from qe.processes.cluster import helping
 
         with helping(cluster) as budget.helpers:
-            return _answer(formula, options, check, None, budget)
-    from qe.engine.run import answer_to, answered, proved
+            return _answer(asked, options, check, None, budget)
+    from qe.engine.asked import answer_to, answered, proved
 
     try:
-        known = answered(formula, options, budget)
+        known = answered(asked, options, budget)
         if options.certify:
-            budget.keep(replace(answer_to(formula, known), certificate=None, reason=UNPROVED))
-        outcome = proved(formula, known, options, budget)
+            budget.keep(replace(answer_to(known), certificate=None, reason=UNPROVED))
+        outcome = proved(known, options, budget)
     except Unable as error:
         log = RunLog()
         log.work("limits", {"work": budget.used})
-        return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
-    answer, certificate = answer_to(formula, outcome), outcome.certificate
-    if certificate is not None and (check or certificate.evidence_for("instance") or outcome.witness is not None):
+        return Answer(Status.UNABLE, None, reason=str(error), question=asked.formula, log=log)
+    answer, certificate = answer_to(outcome), outcome.outcome.certificate
+    if certificate is not None and (check or certificate.evidence_for("instance") or answer.witness is not None):
         from qe.api.verify import with_verdict
 
-        return with_verdict(answer, budget, checked=outcome.checked)
+        return with_verdict(answer, budget, checked=outcome.outcome.checked)
     return answer
 
 
@@ -178,7 +205,7 @@ def region(formula: AnyFormula, order: Order = None, **settings: Unpack[ProvedQu
     """
     limits, names = limits_of(settings), arguments.names(order)
     whole, check = replace(limits, start=None), settings["check"]
-    given = reading(formula, settings["format"], limits, settings["total_division"])
+    given = posed(formula, settings, limits).restricted
     return performed(partial(_region, given, names, whole, check), given, limits)
 
 
@@ -194,6 +221,7 @@ def verify(
     certificate: Certificate,
     *,
     formula: AnyFormula = None,
+    assuming: AnyFormula = None,
     format: str = "text",
     timeout: float | None = VERIFY_SECONDS,
     core: bool = False,
@@ -201,8 +229,9 @@ def verify(
     """Whether separate code accepts the certificate, within ``timeout`` seconds (None: no limit); see ``qe.certify``.
 
     With ``formula``, also whether it is about that question, or its negation, up to the names of bound variables and
-    the order of conjuncts and disjuncts; if not, it is rejected at ``claim``. With ``core``, a certificate that needs
-    rules of the expert ring (``Certificate.trusts`` names them) is rejected at ``core``. Past the limit the verdict is
+    the order of conjuncts and disjuncts; if not, it is rejected at ``claim``. ``assuming``: what that question was
+    asked under (``Answer.assuming``). With ``core``, a certificate that needs rules of the expert ring
+    (``Certificate.trusts`` names them) is rejected at ``core``. Past the limit the verdict is
     neither accepted nor ``decided``. Raises ``InputError`` for what is no certificate, a formula that cannot be read
     and a limit that is not positive.
     """
@@ -210,6 +239,9 @@ def verify(
     from qe.io import formats
 
     chosen = formats.checked(format)
-    asked = None if formula is None else read_formula(formula, chosen.value)
+    asked = None
+    if formula is not None:
+        given = under(*read_posed(formula, chosen.value), assuming, Limits())
+        asked = claimed(given.known, given.formula, given.formula)
     arguments.flag(core, "core")
     return check(certificate, formula=asked, timeout=arguments.seconds(timeout), core=core)

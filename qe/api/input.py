@@ -9,6 +9,7 @@ from collections.abc import Container, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from qe import arguments
@@ -16,7 +17,7 @@ from qe.errors import DoubtfulInput, InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert
 from qe.formula.syntax import TRUE, Constant, Exists, ForAll, Formula
-from qe.formula.traverse import ring_of
+from qe.formula.traverse import has_root_atoms, ring_of
 from qe.io.names import names_in
 from qe.proof.answer import Answer
 from qe.spelling import KEYWORDS, QUOTED, WORD, unquoted
@@ -25,34 +26,66 @@ if TYPE_CHECKING:
     from qe.optimization.values import Objective
 
 AnyFormula = Any
-"""A ``Formula``, text, an object of SymPy or z3, or a list of these, which hold together."""
+"""A ``Formula``, text, bytes, a file (``Path``), an object of SymPy, z3 or pySMT, or a list, which holds together."""
+
+
+Read = tuple[Formula, Formula]
+"""A formula, and what it is asked under: TRUE, or what a session, a theory or SymPy's symbols assume."""
 
 
 def read_formula(given: AnyFormula, format: str = "text", total_division: bool = False) -> Formula:
-    """The formula given in any of the accepted shapes; ``InputError`` otherwise.
+    """The formula given in any of the accepted shapes, with what it assumes; ``InputError`` otherwise.
 
     ``total_division``: what text says of a division by zero (see ``qe.io.text.read``); other shapes know it already.
     """
+    formula, known = read_posed(given, format, total_division)
+    return formula if known == TRUE else conj(together(known, formula))
+
+
+def read_posed(given: AnyFormula, format: str = "text", total_division: bool = False) -> Read:
+    """As ``read_formula``, with what is assumed by itself."""
     from qe.io import formats
 
     chosen = formats.checked(format)
     if isinstance(given, Formula):
-        return given
+        return given, TRUE
     if isinstance(given, Answer):
         if given.formula is None:
             raise InputError("an answer without a formula was given")
-        return given.formula
+        return given.formula, given.assuming
+    if isinstance(given, bytes | bytearray | Path):
+        text, ending = arguments.content(given, "formula")
+        kind = formats.BY_ENDING.get(ending, chosen) if chosen is formats.Format.TEXT else chosen
+        source = str(given) if isinstance(given, Path) else "<bytes>"
+        return formats.read_posed(text, kind, source=source, total_division=total_division)
     if isinstance(given, str):
-        return formats.read(given, chosen, total_division=total_division)
+        return formats.read_posed(given, chosen, total_division=total_division)
     if isinstance(given, list | tuple) and given:  # conditions that hold together
-        return conj(together(*(read_formula(part, format, total_division) for part in given)))
-    if type(given).__module__.partition(".")[0] == "z3":
+        parts, known = zip(*(read_posed(part, format, total_division) for part in given), strict=True)
+        return conj(together(*parts)), conj(together(*known))
+    package = type(given).__module__.partition(".")[0]
+    if package == "z3":
         from qe.io.z3_door import from_z3
 
-        return from_z3(given)
-    from qe.io.sympy import from_sympy
+        return from_z3(given), TRUE
+    if package == "pysmt":
+        from qe.io.pysmt_door import from_pysmt
 
-    return from_sympy(given)
+        return from_pysmt(given), TRUE
+    from qe.io.sympy import posed_from_sympy
+
+    return posed_from_sympy(given)
+
+
+def read_assumptions(given: AnyFormula) -> Formula:
+    """What is to be taken for granted, without quantifiers and roots; text is read as ``qe.io.text`` does."""
+    try:
+        known = TRUE if given is None or (isinstance(given, list | tuple) and not given) else read_formula(given)
+    except InputError as error:
+        raise InputError(f"assuming: {error}") from None
+    if not known.is_quantifier_free or has_root_atoms(known):
+        raise InputError("assuming: comparisons of polynomials without quantifiers expected")
+    return known
 
 
 def note_doubts(given: AnyFormula, formula: Formula, format: str = "text", solved: Sequence[str] = ()) -> None:
@@ -79,16 +112,17 @@ def warned(notes: Iterable[str]) -> None:
         warnings.warn(message, DoubtfulInput, stacklevel=level)
 
 
-def read_block(given: AnyFormula, format: str = "text", total_division: bool = False) -> Formula:
-    """The formula, its outermost quantifier kept where reading would drop it because its body is true or false.
+def read_block(given: AnyFormula, format: str = "text", total_division: bool = False) -> Read:
+    """As ``read_posed``; the formula has its outermost quantifier also where reading would drop it because its body is
+    true or false.
 
     Text and ``qe.Exists``/``qe.ForAll`` still tell which it is; other formulas come without it.
     """
     from qe.io import formats
 
-    formula = read_formula(given, format, total_division)
+    formula, known = read_posed(given, format, total_division)
     if not isinstance(formula, Constant):
-        return formula
+        return formula, known
     block = None
     if isinstance(given, str) and formats.checked(format) is formats.Format.TEXT:
         from qe.io.text import outermost
@@ -99,9 +133,9 @@ def read_block(given: AnyFormula, format: str = "text", total_division: bool = F
 
         block = sympy.outermost(given)
     if block is None:
-        return formula
+        return formula, known
     universal, names = block
-    return (ForAll if universal else Exists)(names, formula)
+    return (ForAll if universal else Exists)(names, formula), known
 
 
 def names_typed(given: AnyFormula) -> set[str]:
@@ -140,9 +174,9 @@ def together(*parts: Formula) -> tuple[Formula, ...]:
     return tuple(convert(p, ring) for p in parts)
 
 
-def read_constraints(given: AnyFormula) -> Formula:
-    """One formula, or the conjunction of a list of formulas."""
-    return TRUE if isinstance(given, list | tuple) and not given else read_formula(given)
+def read_posed_constraints(given: AnyFormula) -> Read:
+    """One formula, or the conjunction of a list of formulas, and what is assumed."""
+    return (TRUE, TRUE) if isinstance(given, list | tuple) and not given else read_posed(given)
 
 
 def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:
@@ -212,11 +246,13 @@ __all__ = [
     "names_typed",
     "note_doubts",
     "order_of",
+    "read_assumptions",
     "read_block",
-    "read_constraints",
     "read_formula",
     "read_objective",
     "read_polynomial",
+    "read_posed",
+    "read_posed_constraints",
     "together",
     "warned",
 ]

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from qe.api.input import AnyFormula, note_doubts, read_formula
+from qe.api.input import AnyFormula, Read, note_doubts, read_assumptions, read_posed, together, warned
 from qe.api.settings import Limited
-from qe.formula.syntax import Formula
+from qe.errors import InputError
+from qe.formula.build import conj, forall, implies
+from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.formula.traverse import bound_variables, conjuncts
 from qe.formula.weight import may_block, text_may_block
 from qe.io.sharing import refuse_shared
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.processes.execution import Work, perform
 from qe.processes.limits import Limits
 
 Result = TypeVar("Result")
-Reader = Callable[[AnyFormula, str, bool], Formula]
+Reader = Callable[[AnyFormula, str, bool], Read]
 
 LIMITED_POWER = 12
 """The greatest exponent in what is read here although a limit is to hold: higher powers of sums are long."""
@@ -43,24 +47,75 @@ def limits_of(settings: Limited) -> Limits:
     )
 
 
-def reading(
-    formula: AnyFormula,
-    format: str,
-    limits: Limits,
-    total_division: bool = False,
-    *,
-    reader: Reader = read_formula,
-    solved: Sequence[str] = (),
-) -> Formula:
-    """The formula, to be ``solved`` for these, read under the limits where reading may take long.
+def reading(formula: AnyFormula, format: str, limits: Limits) -> Formula:
+    """The formula, with what it assumes, read under the limits where reading may take long. Raises as ``posed``."""
+    given = posed(formula, {"format": format}, limits)
+    return given.formula if given.known == TRUE else conj((given.known, given.formula))
 
-    Raises ``BudgetExceeded`` at one, ``Unable`` for a formula whose parts are shared so much that no method, all of
-    which write it out, comes to an end.
+
+@dataclass(frozen=True, slots=True)
+class Posed:
+    """A question, and what is ``known``: conditions without quantifiers, over the same ring."""
+
+    formula: Formula
+    known: Formula = TRUE
+
+    @property
+    def restricted(self) -> Formula:
+        """Both together."""
+        return conj((self.known, self.formula))
+
+    def closed(self, formula: Formula) -> Formula:
+        """A formula wherever the assumptions hold; the values of what they speak of are any."""
+        return formula if self.known == TRUE else forall(self.known.free, implies(self.known, formula))
+
+
+def posed(
+    formula: AnyFormula,
+    settings: Mapping[str, Any],
+    limits: Limits,
+    *,
+    reader: Reader = read_posed,
+    solved: Sequence[str] = (),
+) -> Posed:
+    """The formula, to be ``solved`` for these, and what is assumed, read under the limits where that may take long.
+
+    Raises ``BudgetExceeded`` at one, ``InputError`` for what cannot be assumed, ``Unable`` for a formula whose parts
+    are shared so much that no method, all of which write it out, comes to an end. Warns of assumptions that contradict
+    each other, and of such about something else.
     """
-    result = read_under(limits, partial(reader, formula, format, total_division), formula)
+    format, division = settings.get("format", "text"), settings.get("total_division", False)
+    result, inner = read_under(limits, partial(reader, formula, format, division), formula)
     refuse_shared(result)
     note_doubts(formula, result, format, solved)
-    return result
+    return under(result, inner, settings.get("assuming"), limits)
+
+
+def under(formula: Formula, inner: Formula, assuming: AnyFormula, limits: Limits, others: Iterable[str] = ()) -> Posed:
+    """A formula that was read, under what it assumes itself and what the caller does; ``others``: names of what else is
+    in question."""
+    if assuming is None and inner == TRUE:
+        return Posed(formula)
+    outer = read_under(limits, partial(read_assumptions, assuming), assuming)
+    refuse_shared(outer)
+    note_doubts(assuming, outer)
+    formula, *known = together(formula, inner, outer)
+    both, bound = conj(known), {*bound_variables(formula)} - {*formula.free}
+    if hidden := [name for name in both.free if name in bound]:
+        raise InputError(f"assuming: free variables expected, {', '.join(hidden)} is bound in the formula")
+    seen = {*formula.free, *others}
+    idle = [part for part in conjuncts(outer) if part.free and not seen & {*part.free}]
+    if both == FALSE or not performed(partial(_can_hold, both), both, limits):
+        warned(["assuming: nothing meets these conditions, so every answer is right"])
+    elif idle:
+        warned([f"assuming: {part} says nothing of the free variables of the formula" for part in idle])
+    return Posed(formula, both)
+
+
+def _can_hold(known: Formula, budget: Budget) -> bool:
+    from qe.engine.assuming import can_hold
+
+    return can_hold(known, Options(), budget)
 
 
 def read_under(limits: Limits, read: Callable[[], Result], *given: object) -> Result:

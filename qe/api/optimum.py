@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 from qe import arguments
-from qe.api.input import AnyFormula, names_typed, note_doubts, read_constraints, read_objective, warned
-from qe.api.limits import limits_of, performed, read_under
-from qe.api.settings import Proved, with_settings
+from qe.api.input import AnyFormula, names_typed, note_doubts, read_objective, read_posed_constraints, warned
+from qe.api.limits import limits_of, performed, read_under, under
+from qe.api.settings import Optimisation, with_settings
 from qe.convex import optimum as convex
 from qe.convex.optimum import NotConvex, Optimum
 from qe.errors import InputError
@@ -31,7 +31,7 @@ Way = Literal["auto", "convex", "elimination"]
 
 @overload
 def minimize(
-    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Literal["convex"], **settings: Unpack[Proved]
+    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Literal["convex"], **settings: Unpack[Optimisation]
 ) -> Optimum: ...
 @overload
 def minimize(
@@ -40,20 +40,20 @@ def minimize(
     *,
     parameters: Names,
     method: Way = ...,
-    **settings: Unpack[Proved],
+    **settings: Unpack[Optimisation],
 ) -> ParametricOptimum: ...
 @overload
 def minimize(
-    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Way = ..., **settings: Unpack[Proved]
+    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Way = ..., **settings: Unpack[Optimisation]
 ) -> Optimum | GlobalOptimum: ...
-@with_settings(Proved)
+@with_settings(Optimisation)
 def minimize(
     objective: AnyFormula,
     constraints: AnyFormula = "true",
     *,
     parameters: Names | None = None,
     method: Way = "auto",
-    **settings: Unpack[Proved],
+    **settings: Unpack[Optimisation],
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The exact global minimum of a term where it has a value and the constraints hold.
 
@@ -74,7 +74,7 @@ def minimize(
 
 @overload
 def maximize(
-    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Literal["convex"], **settings: Unpack[Proved]
+    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Literal["convex"], **settings: Unpack[Optimisation]
 ) -> Optimum: ...
 @overload
 def maximize(
@@ -83,23 +83,51 @@ def maximize(
     *,
     parameters: Names,
     method: Way = ...,
-    **settings: Unpack[Proved],
+    **settings: Unpack[Optimisation],
 ) -> ParametricOptimum: ...
 @overload
 def maximize(
-    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Way = ..., **settings: Unpack[Proved]
+    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Way = ..., **settings: Unpack[Optimisation]
 ) -> Optimum | GlobalOptimum: ...
-@with_settings(Proved)
+@with_settings(Optimisation)
 def maximize(
     objective: AnyFormula,
     constraints: AnyFormula = "true",
     *,
     parameters: Names | None = None,
     method: Way = "auto",
-    **settings: Unpack[Proved],
+    **settings: Unpack[Optimisation],
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The exact global maximum; see ``minimize``."""
     return _best(-1, objective, constraints, parameters, method, settings)
+
+
+@dataclass(frozen=True, slots=True)
+class Extremes:
+    """The ``least`` and the ``greatest`` value, each as ``minimize`` and ``maximize`` give it."""
+
+    least: Optimum | GlobalOptimum | ParametricOptimum
+    greatest: Optimum | GlobalOptimum | ParametricOptimum
+
+    def __iter__(self) -> Iterator[Optimum | GlobalOptimum | ParametricOptimum]:
+        return iter((self.least, self.greatest))
+
+    def __str__(self) -> str:
+        return f"least: {self.least}\ngreatest: {self.greatest}"
+
+
+@with_settings(Optimisation)
+def optimum(
+    objective: AnyFormula,
+    constraints: AnyFormula = "true",
+    *,
+    parameters: Names | None = None,
+    method: Way = "auto",
+    **settings: Unpack[Optimisation],
+) -> Extremes:
+    """The exact least and greatest value of a term; see ``minimize``."""
+    low, high = (_best(sign, objective, constraints, parameters, method, settings) for sign in (1, -1))
+    return Extremes(low, high)
 
 
 def _best(
@@ -108,11 +136,13 @@ def _best(
     constraints: AnyFormula,
     parameters: Names | None,
     method: Way,
-    settings: Proved,
+    settings: Optimisation,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     limits = limits_of(settings)
-    conditions = read_under(limits, partial(read_constraints, constraints), constraints)
+    read = read_under(limits, partial(read_posed_constraints, constraints), constraints)
+    stated = under(*read, settings["assuming"], limits, others=names_typed([objective]))
+    conditions = stated.restricted
     given = arguments.names(parameters, "parameters")
     strangers = sorted({*(given or ())} - names_typed([objective, constraints, conditions]))
     if strangers:

@@ -97,6 +97,19 @@ _ANYTIME = Setting(
 )
 
 
+_ASSUMING = Setting(
+    None,
+    "conditions taken for granted, as in a > 0 and b > 0; the answer is right where they hold and does not repeat "
+    "them, and the certificate states them. A formula without quantifiers, or a list; text is read as format text",
+    lambda value, what: value,  # which its reader checks
+)
+_GENERIC = Setting(
+    False,
+    "leading coefficients, polynomials in the free variables, may be assumed not to be zero; Answer.generic lists "
+    "those that were",
+)
+
+
 class Limited(TypedDict, total=False):
     """The limits of a call, and who hears of it. A single polynomial operation can take long: under limits, and when
     it takes longer than a moment, the work runs in a worker process that can be killed."""
@@ -113,10 +126,20 @@ class Proved(Limited, total=False):
     check: Annotated[bool, _CHECK]
 
 
-class Read(TypedDict, total=False):
-    """How text is read."""
+class Assuming(TypedDict, total=False):
+    """What is taken for granted."""
+
+    assuming: Annotated[Any, _ASSUMING]
+
+
+class Read(Assuming, total=False):
+    """How text is read, and what is taken for granted."""
 
     format: Annotated[str, _FORMAT]
+
+
+class Optimisation(Assuming, Proved, total=False):
+    """What is taken for granted, the limits, and whether there is to be a certificate."""
 
 
 class Question(Read, Limited, total=False):
@@ -155,6 +178,7 @@ class Elimination(Decision, total=False):
     """The same, and what to do at a limit."""
 
     anytime: Annotated[bool, _ANYTIME]
+    generic: Annotated[bool, _GENERIC]
 
 
 @functools.cache

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
 from qe import arguments
 from qe.api.input import AnyFormula, read_block
-from qe.api.limits import limits_of, performed, reading
-from qe.api.settings import ProvedBlock, Question, with_settings
+from qe.api.limits import limits_of, performed, posed
+from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
 from qe.engine.run import solve as eliminated
-from qe.exact.number import Values
+from qe.errors import Unable
+from qe.exact.number import ExactPoint, Values
+from qe.formula.build import conj, exists, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import without_clashes
-from qe.formula.syntax import Exists, ForAll, Formula
+from qe.formula.syntax import TRUE, Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
-from qe.proof.answer import UNPROVED, Answer, Status
+from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.run_log import RunLog
 from qe.proving import certificates
 from qe.regions.build import described
@@ -28,34 +31,55 @@ from qe.regions.walk import MOST_POINTS, different_points
 
 if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitnesses
+    from qe.regions.region import Region
 
 
-@with_settings(Question)
-def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[Question]) -> Solutions:
+@with_settings(ProvedQuestion)
+def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQuestion]) -> Solutions:
     """All real solutions, case by case, as Mathematica's ``Reduce`` writes them (cylindrical decomposition).
 
     ``variables``: those to solve for, in their order; they come after all others, so that each is expressed in terms of
     the parameters and of the variables before it. Without them all free variables are meant, in the formula's order.
-    Quantifiers are eliminated first.
+    Quantifiers are eliminated first. With ``check`` the decomposition is verified: ``region.guarantee`` says so.
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     limits, wanted = limits_of(settings), arguments.names(variables, "variables")
     whole = replace(limits, start=None)
-    given = reading(formula, settings["format"], limits, settings["total_division"], solved=wanted or ())
+    stated = posed(formula, settings, limits, solved=wanted or ())
+    given = stated.restricted
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
     solved = len(given.free if wanted is None else wanted)
-    return performed(partial(_solutions, given, order, solved, whole), given, limits)
+    work = partial(_solutions, given, stated.known, order, solved, whole, settings["check"])
+    return performed(work, given, limits)
 
 
-def _solutions(given: Formula, order: tuple[str, ...] | None, solved: int, whole: Limits, budget: Budget) -> Solutions:
-    region = described(given, order, budget, replace(whole, process=False))
+def _solutions(
+    given: Formula,
+    known: Formula,
+    order: tuple[str, ...] | None,
+    solved: int,
+    whole: Limits,
+    check: bool,
+    budget: Budget,
+) -> Solutions:
+    region = _described(given, order, replace(whole, process=False), check, budget)
     cases = tuple(region.cells)
     lines = [str(case) for case in cases]
-    by_value = cases_by_value(region.table, len(region.order) - solved, budget)
+    by_value = cases_by_value(region.table, len(region.order) - solved, budget, known)
     if by_value is not None and sum(map(len, by_value)) < sum(map(len, lines)):
         lines = by_value
     region.limits = whole
     return Solutions(region.order, cases, region, tuple(lines))
+
+
+def _described(given: Formula, order: tuple[str, ...] | None, inner: Limits, check: bool, budget: Budget) -> Region:
+    """The solution set; with ``check`` its table is verified."""
+    region = described(given, order, budget, inner, check=check)
+    if check:
+        from qe.api.verify import with_guarantee
+
+        return with_guarantee(region, budget)
+    return region
 
 
 reduce = solve
@@ -70,12 +94,44 @@ def find_instances(formula: AnyFormula, n: int, *, seed: int = 0, **settings: Un
     """
     count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
     limits = limits_of(settings)
-    given = reading(formula, settings["format"], limits, settings["total_division"])
+    given = posed(formula, settings, limits).restricted
     return performed(partial(_points, given, count, start, replace(limits, start=None, process=False)), given, limits)
 
 
 def _points(given: Formula, count: int, seed: int, inner: Limits, budget: Budget) -> list[Values]:
     return different_points(described(given, None, budget, inner), count, seed, budget)
+
+
+@with_settings(ProvedQuestion)
+def find(formula: AnyFormula, n: int = 1, *, seed: int = 0, **settings: Unpack[ProvedQuestion]) -> list[Values]:
+    """Up to ``n`` different exact points that satisfy the formula; fewer only where there are no more.
+
+    One point is found by deciding that there is one, several by a description of the solution set. With ``check`` that
+    has a certificate that the checker has accepted, and each point is tried in the formula, or ``Unable`` is raised.
+    """
+    count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
+    limits = limits_of(settings)
+    given = posed(formula, settings, limits).restricted
+    work = partial(_found, given, count, start, settings["check"], replace(limits, start=None, process=False))
+    return performed(work, given, limits)
+
+
+def _found(given: Formula, count: int, seed: int, check: bool, inner: Limits, budget: Budget) -> list[Values]:
+    if count != 1 or seed:
+        region = _described(given, None, inner, check, budget)
+        if check and region.guarantee is not Guarantee.CHECKED:
+            raise Unable(f"the points are not proved: {region.reason}")
+        return different_points(region, count, seed, budget)
+    from qe.api.eliminate import settled
+
+    answer = settled(exists(given.free, given), Options(certify=check), budget)
+    if answer.truth is False:
+        return []
+    if answer.witness is None and given.free:
+        raise Unable("the formula is satisfiable, but no point was found")
+    if check and answer.guarantee is not Guarantee.CHECKED:
+        raise Unable(f"the point is not proved: {answer.reason}")
+    return [ExactPoint({name: (answer.witness or {}).get(name, Fraction(0)) for name in given.free})]
 
 
 @with_settings(ProvedBlock)
@@ -87,8 +143,17 @@ def parametric_witnesses(formula: AnyFormula, **settings: Unpack[ProvedBlock]) -
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
     limits = limits_of(settings)
-    given = reading(formula, settings["format"], limits, reader=read_block)
-    return performed(partial(_witnesses, given, settings["check"]), given, limits)
+    stated = posed(formula, settings, limits, reader=read_block)
+    given = stated.formula
+    if isinstance(given, Exists | ForAll) and stated.known != TRUE:
+        body = conj((stated.known, given.body)) if isinstance(given, Exists) else implies(stated.known, given.body)
+        given = replace(given, body=body)
+    found = performed(partial(_witnesses, given, settings["check"]), given, limits)
+    return found.under(stated.known)
+
+
+witnesses = parametric_witnesses
+"""The short name of ``parametric_witnesses``."""
 
 
 def _witnesses(given: Formula, check: bool, budget: Budget) -> ParametricWitnesses:
@@ -96,16 +161,16 @@ def _witnesses(given: Formula, check: bool, budget: Budget) -> ParametricWitness
     from qe.elimination.vs.parametric import parametric_witnesses as find
 
     log, options = RunLog(), Options(certify=check)
-    witnesses = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
-    formula = witnesses.equivalent_to(given)
+    listed = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
+    formula = listed.equivalent_to(given)
     answer = Answer(Status.SOLVED, formula, question=given, log=log, reason=certificates.NOT_WANTED)
     if check:
-        budget.keep(witnesses.with_(replace(answer, reason=UNPROVED)))
+        budget.keep(listed.with_(replace(answer, reason=UNPROVED)))
         proof = certificates.derived(given, log, formula, options, budget)
         answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked, reason=proof.reason)
         if proof.certificate is not None:
             answer = with_verdict(answer, budget, checked=proof.checked)
-    return witnesses.with_(answer)
+    return listed.with_(answer)
 
 
 def _outermost_block(given: Formula, log: RunLog, options: Options, budget: Budget) -> Formula:

@@ -161,10 +161,10 @@ def _proved(answer: Answer, budget: Budget) -> Answer:
     from qe.formula.normal import rename_apart, without_clashes
     from qe.proving.certificates import derived_or_decomposed
 
-    assert answer.formula is not None and answer.question is not None
-    question = rename_apart(without_root_atoms(without_clashes(answer.question)))
+    asked, said = answer.sides
+    question = rename_apart(without_root_atoms(without_clashes(asked)))
     options = Options(certify=True)
-    outcome = derived_or_decomposed(answer.question, question, answer.log, answer.formula, options, budget)
+    outcome = derived_or_decomposed(asked, question, answer.log, said, options, budget)
     proof = replace(answer, certificate=outcome.certificate, unchecked_steps=outcome.unchecked)
     if outcome.certificate is None:
         return replace(proof, guarantee=Guarantee.DERIVED, reason=outcome.reason)

@@ -16,12 +16,13 @@ from typing import Annotated, Any
 import typer
 
 from qe import __version__, arguments
-from qe.api.settings import Decision, Elimination, Limited, Proved, ProvedQuestion
+from qe.api.settings import Limited
 from qe.cli import work
-from qe.cli.options import REPORT, Json, checked, command
+from qe.cli.options import REPORT, Json, checked, command, door
 from qe.cli.shell import check_writable, enter, examples, limited, remaining, write_file
 from qe.cli.source import ProofFormat, no_file, read_source
 from qe.cli.work import Reply, Request
+from qe.errors import InputError
 from qe.io.formats import READABLE, Format
 from qe.options import VERIFY_SECONDS
 
@@ -65,31 +66,33 @@ def whole(
     """Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin."""
 
 
-@command(
-    app,
-    Elimination,
-    "A quantifier-free formula equivalent to FORMULA.",
-    'qe eliminate "ex x. x^2 + b*x + c = 0"',
-    'qe eliminate "all x. x^2 >= a*x" --explain',
-)
+@door(app, "eliminate")
 def eliminate(formula: Formula, format: InputFormat = None, output: Output = Format.TEXT, **settings: Any) -> int:
     """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
     return answered(partial(work.eliminate, output=output), formula, format, settings)
 
 
-@command(app, Decision, "Whether a sentence is true, a script satisfiable.", 'qe decide "all x. ex y. y^3 = x"')
+@door(app, "decide")
 def decide(formula: Formula, format: InputFormat = None, **settings: Any) -> int:
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
     return answered(work.decide, formula, format, settings)
 
 
-@command(
-    app,
-    ProvedQuestion,
-    "The set of points that satisfy FORMULA.",
-    'qe region "x^2 + y^2 <= 4 and y >= x" --plot region.png',
-    also=("order",),
-)
+@door(app, "find")
+def find(
+    formula: Formula,
+    n: Annotated[int, typer.Option("-n", help="So many different points, fewer where there are no more.")] = 1,
+    seed: Annotated[int, typer.Option("--seed", help="Other points for another number.")] = 0,
+    format: InputFormat = None,
+    **settings: Any,
+) -> int:
+    """Print exact points that satisfy FORMULA, one a line; none where there are none."""
+    from qe.cli import points
+
+    return answered(partial(points.find, n=n, seed=seed), formula, format, settings)
+
+
+@door(app, "region", also=("order",))
 def region(formula: Formula, format: InputFormat = None, plot: PictureFile = None, **settings: Any) -> int:
     """Describe the set of real points that satisfy FORMULA, cell by cell."""
     from qe.cli import region as cli_region
@@ -99,12 +102,7 @@ def region(formula: Formula, format: InputFormat = None, plot: PictureFile = Non
     return answered(work, formula, format, settings, plot=plot)
 
 
-@command(
-    app,
-    ProvedQuestion,
-    "All solutions of FORMULA, case by case.",
-    'qe solve "x^2 + y^2 = 1 and x >= y" --variables x,y',
-)
+@door(app, "solve")
 def solve(
     formula: Formula,
     variables: Annotated[
@@ -120,34 +118,99 @@ def solve(
     return answered(work, formula, format, settings)
 
 
-@command(app, Proved, "The exact least value under CONSTRAINTS.", 'qe minimize "x + y" "x^2 + y^2 <= 1"')
-def minimize(
-    objective: Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)],
-    constraints: Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_default=False)] = "true",
+@door(app, "simplify")
+def simplify(formula: Formula, format: InputFormat = None, output: Output = Format.TEXT, **settings: Any) -> int:
+    """Print a formula equivalent to FORMULA, not longer; quantifiers stay."""
+    return answered(partial(work.eliminate, output=output, shorter=True), formula, format, settings)
+
+
+@door(app, "equivalent")
+def equivalent(
+    formula: Formula,
+    other: Annotated[str, typer.Argument(metavar="FORMULA|FILE", show_default=False)],
     format: InputFormat = None,
-    maximize: Annotated[bool, typer.Option("--maximize", help="Find the greatest value instead.")] = False,
-    parameters: Annotated[str | None, typer.Option("--parameters", help="Variables not optimised over: a, b.")] = None,
     **settings: Any,
 ) -> int:
-    """Print the exact least value of a polynomial under CONSTRAINTS, and where it is attained."""
+    """Print true if both formulas have the same solutions in all their free variables, else false."""
+    from qe.cli import points
+
+    return answered(partial(points.equivalent, other=read_source(other, format)), formula, format, settings)
+
+
+@door(app, "witnesses")
+def witnesses(formula: Formula, format: InputFormat = None, **settings: Any) -> int:
+    """Print solutions of the outermost block as terms in the free variables, each under its guard."""
+    from qe.cli import points
+
+    return answered(points.witnesses, formula, format, settings)
+
+
+Objective = Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)]
+Constraints = Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_default=False)]
+Parameters = Annotated[str | None, typer.Option("--parameters", help="Variables not optimised over: a, b.")]
+
+
+@door(app, "minimize")
+def minimize(
+    objective: Objective,
+    constraints: Constraints = "true",
+    format: InputFormat = None,
+    maximize: Annotated[bool, typer.Option("--maximize", help="Find the greatest value instead.")] = False,
+    parameters: Parameters = None,
+    **settings: Any,
+) -> int:
+    """Print the exact least value of a term under CONSTRAINTS, and where it is attained."""
+    return _optimum(objective, maximize, parameters, constraints, format, settings)
+
+
+@door(app, "maximize")
+def maximize(
+    objective: Objective,
+    constraints: Constraints = "true",
+    format: InputFormat = None,
+    parameters: Parameters = None,
+    **settings: Any,
+) -> int:
+    """Print the exact greatest value of a term under CONSTRAINTS, and where it is attained."""
+    return _optimum(objective, True, parameters, constraints, format, settings)
+
+
+@door(app, "optimum")
+def optimum(
+    objective: Objective,
+    constraints: Constraints = "true",
+    format: InputFormat = None,
+    parameters: Parameters = None,
+    **settings: Any,
+) -> int:
+    """Print the exact least and greatest value of a term under CONSTRAINTS."""
+    if settings["certificate"] is not None:
+        raise InputError("--certificate: qe minimize and qe maximize write one each")
+    return _optimum(objective, None, parameters, constraints, format, settings)
+
+
+def _optimum(
+    objective: str,
+    maximize: bool | None,
+    parameters: str | None,
+    constraints: str,
+    format: Format | None,
+    settings: Mapping[str, Any],
+) -> int:
     from qe.cli import optimize as cli_optimize
 
     work = partial(cli_optimize.optimize, goal=cli_optimize.Goal(objective, maximize, parameters))
     return answered(work, constraints, format, settings)
 
 
-@command(
-    app,
-    Limited,
-    "Verify a certificate.",
-    'qe eliminate "ex x. x^2 = a" --certificate c.json',
-    "qe check c.json",
-)
+@door(app, "verify")
+@command(app, Limited, "The other name of verify.", "qe check c.json")
 def check(
     certificate: CertificateSource,
     formula: Annotated[
         str | None, typer.Option("--formula", metavar="FORMULA|FILE", help="The question that it has to be about.")
     ] = None,
+    assuming: Annotated[str | None, typer.Option("--assuming", help="What that was asked under.")] = None,
     core: Annotated[bool, typer.Option("--core", help="Believe the kernel and the listed theorems alone.")] = False,
     plain: Annotated[bool, typer.Option("--plain", help="As --core, and in plain Python, without FLINT.")] = False,
     json: Json = False,
@@ -160,7 +223,8 @@ def check(
     text, limits = _certificate(certificate, settings)
     asked = None if formula is None else read_source(formula, None)
     seconds = remaining(limits["timeout"])
-    verdict = partial(work.check, text=text, asked=asked, seconds=seconds, as_json=json, core=core, plainly=plain)
+    verdict = partial(work.check, text=text, asked=asked, assuming=assuming, seconds=seconds, as_json=json)
+    verdict = partial(verdict, core=core, plainly=plain)
     return deliver(limited(verdict, **limits), {})
 
 
@@ -248,7 +312,8 @@ def answered(
     timeout, memory, explain = settings["timeout"], settings.pop("memory"), settings.pop("explain", False)
     if timeout is not None:  # the checks inside the engine can end the work in order
         settings["timeout"] = remaining(timeout)
-    request = Request(source=text, settings=settings, certificate=certificate is not None, json=given["json"])
+    wanted = {"certificate": certificate is not None, "check": given["check"], "json": given["json"]}
+    request = Request(source=text, settings=settings, **wanted)
     worked = partial(work, request=request)
     reply = limited(worked, timeout=timeout, memory=memory, plain=given["plain"], text=text.text)
     return deliver(reply, files, explain=explain)
@@ -265,6 +330,8 @@ def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = Fals
         if path is not None and key in reply.files:  # decided parts may have no certificate: the text says so
             write_file(path, reply.files[key])
     typer.echo(reply.text)
+    if reply.verdict:
+        typer.echo(reply.verdict, err=True)
     if explain:
         for line in reply.notes:
             typer.echo(line, err=True)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from qe.cli.numbers import exact_and_decimal, shown
-from qe.cli.work import Reply, Request, certificate_text, read_formula
+from qe.cli.work import Reply, Request, certificate_text, read_question
 from qe.exact.number import point_text
 from qe.processes.channel import Channel
 from qe.proof.multipliers import OptimumStatus
@@ -23,22 +23,34 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """What is to be optimised, as the command line gives it."""
+    """What is to be optimised, as the command line gives it; ``maximize`` is None for both extremes."""
 
     objective: str
-    maximize: bool = False
+    maximize: bool | None = False
     parameters: str | None = None
 
 
 def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
-    """``qe minimize``: the exact value, the point, and what is active there; with parameters, the cases."""
+    """``qe minimize``, ``qe maximize``: the exact value, the point, and what is active there; with parameters, the
+    cases. ``qe optimum``: both, the least value first."""
+    if goal.maximize is not None:
+        return _best(channel, request, goal)
+    low, high = (_best(channel, request, replace(goal, maximize=way)) for way in (False, True))
+    verdict = low.verdict if low.verdict == high.verdict else f"least: {low.verdict}; greatest: {high.verdict}"
+    if request.json:
+        both = {"least": json.loads(low.text), "greatest": json.loads(high.text)}
+        return Reply(json.dumps(both, indent=2, ensure_ascii=False), verdict=verdict)
+    return Reply(f"least\n{low.text}\ngreatest\n{high.text}", verdict=verdict)
+
+
+def _best(channel: Channel, request: Request, goal: Goal) -> Reply:
     import qe.api.optimum as api_optimum
     from qe.optimization.parametric_optimum import ParametricOptimum
 
     start = time.perf_counter()
     solve = api_optimum.maximize if goal.maximize else api_optimum.minimize
-    constraints = read_formula(channel, request.source)
-    asked = {**request.keywords(channel, constraints), "parameters": goal.parameters}
+    constraints, known = read_question(channel, request.source)
+    asked = {**request.keywords(channel, constraints, known), "parameters": goal.parameters}
     best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **asked)
     files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
     if isinstance(best, ParametricOptimum):
@@ -48,9 +60,11 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
         data, lines = _data(best), _lines(best, "greatest" if goal.maximize else "least")
     seconds = time.perf_counter() - start
     if request.json:
-        return Reply(json.dumps({**data, "seconds": round(seconds, 6)}, indent=2, ensure_ascii=False), files=files)
+        text = json.dumps({**data, "seconds": round(seconds, 6)}, indent=2, ensure_ascii=False)
+        return Reply(text, files=files, verdict=request.verdict(best))
     how = f"proved {data['status']}" if best.certificate is not None and not best.reason else "found"
-    return Reply("\n".join([*lines, f"{how} in {seconds:.3f} s"]), files=files)
+    text = "\n".join([*lines, f"{how} in {seconds:.3f} s"])
+    return Reply(text, files=files, verdict=request.verdict(best))
 
 
 def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:

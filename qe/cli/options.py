@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from qe import arguments
+from qe.api.doors import DOORS
 from qe.api.settings import Elimination, settings_in
 from qe.cli.shell import examples
 from qe.options import Method, Projection
@@ -21,16 +22,22 @@ def _parameter(name: str, default: object, annotation: Any) -> inspect.Parameter
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 
-WRITTEN: Mapping[str, Any] = {"method": Method, "projection": Projection, "order": str | None, "race": str | None}
+WRITTEN: Mapping[str, Any] = {
+    "method": Method,
+    "projection": Projection,
+    **dict.fromkeys(("order", "race", "assuming"), str | None),
+}
 """The types of options that the command line writes in a way of its own."""
-METAVARS = {"cluster": "ADDRESS", "race": "METHODS"}
+METAVARS = {"cluster": "ADDRESS", "race": "METHODS", "assuming": "CONDITIONS"}
 ELSEWHERE = {"format", "progress", "process", "check", "without"}
 """Settings that are no options, or are options of another kind: ``--format``, ``--certificate FILE``."""
 
 
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 _CERTIFICATE = typer.Option("--certificate", help="Write the certificate to this file.")
+_CHECK = typer.Option("--check", help="Prove the answer, verify the proof, and say so.")
 REPORT = {
+    "check": _parameter("check", False, Annotated[bool, _CHECK]),
     "certificate": _parameter("certificate", None, Annotated[Path | None, _CERTIFICATE]),
     "json": _parameter("json", False, Json),
     "plain": _parameter(
@@ -41,7 +48,7 @@ REPORT = {
 
 
 def command(
-    app: typer.Typer, kind: type, short: str, *shown: str, also: tuple[str, ...] = ()
+    app: typer.Typer, kind: type, short: str, *shown: str, also: tuple[str, ...] = (), name: str | None = None
 ) -> Callable[[Command], Command]:
     """Add a command that ends in ``**settings``: those of this class, and ``also`` these, that it does not list itself;
     one that may have a certificate takes what is in ``REPORT``, too. ``shown``: examples for its help."""
@@ -53,10 +60,16 @@ def command(
         names = [name for name in (*also, *settings_in(kind)) if name not in given]
         options = [*(REPORT.values() if "check" in settings_in(kind) else ()), *map(option, names)]
         function.__signature__ = signature.replace(parameters=[*listed, *options])  # type: ignore[attr-defined]
-        app.command(short_help=short, epilog=examples(*shown) if shown else None)(function)
+        app.command(name, short_help=short, epilog=examples(*shown) if shown else None)(function)
         return function
 
     return added
+
+
+def door(app: typer.Typer, name: str, *, also: tuple[str, ...] = ()) -> Callable[[Command], Command]:
+    """Add the command of a row of ``qe.api.doors``."""
+    listed = DOORS[name]
+    return command(app, listed.settings, listed.says, *listed.examples, also=also, name=name)
 
 
 def option(name: str) -> inspect.Parameter:

@@ -17,31 +17,38 @@ from pathlib import Path
 from typing import Any
 
 import qe
-from qe.api.settings import Decision, Elimination, Proved, ProvedQuestion, Question, settings_in
+from qe import arguments
+from qe.api.doors import DOORS
+from qe.api.settings import Elimination, settings_in
 from qe.cli.options import ELSEWHERE, checked
 from qe.errors import InputError, QEError, Unable
 from qe.extras import lacking
 
 Ask = Callable[[str], str]
 
+DOORS_LISTED = "\n".join(
+    f"  :{f'{door.name} {door.line}':<29}{door.says[0].lower()}{door.says[1:-1]}"
+    for door in DOORS.values()
+    if door.name != "eliminate"
+)
 HELP = """A formula is answered by one without quantifiers, a sentence by true or false; % is the last answer.
   ex x. x^2 + b*x + c = 0       what b and c have to fulfil
-  :solve x, y: FORMULA          all solutions for x and y, case by case (without names: for all variables)
-  :instance FORMULA             one exact point, or none
-  :region FORMULA               the set of solutions: cells, bounds, dimension
-  :min TERM [: FORMULA]         the least value where the formula holds; :max the greatest
-  :decide FORMULA               true or false
+{doors}
   :plot FILE                    a picture of the last answer (.png, .svg, .pdf; .html in three variables)
-  :why                          how the last answer was found
-  :NAME VALUE                   sets an option of qe eliminate for all questions that take it, as in :method cad,
-                                :order x,y or :timeout 5 (off: as without it); now {settings}
+  :why                          how the last answer was reached
+  :NAME VALUE                   sets an option of qe eliminate for all questions that take it, as in :assuming a > 0,
+                                :check on, :method cad or :timeout 5 (off: as without it); now {settings}
   :help   :quit (or Ctrl-D)     Ctrl-C ends a question that takes too long"""
 
 _MORE = re.compile(r"(?:[-+*/^=<>,.:&|]|\\|\b(?:and|or|not|implies|iff|then|else|if|AND|OR|NOT))\s*$")
+_COUNT = re.compile(r"\s*([0-9]{1,6})\s*:")
 _NUMBER = re.compile(r"-?[0-9]{1,9}(?:\.[0-9]{1,9})?")
 _LAST = re.compile(r"(`(?:[^`\\]|\\.)*`)|%")
-COMMANDS = ("decide", "help", "instance", "max", "min", "plot", "quit", "region", "solve", "why")
-SETTINGS = {name: setting for name, (_, setting) in settings_in(Elimination).items() if name not in ELSEWHERE}
+OLDER = {word: door.name for door in DOORS.values() for word in (*door.words, *door.also)}
+COMMANDS = (*DOORS, *OLDER, "help", "plot", "quit", "why")
+SETTINGS = {
+    name: setting for name, (_, setting) in settings_in(Elimination).items() if name not in ELSEWHERE - {"check"}
+}
 
 
 @dataclass(slots=True)
@@ -54,7 +61,7 @@ class Session:
     commands: dict[str, Callable[[str], str]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        known = {name: getattr(self, f"_{name}") for name in COMMANDS if name != "quit"}
+        known = {name: getattr(self, f"_{OLDER.get(name, name)}") for name in COMMANDS if name != "quit"}
         self.commands.update(known)
 
     def reply(self, line: str) -> str:
@@ -105,32 +112,58 @@ class Session:
         return text
 
     def _eliminate(self, line: str) -> str:
-        answer = qe.eliminate(line, **self.settings)
+        return self._answered(qe.eliminate(line, **self.settings))
+
+    def _simplify(self, rest: str) -> str:
+        return self._answered(qe.simplify(rest, **self._those_of("simplify")))
+
+    def _answered(self, answer: qe.Answer) -> str:
         if answer.formula is None:
             raise Unable(answer.reason)
         lines = [self._keep(answer, str(answer))]
+        if answer.generic:
+            lines.append(f"assuming {' and '.join(map(str, answer.generic))}")
+        if self.settings.get("check"):
+            lines.append(answer.why_unchecked or "checked")
         if answer.witness:
             kind = "counterexample" if answer.truth is False else "witness"
             lines.append(f"{kind}: " + ", ".join(f"{name} = {value}" for name, value in answer.witness.items()))
         return "\n".join(lines)
 
     def _decide(self, rest: str) -> str:
-        return self._keep(None, str(qe.decide(rest, **self._those_of(Decision))).lower())
+        return self._keep(None, str(qe.decide(rest, **self._those_of("decide"))).lower())
 
     def _solve(self, rest: str) -> str:
         names, colon, formula = rest.partition(":")
         named = bool(colon) and not re.search(r"[=<>.()]|\b(ex|all|exists|forall)\b", names)
-        solutions = qe.solve(formula if named else rest, names if named else None, **self._those_of(Question))
+        solutions = qe.solve(formula if named else rest, names if named else None, **self._those_of("solve"))
         return self._keep(solutions.region, str(solutions))
 
-    def _instance(self, rest: str) -> str:
-        point = qe.find_instance(rest, **self._those_of(Decision))
-        if point is None:
+    def _find(self, rest: str) -> str:
+        count = _COUNT.match(rest)
+        points = qe.find(
+            rest[count.end() :] if count else rest, int(count[1]) if count else 1, **self._those_of("find")
+        )
+        if not points:
             return "there is none"
-        return self._keep(None, " and ".join(f"{name} = {value}" for name, value in point.items()) or "true")
+        said = [" and ".join(f"{name} = {value}" for name, value in point.items()) or "true" for point in points]
+        return self._keep(None, " or\n".join(said))
+
+    def _equivalent(self, rest: str) -> str:
+        left, sign, right = rest.partition(";")
+        if not sign:
+            raise InputError("two formulas with ; between them expected, as in :equivalent x > 0 ; x^3 > 0")
+        return self._keep(None, str(qe.equivalent(left, right, **self._those_of("equivalent"))).lower())
+
+    def _witnesses(self, rest: str) -> str:
+        listed = qe.witnesses(rest, **self._those_of("witnesses"))
+        return "\n".join(map(str, listed)) or "there are none"
+
+    def _verify(self, rest: str) -> str:
+        return str(qe.verify(qe.Certificate.from_json(arguments.content(Path(rest), "certificate")[0])))
 
     def _region(self, rest: str) -> str:
-        region = qe.region(rest, self.settings.get("order"), **self._those_of(ProvedQuestion))
+        region = qe.region(rest, self.settings.get("order"), **self._those_of("region"))
         if region.is_empty:
             return self._keep(region, "false")
         lines = [f"dimension {region.dimension} in {', '.join(region.order)}"]
@@ -139,15 +172,18 @@ class Session:
         self._keep(region, str(region.formula))
         return "\n".join(lines)
 
-    def _min(self, rest: str) -> str:
+    def _minimize(self, rest: str) -> str:
         return self._best(rest, qe.minimize)
 
-    def _max(self, rest: str) -> str:
+    def _maximize(self, rest: str) -> str:
         return self._best(rest, qe.maximize)
+
+    def _optimum(self, rest: str) -> str:
+        return f"least: {self._minimize(rest)}\ngreatest: {self._maximize(rest)}"
 
     def _best(self, rest: str, solve: Callable[..., Any]) -> str:
         term, _, conditions = rest.partition(":")
-        best = solve(term, conditions.strip() or "true", **self._those_of(Proved))
+        best = solve(term, conditions.strip() or "true", **self._those_of("minimize"))
         if best.value is None:
             return str(best.status.name.lower())
         point = ", ".join(f"{name} = {value}" for name, value in best.point.items())
@@ -183,15 +219,16 @@ class Session:
             self.settings |= checked({name: int(value) if whole else value}, ":")
         return f"set: {self._all_settings()}"
 
-    def _those_of(self, kind: type) -> dict[str, Any]:
-        """What has been set and such a question takes."""
-        return {name: value for name, value in self.settings.items() if name in settings_in(kind)}
+    def _those_of(self, name: str) -> dict[str, Any]:
+        """What has been set and the door of this name takes."""
+        takes = settings_in(DOORS[name].settings)
+        return {name: value for name, value in self.settings.items() if name in takes}
 
     def _all_settings(self) -> str:
         return ", ".join(f"{name} {_written(value)}" for name, value in sorted(self.settings.items())) or "nothing"
 
     def _help(self, rest: str) -> str:
-        return HELP.format(settings=self._all_settings())
+        return HELP.format(doors=DOORS_LISTED, settings=self._all_settings())
 
 
 def _written(value: object) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from qe.cli.numbers import shown
-from qe.cli.work import Reply, Request, certificate_text, read_formula
+from qe.cli.work import Reply, Request, certificate_text, read_question
 from qe.errors import InputError
 from qe.processes.channel import Channel
 from qe.spelling import quoted
@@ -27,8 +27,8 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
     if picture is not None and picture not in PICTURES:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
     start = time.perf_counter()
-    formula = read_formula(channel, request.source)
-    solution_set = api.region(formula, progress=channel.event, check=request.certificate, **request.settings)
+    formula, known = read_question(channel, request.source)
+    solution_set = api.region(formula, **request.keywords(channel, formula, known))
     seconds = time.perf_counter() - start
     files: dict[str, str | bytes] = {}
     if request.certificate:
@@ -36,7 +36,7 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
     if picture is not None:
         files["plot"] = _drawn(solution_set, picture)
     text = solution_set.to_json() if request.json else "\n".join(_in_words(solution_set, seconds))
-    return Reply(text, files=files)
+    return Reply(text, files=files, verdict=request.verdict(solution_set))
 
 
 def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None) -> Reply:
@@ -44,18 +44,19 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
     import qe.api.solve as api_solve
 
     start = time.perf_counter()
-    formula = read_formula(channel, request.source, solved=variables or ())
-    solutions = api_solve.solve(formula, variables, progress=channel.event, **request.settings)
+    formula, known = read_question(channel, request.source, solved=variables or ())
+    solutions = api_solve.solve(formula, variables, **request.keywords(channel, formula, known))
     files = {"certificate": certificate_text(solutions.region)} if request.certificate else {}
     if not request.json:
-        return Reply(str(solutions), files=files)
+        return Reply(str(solutions), files=files, verdict=request.verdict(solutions.region))
     data = {
         "status": "solved",
         "variables": list(solutions.order),
         "cases": list(solutions.lines),
         "seconds": round(time.perf_counter() - start, 6),
     }
-    return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
+    text = json.dumps(data, indent=2, ensure_ascii=False)
+    return Reply(text, files=files, verdict=request.verdict(solutions.region))
 
 
 def _drawn(drawn: Region, ending: str) -> bytes:

@@ -18,6 +18,7 @@ from typing import TextIO, cast
 import qe
 import qe.api.eliminate as api
 from qe.cli.smt_check import Checks, Result
+from qe.cli.smt_objectives import best
 from qe.cli.smt_values import Evaluation, Number, written
 from qe.cli.source import MOST_BYTES
 from qe.errors import InputError, ParseError, Unable
@@ -219,13 +220,14 @@ class Solver(Checks):
                 return f"({' '.join(map(show, self.refuted(self.last('unsat').asked)))})"
             case "get-qe":
                 return self.eliminated(command)
-            case "get-proof" | "get-assignment" | "get-objectives" | "get-qe-disjunct" | "simplify" | "apply":
+            case "get-objectives":
+                return "\n".join(["(objectives", *(f" {line}" for line in self.last("sat").best), ")"])
+            case "get-proof" | "get-assignment" | "get-qe-disjunct" | "simplify" | "apply":
                 return "unsupported"
         if self.script.change(command):
             self.result = None
             return None
-        hint = {"minimize": "; qe minimize does this", "maximize": "; qe minimize --maximize does this"}.get(head, "")
-        return self.script.error(f"the command {head} is not supported{hint}", command)
+        return self.script.error(f"the command {head} is not supported", command)
 
     def move(self, head: str, command: list[Expression]) -> None:
         """``push`` and ``pop``."""
@@ -265,11 +267,21 @@ class Solver(Checks):
         result = self.solved([*nodes, *extra])
         if result.answer == "sat" and any(self.lost):
             result = Result("unknown", "(an assertion was not understood)")
+        if result.answer == "sat" and self.script.objectives:
+            result = self.optimised(result, [*nodes, *extra])
         self.result = result._replace(asked=asked)
         if {self.status, result.answer} == {"sat", "unsat"}:
             self.warn(f"the script says :status {self.status}, but the answer is {result.answer}")
         self.status = ""
         return result.answer
+
+    def optimised(self, result: Result, nodes: Sequence[s.Node]) -> Result:
+        """The result with the optima, and a point that has them where one does."""
+        try:
+            found = best(self.script, nodes, self.left(), self.memory)
+        except Unable as error:
+            return Result("unknown", f"(no optimum: {error})")
+        return result._replace(best=found.lines, point=found.point or result.point)
 
     def assuming(self, command: list[Expression]) -> str:
         self.script.arity(command, 1)

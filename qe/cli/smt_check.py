@@ -29,13 +29,15 @@ Closing: TypeAlias = Callable[[Iterable[str], Formula], Formula]
 
 
 class Result(NamedTuple):
-    """The answer of a check: ``reason`` for unknown, ``point`` (by name in formulas) and ``total`` for sat."""
+    """The answer of a check: ``reason`` for unknown, ``point`` (by name in formulas) and ``total`` for sat,
+    with what ``get-objectives`` says."""
 
     answer: str
     reason: str = ""
     point: dict[str, Number] | None = None
     total: Total | None = None
     asked: tuple[Expression, ...] = ()
+    best: tuple[str, ...] = ()
 
 
 class Checks:

@@ -8,32 +8,36 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from qe.cli.source import Source
 from qe.errors import CertificateRejected, InputError, Unable
+from qe.formula.build import conj
+from qe.formula.syntax import TRUE, Constant, Formula
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
 from qe.processes.channel import Channel
+from qe.proof.answer import Guarantee
 from qe.spelling import glued, quoted
 
 if TYPE_CHECKING:
-    from qe.formula.syntax import Formula
     from qe.proof.answer import Answer
     from qe.proof.partial import Partial
 
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """``text`` for stdout, ``notes`` for stderr on request, the content of each asked-for file, the exit ``code``."""
+    """``text`` for stdout, ``notes`` for stderr on request, the content of each asked-for file, the exit ``code``;
+    ``verdict``: for stderr, what a check has shown."""
 
     text: str
     notes: tuple[str, ...] = ()
     files: Mapping[str, str | bytes] = field(default_factory=dict)
     code: int = 0
+    verdict: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,30 +48,43 @@ class Request:
     settings: Mapping[str, Any] = field(default_factory=dict)
     certificate: bool = False
     json: bool = False
+    check: bool = False
 
-    def keywords(self, channel: Channel, formula: Formula) -> dict[str, Any]:
-        """The keywords for a call of the public functions about a formula that was read from the source."""
+    def keywords(self, channel: Channel, formula: Formula, known: Formula | None = None) -> dict[str, Any]:
+        """The keywords for a call of the public functions about a formula that was read from the source, and what that
+        assumes."""
         from qe.api.input import order_of
 
         order = (
             {"order": order_of(self.settings["order"], self.source.text, formula)} if "order" in self.settings else {}
         )
-        return {**self.settings, **order, "progress": channel.event, "check": self.certificate}
+        given = {**self.settings, **order, "progress": channel.event, "check": self.certificate or self.check}
+        if known is not None and not isinstance(known, Constant):
+            given["assuming"] = [known] if given.get("assuming") is None else [known, given["assuming"]]
+        return given
+
+    def verdict(self, answer: Any) -> str:
+        """What the check that was wanted has shown."""
+        if not self.check:
+            return ""
+        reason = getattr(answer, "why_unchecked", getattr(answer, "reason", ""))
+        return "checked" if answer.guarantee is Guarantee.CHECKED else f"not checked: {reason}"
 
 
-def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False, solved: Sequence[str] = ()) -> Formula:
-    """The formula of a source, to be ``solved`` for these; its size is the first thing to be known about the run.
+def read_formula(channel: Channel, source: Source) -> Formula:
+    """The formula of a source, with what it assumes."""
+    formula, known = read_question(channel, source)
+    return conj((known, formula))
 
-    Raises ``InputError`` for free variables where a sentence is expected.
-    """
+
+def read_question(channel: Channel, source: Source, *, solved: Sequence[str] = ()) -> tuple[Formula, Formula]:
+    """The formula of a source, to be ``solved`` for these, and what it assumes; its size is the first thing to be known
+    about the run."""
     from qe.api.input import note_doubts
     from qe.formula.features import features
-    from qe.formula.traverse import bound_variables
 
-    formula = formats.read(source.text, source.format.value, source=source.name, total_division=source.total_division)
-    if is_sentence and (free := formula.free):
-        names = ", ".join(free) + glued(free, bound_variables(formula))
-        raise InputError(f"{source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
+    read = formats.read_posed
+    formula, known = read(source.text, source.format.value, source=source.name, total_division=source.total_division)
     note_doubts(source.text, formula, source.format.value, solved)
     size = features(formula)
     channel.fact(
@@ -75,16 +92,17 @@ def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False,
         f"{size.atoms} atoms of degree up to {size.total_degree} in {len(size.free) + len(size.bound)} variables, "
         f"{len(size.bound)} of them quantified",
     )
-    return formula
+    return formula, known
 
 
-def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
-    """``qe eliminate``."""
+def eliminate(channel: Channel, request: Request, output: Format, *, shorter: bool = False) -> Reply:
+    """``qe eliminate`` and ``qe simplify``."""
     import qe.api.eliminate as api
 
+    ask: Callable[..., Answer] = api.simplify if shorter else api.eliminate
     start = time.perf_counter()
-    formula = read_formula(channel, request.source)
-    answer = api.eliminate(formula, **request.keywords(channel, formula))
+    formula, known = read_question(channel, request.source)
+    answer = ask(formula, **request.keywords(channel, formula, known))
     seconds = time.perf_counter() - start
     if answer.formula is None:
         if answer.partial is None:
@@ -95,10 +113,14 @@ def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
         data = {
             "status": answer.status.name.lower(),
             "formula": formats.write(answer.formula, output.value),
+            **({} if answer.assuming == TRUE else {"assuming": formats.write(answer.assuming, output.value)}),
             **_summary(answer, seconds),
         }
-        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
-    return Reply(formats.write(answer.formula, output.value).rstrip("\n"), _story(answer, seconds), files)
+        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files, verdict=request.verdict(answer))
+    text = formats.write(answer.formula, output.value).rstrip("\n")
+    if answer.generic:
+        text += f"\nassuming {' and '.join(map(str, answer.generic))}"
+    return Reply(text, _story(answer, seconds), files, verdict=request.verdict(answer))
 
 
 def _partial_reply(answer: Answer, partial: Partial, request: Request, output: Format) -> Reply:
@@ -120,12 +142,23 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
 def decide(channel: Channel, request: Request) -> Reply:
     """``qe decide``: a sentence is true or false; an SMT-LIB script, whose constants are existential, sat or unsat."""
     import qe.api.eliminate as api
+    from qe.api.limits import under
     from qe.formula import build
+    from qe.formula.traverse import bound_variables
+    from qe.processes.limits import Limits
 
     script = request.source.format is Format.SMTLIB
-    formula = read_formula(channel, request.source, is_sentence=not script)
-    start = time.perf_counter()
-    answer = api.eliminate(build.exists(formula.free, formula), **request.keywords(channel, formula))
+    formula, inner = read_question(channel, request.source)
+    start, keywords = time.perf_counter(), request.keywords(channel, formula, inner)
+    stated = under(formula, build.conj(()), keywords.pop("assuming"), Limits())
+    if script:
+        sentence = build.exists(stated.restricted.free, stated.restricted)
+    else:
+        sentence = stated.closed(stated.formula)
+        if free := [name for name in stated.formula.free if name not in stated.known.free]:
+            names = ", ".join(free) + glued(free, bound_variables(formula))
+            raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
+    answer = api.eliminate(sentence, **keywords)
     seconds = time.perf_counter() - start
     if answer.truth is None:
         raise Unable(answer.reason or "no answer")
@@ -133,8 +166,8 @@ def decide(channel: Channel, request: Request) -> Reply:
     files = {"certificate": certificate_text(answer)} if request.certificate else {}
     if request.json:
         data = {"status": answer.status.name.lower(), **_summary(answer, seconds)}
-        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
-    return Reply(text, _story(answer, seconds), files)
+        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files, verdict=request.verdict(answer))
+    return Reply(text, _story(answer, seconds), files, verdict=request.verdict(answer))
 
 
 def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
@@ -160,19 +193,26 @@ def check(
     asked: Source | None,
     seconds: float,
     *,
+    assuming: str | None = None,
     as_json: bool = False,
     core: bool = False,
     plainly: bool = False,
 ) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
+    from qe.api.limits import under
     from qe.api.verify import checked as verify
     from qe.api.verify import of_question, read_plainly, recent
     from qe.certify.claims import claim_of, is_about, parts_of
+    from qe.formula.assumed import claimed
+    from qe.processes.limits import Limits
     from qe.proof.certificate import Certificate
     from qe.proving.older_kinds import recent as of_today
 
     start = time.perf_counter()
-    formula = None if asked is None else read_formula(channel, asked)
+    formula = None
+    if asked is not None:
+        stated = under(*read_question(channel, asked), assuming, Limits(seconds))
+        formula = claimed(stated.known, stated.formula, stated.formula)
     certificate = of_today(Certificate.from_json(text))
     budget = Budget(seconds, listener=channel.event)
     verdict = read_plainly(text, seconds) if plainly else verify(certificate, budget, core=core)

@@ -20,7 +20,7 @@ from qe.formula.traverse import ring_of
 from qe.options import Budget
 from qe.proof.multipliers import Face, FormRelation, LinearEquation, derived_equations
 from qe.rules.linear import Pivot, substitute
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 
 def on_flat(variables: Sequence[str], body: Formula, *, budget: Budget) -> tuple[list[Formula], Formula] | None:

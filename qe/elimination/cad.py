@@ -7,16 +7,17 @@ from dataclasses import dataclass
 
 from qe.decomposition.decompose import Decomposed, Tactics, decompose
 from qe.decomposition.follows import follows
-from qe.decomposition.formulas import construct
+from qe.decomposition.formulas import construct, formula_of_cells
 from qe.decomposition.operators.table import OPERATORS
 from qe.decomposition.order import Prenex
 from qe.decomposition.sampled_cells import deciding_point
+from qe.decomposition.sign_table import Columns, free_cells
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import BudgetExceeded, Contradiction
 from qe.exact.number import Values
 from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
-from qe.formula.build import convert
+from qe.formula.build import conj, convert
 from qe.formula.features import is_small, length
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.formula.traverse import polynomials
@@ -25,7 +26,7 @@ from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 WHOLE_FROM, WHOLE_CELLS = 300, 2000
 """A decomposition of at most so many cells is made once more with the whole space of the free variables, of at most so
@@ -93,6 +94,22 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     if not formula.free and answer != (TRUE if proof.root.truth else FALSE):
         raise Contradiction(f"a decomposition says {proof.root.truth} where the answer is {answer}")
     return Certificate.cells(proof, claim, formula)
+
+
+def short_where(formula: Formula, known: Formula, options: Options, budget: Budget) -> Formula:
+    """A quantifier-free formula with the truth of another one on every cell on which ``known`` holds, read off these
+    cells alone. Raises ``BudgetExceeded``, and ``Undistinguished`` where the signs on the cells do not suffice."""
+    both = conj((known, formula))
+    question = _Question(Prenex.of(both, options, budget), both.free, options)
+    if isinstance(question.prenex.matrix, Constant):
+        return formula
+    ring = Ring.of(question.prenex.order)
+    whole = convert(question.prenex.matrix, ring)
+    table = question.table(budget, whole_free=True, extra=tuple(polynomials(whole))).table
+    cells = list(free_cells(table))
+    outside = Columns(cells, table.factors).where(convert(known, ring))[1]
+    answer = formula_of_cells(table.factors, [cell for k, cell in enumerate(cells) if not outside >> k & 1])
+    return simplify(convert(answer, both.ring or Ring.of(both.free)), known, watch=budget.check)
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,7 +40,7 @@ from qe.groebner.system import condition_of
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.on_demand import OnDemand
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 MOST_CONJUNCTIONS = 24
 """Conjunctions in the disjunctive normal form of a body."""

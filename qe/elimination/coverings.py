@@ -22,7 +22,7 @@ from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 
 class Coverings:

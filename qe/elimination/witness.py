@@ -32,7 +32,7 @@ from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
 from qe.rules.step import ALL_STEPS, StepKind
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 MOST = 500
 """Subsets of the conditions that are tried at most, small ones first."""

@@ -37,7 +37,7 @@ from qe.proof.certificate import Certificate
 from qe.proof.derivation import moved
 from qe.proof.entry import Json
 from qe.proof.partial import Partial
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 SHARE = 0.5
 """The share of what is left that a part may take before it is decomposed as far as the rest allows."""

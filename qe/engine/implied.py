@@ -14,7 +14,7 @@ from qe.formula.features import length
 from qe.formula.syntax import FALSE, And, Atom, Formula, Relation
 from qe.formula.traverse import ring_of
 from qe.rules.linear import Pivot, substitute
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 
 def is_linear_conjunction(formula: Formula, context: Context) -> bool:

@@ -17,13 +17,13 @@ from qe.elimination.protocol import Context
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.formula.build import conj, disj, exists
-from qe.formula.features import length
+from qe.formula.features import features, length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import atoms
 from qe.options import Stage
 from qe.proof.step import Nested, Place, Step
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 WORK, QUESTION_WORK, LINEAR_WORK, PATIENCE = 500, 100, 500, 4
 """Units of work for all sentences, for one of them, and for one that is linear (the simplex method answers it with
@@ -69,19 +69,23 @@ class Part:
         return exists(body.free, body)
 
 
-def without_redundant_parts(formula: Formula, context: Context, start: object = None) -> Formula:
-    """The formula without parts that make no difference, as far as little work shows them.
+def without_redundant_parts(
+    formula: Formula, context: Context, start: object = None, *, known: Formula = TRUE
+) -> Formula:
+    """The formula without parts that make no difference where ``known`` holds, as far as little work shows them.
 
     The sentences are likely to be false, so that trials at points would be in vain.
     """
     if context.decide is None:
         return formula
-    if not _is_suited(formula):
-        return _without_excluded_parts(formula, context)
-    points = _Points(formula.free, context.budget.check)
+    if not _is_suited(conj((known, formula))):
+        return _without_excluded_parts(formula, context) if known == TRUE else formula
+    points = _Points(conj((known, formula)).free, context.budget.check)
     options = context.options.with_(without=context.options.without | {Stage.SAMPLES})
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
-    while patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept), None)) is not None:
+    while (
+        patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept, known), None)) is not None
+    ):
         sentence = part.sentence
         linear = all(a.poly.total_degree <= 1 for a in atoms(sentence))
         try:
@@ -90,7 +94,7 @@ def without_redundant_parts(formula: Formula, context: Context, start: object = 
             context.budget.check("shorten")
             outcome = None
         if outcome is not None and outcome.formula == FALSE:
-            formula = _dropped(formula, part, outcome.nested(sentence), context)
+            formula = _dropped(formula, part, outcome.nested(sentence), context, known)
             patience = PATIENCE
         else:
             kept.add(sentence)
@@ -118,11 +122,13 @@ def _without_excluded_parts(formula: Formula, context: Context, points: _Points 
     return formula
 
 
-def _dropped(formula: Formula, part: Part, nested: Nested, context: Context) -> Formula:
+def _dropped(formula: Formula, part: Part, nested: Nested, context: Context, known: Formula = TRUE) -> Formula:
     """The formula without a part, simplified; ``nested`` says why."""
     proof = {"at": list(part.place), "steps": nested}
-    shorter = context.log.step("redundant part", formula, without_part(formula, part.place), evidence={"proof": proof})
-    return context.log.step("simplification", shorter, simplify(shorter, watch=context.budget.check))
+    rest = without_part(formula, part.place)
+    shorter = context.log.step("redundant part", formula, rest, context=known, evidence={"proof": proof})
+    simple = simplify(shorter, known, watch=context.budget.check)
+    return context.log.step("simplification", shorter, simple, context=known)
 
 
 def is_worth_questions(formula: Formula, context: Context) -> bool:
@@ -153,20 +159,26 @@ def without_part(formula: Formula, place: Sequence[int]) -> Formula:
     return join((*formula.args[:k], *inner, *formula.args[k + 1 :]))
 
 
-def _unsettled(formula: Formula, points: _Points, kept: set[Formula]) -> Iterator[Part]:
+def is_cheap_sentence(sentence: Formula) -> bool:
+    """Whether an existential sentence of this size is decided with little work."""
+    degree = max((a.poly.total_degree for a in atoms(sentence)), default=0)
+    return degree <= DEGREES.get(len(features(sentence).bound), MANY_DEGREE) and _is_suited(sentence)
+
+
+def _unsettled(formula: Formula, points: _Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:
     """The parts worth a question of which no known point says that they matter, largest first."""
     parts: list[Part] = []
     for count in (FIRST, COARSE, COARSE + FINE):
         points.fill(count)
-        parts = [p for p in _by_size(formula, points) if _is_cheap(p)]
+        parts = [p for p in _by_size(formula, points, known) if _is_cheap(p)]
         if not parts:
             return
     yield from (p for p in parts if p.sentence not in kept)
 
 
-def _by_size(formula: Formula, points: _Points) -> list[Part]:
+def _by_size(formula: Formula, points: _Points, known: Formula = TRUE) -> list[Part]:
     """The parts of which no point tells that they matter, largest first."""
-    parts = _silent(formula, points, (), (), points.everywhere)
+    parts = _silent(formula, points, (), () if known == TRUE else (known,), points.holding(known))
     return sorted(parts, key=lambda part: length(part.formula), reverse=True)
 
 
@@ -234,6 +246,8 @@ class _Points:
         if seen == len(self.listed):
             return mask
         match formula:
+            case Constant():
+                mask = self.everywhere if formula == TRUE else 0
             case And(args):
                 mask = self.everywhere
                 for arg in args:

@@ -33,7 +33,7 @@ from qe.proof.run_log import RunLog
 from qe.proving.certificates import certificate_of
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import steps_without
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 
 def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:

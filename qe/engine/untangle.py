@@ -15,7 +15,7 @@ from qe.rules.block import reduce_block
 from qe.rules.block_context import BlockContext
 from qe.rules.step import POINTWISE_STEPS, StepKind
 from qe.rules.tree import All, Any, Leaf, Node
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 UNTANGLE_WORK = 2000
 """Units of work for the bases."""

@@ -22,7 +22,7 @@ from qe.groebner.trace_form import ParametricQuotient
 from qe.options import Budget
 from qe.proof.certificate import Certificate, certificate_from
 from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 _WHAT = "real root classification"
 

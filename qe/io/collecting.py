@@ -23,6 +23,7 @@ from qe.io.surface import (
     Power,
     Product,
     Quantification,
+    Quantity,
     Quotient,
     Root,
     Some,
@@ -77,6 +78,10 @@ class Names:
             case Quantification(_, names, body):
                 self.bound.update(dict.fromkeys(names))
                 self.node(body, scope.union(names), depth + 1)
+            case Quantity(_, count, name, body):
+                self.bound[name] = None
+                self.special += count + 2
+                self.node(body, scope | {name}, depth + 1)
 
     def term(self, term: Term, scope: frozenset[str], depth: int) -> None:
         if depth > MAX_DEPTH:

@@ -65,6 +65,19 @@ def read(
     return formula
 
 
+def read_posed(
+    text: str, format: str | Format = Format.TEXT, *, source: str = "<text>", total_division: bool = False
+) -> tuple[Formula, Formula]:
+    """As ``read``; what the text assumes (``assume`` of QEPCAD, a theory of Redlog) by itself, TRUE without."""
+    from qe.formula.syntax import TRUE
+
+    chosen = checked(format)
+    if isinstance(text, str) and chosen.readable and hasattr(module := _module(chosen), "read_posed"):
+        both: tuple[Formula, Formula] = module.read_posed(text, source=source)
+        return both
+    return read(text, chosen, source=source, total_division=total_division), TRUE
+
+
 def write(formula: Formula, format: str | Format = Format.TEXT) -> str:
     """The text of ``formula``. Raises ``InputError`` where the format cannot express it (root atoms)."""
     from qe.formula.syntax import Formula

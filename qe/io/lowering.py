@@ -17,7 +17,9 @@ from itertools import pairwise
 
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall, iff, implies, neg, root_atom
+from qe.formula.quantity import almost_all, connected, exactly, infinitely_many
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.formula.traverse import has_root_atoms
 from qe.io import cases, terms
 from qe.io.auxiliaries import Exhausted
 from qe.io.cases import Cases
@@ -40,6 +42,7 @@ from qe.io.surface import (
     Part,
     Polynomial,
     Quantification,
+    Quantity,
     Root,
     Some,
     Term,
@@ -156,8 +159,25 @@ class Lowering:
                 return self.equivalence(left, right, place)
             case Quantification(universal, names, body):
                 return (forall if universal else exists)(names, self.node(body, place.inside(universal)))
+            case Quantity():
+                return self.quantity(node, place)
             case Truth(value):
                 return TRUE if value else FALSE
+
+    def quantity(self, node: Quantity, place: Place) -> Formula:
+        """How many values satisfy the body, said by ex and all, with names of auxiliary values for the others."""
+        kind, count, name, body, at = node
+        inner = place.inside(kind == "G")
+        holds = self.node(body, inner)
+        denied = self.node(body, inner.denied) if self.values.loose else holds
+        if name in holds.bound or has_root_atoms(holds):
+            raise self.fail(f"{name} is bound once more inside, or compared with root(...)", at)
+        spare = [self.values.named(("quantity", id(node), i), lambda name: None) for i in range(max(count, 2))]
+        if kind == "F":
+            return infinitely_many(name, holds, spare)
+        if kind == "G":
+            return almost_all(name, holds, spare)
+        return connected(name, holds, denied, spare) if kind == "C" else exactly(count, name, holds, denied, spare)
 
     def equivalence(self, left: Node, right: Node, place: Place) -> Formula:
         sides = self.node(left, place), self.node(right, place)

@@ -15,6 +15,7 @@ from itertools import chain
 from typing import Any, ClassVar, NamedTuple, get_args
 from unicodedata import normalize
 
+from qe.formula.quantity import MOST
 from qe.io import surface as s
 from qe.io.functions import RELATIONS, applied
 from qe.io.terms import TermError, decimal
@@ -29,6 +30,13 @@ TERM, FORMULA, CHAIN, SIMPLE = 1, 2, 4, 8
 EITHER = TERM | FORMULA
 
 _TERMS = frozenset(get_args(s.Term))
+
+
+def counted(number: str, at: int) -> int:
+    """The number of a quantifier that counts; 0 without one."""
+    if number and not 0 <= int(number[:9]) <= MOST:
+        raise SyntaxFailure(f"at most {MOST} values are counted", at)
+    return int(number or 0)
 
 
 class Infix(NamedTuple):

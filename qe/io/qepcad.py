@@ -2,8 +2,9 @@
 
 A session is ``[ comment ]``, the list of variables ``(a,b,c,x)``, the number of free ones, the prenex formula ended by
 a dot, and commands. Products are written by juxtaposition, formulas are bracketed with ``[ ]``, polynomials with
-``( )``. The quantifiers ``F`` (infinitely many), ``G``, ``C`` and ``X`` of QEPCAD are refused, and so are assumptions.
-Root atoms are ``x < _root_2 x^2 - y``. The writer brings the formula into prenex form.
+``( )``. ``assume [ a > 0 ]`` among the commands is what the question is asked under. ``(F x)`` says infinitely many x,
+``(G x)`` all but finitely many, ``(C x)`` that they are connected, ``(X 2 x)`` exactly two. Root atoms are
+``x < _root_2 x^2 - y``. The writer brings the formula into prenex form.
 """
 
 from __future__ import annotations
@@ -13,20 +14,22 @@ from collections.abc import Iterator
 from typing import ClassVar
 
 from qe.exact.ring import Poly
+from qe.formula.build import conj, convert
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.notation import Notation, polynomial, positive
-from qe.formula.syntax import Formula, Relation
+from qe.formula.syntax import TRUE, Formula, Relation
 from qe.io import parser as p
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.names import Renaming
-from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, parsed
-from qe.io.text_errors import Failing, SyntaxFailure
+from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, counted, parsed
+from qe.io.text_errors import Failing
 from qe.io.tokens import SIGNS, Token, kinds, matches
 
 _SESSION = re.compile(
     r"\s*\[[^\]]*\]\s*\((?P<names>[^()]*)\)\s*(?P<free>[0-9]+)\s*(?P<formula>[^.]*)\.(?P<rest>.*)", re.DOTALL
 )
+_ASSUME = re.compile(r"\bassume\s*\[")
 _TOKEN = re.compile(
     r"(?P<SPACE>\s+)"
     r"|(?P<ROOT>(?:<=|>=|/=|[=<>])\s*_root_-?[0-9]+)"
@@ -51,15 +54,23 @@ FALSE FALSE
 
 
 def read(text: str, *, source: str = "<text>") -> Formula:
-    """The formula of a QEPCAD session or formula text. Raises ``ParseError`` with line and column."""
+    """The formula of a QEPCAD session or formula text, with what it assumes. Raises ``ParseError`` with a place."""
+    formula, known = read_posed(text, source=source)
+    return conj((known, formula))
+
+
+def read_posed(text: str, *, source: str = "<text>") -> tuple[Formula, Formula]:
+    """The formula, and what is assumed, TRUE without; over one ring."""
     fail = Failing(text, source)
     session = _SESSION.fullmatch(text)
     body, start = (session["formula"], session.start("formula")) if session else (text.rstrip().removesuffix("."), 0)
     node = parsed(_Parser, " " * start + body, fail)
     formula = lower(node, fail, names=_session_names(session, fail) if session else None)
-    if session:
-        _check_session(session, node, fail)
-    return formula
+    if session is None:
+        return formula, TRUE
+    _check_session(session, node, fail)
+    known = conj(_assumed(session, formula, fail))
+    return formula, known
 
 
 def _session_names(session: re.Match[str], fail: s.Fail) -> list[str]:
@@ -73,14 +84,24 @@ def _check_session(session: re.Match[str], node: object, fail: s.Fail) -> None:
     """The counts of a session must fit its formula, and nothing after it may change the question."""
     names, free = _session_names(session, fail), int(session["free"])
     bound: list[str] = []
-    while isinstance(node, s.Quantification):
-        bound += node.names
+    while isinstance(node, s.Quantification | s.Quantity):
+        bound += node.names if isinstance(node, s.Quantification) else [node.name]
         node = node.body
     if names[free:] != bound:
         raise fail(f"quantifiers for {', '.join(names[free:]) or 'nothing'} expected", session.start("formula"))
-    if "assume" in session["rest"]:
-        at = session.start("rest") + session["rest"].index("assume")
-        raise fail("assumptions are not supported; write them into the formula", at)
+
+
+def _assumed(session: re.Match[str], formula: Formula, fail: Failing) -> Iterator[Formula]:
+    """The conditions of the commands ``assume``, over the ring of the formula."""
+    text = session.string
+    for command in _ASSUME.finditer(text, session.start("rest")):
+        depth, end = 0, command.end() - 1
+        while end < len(text) and (depth := depth + {"[": 1, "]": -1}.get(text[end], 0)):
+            end += 1
+        condition = parsed(_Parser, " " * (command.end() - 1) + text[command.end() - 1 : end + 1], fail)
+        if unknown := sorted(set(lower(condition, fail).free) - {*_session_names(session, fail)}):
+            raise fail(f"a variable of the session expected, {unknown[0]} found", command.end())
+        yield convert(lower(condition, fail), formula.ring) if formula.ring else lower(condition, fail)
 
 
 def _root_comparison(left: s.Term, right: s.Term, token: Token) -> s.Node:
@@ -94,16 +115,19 @@ class _Parser(Parser):
     def lexed(self, text: str) -> Iterator[Token]:
         at = 0
         while match := _QUANTIFIER.match(text, at):
-            if match["kind"] not in ("E", "A"):
-                message = f"the quantifier {match['kind']} is not supported; use E or A"
-                raise SyntaxFailure(message, match.start("kind"))
-            yield Token("QUANTIFIER", f"{match['kind']} {match['name']}", match.start("kind"))
+            yield Token("QUANTIFIER", f"{match['kind'].replace(' ', '')} {match['name']}", match.start("kind"))
             at = match.end()
         for kind, value, start in matches(_TOKEN, text, at):
             yield Token(_KINDS.get(value, kind), value, start)
 
     def quantifier(self) -> None:
-        kind, name = self.advance().text.split()
+        token = self.advance()
+        kind, name = token.text.split()
+        if kind not in ("E", "A"):
+            count = counted(kind[1:], token.at)
+            make = lambda body: s.Quantity(kind[0], count, name, body, token.at)  # noqa: E731
+            self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, make))
+            return
         self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, lambda body: s.Quantification(kind == "A", [name], body)))
 
     def term_in_brackets(self) -> None:

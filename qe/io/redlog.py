@@ -1,8 +1,9 @@
 """Redlog formulas (REDUCE syntax): ``ex(x, a*x**2 + b*x + c = 0)``, ``all({x,y}, …)``, ``and or not impl repl equiv``.
 
-The reader also takes ``name := …`` in front, ``;`` or ``$`` at the end, comments from ``%`` to the end of the line,
-and ``**`` as well as ``^``. ``e``, ``i`` and ``pi`` are constants of REDUCE and no variables. The writer renames what
-REDUCE would misread (its words, letters that are not ASCII) and quotes capitals with ``!``: no case is folded.
+The reader also takes ``name := …`` in front, ``rlqe(formula, {a > 0})`` (and ``rlcad``, ``rlgqe``, …; the theory in the
+second argument is what the question is asked under), ``;`` or ``$`` at the end, comments from ``%`` to the end of the
+line, and ``**`` as well as ``^``. ``e``, ``i`` and ``pi`` are constants of REDUCE and no variables. The writer renames
+what REDUCE would misread (its words, letters that are not ASCII) and quotes capitals with ``!``: no case is folded.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from qe.errors import InputError
-from qe.exact.ring import Poly
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import conj, convert
 from qe.formula.notation import Notation
 from qe.formula.syntax import Formula, Relation
 from qe.io import surface as s
@@ -43,6 +45,7 @@ RELATION neq geq leq equal lessp greaterp
 """)
 _RELATIONS = kinds("/= <> neq\n>= geq\n<= leq\n= equal\n< lessp\n> greaterp")
 _KINDS = {**SIGNS, **kinds("RELATION = <> < <= > >=\nPOWER **\nBEGIN {\nEND }\nASSIGN :=\nSTOP ; $")}
+_CALL = re.compile(r"rl(?:qe|cad|gqe|hqe|qea|simpl|decide)", re.IGNORECASE)
 _CAPITAL = re.compile(r"[A-Z]")
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _RESERVED = re.compile(
@@ -55,9 +58,27 @@ _RESERVED = re.compile(
 
 
 def read(text: str, *, source: str = "<text>") -> Formula:
-    """The formula that a Redlog text means. Raises ``ParseError`` with line and column."""
+    """The formula that a Redlog text means, with its theory. Raises ``ParseError`` with line and column."""
+    formula, known = read_posed(text, source=source)
+    return conj((known, formula))
+
+
+def read_posed(text: str, *, source: str = "<text>") -> tuple[Formula, Formula]:
+    """The formula that a Redlog text means, and the theory under which it is asked, TRUE without; over one ring."""
     fail = Failing(text, source)
-    return lower(parsed(_Parser, text, fail), fail)
+    formula, *known = (lower(part, fail) for part in parsed(_Parser, text, fail))
+    ring = Ring.of(dict.fromkeys(name for f in (formula, *known) if f.ring is not None for name in f.ring.names))
+    return convert(formula, ring), conj(convert(f, ring) for f in known)
+
+
+def _is_closed(text: str) -> bool:
+    """Whether the bracket with which a text begins is closed at its end, where only a sign may come after it."""
+    depth = 0
+    for match in re.finditer(r"%[^\n]*|[()]", text):
+        depth += {"(": 1, ")": -1}.get(match.group(), 0)
+        if depth == 0 and match.group() == ")":
+            return not re.sub(r"%[^\n]*|[;$\s]", "", text[match.end() :])
+    return True
 
 
 def _unescaped(word: str, at: int) -> str:
@@ -84,11 +105,33 @@ class _Parser(Parser):
             else:
                 yield Token(kind, _unescaped(value, at), at)
 
-    def whole(self, wants: int = FORMULA) -> Any:
-        value = self.expression(wants, "STOP", END)
+    def whole(self, wants: int = FORMULA) -> list[Any]:
+        """The formula, and the conditions of its theory."""
+        parts: list[Any] = []
+        if self.token.kind == "NAME" and _CALL.fullmatch(self.token.text):
+            self.advance()
+            bracket = self.token.kind == "OPEN" and _is_closed(self.text[self.token.at :])
+            if bracket:
+                self.advance()
+            parts.append(self.expression(wants, "COMMA", "CLOSE" if bracket else "STOP", END))
+            if self.token.kind == "COMMA":
+                parts += self.theory(wants)
+            if bracket:
+                self.take("CLOSE")
+        else:
+            parts.append(self.expression(wants, "STOP", END))
+        if self.take("STOP", END).kind == "STOP":
+            self.take(END)
+        return parts
+
+    def theory(self, wants: int) -> Iterator[Any]:
         self.advance()
-        self.take(END)
-        return value
+        self.take("BEGIN")
+        while self.token.kind != "END":
+            yield self.expression(wants, "COMMA", "END")
+            if self.token.kind == "COMMA":
+                self.advance()
+        self.advance()
 
     def quantifier(self) -> None:
         universal = self.advance().text == "all"

@@ -96,7 +96,7 @@ def _longest(parts: Sequence[s.Part]) -> int:
         size = 0
         if part.__class__ in s.NODES:
             size = 1 + sum([sizes[id(child)] for child in inside(part)])
-        sizes[id(part)] = min(2 * size if isinstance(part, s.Equivalence) else size, _CASES)
+        sizes[id(part)] = min(2 * size if isinstance(part, s.Equivalence | s.Quantity) else size, _CASES)
     return max(sizes.values(), default=0)
 
 
@@ -155,7 +155,8 @@ def _has_cases(part: s.Part) -> bool:
 
 def _times(part: s.Part, child: s.Part) -> int:
     """How often a part says what is inside it."""
-    return 2 if isinstance(part, s.Equivalence) or (isinstance(part, s.Choice) and child is part.condition) else 1
+    twice = isinstance(part, s.Equivalence | s.Quantity) or (isinstance(part, s.Choice) and child is part.condition)
+    return 2 if twice else 1
 
 
 class _Naming:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import count
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from qe.errors import InputError, Unable
 from qe.formula.build import exists
@@ -14,7 +14,7 @@ from qe.io.lowering import lower
 from qe.io.sharing import named, ordered
 from qe.io.smtlib_parser import Expression, place, plain
 from qe.io.smtlib_terms import Terms
-from qe.io.smtlib_words import Foreign, Macro, Meaning
+from qe.io.smtlib_words import Foreign, Macro, Meaning, is_real
 from qe.io.total import Fill, Total
 
 
@@ -26,6 +26,14 @@ class Assertion(NamedTuple):
     name: str | None
 
 
+class Objective(NamedTuple):
+    """A term of which the least value is wanted, or the greatest; as it was written."""
+
+    least: bool
+    term: s.Term
+    written: Expression
+
+
 class Level(NamedTuple):
     """What there was when ``push`` was said."""
 
@@ -34,6 +42,7 @@ class Level(NamedTuple):
     names: int
     shared: int
     assertions: int
+    objectives: int
 
 
 class Script(Terms):
@@ -43,6 +52,7 @@ class Script(Terms):
         super().__init__(fail, tick)
         self.constants: dict[str, tuple[str, str]] = {}
         self.assertions: list[Assertion] = []
+        self.objectives: list[Objective] = []
         self.levels: list[Level] = []
 
     def head(self, command: Expression) -> str:
@@ -59,6 +69,10 @@ class Script(Terms):
             case "assert":
                 self.arity(command, 1)
                 self.assertions.append(Assertion(self.formula(rest[0], self.globals), rest[0], _label(rest[0])))
+            case "minimize" | "maximize":
+                if not rest or not is_real(meaning := self.meaning(rest[0], self.globals)):
+                    self.error(f"{head}: a term over the reals expected", command)
+                self.objectives.append(Objective(head == "minimize", cast(s.Term, meaning), rest[0]))
             case "declare-const":
                 self.arity(command, 2)
                 self.declare(rest[0], rest[1])
@@ -131,7 +145,7 @@ class Script(Terms):
     # --- levels ----------------------------------------------------------------------------------------------
     def push(self, count: int) -> None:
         """Remember the state, ``count`` times."""
-        sizes = len(self.names), len(self.shared), len(self.assertions)
+        sizes = len(self.names), len(self.shared), len(self.assertions), len(self.objectives)
         self.levels += [Level(dict(self.globals), dict(self.constants), *sizes) for _ in range(count)]
 
     def pop(self, count: int, at: Expression) -> None:
@@ -143,6 +157,7 @@ class Script(Terms):
             self.globals, self.constants = level.globals, level.constants
             self.taken.difference_update(self.names[level.names :])
             del self.names[level.names :], self.shared[level.shared :], self.assertions[level.assertions :]
+            del self.objectives[level.objectives :]
         kept = set(map(id, self.shared))
         self.forms = {form: part for form, part in self.forms.items() if id(part) in kept}
         self.expanded.clear()

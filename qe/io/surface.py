@@ -177,10 +177,23 @@ class Quantification(NamedTuple):
     body: Node
 
 
+class Quantity(NamedTuple):
+    """How many values satisfy the body (``qe.formula.quantity``); ``kind`` is one of ``QUANTITIES``."""
+
+    kind: str
+    number: int
+    name: str
+    body: Node
+    at: int
+
+
+QUANTITIES = {"F": "infinitely many", "G": "all but finitely many", "C": "connected", "X": "exactly"}
+
+
 Term: TypeAlias = (
     Number | Algebraic | Name | Polynomial | Sum | Product | Quotient | Power | Minus | Root | Apply | Choice | Infinity
 )
-Node: TypeAlias = Comparison | Truth | Every | Some | Negation | Implication | Equivalence | Quantification
+Node: TypeAlias = Comparison | Truth | Every | Some | Negation | Implication | Equivalence | Quantification | Quantity
 Part: TypeAlias = Term | Node
 TERMS, NODES = frozenset(get_args(Term)), frozenset(get_args(Node))
 """Their classes: whether one is among them is known faster than whether something is an instance."""

@@ -20,7 +20,7 @@ from qe.errors import InputError, NoTruthValue
 from qe.exact.field import FieldElement
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, disj, exists, forall, implies, neg
-from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
+from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Not, Or, Relation
 from qe.formula.traverse import ring_of
 from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
@@ -179,8 +179,17 @@ def from_sympy(expression: object) -> Formula:
     Raises ``InputError`` for what is not a Boolean combination of relations between terms, a Python truth value
     among them: it is what ``x**2 == b`` makes.
     """
+    raw, known = posed_from_sympy(expression)
+    return conj((known, raw))
+
+
+def posed_from_sympy(expression: object) -> tuple[Formula, Formula]:
+    """As ``from_sympy``, the formula and what its free symbols are assumed to be by themselves, over one ring."""
     raw, assumed = _parts(expression)
-    return conj(_over_one_ring(*assumed.values(), raw)) if assumed else raw
+    if not assumed:
+        return raw, TRUE
+    raw, *known = _over_one_ring(raw, *assumed.values())
+    return raw, conj(known)
 
 
 def _parts(expression: object) -> tuple[Formula, Mapping[str, Formula]]:

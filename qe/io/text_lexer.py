@@ -17,6 +17,7 @@ from qe.io.tokens import Token, kinds
 from qe.spelling import QUOTED, WORD, unquoted
 
 _LIST = rf"(?:{WORD}|{QUOTED})"
+QUANTITY = r"infinitely\s+many|all\s+but\s+finitely\s+many|almost\s+all|exactly\s+(?:[0-9]+|one)|connected"
 _PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
 KEYWORDS = kinds("""
 QUANTIFIER ex exists Ex Exists EXISTS all forall All ForAll Forall FORALL
@@ -73,6 +74,7 @@ ELEMENT Element
 """)
 _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*|[Tt]here\s+(?=exists\b))"
+    rf"|(?P<QUANTITY>(?:[Tt]here\s+(?:are|is|exists?)\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{_LIST}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈)))"
     r"|(?P<NONE>∄)"
     rf"|(?P<PREFIX>\(\s*{_PREFIXES}{_LIST}\s*(?:,\s*{_LIST}\s*)*\)(?=\s*[(\[]))"
     r"|(?P<EVERY>[Ff]or\s+(?:all|every|each|any)\b)"
@@ -101,7 +103,7 @@ _ANOTHER = re.compile(rf"\s+{_LIST}")
 _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
 _KINDS_OF_NUMBERS = {
-    **dict.fromkeys(("unique", "exactly"), "there is no ∃!; write ex x. f and all y. … -> y = x"),
+    **dict.fromkeys(("unique", "exactly"), "there is no ∃! here; write exactly 1 x. f"),
     "positive": "a condition stands behind the variable, as in exists x > 0",
     "negative": "a condition stands behind the variable, as in exists x < 0",
     "nonzero": "a condition stands behind the variable, as in exists x /= 0",
@@ -143,6 +145,8 @@ def tokens(text: str) -> Iterator[Token]:
             yield from state.prefix(value, at)
         elif kind == "EVERY":
             yield from state.put("QUANTIFIER", "forall", at)
+        elif kind == "QUANTITY":
+            yield from state.put("QUANTIFIER", _quantity(value), at)
         elif kind == "SOME":
             yield from state.put("QUANTIFIER", "exists", at)
         elif kind == "NONE":
@@ -159,6 +163,14 @@ def tokens(text: str) -> Iterator[Token]:
         at += len(value) if kind == "NUMBER" else len(token.group())
         if kind != "SPACE":
             state.end = at
+
+
+def _quantity(value: str) -> str:
+    """The letter of QEPCAD for words that say how many, with the number."""
+    words = value.split()
+    if words[-1].isdecimal():
+        return f"X {words[-1]}"
+    return {"many": "G" if "but" in words else "F", "all": "G", "connected": "C", "one": "X 1"}[words[-1]]
 
 
 def _number(value: str, state: State, text: str, at: int) -> str:

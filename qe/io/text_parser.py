@@ -25,6 +25,7 @@ from qe.io.parser import (
     Parser,
     Prefix,
     Waiting,
+    counted,
 )
 from qe.io.text_errors import SyntaxFailure
 from qe.io.tokens import Token
@@ -308,11 +309,24 @@ def is_latex(text: str) -> bool:
 
 def _quantified(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
     """A quantifier over names, which may be bounded by a set."""
+    if quantifier.text.partition(" ")[0] in s.QUANTITIES:
+        return _quantity(quantifier, names, within, body)
     universal = quantifier.text in _UNIVERSAL
     if within is None:
         return s.Quantification(universal, names, body)
     condition = _all_within([s.Name(name, quantifier.at) for name in names], within, quantifier.at)
     return s.Quantification(universal, names, _under(universal, [condition], body))
+
+
+def _quantity(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
+    """How many values of one variable, which may be bounded by a set."""
+    kind, _, number = quantifier.text.partition(" ")
+    if len(names) != 1:
+        raise SyntaxFailure(f"{s.QUANTITIES[kind]}: one variable expected, {', '.join(names)} found", quantifier.at)
+    conditions = [] if within is None else [within(s.Name(names[0], quantifier.at), quantifier.at)]
+    return s.Quantity(
+        kind, counted(number, quantifier.at), names[0], _under(kind == "G", conditions, body), quantifier.at
+    )
 
 
 def _under(universal: bool, conditions: list[s.Node], body: s.Node) -> s.Node:

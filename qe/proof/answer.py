@@ -12,7 +12,8 @@ from typing import Any
 from qe import arguments
 from qe.errors import InputError, NoTruthValue, Unable
 from qe.exact.number import Assignment, point_text
-from qe.formula.syntax import Constant, Formula
+from qe.formula.assumed import claimed
+from qe.formula.syntax import TRUE, Constant, Formula
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
 from qe.proof.partial import Partial
@@ -48,7 +49,9 @@ class Answer:
     method produces one. ``reason``: why there is no answer, or no certificate that was verified.
     ``unchecked_steps``: with ``check``, the rules of the steps of the derivation that no checker has accepted; the
     answer can be ``CHECKED`` all the same, by a decomposition. ``question`` and ``log``: what was asked, and how it was
-    answered. ``partial``: what is known where there is no answer, if that was asked for (``anytime``).
+    answered. ``assuming``: where the formula is right, and what it does not repeat; ``generic``: the inequations in it
+    that were assumed on the way (``generic=True``). ``partial``: what is known where there is no answer, if that was
+    asked for (``anytime``).
     """
 
     status: Status
@@ -61,6 +64,8 @@ class Answer:
     question: Formula | None = field(default=None, repr=False)
     log: RunLog = field(default_factory=RunLog, repr=False)
     partial: Partial | None = None
+    assuming: Formula = TRUE
+    generic: tuple[Formula, ...] = ()
 
     def __post_init__(self) -> None:
         if self.status is Status.UNABLE:
@@ -89,9 +94,17 @@ class Answer:
     @property
     def derivation(self) -> Derivation:
         """The steps from the question to the formula. Raises ``Unable`` where there is no answer."""
+        before, after = self.sides
+        return put_together(before, self.log.steps(), after)
+
+    @property
+    def sides(self) -> tuple[Formula, Formula]:
+        """The two equivalent formulas of which a certificate speaks: the question and the answer, or what both say
+        where the assumptions hold (``qe.formula.assumed``)."""
         if self.formula is None or self.question is None:
             raise Unable(f"there is no derivation: {self.reason or 'nothing was asked'}")
-        return put_together(self.question, self.log.steps(), self.formula)
+        ask = self.question
+        return claimed(self.assuming, ask, ask), claimed(self.assuming, ask, self.formula)
 
     @property
     def explanation(self) -> str:

@@ -23,8 +23,8 @@ from qe.kernel.virtual_substitution import TestPoint
 from qe.proof.derivation import moved
 from qe.proof.entry import Json, formula_to_json, poly_to_text
 from qe.proving.shifts import low
-from qe.simplify.facts import NOTHING
-from qe.simplify.simplify import simplify
+from qe.simplifier.facts import NOTHING
+from qe.simplifier.simplify import simplify
 
 
 @dataclass(frozen=True, slots=True)

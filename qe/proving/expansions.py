@@ -9,7 +9,7 @@ from math import lcm
 
 from qe.exact.ring import Poly
 from qe.proving.lemma_list import Lemmas, Term
-from qe.simplify.minima import minimum
+from qe.simplifier.minima import minimum
 
 MOST_MONOMIALS, MOST_ALIKE, MOST_CORNERS = 24, 500, 4
 

@@ -30,7 +30,7 @@ from qe.proving.goals import is_hopeless, polynomials_outside
 from qe.proving.lemma_list import Lemmas, Term
 from qe.proving.refutation import NODES, Refutation
 from qe.rules.cancelling import difference
-from qe.simplify.facts import factor_list, key_of
+from qe.simplifier.facts import factor_list, key_of
 
 MOST_POLYNOMIALS, MOST_PAIRS, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 8, 12, 400
 MOST_REDUCED = 40

@@ -178,7 +178,7 @@ class Prover:
     def _at(self, place: Place, step: Step, current: Formula) -> Formula:
         if step.rule == REDUNDANT:
             try:
-                place, step = _part_dropped(place, step)
+                place, step = _part_dropped(place, step, current)
             except IndexError:  # there is no such part
                 self.unchecked.append(step.rule)
                 return step.after
@@ -445,8 +445,8 @@ def _may_be_quantifiers(step: Step) -> bool:
     return before == after and not step.before.is_quantifier_free
 
 
-def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:
-    """A part that makes no difference turned into a constant, at its own place, under what stands beside it there."""
+def _part_dropped(place: Place, step: Step, current: Formula) -> tuple[Place, Step]:
+    """A part that makes no difference turned into a constant, at its own place, under what stands next to it there."""
     proof = step.evidence["proof"]
     assert isinstance(proof, Mapping)
     at = tuple(proof["at"])
@@ -454,4 +454,9 @@ def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:
     part, constant = subformula(parent, at[-1:]), FALSE if isinstance(parent, Or) else TRUE
     beside, _ = replaced(step.before, at, part, constant, (), Entry(None, "place"))
     evidence = {"proof": {"exceptions": [proof["steps"]]}}
-    return (*place, *at), replace(step, before=part, after=constant, context=conj(beside), evidence=evidence)
+    context = conj((*beside, step.context))
+    whole = subformula(current, place)
+    if whole != step.before:  # which is a part of it
+        assert isinstance(whole, And | Or)
+        at = (whole.args.index(subformula(step.before, at[:1])), *at[1:])
+    return (*place, *at), replace(step, before=part, after=constant, context=context, evidence=evidence)

@@ -22,7 +22,7 @@ from qe.kernel.step import Claim, Context, Limits, only
 from qe.proof.entry import Entry, Json
 from qe.proving.lemma_list import Lemmas, Term
 from qe.proving.made import by_signs
-from qe.simplify.facts import factor_list
+from qe.simplifier.facts import factor_list
 
 Number = Fraction | float
 """A rational number, or an infinity."""

@@ -18,7 +18,7 @@ from qe.kernel.step import Context
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json
 from qe.proof.step import Place
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 Evidence = Callable[[Formula, Formula, Context], tuple[str, Json] | None]
 """A rule by whose checker two formulas have the same truth under a context, and the evidence that it accepts."""

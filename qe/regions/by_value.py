@@ -15,9 +15,11 @@ from fractions import Fraction
 from qe.decomposition.formulas import Undistinguished, formula_of_cells
 from qe.decomposition.pieces import RootFunction, Sections, merge, quotient_text
 from qe.decomposition.sampled_cells import Place, any_true, child, leaves
-from qe.decomposition.sign_table import placed_signs
-from qe.exact.ring import Poly, format_poly
-from qe.formula.syntax import TRUE, Or
+from qe.decomposition.sign_table import Columns, placed_signs
+from qe.exact.ring import Poly, Ring, format_poly
+from qe.formula.build import conj, convert
+from qe.formula.syntax import TRUE, Formula, Or
+from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget
 from qe.proof.cells import SIGN_OF, Cell, CellTable, FreeCell
 from qe.spelling import quoted
@@ -29,30 +31,43 @@ Terms = tuple[str, ...]
 """What each of the last variables is."""
 
 
-def cases_by_value(table: CellTable, parameters: int, budget: Budget) -> list[str] | None:
+def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: Formula = TRUE) -> list[str] | None:
     """The cases as texts, with ``or`` between them a formula for the true cells of a table without quantifiers.
 
-    ``parameters``: how many variables are not solved for. Where a variable has neither finitely many values nor all, it
-    is a parameter, too. None where there are too many cells, and where signs do not tell which ones are meant.
+    ``parameters``: how many variables are not solved for; ``known``: what the conditions on them need not say. Where a
+    variable has neither finitely many values nor all, it is a parameter, too. None where there are too many cells,
+    and where signs do not tell which ones are meant.
     """
-    lines: list[str] = []
+    ring, lines = Ring.of(table.order), list[str]()
+    given = convert(conj(f for f in conjuncts(known) if {*f.free} <= {*table.order[:parameters]}), ring)
     everything: frozenset[tuple[int, ...]] = frozenset()  # cells that are said, with all that is over them
     for depth in range(parameters, len(table.order)):
         bases = list(leaves(table, depth=depth))
         if len(bases) > MOST_CELLS:
             return None
-        known = {i for i, base in enumerate(bases) if _is_determined(base.cell)}
+        determined = {i for i, base in enumerate(bases) if _is_determined(base.cell)}
         try:
-            lines += _lines(table, depth, bases, known, everything, budget)
+            lines += _lines(table, depth, bases, determined, everything, _outside(table, bases, given), budget)
         except Undistinguished:
             return None
-        rest = frozenset(base.path for i, base in enumerate(bases) if i not in known)
+        rest = frozenset(base.path for i, base in enumerate(bases) if i not in determined)
         if not rest:
             return lines
         everything |= {base.path for base in bases if _is_all(base.cell)}
         table = _only(table, rest | everything)
     rest = frozenset(base.path for base in leaves(table) if not _begins(base.path, everything))
     return lines + [str(piece) for piece in merge(_only(table, rest), budget=budget)]
+
+
+def _outside(table: CellTable, bases: list[Place], known: Formula) -> frozenset[int]:
+    """Those cells of the parameters on which an assumption does not hold."""
+    depth = max((base.depth for base in bases), default=0)
+    cells = [FreeCell(base.path, tuple(map(placed_signs, base.used, base.signs)), True) for base in bases]
+    listed = {factor for level in table.factors[:depth] for factor in level}
+    if not all(factor in listed for poly in polynomials(known) for factor, _ in poly.factors()[1]):
+        return frozenset()
+    false = Columns(cells, table.factors[:depth]).where(known)[1]
+    return frozenset(i for i in range(len(bases)) if false >> i & 1)
 
 
 def _begins(path: tuple[int, ...], cells: frozenset[tuple[int, ...]]) -> bool:
@@ -66,10 +81,11 @@ def _lines(
     bases: list[Place],
     known: set[int],
     everything: frozenset[tuple[int, ...]],
+    outside: frozenset[int],
     budget: Budget,
 ) -> list[str]:
     """The cases over those cells of the parameters that are known to have finitely many values, or all; but not over
-    those with ``everything``, which is said already."""
+    those with ``everything``, which is said already; ``outside`` are those that conditions may or may not include."""
     values = _Values(table, Sections(table, budget))
     found: dict[tuple[int, tuple[int, ...]], set[Terms]] = {}
     for i in sorted(known):
@@ -86,7 +102,7 @@ def _lines(
     return [
         line
         for cells, terms in ordered
-        for line in _cases(_condition(table, bases, cells, free - cells, budget), terms, names)
+        for line in _cases(_condition(table, bases, cells, (free | outside) - cells, budget), terms, names)
     ]
 
 

@@ -30,7 +30,7 @@ from qe.rules.structural import (
 from qe.rules.takes_value import drop_what_can_be_met
 from qe.rules.translation import fix_origin
 from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Pending, Perturbed, either
-from qe.simplify.simplify import simplify_under
+from qe.simplifier.simplify import simplify_under
 
 RULES: tuple[Rule, ...] = (
     rule(definitions, StepKind.DEFINITION),

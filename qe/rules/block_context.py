@@ -11,7 +11,7 @@ from qe.formula.syntax import Formula
 from qe.options import Budget
 from qe.proof.run_log import RunLog
 from qe.rules.step import StepKind
-from qe.simplify.facts import NOTHING, Facts
+from qe.simplifier.facts import NOTHING, Facts
 
 if TYPE_CHECKING:
     from qe.rules.tree import Node

@@ -19,7 +19,7 @@ from qe.rules.block_context import BlockContext, Found
 from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
 from qe.rules.tree import Pending
-from qe.simplify.facts import factor_list
+from qe.simplifier.facts import factor_list
 
 MOST_TERMS = 40
 """Polynomials with more terms are left as they are."""

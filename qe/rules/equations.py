@@ -19,7 +19,7 @@ from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import atoms, is_quantifier_free
 from qe.rules.rewrite import rewrite
-from qe.simplify.facts import factor_list
+from qe.simplifier.facts import factor_list
 
 _LARGE = 300  # terms: equations with more in all are not given to the Groebner engine
 _LIMITS = Limits(elements=60, terms=250, bits=600)

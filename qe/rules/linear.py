@@ -20,7 +20,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, map_children
 from qe.formula.syntax import Atom, Atomic, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import atoms
-from qe.simplify.facts import Facts
+from qe.simplifier.facts import Facts
 
 _TERMS = 3000  # a substitution whose result has more terms than this is not done
 

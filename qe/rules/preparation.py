@@ -15,7 +15,7 @@ from qe.proof.derivation import negated as negation
 from qe.proof.run_log import RunLog
 from qe.rules.block_context import BlockContext
 from qe.rules.step import ALL_STEPS, StepKind
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 if TYPE_CHECKING:
     from qe.rules.lift import Assignment, Value

@@ -17,7 +17,7 @@ from qe.positivity.prove import nowhere_negative
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.step import StepKind
 from qe.rules.tree import Leaf, Node, Pending
-from qe.simplify.facts import generator
+from qe.simplifier.facts import generator
 
 MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
 """Polynomials of one block that are looked at, and variables of each: with fewer, other methods are as quick."""

@@ -14,7 +14,7 @@ from qe.rules.lift import Solve
 from qe.rules.linear import Pivot, choose_pivot, defining, substitute
 from qe.rules.step import StepKind
 from qe.rules.tree import All, Any, Leaf, Node, Pending, solved
-from qe.simplify.facts import Facts
+from qe.simplifier.facts import Facts
 
 
 def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:

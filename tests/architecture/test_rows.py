@@ -30,7 +30,7 @@ ROWS = {
     "qe.expert": 4,
     "qe.certify": 4,
     "qe.theorems": 4,
-    "qe.simplify": 4,
+    "qe.simplifier": 4,
     "qe.positivity": 4,
     "qe.coq": 5,
     "qe.plain": 5,
@@ -193,7 +193,7 @@ def test_sympy_enters_only_by_its_own_door() -> None:
 def test_the_checker_shares_nothing_with_producers() -> None:
     producers = (
         "qe.elimination",
-        "qe.simplify",
+        "qe.simplifier",
         "qe.rules",
         "qe.decomposition",
         "qe.convex",

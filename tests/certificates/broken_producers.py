@@ -93,7 +93,7 @@ PREPARATION: dict[str, Row] = {
     "standard simplification: a factor of even exponent that may be zero": (
         "ex x. a^2*(x^3 + b) < 0 and x^5 > c",
         {
-            "qe.simplify.factors._assemble": lambda real: (
+            "qe.simplifier.factors._assemble": lambda real: (
                 lambda relation, odd, even, settled: settled(atom(odd, relation))
             )
         },

@@ -30,7 +30,7 @@ from qe.proof.step import Step
 from qe.proving.elimination_points import Points
 from qe.proving.prover import proved
 from qe.proving.shifts import low
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 from tests.unit.elimination.vs.line import holds, samples, specialise
 
 RING = Ring.of(("a", "b", "x"))

@@ -39,7 +39,7 @@ from qe.proving.nested import names_within
 from qe.proving.prover import Prover
 from qe.rules import preparation
 from qe.rules.step import StepKind
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 from tests.certificates import broken_producers as broken
 from tests.certificates.broken_producers import Make
 from tests.certificates.elimination_claims import unchecked

@@ -19,7 +19,7 @@ from qe.options import Budget, Options, Projection
 from qe.proof.cells import CellTable
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 Part = Callable[[Formula, Budget], Formula]
 

@@ -28,9 +28,9 @@ from qe.rules.preparation import Prepared, prepare
 from qe.rules.rewrite import rewrite
 from qe.rules.step import ALL_STEPS, StepKind
 from qe.rules.tree import Leaf
-from qe.simplify.ranges import EMPTY, EVERYTHING, add, meet, multiply, power, scale
-from qe.simplify.ranges import compare as range_where
-from qe.simplify.simplify import simplify
+from qe.simplifier.ranges import EMPTY, EVERYTHING, add, meet, multiply, power, scale
+from qe.simplifier.ranges import compare as range_where
+from qe.simplifier.simplify import simplify
 from tests.differential.check import Comparison, compare, reduced
 from tests.differential.generate import LARGE, NESTED, SMALL, Shape, random_formula
 

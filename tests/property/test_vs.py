@@ -26,7 +26,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or, Relation
 from qe.formula.traverse import polynomials
 from qe.options import Budget, Method, Options
 from qe.proof.run_log import RunLog
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 from tests.enough import enough
 from tests.strategies import RELATIONS, atoms, rationals
 from tests.strategies import polynomials as polynomials_of

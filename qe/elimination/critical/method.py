@@ -37,7 +37,7 @@ from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options, Stage
 from qe.proof.cells import FreeCell
 from qe.proof.step import Nested, Step
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 RULE = "critical values"
 UNIVERSAL_RULE = "critical values of a universal block"

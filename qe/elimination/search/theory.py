@@ -17,7 +17,7 @@ from qe.formula.syntax import FALSE, Atom, Formula
 from qe.formula.traverse import connected
 from qe.options import Budget
 from qe.rules.lift import holds_at
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 Decide = Callable[[Formula, Budget], Values | None]
 """Values of the variables of an existential sentence, or None where it is false; raises ``Unable``."""

@@ -32,7 +32,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
 from qe.formula.traverse import conjuncts, connected, has_root_atoms
 from qe.options import Budget
 from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node
-from qe.simplify.facts import NOTHING
+from qe.simplifier.facts import NOTHING
 
 Simplifier = Callable[[Formula], Formula]
 

@@ -24,8 +24,8 @@ from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, disjuncts
-from qe.simplify.factors import atom_under
-from qe.simplify.facts import Facts, factor_list
+from qe.simplifier.factors import atom_under
+from qe.simplifier.facts import Facts, factor_list
 
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
 _UPWARD = (GT, GE)

@@ -22,8 +22,8 @@ from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested
 from qe.rules.preparation import prepare
-from qe.simplify.facts import NOTHING
-from qe.simplify.simplify import simplify
+from qe.simplifier.facts import NOTHING
+from qe.simplifier.simplify import simplify
 
 
 class InfinityFirst:

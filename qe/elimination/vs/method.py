@@ -12,7 +12,7 @@ from qe.exact.number import Values
 from qe.formula.block import Block
 from qe.formula.syntax import TRUE
 from qe.options import Options
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 
 class VirtualSubstitution:

@@ -7,7 +7,7 @@ chapter 2: "extended answers").
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from itertools import islice
@@ -24,13 +24,13 @@ from qe.exact.sample import Point
 from qe.formula.build import disj
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
+from qe.formula.syntax import FALSE, TRUE, Constant, Exists, ForAll, Formula
 from qe.options import Budget
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.proof import answer as solution
 from qe.proof.run_log import RunLog
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 
 Number = Fraction | RealAlgebraic
 
@@ -92,6 +92,13 @@ class ParametricWitnesses(tuple[ParametricWitness, ...]):
         made = ParametricWitnesses(self)
         made.answer = answer
         return made
+
+    def under(self, known: Formula) -> ParametricWitnesses:
+        """The same where ``known`` holds: guards without what it says."""
+        if known == TRUE:
+            return self
+        made = ParametricWitnesses(replace(one, guard=simplify(one.guard, known)) for one in self)
+        return made.with_(self.answer)
 
     def equivalent_to(self, block: Formula) -> Formula:
         """What the guards say of the block."""

@@ -20,7 +20,7 @@ from qe.formula.build import conj
 from qe.formula.syntax import FALSE, Atom, Atomic, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
 from qe.rules.degree_shift import common_exponent, lowered, values
-from qe.simplify.facts import NOTHING, Facts, factor_list
+from qe.simplifier.facts import NOTHING, Facts, factor_list
 
 _INFINITY_COST = 2.0  # substituting an infinity, in units of a linear root with constant denominator
 _UNBEATABLE = 1.0  # a plan of one linear root with a constant denominator in one atom: the search ends with it

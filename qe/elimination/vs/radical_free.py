@@ -10,8 +10,8 @@ from qe.elimination.vs.points import LinearRoot
 from qe.exact.ring import Poly
 from qe.formula.syntax import FALSE, Atom, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
-from qe.simplify.factors import atom_under
-from qe.simplify.facts import Facts, factor_list
+from qe.simplifier.factors import atom_under
+from qe.simplifier.facts import Facts, factor_list
 
 EQ, NE, LT, LE, GT = Relation.EQ, Relation.NE, Relation.LT, Relation.LE, Relation.GT
 

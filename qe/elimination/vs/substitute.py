@@ -14,8 +14,8 @@ from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import Atom, Atomic, Formula, Relation
 from qe.formula.traverse import map_atoms
-from qe.simplify.factors import atom_under
-from qe.simplify.facts import Facts
+from qe.simplifier.factors import atom_under
+from qe.simplifier.facts import Facts
 
 EQ, NE, LT = Relation.EQ, Relation.NE, Relation.LT
 _UPWARD = (Relation.GT, Relation.GE)

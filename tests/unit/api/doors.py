@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import qe
 from qe.io import formats
+from tests.wrong_values import WRONG
 
 NUMBERS = {"int", "huge", "negative", "zero"}
 REGION = qe.region("x^2 + y^2 <= 1")
@@ -36,7 +37,12 @@ class Door:
 EVERYWHERE = {
     "timeout": {"int", "float", "none"},
     "memory": {"none"},
-    **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process", "total_division", "anytime", "core")},
+    **{
+        name: {"bool"}
+        for name in ("root_atoms", "explain", "check", "process", "total_division", "anytime", "core", "generic")
+    },
+    **{name: {"bytes"} for name in ("formula", "left", "right", "other")},
+    "assuming": {"none", "list", "bytes"},
     "order": {"none", "list"},
     "without": {"list", "dict"},
     "race": {"list", "dict"},
@@ -46,22 +52,27 @@ EVERYWHERE = {
 """What is no mistake for an argument of this name, unless a door says otherwise."""
 
 BETWEEN = {"lo": {"negative", "zero", "float"}, "hi": {"int", "digits", "huge"}}
+BOUND = {"assuming": {"none", "list"}}
+"""The others speak of x, which is bound there."""
+
 POINT = {"x": 0, "y": 0}
-GOAL = {"objective": {*NUMBERS, "digits", "float"}, "constraints": {"list"}, "parameters": {"none", "list"}}
+GOAL = {"objective": {*NUMBERS, "digits", "float"}, "constraints": {"list", "bytes"}, "parameters": {"none", "list"}}
 
 DOORS = {
-    "eliminate": Door(qe.eliminate, {"formula": "ex x. x^2 = a"}),
-    "decide": Door(qe.decide, {"formula": "ex x. x^2 = 2"}),
+    "eliminate": Door(qe.eliminate, {"formula": "ex x. x^2 = a"}, BOUND),
+    "decide": Door(qe.decide, {"formula": "ex x. x^2 = 2"}, {"formula": set(), **BOUND}),
     "find_instance": Door(qe.find_instance, {"formula": "x^2 = 2"}),
     "equivalent": Door(qe.equivalent, {"left": "x > 0", "right": "x > 0"}),
-    "check_witness": Door(qe.check_witness, {"sentence": "ex x. x > 0", "witness": {"x": "1"}}, {"witness": {"dict"}}),
+    "check_witness": Door(
+        qe.check_witness, {"sentence": "ex x. x > 0", "witness": {"x": "1"}}, {"witness": {"dict"}, **BOUND}
+    ),
     "check_witness term": Door(
         qe.check_witness,
         {"sentence": "ex x. x > 0", "witness": "1"},
-        {"witness": {*NUMBERS, "digits", "float"}},
+        {"witness": {*NUMBERS, "digits", "float"}, **BOUND},
         {"witness": lambda value: {"x": value}},
     ),
-    "parametric_witnesses": Door(qe.parametric_witnesses, {"formula": "ex x. x > a"}),
+    "parametric_witnesses": Door(qe.parametric_witnesses, {"formula": "ex x. x > a"}, {"formula": set(), **BOUND}),
     "comprehensive_groebner": Door(
         qe.comprehensive_groebner,
         {"polys": ["a*x - 1"], "variables": "x", "parameters": "a", "constants": {}},
@@ -93,9 +104,14 @@ DOORS = {
     "minimize": Door(qe.minimize, {"objective": "x"}, GOAL),
     "maximize": Door(qe.maximize, {"objective": "-x"}, GOAL),
     "minimize list": Door(
-        qe.minimize, {"objective": "x", "constraints": "x > 0"}, {}, {"constraints": lambda value: ["x > 1", value]}
+        qe.minimize,
+        {"objective": "x", "constraints": "x > 0"},
+        {"constraints": {"bytes"}},
+        {"constraints": lambda value: ["x > 1", value]},
     ),
-    "verify": Door(qe.verify, {"certificate": SOLVED.certificate}, {"formula": {"none"}}),
+    "verify": Door(
+        qe.verify, {"certificate": SOLVED.certificate}, {"formula": {"none", "bytes"}, "assuming": set(WRONG)}
+    ),
     "Exists": Door(qe.Exists, {"variables": "x", "body": REGION.formula}, {"variables": {"text", "digits"}}),
     "ForAll": Door(qe.ForAll, {"variables": ["x"], "body": REGION.formula}, {"variables": {"text", "digits"}}),
     "Certificate.from_json": Door(qe.Certificate.from_json, {"text": SOLVED.certificate.to_json()}),
@@ -135,6 +151,7 @@ DOORS = {
     "Region.boundary": Door(REGION.boundary, {}),
     "Region.equals": Door(REGION.equals, {"other": "x < 2"}),
     "Region.is_disjoint": Door(REGION.is_disjoint, {"other": "x < 2"}),
+    "simplify": Door(qe.simplify, {"formula": "x > 0 or x > y"}),
     "reduce": Door(qe.reduce, {"formula": "x > y"}, {"variables": {"none", "text", "digits", "list"}}),
     "solve": Door(qe.solve, {"formula": "x > y", "variables": "y"}, {"variables": {"none", "text", "digits", "list"}}),
     "find_instances": Door(
@@ -210,5 +227,5 @@ DOORS = {
         {"values": lambda value: {"x": value}},
     ),
     "formats.read": Door(formats.read, {"text": "x > 0"}, {"total_division": {"bool"}}),
-    "formats.write": Door(formats.write, {"formula": REGION.formula}),
+    "formats.write": Door(formats.write, {"formula": REGION.formula}, {"formula": set()}),
 }

@@ -13,11 +13,12 @@ import sympy
 
 import qe
 import qe.api.eliminate  # else this is a function
-from qe.api.limits import limits_of, reading
+from qe.api.limits import limits_of, posed, reading
 from qe.api.race import raced
 from qe.api.verify import with_derivation
 from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
+from qe.formula.syntax import TRUE
 from qe.io.text import read
 from qe.options import Budget, Method
 from qe.processes.execution import perform
@@ -190,7 +191,7 @@ def test_a_picture_is_drawn_by_another_process(tmp_path: Path):
 
 
 def test_reading_holds_the_limit(monkeypatch):
-    monkeypatch.setattr("qe.api.eliminate.read_formula", stuck)
+    monkeypatch.setattr("qe.api.limits.read_posed", stuck)
     start = time.monotonic()
     assert qe.eliminate("(x + y + z + 1)^70 > 0", timeout=LIMIT).status is qe.Status.UNABLE
     with pytest.raises(BudgetExceeded):
@@ -203,7 +204,7 @@ LONG = "(x + y + z + 1)^70"
 
 @each(
     ("qe.api.optimum.read_objective", lambda: qe.minimize(LONG, timeout=LIMIT)),
-    ("qe.api.optimum.read_constraints", lambda: qe.minimize("x", f"{LONG} > 0", timeout=LIMIT)),
+    ("qe.api.optimum.read_posed_constraints", lambda: qe.minimize("x", f"{LONG} > 0", timeout=LIMIT)),
     ("qe.api.decide.read_polynomial", lambda: qe.check_witness("ex x. x > y", {"x": LONG}, timeout=LIMIT)),
     ("qe.api.groebner.read_polynomial", lambda: qe.comprehensive_groebner([LONG], "x", timeout=LIMIT)),
     ("qe.sympy.from_sympy", lambda: qe.sympy.minimum(sum(sympy.symbols("x y z")) ** 70, timeout=LIMIT)),
@@ -325,7 +326,8 @@ def test_reading() -> None:
     limits = Limits(None)
     assert reading("x > 0", "text", limits) == read("x > 0")
     asked: list[tuple[object, ...]] = []
-    reading(read("x > 0"), "text", limits, True, reader=lambda *given: asked.append(given) or given[0])  # type: ignore
+    settings = {"format": "text", "total_division": True}
+    posed(read("x > 0"), settings, limits, reader=lambda *given: asked.append(given) or (given[0], TRUE))  # type: ignore
     assert asked == [(read("x > 0"), "text", True)]
 
 

@@ -104,7 +104,7 @@ def test_the_reference_has_the_table() -> None:
 
 def test_the_command_line_has_the_settings_as_options() -> None:
     commands = get_command(app).commands  # type: ignore[attr-defined]
-    for name, also in (("eliminate", set()), ("decide", {"anytime"})):
+    for name, also in (("eliminate", set()), ("decide", {"anytime", "generic"})):
         options = {o.name: o for o in commands[name].params}
         assert set(TABLE) - ELSEWHERE - also <= set(options)
         assert not options["workers"].default and options["timeout"].help == "Seconds, enforced."

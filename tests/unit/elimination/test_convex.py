@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.api.eliminate import read_formula
+from qe.api.input import read_formula
 from qe.elimination.convex import decide_convex
 from qe.formula.syntax import Exists
 from qe.options import Budget

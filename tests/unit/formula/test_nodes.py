@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.api.eliminate import read_formula
+from qe.api.input import read_formula
 from qe.errors import InternalError
 from qe.exact.ring import Ring
 from qe.formula import block as module
@@ -27,7 +27,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
 from qe.formula.traverse import atoms, children, has_root_atoms, is_quantifier_free, map_atoms, ring_of
 from qe.io.text import read
-from qe.simplify.simplify import _Recent, simplify
+from qe.simplifier.simplify import _Recent, simplify
 from tests.strategies import RELATIONS, formulas
 from tests.tables import each
 
@@ -102,7 +102,7 @@ def test_a_simplified_formula_is_not_simplified_again(formula: Formula) -> None:
     found = simplify(formula)
     equal = pickle.loads(pickle.dumps(found))
     with pytest.MonkeyPatch.context() as patch:
-        patch.delattr("qe.simplify.simplify._node")
+        patch.delattr("qe.simplifier.simplify._node")
         assert simplify(found) is found
         assert simplify(equal) is equal
 

@@ -245,7 +245,8 @@ def test_a_qepcad_session() -> None:
     ("[]\n(a,x)\n1\n[x = 1].", "quantifiers for x"),
     ("[]\n(a,x)\n2\n[x = y].", "unknown variable y"),
     ("[]\n(a,a)\n2\n[a = 0].", "twice"),
-    ("[]\n(a,x)\n2\n[x = a].\nassume [a > 0]\nfinish", "assumptions"),
+    ("[]\n(a,x)\n2\n[x = a].\nassume [b > 0]\nfinish", "variable of the session"),
+    ("[]\n(a,x)\n2\n[x = a].\nassume [a >]\nfinish", "unexpected"),
 )
 def test_qepcad_mistakes(given: str, part: str) -> None:
     with pytest.raises(ParseError, match=part):

@@ -22,7 +22,7 @@ from qe.proving.goals import is_hopeless, polynomials_outside
 from qe.proving.lemma_list import Lemmas
 from qe.proving.lemmas import refuting
 from qe.proving.refutation import NODES, Refutation
-from qe.simplify.facts import factor_list
+from qe.simplifier.facts import factor_list
 from tests.tables import each
 
 # Evidence that refutes lists of formulas: read by the checker's theory, no more of it than is needed.

@@ -19,7 +19,7 @@ from qe.proof.step import Step
 from qe.proving.prover import Prover, proved
 from qe.proving.remembering import remembering
 from qe.proving.simplified import Simplified
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 from tests.strategies import formulas
 from tests.tables import each
 

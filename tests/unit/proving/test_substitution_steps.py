@@ -17,7 +17,7 @@ from qe.proof.entry import Entry, Json
 from qe.proving.lemmas import refuting
 from qe.proving.made import FRESH
 from qe.proving.substitution_steps import steps
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 from tests.tables import each
 
 LIMITS = limits_of(Budget(), RULES)

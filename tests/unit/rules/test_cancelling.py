@@ -11,7 +11,7 @@ from qe.io.text import read
 from qe.rules.cancelling import cancel_by, difference
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
-from qe.simplify.facts import factor_list
+from qe.simplifier.facts import factor_list
 from tests.strategies import polynomials
 from tests.tables import each
 

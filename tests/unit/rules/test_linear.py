@@ -13,7 +13,7 @@ from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.rules.linear import Pivot, choose_pivot, substitute
-from qe.simplify.facts import NOTHING
+from qe.simplifier.facts import NOTHING
 from tests.tables import each
 
 RING = Ring.of(("a", "b", "x"))

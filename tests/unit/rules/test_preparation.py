@@ -14,7 +14,7 @@ from qe.options import Budget
 from qe.rules.lift import holds_at
 from qe.rules.preparation import prepare
 from qe.rules.step import ALL_STEPS, StepKind
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 from tests.property.prepare_support import prepared_with_rules
 from tests.tables import each
 

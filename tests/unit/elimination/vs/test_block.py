@@ -16,8 +16,8 @@ from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula
 from qe.formula.traverse import atoms, conjuncts, polynomials
 from qe.io.text import read
 from qe.options import Budget
-from qe.simplify.facts import NOTHING
-from qe.simplify.simplify import simplify
+from qe.simplifier.facts import NOTHING
+from qe.simplifier.simplify import simplify
 from tests.tables import each
 
 

@@ -21,7 +21,7 @@ from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.options import Budget
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 from tests.tables import each
 from tests.unit.elimination.vs.line import satisfiable, specialise
 

@@ -14,8 +14,8 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE, Relation
-from qe.simplify.factors import atom_under
-from qe.simplify.facts import NOTHING
+from qe.simplifier.factors import atom_under
+from qe.simplifier.facts import NOTHING
 from tests.strategies import polynomials, rationals
 from tests.unit.elimination.vs.line import between, samples, sign_at, specialise
 

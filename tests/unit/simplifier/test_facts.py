@@ -13,9 +13,9 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
-from qe.simplify.absorb import absorb
-from qe.simplify.factors import atom_under, reduce_atom
-from qe.simplify.facts import NOTHING, Facts, factor_list, generator
+from qe.simplifier.absorb import absorb
+from qe.simplifier.factors import atom_under, reduce_atom
+from qe.simplifier.facts import NOTHING, Facts, factor_list, generator
 from tests.strategies import points
 from tests.tables import each
 

@@ -2,7 +2,7 @@
 
 from qe.formula.traverse import atoms
 from qe.io.text import read
-from qe.simplify.simplify import simplify
+from qe.simplifier.simplify import simplify
 from tests.tables import each
 
 

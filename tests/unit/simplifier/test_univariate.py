@@ -11,8 +11,8 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Atom, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
-from qe.simplify.facts import NOTHING
-from qe.simplify.univariate import irredundant, roots_of
+from qe.simplifier.facts import NOTHING
+from qe.simplifier.univariate import irredundant, roots_of
 from tests.tables import each
 
 RING = Ring.of(("x", "y"))

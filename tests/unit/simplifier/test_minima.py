@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
-from qe.simplify.minima import minimum, minimum_of_quadratic, vanishing
+from qe.simplifier.minima import minimum, minimum_of_quadratic, vanishing
 from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))

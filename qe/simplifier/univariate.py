@@ -15,8 +15,8 @@ from itertools import pairwise
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly
 from qe.formula.syntax import Atom, Relation
-from qe.simplify.facts import Facts, atom_of
-from qe.simplify.ranges import EVERYTHING, describe
+from qe.simplifier.facts import Facts, atom_of
+from qe.simplifier.ranges import EVERYTHING, describe
 
 _DEGREE = 12  # polynomials of higher degree are left alone
 _ATOMS = 12  # so are more atoms than this in one variable

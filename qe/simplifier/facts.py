@@ -17,8 +17,8 @@ from functools import lru_cache
 from qe.exact.ring import Poly, Ring
 from qe.exact.watch import IDLE
 from qe.formula.syntax import Atom, Atomic, Formula, Relation
-from qe.simplify.minima import minimum
-from qe.simplify.ranges import EVERYTHING, Range, add, compare, make, meet, multiply, power, scale
+from qe.simplifier.minima import minimum
+from qe.simplifier.ranges import EVERYTHING, Range, add, compare, make, meet, multiply, power, scale
 
 _ENCLOSED_TERMS = 24  # term count up to which ranges of the variables are propagated through a polynomial
 _FACTORED_TERMS = 400  # above this many terms a polynomial is taken as one factor

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from qe.formula.build import conj, disj
 from qe.formula.syntax import And, Atom, Constant, Formula, Or
 from qe.formula.traverse import atoms
-from qe.simplify.facts import key_of
+from qe.simplifier.facts import key_of
 
 _MEMBERS = 60  # more members than this are left alone
 

@@ -3,7 +3,7 @@
 For p = s * f1^e1 * ... * fk^ek (s = +1 or -1, fi irreducible), with the signs that the fi can have:
 * a factor that is always positive, or nonzero with even exponent, is dropped; always negative: with a flip;
 * in p = 0 and p /= 0 every exponent becomes 1 and factors that are never zero are dropped;
-* p = 0 where 0 is the least value of p says that simpler polynomials vanish (``qe.simplify.minima``);
+* p = 0 where 0 is the least value of p says that simpler polynomials vanish (``qe.simplifier.minima``);
 * let E be the factors whose power fi^ei is never negative (after flips), O the others. Then
   p < 0  iff  (every E factor /= 0) and s*prod(O) < 0;   p <= 0  iff  (some E factor = 0) or s*prod(O) <= 0;
 * f*(f + k) < 0, k > 0, says that f < 0 < f + k, and f*(f + k) > 0 that f > 0 or f + k < 0; likewise <= and >=. Linear
@@ -19,8 +19,8 @@ from math import prod
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
-from qe.simplify.facts import Facts, factor_list
-from qe.simplify.minima import vanishing
+from qe.simplifier.facts import Facts, factor_list
+from qe.simplifier.minima import vanishing
 
 
 def atom_under(poly: Poly, relation: Relation, facts: Facts) -> Formula:

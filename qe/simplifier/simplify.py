@@ -17,11 +17,11 @@ from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import conjuncts, ring_of
-from qe.simplify.absorb import absorb
-from qe.simplify.factors import reduce_atom
-from qe.simplify.facts import NOTHING, Facts, atom_of, constraint, generator
-from qe.simplify.ranges import EVERYTHING, Range, describe, meet
-from qe.simplify.univariate import irredundant
+from qe.simplifier.absorb import absorb
+from qe.simplifier.factors import reduce_atom
+from qe.simplifier.facts import NOTHING, Facts, atom_of, constraint, generator
+from qe.simplifier.ranges import EVERYTHING, Range, describe, meet
+from qe.simplifier.univariate import irredundant
 
 _ROUNDS = 60  # every round removes degree, an atom or a subformula; this only guards against a bug
 

@@ -1,0 +1,70 @@
+"""From what is asked to an answer, with or without assumptions, and its certificate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from qe.elimination.protocol import Outcome
+from qe.engine import run
+from qe.engine.assuming import answered_assuming, simplified
+from qe.exact.ring import Ring
+from qe.formula.assumed import Aim, Asked, claimed
+from qe.formula.build import convert
+from qe.formula.counting import without_root_atoms
+from qe.formula.normal import rename_apart, without_clashes
+from qe.formula.syntax import TRUE, Formula
+from qe.options import Budget, Options
+from qe.proof.answer import Answer
+from qe.proof.run_log import RunLog
+from qe.proving.certificates import NOT_WANTED, derived_or_decomposed
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """An outcome, the question that it is for, and what was assumed; ``plainly``: by the way without assumptions."""
+
+    question: Formula
+    outcome: Outcome
+    assuming: Formula = TRUE
+    generic: tuple[Formula, ...] = ()
+    plainly: bool = True
+
+
+def answered(asked: Asked, options: Options, budget: Budget) -> Known:
+    """What is found, with no certificate but one that a method made on its way. Raises ``Unable``."""
+    if asked.known == TRUE and asked.aim is Aim.EQUIVALENT:
+        return Known(asked.formula, run.answered(asked.formula, options, budget))
+    clear = without_clashes(asked.formula)
+    log = RunLog()
+    log.step("renaming", asked.formula, clear)
+    if asked.aim is Aim.SHORTER:
+        made = simplified(clear, asked.known, options, budget)
+    else:
+        plain = log.step("roots counted", clear, without_root_atoms(clear))
+        made = answered_assuming(plain, asked.known, options, budget, generic=asked.aim is Aim.GENERIC)
+    made.outcome.log.entries[:0] = log.entries
+    formula, ring = made.outcome.formula, Ring.of(asked.formula.free) if asked.formula.free else None
+    outcome = made.outcome if ring is None else replace(made.outcome, formula=_moved(formula, ring))
+    return Known(asked.formula, outcome, made.known, made.generic, plainly=False)
+
+
+def _moved(formula: Formula, ring: Ring) -> Formula:
+    return convert(formula, ring) if formula.is_quantifier_free else formula
+
+
+def proved(known: Known, options: Options, budget: Budget) -> Known:
+    """The same with its certificate, where one is wanted."""
+    if known.plainly:
+        return replace(known, outcome=run.proved(known.question, known.outcome, options, budget))
+    if not options.certify:
+        return replace(known, outcome=replace(known.outcome, reason=NOT_WANTED))
+    asked, said = (claimed(known.assuming, known.question, f) for f in (known.question, known.outcome.formula))
+    question = rename_apart(without_root_atoms(without_clashes(asked)))
+    proof = derived_or_decomposed(asked, question, known.outcome.log, said, options, budget)
+    outcome = replace(known.outcome, certificate=proof.certificate, unchecked=proof.unchecked)
+    return replace(known, outcome=replace(outcome, checked=proof.checked, reason=proof.reason))
+
+
+def answer_to(known: Known) -> Answer:
+    """The outcome as an answer, nothing verified yet."""
+    return replace(run.answer_to(known.question, known.outcome), assuming=known.assuming, generic=known.generic)
