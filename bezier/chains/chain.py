@@ -134,14 +134,19 @@ class Solved:
 
 @dataclass(frozen=True, slots=True)
 class Requirement:
-    """``form`` <= 0, which says that the control point ``index`` of curve ``piece`` keeps a condition."""
+    """``form`` <= 0. ``squares``: with it sum w |p|² is bounded; none where the form is linear. ``is_ball``: a larger
+    radius is a wider condition."""
 
     label: str
     form: Form
-    piece: int
-    point: Affine
-    half_space: int | None
-    """Its number; None for the ball."""
+    squares: tuple[tuple[Fraction, Affine], ...] = ()
+    is_ball: bool = False
+
+    @property
+    def right(self) -> Fraction:
+        """The bound of the sum of squares."""
+        squares = ((w, squared_length(p).constant) for w, p in self.squares)
+        return sum((w * c for w, c in squares), -self.form.constant)
 
 
 def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
@@ -154,10 +159,10 @@ def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
             if chain.radius_squared is not None:
                 away = affine_sum(((_ONE, point), (-_ONE, Affine({}, chain.centre))))
                 form = squared_length(away).shifted(-chain.radius_squared)
-                result.append(Requirement(f"{name} in the ball", form, k, point, None))
+                result.append(Requirement(f"{name} in the ball", form, ((_ONE, away),), is_ball=True))
             for i, (normal, offset) in enumerate(chain.half_spaces):
                 form = linear_form(tuple(-c for c in normal), point).shifted(offset)
-                result.append(Requirement(f"{name} in half-space {i}", form, k, point, i))
+                result.append(Requirement(f"{name} in half-space {i}", form))
     return tuple(result)
 
 

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 from bezier.chains import proposals
-from bezier.chains.chain import Chain, Ends, Objective, Requirement, Solved, requirements
-from bezier.chains.form import Point
+from bezier.chains.chain import Chain, Requirement, Solved, requirements
 from bezier.chains.proof import Best, Contradiction, best, decided, feasible
 from bezier.curves.curve import Bezier
-from qe import arguments
-from qe.errors import InputError, Unable
+from qe.errors import Unable
 from qe.proof.certificate import Certificate
 
 NARROW = Fraction(1, 10**7)
@@ -65,65 +62,6 @@ class ChainPlan:
         return why if self.repair is None else f"{why}; with radius {float(self.repair.radius):.10g} there is one"
 
 
-def chain(
-    *,
-    start: Sequence[Any],
-    via: Iterable[Sequence[Any]],
-    goal: Sequence[Any] | None = None,
-    radius: Any = None,
-    centre: Sequence[Any] | None = None,
-    half_spaces: Iterable[tuple[Sequence[Any], Any]] = (),
-    degree: int = 3,
-    continuity: int = 2,
-    durations: Iterable[Any] = (),
-    ends: str | Ends = Ends.FREE,
-    closed: bool = False,
-    objective: str | Objective = Objective.LEGS,
-) -> ChainPlan:
-    """The best chain of Bézier curves from ``start`` over all ``via`` points to ``goal`` (closed: back to the start).
-
-    Degree 2 with continuity 1, degree 3 with 1 or 2, degree 5 with 2, in time: ``durations`` (s) of the curves, 1 each
-    without them. Every control point, hence every curve, lies in the ball of this ``radius`` about ``centre`` (the
-    origin), in mm, and in all ``half_spaces`` ((a, b): a . p >= b). ``ends``: "free", or "zero" for rest.
-    ``objective``: "legs" (sum of the squared legs of all control polygons, mm²), "middle legs" (those between via
-    points, as in (7)), "acceleration", "jerk", "snap" (integrals of their squares over time).
-
-    Floating point proposes, rational numbers prove. Raises ``InputError``, and ``Unable`` where neither a chain nor a
-    contradiction could be proved, or no optimum (conditions that touch, or nearly).
-    """
-    corners = [start, *via] + ([] if goal is None else [goal])
-    points = tuple(_point(p, f"point {k}") for k, p in enumerate(corners))
-    if closed is (goal is not None):
-        raise InputError("goal: none of a closed chain, one of any other expected")
-    size = len(points[0])
-    middle = (Fraction(0),) * size if centre is None else _point(centre, "centre")
-    spaces = tuple((_point(a, "half_spaces"), arguments.rational(b, "half_spaces")) for a, b in half_spaces)
-    if len(middle) != size or any(len(a) != size for a, _ in spaces):
-        raise InputError(f"centre, half_spaces: {size} coordinates expected")
-    if radius is not None and (radius := arguments.rational(radius, "radius")) <= 0:
-        raise InputError("radius: a number above 0 expected")
-    return planned(
-        Chain(
-            points,
-            degree,
-            continuity,
-            tuple(arguments.rational(t, "durations") for t in durations),
-            arguments.member(ends, Ends, "ends"),
-            closed,
-            arguments.member(objective, Objective, "objective"),
-            middle,
-            None if radius is None else radius**2,
-            spaces,
-        )
-    )
-
-
-def _point(given: Any, what: str) -> Point:
-    if isinstance(given, str) or not isinstance(given, Iterable):
-        raise InputError(f"{what}: coordinates expected, {arguments.shown(given)} found")
-    return tuple(arguments.rational(c, what) for c in given)
-
-
 def planned(given: Chain) -> ChainPlan:
     """The best chain, or why there is none. Raises ``Unable``."""
     solved = given.solved
@@ -132,7 +70,7 @@ def planned(given: Chain) -> ChainPlan:
     rows = requirements(given, solved)
     inside = decided(given, solved, rows)
     if not isinstance(inside, Contradiction):
-        found: Best = best(given, solved, inside)
+        found: Best = best(given, solved, rows, inside)
         return ChainPlan(given, solved.curves(found.free), found.value, found.bound, found.certificate)
     conflict = smallest_conflict(given, solved, inside)
     return ChainPlan(given, (), None, None, inside.certificate, conflict, least_radius(given, solved, rows))
@@ -165,7 +103,7 @@ def least_radius(given: Chain, solved: Solved, rows: Sequence[Requirement]) -> R
         return None
     free = [row for row in rows if not row.form.is_constant]
     proposal = proposals.least_excess(given, solved.size, free, balls_only=True) if free else None
-    fixed = [row.form.constant for row in rows if row.form.is_constant and row.half_space is None]
+    fixed = [row.form.constant for row in rows if row.form.is_constant and row.is_ball]
     farthest = float(max(fixed, default=Fraction(0)) + given.radius_squared) ** 0.5
     wanted = max(float(given.radius_squared) ** 0.5 + (proposal.excess if proposal else 0.0), farthest)
     sides = [replace(given, radius_squared=(Fraction(wanted) * (1 + s * NARROW)) ** 2) for s in (1, -1)]

@@ -15,7 +15,7 @@ from fractions import Fraction
 from math import lcm
 
 from bezier.chains import proposals
-from bezier.chains.chain import Chain, Requirement, Solved, objective_form, requirements
+from bezier.chains.chain import Chain, Requirement, Solved, objective_form
 from bezier.chains.form import Form, Point, weighted_sum
 from qe.convex.evidence import optimum_certificate
 from qe.convex.minimise import evidence_about, solve
@@ -36,7 +36,7 @@ MOST_EXACT = 12
 EXACT_SECONDS = 1.0
 _PLACES = (20, 30, 40, 50)  # binary, of a point, in proportion to the size of the problem
 _DROPPED = (1e-6, 1e-9, 0.0)  # shares of the largest weight below which weights are left out
-_SMALLER = tuple(Fraction(1, 10**k) for k in (13, 12, 11, 10))  # shares of the squared radius
+_SMALLER = tuple(Fraction(1, 10**k) for k in (13, 12, 11, 10))  # shares of the room of a condition
 _AXES = "xyz"
 
 
@@ -136,36 +136,43 @@ def _exactly(chain: Chain, size: int, rows: Sequence[Requirement]) -> tuple[Poin
     return tuple(tuple(exact[i : i + d]) for i in range(0, len(exact), d))
 
 
-def best(chain: Chain, solved: Solved, inside: Sequence[Point]) -> Best:
-    """Both sides of the optimum, at most ``GAP`` of it apart. ``inside``: free points that keep all conditions.
+def best(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best:
+    """Both sides of the optimum under these conditions, at most ``GAP`` of it apart. ``inside``: free points that keep
+    them.
 
     Raises ``Unable`` where that cannot be proved.
     """
     size, d, objective = solved.size, chain.dimension, objective_form(chain, solved)
-    rows = requirements(chain, solved)
     lowest = objective.minimum(size, d)
     if lowest is not None and all(row.form.value(lowest[0]) <= 0 for row in rows):
-        return bounded(chain, solved, lowest[0], {})
+        return bounded(chain, solved, rows, lowest[0], {})
     varying = [row for row in rows if not row.form.is_constant]
     proposal = proposals.least_value(chain, size, varying, objective)
     if proposal is None:
         raise Unable("no optimum was proposed")
     reason = "no point near the optimum keeps all conditions"
-    for free in _inside(chain, proposal, inside, varying, objective):
+    for free in near_optimum(chain, proposal, inside, varying, objective):
         for share in _DROPPED:
             weights = rounded_weights(proposal.weights, share)
             named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
             try:
-                return bounded(chain, solved, free, named)
+                return bounded(chain, solved, rows, free, named)
             except Unable as error:
                 reason = str(error)
     raise Unable(reason)
 
 
-def bounded(chain: Chain, solved: Solved, free: Sequence[Point], weights: Mapping[str, Fraction]) -> Best:
+def bounded(
+    chain: Chain,
+    solved: Solved,
+    rows: Sequence[Requirement],
+    free: Sequence[Point],
+    weights: Mapping[str, Fraction],
+    gap: Fraction = GAP,
+) -> Best:
     """What a point and multipliers prove together. Raises ``Unable`` where the point breaks a condition, a weight is
-    negative or of no condition, or the two sides are more than ``GAP`` of the value apart."""
-    size, objective, rows = solved.size, objective_form(chain, solved), requirements(chain, solved)
+    negative or of no condition, or the two sides are more than ``gap`` of the value apart."""
+    size, objective = solved.size, objective_form(chain, solved)
     broken = [row.label for row in rows if row.form.value(free) > 0]
     if broken:
         raise Unable(f"the point breaks a condition: {broken[0]}")
@@ -174,7 +181,7 @@ def bounded(chain: Chain, solved: Solved, free: Sequence[Point], weights: Mappin
     chosen = [row for row in rows if weights.get(row.label)]
     lagrangian = weighted_sum([(_ONE, objective), *((weights[row.label], row.form) for row in chosen)])
     lowest, value = lagrangian.minimum(size, chain.dimension), objective.value(free)
-    if lowest is None or value - lowest[1] > GAP * abs(value):
+    if lowest is None or value - lowest[1] > gap * abs(value):
         raise Unable("the two sides of the optimum are too far from each other")
     forms = [*(row.form for row in chosen), objective.shifted(-lowest[1])]
     below = _refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
@@ -236,17 +243,14 @@ def rounded_weights(weights: Sequence[float], share: float) -> tuple[Fraction, .
     return tuple(Fraction(round(Fraction(w) * unit)) / unit if w > share * largest else _ZERO for w in weights)
 
 
-def _inside(
+def near_optimum(
     chain: Chain, proposal: proposals.Proposal, inside: Sequence[Point], rows: Sequence[Requirement], objective: Form
 ) -> Iterator[tuple[Point, ...]]:
-    """Points near the proposal that keep all conditions: the best ones of slightly smaller balls, and the first one on
-    the way from the proposal to the inside."""
-    size, radius_squared = len(inside), chain.radius_squared
+    """Points near the proposal that keep all conditions: the best ones of slightly narrower conditions, and the first
+    one on the way from the proposal to the inside."""
+    size = len(inside)
     for share in _SMALLER:
-        if radius_squared is None:
-            break
-        smaller = replace(chain, radius_squared=radius_squared * (1 - share))
-        near = proposals.least_value(smaller, size, rows, objective)
+        near = proposals.least_value(chain, size, [narrower(row, share) for row in rows], objective)
         free = rounded_point(chain, near.point, 50) if near is not None else ()
         if free and all(row.form.value(free) <= 0 for row in rows):
             yield free
@@ -259,3 +263,8 @@ def _inside(
         if all(row.form.value(free) <= 0 for row in rows):
             yield free
             break
+
+
+def narrower(row: Requirement, share: Fraction) -> Requirement:
+    """The condition with this share less room."""
+    return replace(row, form=row.form.shifted(share * row.right if row.squares else share * abs(row.form.constant)))

@@ -136,7 +136,7 @@ def test_multipliers_that_prove_nothing_are_refused() -> None:
         with pytest.raises(Unable):
             proof.contradiction(given, solved.size, weights, rows[:1])
     with pytest.raises(Unable):
-        proof.bounded(given, solved, inside, {"no such condition": Fraction(1)})
+        proof.bounded(given, solved, rows, inside, {"no such condition": Fraction(1)})
 
 
 @each(
@@ -147,7 +147,7 @@ def test_multipliers_that_prove_nothing_are_refused() -> None:
     ({"objective": "length"}, "objective"),
     ({"objective": "snap"}, "degree"),
     ({"ends": "stop"}, "ends"),
-    ({"centre": [0]}, "coordinates"),
+    ({"centre": [0]}, "centre"),
     ({"closed": True}, "goal"),
 )
 def test_bad_input_is_one_line(given: dict[str, Any], word: str) -> None:
