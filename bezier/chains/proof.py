@@ -36,6 +36,7 @@ MOST_EXACT = 12
 EXACT_SECONDS = 1.0
 _PLACES = (20, 30, 40, 50)  # binary, of a point, in proportion to the size of the problem
 _DROPPED = (1e-6, 1e-9, 0.0)  # shares of the largest weight below which weights are left out
+_ADDED = (1e-12, 1e-10, 1e-8)
 _SMALLER = tuple(Fraction(1, 10**k) for k in (13, 12, 11, 10))  # shares of the room of a condition
 _AXES = "xyz"
 
@@ -81,8 +82,7 @@ def decided(chain: Chain, solved: Solved, rows: Sequence[Requirement]) -> tuple[
             free = rounded_point(chain, proposal.point, places)
             if all(row.form.value(free) <= 0 for row in varying):
                 return free
-        for share in _DROPPED:
-            weights = rounded_weights(proposal.weights, share)
+        for weights in rational_weights(proposal.weights):
             support = [(w, row) for w, row in zip(weights, varying, strict=True) if w]
             lowest = weighted_sum((w, row.form) for w, row in support).minimum(size, d) if support else None
             if lowest is not None and lowest[1] > 0:
@@ -152,8 +152,7 @@ def best(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequ
         raise Unable("no optimum was proposed")
     reason = "no point near the optimum keeps all conditions"
     for free in near_optimum(chain, proposal, inside, varying, objective):
-        for share in _DROPPED:
-            weights = rounded_weights(proposal.weights, share)
+        for weights in rational_weights(proposal.weights):
             named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
             try:
                 return bounded(chain, solved, rows, free, named)
@@ -234,13 +233,18 @@ def rounded_point(chain: Chain, point: Sequence[Sequence[float]], places: int) -
     return tuple(tuple(Fraction(round(Fraction(c) * unit)) / unit for c in p) for p in point)
 
 
-def rounded_weights(weights: Sequence[float], share: float) -> tuple[Fraction, ...]:
-    """Without those that are below this share of the largest one, the others with 50 binary places of that."""
+def rational_weights(weights: Sequence[float]) -> Iterator[tuple[Fraction, ...]]:
+    """Rational multipliers near these: without those below a share of the largest one, then with a small one for each
+    condition, which holds points that the large ones leave nearly free."""
     largest = max(weights, default=0.0)
     if not largest > 0:
-        return (_ZERO,) * len(weights)
+        return
     unit = Fraction(2) ** (50 - Fraction(largest).numerator.bit_length() + Fraction(largest).denominator.bit_length())
-    return tuple(Fraction(round(Fraction(w) * unit)) / unit if w > share * largest else _ZERO for w in weights)
+    for share in _DROPPED:
+        yield tuple(Fraction(round(Fraction(w) * unit)) / unit if w > share * largest else _ZERO for w in weights)
+    for share in _ADDED:
+        least = Fraction(round(Fraction(largest * share) * unit)) / unit
+        yield tuple(Fraction(round(Fraction(w) * unit)) / unit + least for w in weights)
 
 
 def near_optimum(
