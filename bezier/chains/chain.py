@@ -100,6 +100,12 @@ class Chain:
         return len(self.points[0])
 
     @property
+    def point_names(self) -> tuple[str, ...]:
+        """What the points are called: "start", "via[0]", ..., "goal"."""
+        via = len(self.points) - (1 if self.closed else 2)
+        return ("start", *(f"via[{i}]" for i in range(via)), *(() if self.closed else ("goal",)))
+
+    @property
     def corners(self) -> tuple[Point, ...]:
         """Where the curves begin and end, in order."""
         return (*self.points, self.points[0]) if self.closed else self.points

@@ -5,26 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
-from bezier.chains import proposals
 from bezier.chains.chain import Chain, Requirement, Solved, requirements
 from bezier.chains.proof import Best, Contradiction, best, decided, feasible
+from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
 from bezier.curves.curve import Bezier
+from bezier.curves.scalar import described
 from qe.errors import Unable
-from qe.proof.certificate import Certificate
-
-NARROW = Fraction(1, 10**7)
-"""How far, relative, the radii that are proved to be enough, and not enough, lie from the one that was proposed."""
-
-
-@dataclass(frozen=True, slots=True)
-class Repair:
-    """With ``radius`` there is a chain, with ``too_small`` there is none; ``certificate`` proves both."""
-
-    radius: Fraction
-    too_small: Fraction
-    certificate: Certificate
-
+from qe.proof.certificate import Certificate, Labelled
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
@@ -39,7 +28,8 @@ class Conflict:
 class ChainPlan:
     """``curves``: with the least value of the objective, which lies between ``bound`` and ``value`` (rational, at most
     a billionth of it apart); empty where there is no chain. Then ``conflict`` says why, and ``repair`` which radius
-    helps (None: there is no ball, or none helps). ``certificate``: of the optimum, or of the contradiction."""
+    helps (None: there is no ball, or none helps); ``with_repairs`` adds other ``repairs``. ``certificate``: of the
+    optimum, or of the contradiction."""
 
     chain: Chain
     curves: tuple[Bezier, ...]
@@ -48,11 +38,63 @@ class ChainPlan:
     certificate: Certificate
     conflict: Conflict | None = None
     repair: Repair | None = None
+    repairs: tuple[Repair, ...] = ()
 
     @property
     def feasible(self) -> bool:
         """Whether there is a chain."""
         return self.value is not None
+
+    def with_repairs(self) -> ChainPlan:
+        """The same with all ``repairs`` that are known: the radius, the point that has to move least, one duration of a
+        curve that the conflict names."""
+        if self.conflict is None:
+            return self
+        pieces = sorted({int(label[1 : label.index(".")]) - 1 for label in self.conflict.conditions})
+        listed = (self.repair, nearest_point(self.chain), nearest_duration(self.chain, pieces))
+        return replace(self, repairs=tuple(repair for repair in listed if repair is not None))
+
+    @property
+    def proof(self) -> Certificate:
+        """All certificates as one: the optimum, or the contradiction, the conflict and the repairs."""
+        if self.conflict is None:
+            return self.certificate
+        listed = self.repairs or ((self.repair,) if self.repair else ())
+        members = [m for c in (self.conflict, *listed) for m in c.certificate.payload if isinstance(m, Labelled)]
+        return Certificate.bundle([(m.label, m.certificate) for m in members])
+
+    @property
+    def lines(self) -> list[str]:
+        """What is said, a line for each."""
+        if self.conflict is None:
+            return [str(self)]
+        why = f"no chain: {', '.join(self.conflict.conditions)} exclude each other"
+        why += ", all of them needed" if self.conflict.smallest else ""
+        return [why, *(f"possible with {repair}" for repair in self.repairs)]
+
+    def to_json(self) -> dict[str, Any]:
+        """Everything, with exact numbers."""
+        data: dict[str, Any] = {"status": "solved" if self.feasible else "infeasible"}
+        if self.value is not None and self.bound is not None:
+            data["objective"] = {"kind": self.chain.objective.value, "value": described(self.value)}
+            data["objective"]["bound"] = described(self.bound)
+        if self.feasible:
+            data["durations"] = [str(t) for t in self.chain.times]
+            data["curves"] = [[[described(c) for c in p] for p in curve.points] for curve in self.curves]
+        if self.conflict is not None:
+            data["conflict"] = {"conditions": list(self.conflict.conditions), "smallest": self.conflict.smallest}
+            data["repairs"] = [
+                {"change": r.change, "value": [described(c) for c in r.value], "too small": described(r.too_small)}
+                for r in self.repairs
+            ]
+        return data
+
+    def page(self, title: str = "chain") -> str:
+        """An HTML page with pictures of the chain, or of the points that have none, in its ball and half-spaces."""
+        from bezier.report.chain import page
+        from bezier.report.html import document
+
+        return document(page(self, title))
 
     def __str__(self) -> str:
         if self.value is not None:
@@ -95,24 +137,3 @@ def smallest_conflict(given: Chain, solved: Solved, known: Contradiction) -> Con
     proofs = [(f"without {label}", proof) for label in labels if (proof := needed[label]) is not None]
     proof = Certificate.bundle([("they exclude each other", known.certificate), *proofs])
     return Conflict(labels, len(proofs) == len(labels), proof)
-
-
-def least_radius(given: Chain, solved: Solved, rows: Sequence[Requirement]) -> Repair | None:
-    """The least radius with which there is a chain, from both sides."""
-    if given.radius_squared is None:
-        return None
-    free = [row for row in rows if not row.form.is_constant]
-    proposal = proposals.least_excess(given, solved.size, free, balls_only=True) if free else None
-    fixed = [row.form.constant for row in rows if row.form.is_constant and row.is_ball]
-    farthest = float(max(fixed, default=Fraction(0)) + given.radius_squared) ** 0.5
-    wanted = max(float(given.radius_squared) ** 0.5 + (proposal.excess if proposal else 0.0), farthest)
-    sides = [replace(given, radius_squared=(Fraction(wanted) * (1 + s * NARROW)) ** 2) for s in (1, -1)]
-    try:
-        enough, less = (decided(side, solved, requirements(side, solved)) for side in sides)
-    except Unable:
-        return None
-    if isinstance(enough, Contradiction) or not isinstance(less, Contradiction):
-        return None
-    proof = feasible(sides[0], solved, requirements(sides[0], solved), enough)
-    bundle = Certificate.bundle([("with the radius", proof), ("with less", less.certificate)])
-    return Repair(Fraction(wanted) * (1 + NARROW), Fraction(wanted) * (1 - NARROW), bundle)

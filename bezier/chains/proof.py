@@ -136,8 +136,10 @@ def _exactly(chain: Chain, size: int, rows: Sequence[Requirement]) -> tuple[Poin
     return tuple(tuple(exact[i : i + d]) for i in range(0, len(exact), d))
 
 
-def best(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best:
-    """Both sides of the optimum under these conditions, at most ``GAP`` of it apart. ``inside``: free points that keep
+def best(
+    chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point], gap: Fraction = GAP
+) -> Best:
+    """Both sides of the optimum under these conditions, at most the share ``gap`` of it apart. ``inside``: free points that keep
     them.
 
     Raises ``Unable`` where that cannot be proved.
@@ -155,7 +157,7 @@ def best(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequ
         for weights in rational_weights(proposal.weights):
             named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
             try:
-                return bounded(chain, solved, rows, free, named)
+                return bounded(chain, solved, rows, free, named, gap)
             except Unable as error:
                 reason = str(error)
     raise Unable(reason)
@@ -185,7 +187,10 @@ def bounded(
     forms = [*(row.form for row in chosen), objective.shifted(-lowest[1])]
     below = _refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
     reached = [*(row.form for row in rows), objective.shifted(-value)]
-    proofs = [("optimum: bound", below), ("optimum: point", _witness(chain, size, reached, free))]
+    proofs = [
+        (f"least value at least {lowest[1]}", below),
+        (f"least value at most {value}", _witness(chain, size, reached, free)),
+    ]
     used = {row.label: weights[row.label] for row in chosen}
     return Best(tuple(free), value, lowest[1], used, Certificate.bundle(proofs))
 
