@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.chains.chain import Chain, Requirement, Solved, requirements
-from bezier.chains.proof import Best, Contradiction, best, decided, feasible
+from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
 from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described
@@ -26,8 +26,8 @@ class Conflict:
 
 @dataclass(frozen=True, slots=True)
 class ChainPlan:
-    """``curves``: with the least value of the objective, which lies between ``bound`` and ``value`` (rational, at most
-    a billionth of it apart); empty where there is no chain. Then ``conflict`` says why, and ``repair`` which radius
+    """``curves``: with the least value of the objective, which lies between ``bound`` and ``value`` (rational, a
+    billionth of it apart, or what ``accuracy`` says); empty where there is no chain. Then ``conflict`` says why, and ``repair`` which radius
     helps (None: there is no ball, or none helps); ``with_repairs`` adds other ``repairs``. ``certificate``: of the
     optimum, or of the contradiction."""
 
@@ -44,6 +44,13 @@ class ChainPlan:
     def feasible(self) -> bool:
         """Whether there is a chain."""
         return self.value is not None
+
+    @property
+    def accuracy(self) -> str:
+        """How much of ``value`` lies between it and ``bound``, at most."""
+        gap = 0 if self.value is None or self.bound is None else self.value - self.bound
+        words = ("a billionth", "a millionth", "a thousandth")
+        return next((w for w, g in zip(words, GAPS, strict=True) if gap <= g * abs(self.value or 0)), "any")
 
     def with_repairs(self) -> ChainPlan:
         """The same with all ``repairs`` that are known: the radius, the point that has to move least, one duration of a
@@ -92,13 +99,17 @@ class ChainPlan:
     def page(self, title: str = "chain") -> str:
         """An HTML page with pictures of the chain, or of the points that have none, in its ball and half-spaces."""
         from bezier.report.chain import page
-        from bezier.report.html import document
+        from bezier.report.html import Card, document, tone
 
-        return document(page(self, title))
+        cards = [Card("chain", "proved" if self.feasible else "there is none", tone(self.feasible))]
+        if self.value is not None:
+            cards.append(Card(self.chain.objective.value, f"{float(self.value):.10g}", note=f"least, to {self.accuracy}"))
+        cards += [Card(f"possible with {r.change}", str(r).partition(" = ")[2]) for r in self.repairs]
+        return document(page(self.chain, self.curves, self.lines, title, cards))
 
     def __str__(self) -> str:
         if self.value is not None:
-            return f"{len(self.curves)} curves, objective {float(self.value):.12g}, proved to a billionth"
+            return f"{len(self.curves)} curves, objective {float(self.value):.12g}, proved to {self.accuracy}"
         assert self.conflict is not None
         why = f"no chain: {', '.join(self.conflict.conditions)} exclude each other"
         return why if self.repair is None else f"{why}; with radius {float(self.repair.radius):.10g} there is one"

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import product
 from math import lcm
 
 from bezier.chains import proposals
@@ -31,6 +32,8 @@ from qe.proof.certificate import Certificate
 from qe.proof.multipliers import FormRelation, OptimumStatus
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
+GAPS = (GAP, 1000 * GAP, 1_000_000 * GAP)
+"""Shares of the value, tried in this order: digits cancel where it is small, and conditions may leave hardly any room."""
 MOST_EXACT = 12
 """Variables up to which an exact method is tried where rounded multipliers prove nothing."""
 EXACT_SECONDS = 1.0
@@ -136,14 +139,9 @@ def _exactly(chain: Chain, size: int, rows: Sequence[Requirement]) -> tuple[Poin
     return tuple(tuple(exact[i : i + d]) for i in range(0, len(exact), d))
 
 
-def best(
-    chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point], gap: Fraction = GAP
-) -> Best:
-    """Both sides of the optimum under these conditions, at most the share ``gap`` of it apart. ``inside``: free points that keep
-    them.
-
-    Raises ``Unable`` where that cannot be proved.
-    """
+def best(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best:
+    """Both sides of the optimum under these conditions, a billionth of it apart, or the least of ``GAPS`` that can be
+    proved. ``inside``: free points that keep the conditions. Raises ``Unable`` where none can."""
     size, d, objective = solved.size, chain.dimension, objective_form(chain, solved)
     lowest = objective.minimum(size, d)
     if lowest is not None and all(row.form.value(lowest[0]) <= 0 for row in rows):
@@ -152,14 +150,14 @@ def best(
     proposal = proposals.least_value(chain, size, varying, objective)
     if proposal is None:
         raise Unable("no optimum was proposed")
+    points = list(near_optimum(chain, proposal, inside, varying, objective))
     reason = "no point near the optimum keeps all conditions"
-    for free in near_optimum(chain, proposal, inside, varying, objective):
-        for weights in rational_weights(proposal.weights):
-            named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
-            try:
-                return bounded(chain, solved, rows, free, named, gap)
-            except Unable as error:
-                reason = str(error)
+    for gap, free, weights in product(GAPS, points, rational_weights(proposal.weights)):
+        named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
+        try:
+            return bounded(chain, solved, rows, free, named, gap)
+        except Unable as error:
+            reason = str(error)
     raise Unable(reason)
 
 
@@ -203,11 +201,11 @@ def feasible(chain: Chain, solved: Solved, rows: Sequence[Requirement], free: Se
 def _witness(chain: Chain, size: int, forms: Sequence[Form], free: Sequence[Point]) -> Certificate:
     names = names_of(chain, size)
     ring = Ring.of(names)
-    matrix = conj(tuple(atom(_poly(form, ring, size, chain.dimension), Relation.LE) for form in forms))
+    matrix = conj(tuple(atom(polynomial(form, ring, size, chain.dimension), Relation.LE) for form in forms))
     return Certificate.witness(matrix, names, [c for p in free for c in p])
 
 
-def _poly(form: Form, ring: Ring, size: int, dimension: int) -> Poly:
+def polynomial(form: Form, ring: Ring, size: int, dimension: int) -> Poly:
     """A positive multiple with whole coefficients."""
     terms: dict[tuple[int, ...], Fraction] = {}
     width = size * dimension
@@ -265,7 +263,7 @@ def near_optimum(
             yield free
             break
     start = rounded_point(chain, proposal.point, 50)
-    for places in range(46, 2, -2):
+    for places in range(46, -1, -2):
         share = Fraction(1, 2**places)
         pairs = zip(start, inside, strict=True)
         free = tuple(tuple(a + share * (b - a) for a, b in zip(p, q, strict=True)) for p, q in pairs)

@@ -22,7 +22,6 @@ from qe.proof.certificate import Certificate
 NARROW = Fraction(1, 10**7)
 """How far, relative, the values that are proved to be enough, and not enough, lie from the one that was proposed."""
 _FACTORS = (1.25, 1.5, 2.0, 3.0, 4.0, 8.0)  # of a duration
-_GAPS = tuple(Fraction(1, 10**k) for k in (9, 6, 3))  # of the square of a small distance, of which digits cancel
 _TOLERANCE = 1e-7  # of conditions, in floating point, in proportion to the room
 
 
@@ -114,12 +113,7 @@ def _best_move(freed: Chain) -> tuple[Solved, Best]:
     inside = decided(freed, solved, rows)
     if isinstance(inside, Contradiction):
         raise Unable("moving this point does not help")
-    for gap in _GAPS[:-1]:
-        try:
-            return solved, best(freed, solved, rows, inside, gap)
-        except Unable:
-            continue
-    return solved, best(freed, solved, rows, inside, _GAPS[-1])
+    return solved, best(freed, solved, rows, inside)
 
 
 def _moves(given: Chain) -> Iterator[tuple[float, int]]:
