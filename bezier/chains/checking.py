@@ -1,5 +1,5 @@
-"""Whether a certificate is about a given chain: what its members say is read off their labels, and the sentences have to
-be those of the chain's conditions and objective, which are made anew. No optimiser takes part."""
+"""Whether a certificate is about a given chain: what its members say is read off their labels, and the sentences have
+to be those of the chain's conditions and objective, which are made anew. No optimiser takes part."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def checked(chain: Chain, certificate: Certificate) -> list[str]:
     members = certificate.payload if isinstance(certificate.payload, tuple) else ()
     if not members:
         raise CertificateRejected("bundle", "expected a bundle")
-    conflict = {label for m in members if m.label == EXCLUDE for label in _claimed(chain, m, _labels(chain))}
+    conflict = {part for m in members if m.label == EXCLUDE for part in _claimed(chain, m, _labels(chain))}
     for member in members:
         try:
             _examine(chain, member, conflict)
@@ -42,7 +42,7 @@ def checked(chain: Chain, certificate: Certificate) -> list[str]:
     return [member.label for member in members]
 
 
-def _examine(chain: Chain, member: Labelled, conflict: Collection[str]) -> None:
+def _examine(chain: Chain, member: Labelled, conflict: Collection[Formula]) -> None:
     """Whether the sentence of a member is the one that its label announces."""
     claim, _, change = member.label.partition(" with ")
     if change.endswith(" free"):
@@ -54,7 +54,8 @@ def _examine(chain: Chain, member: Labelled, conflict: Collection[str]) -> None:
     said = set(_claimed(chain, member, known))
     everything = set(known.values())
     if claim.startswith(LEAST):
-        _is(member, said <= everything | {_value(chain, claim.removeprefix(LEAST), Relation.LT)}, FALSE)
+        below = _value(chain, claim.removeprefix(LEAST), Relation.LT)
+        _is(member, below in said <= everything | {below}, FALSE)
     elif claim.startswith(MOST):
         _is(member, said == everything | {_value(chain, claim.removeprefix(MOST), Relation.LE)}, TRUE)
     elif claim in (EXCLUDE, IMPOSSIBLE):
@@ -62,7 +63,7 @@ def _examine(chain: Chain, member: Labelled, conflict: Collection[str]) -> None:
     elif claim == POSSIBLE:
         _is(member, said == everything, TRUE)
     elif claim.startswith(WITHOUT):
-        _is(member, said >= set(conflict) - {known[claim.removeprefix(WITHOUT)]}, TRUE)
+        _is(member, bool(conflict) and said >= set(conflict) - {known[claim.removeprefix(WITHOUT)]}, TRUE)
     else:
         raise CertificateRejected(member.label, "no claim about a chain")
 

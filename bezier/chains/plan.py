@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from bezier.chains.chain import Chain, Requirement, Solved, requirements
+from bezier.chains.chain import Chain, Solved, requirements
 from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
 from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described
 from qe.errors import Unable
 from qe.proof.certificate import Certificate, Labelled
+
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
@@ -27,9 +27,9 @@ class Conflict:
 @dataclass(frozen=True, slots=True)
 class ChainPlan:
     """``curves``: with the least value of the objective, which lies between ``bound`` and ``value`` (rational, a
-    billionth of it apart, or what ``accuracy`` says); empty where there is no chain. Then ``conflict`` says why, and ``repair`` which radius
-    helps (None: there is no ball, or none helps); ``with_repairs`` adds other ``repairs``. ``certificate``: of the
-    optimum, or of the contradiction."""
+    billionth of it apart, or what ``accuracy`` says); empty where there is no chain. Then ``conflict`` says why, and
+    ``repair`` which radius helps (None: there is no ball, or none helps); ``with_repairs`` adds other ``repairs``.
+    ``certificate``: of the optimum, or of the contradiction."""
 
     chain: Chain
     curves: tuple[Bezier, ...]
@@ -48,9 +48,10 @@ class ChainPlan:
     @property
     def accuracy(self) -> str:
         """How much of ``value`` lies between it and ``bound``, at most."""
-        gap = 0 if self.value is None or self.bound is None else self.value - self.bound
-        words = ("a billionth", "a millionth", "a thousandth")
-        return next((w for w, g in zip(words, GAPS, strict=True) if gap <= g * abs(self.value or 0)), "any")
+        if self.value is None or self.bound is None:
+            return ""
+        words, gap, size = ("a billionth", "a millionth", "a thousandth"), self.value - self.bound, abs(self.value)
+        return next(word for word, share in zip(words, GAPS, strict=True) if gap <= share * size)
 
     def with_repairs(self) -> ChainPlan:
         """The same with all ``repairs`` that are known: the radius, the point that has to move least, one duration of a
@@ -66,8 +67,11 @@ class ChainPlan:
         """All certificates as one: the optimum, or the contradiction, the conflict and the repairs."""
         if self.conflict is None:
             return self.certificate
-        listed = self.repairs or ((self.repair,) if self.repair else ())
-        members = [m for c in (self.conflict, *listed) for m in c.certificate.payload if isinstance(m, Labelled)]
+        proofs = [
+            self.conflict.certificate,
+            *(repair.certificate for repair in self.repairs or (self.repair,) if repair),
+        ]
+        members = [m for proof in proofs for m in proof.payload if isinstance(m, Labelled)]
         return Certificate.bundle([(m.label, m.certificate) for m in members])
 
     @property
@@ -103,7 +107,9 @@ class ChainPlan:
 
         cards = [Card("chain", "proved" if self.feasible else "there is none", tone(self.feasible))]
         if self.value is not None:
-            cards.append(Card(self.chain.objective.value, f"{float(self.value):.10g}", note=f"least, to {self.accuracy}"))
+            cards.append(
+                Card(self.chain.objective.value, f"{float(self.value):.10g}", note=f"least, to {self.accuracy}")
+            )
         cards += [Card(f"possible with {r.change}", str(r).partition(" = ")[2]) for r in self.repairs]
         return document(page(self.chain, self.curves, self.lines, title, cards))
 

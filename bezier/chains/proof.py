@@ -33,7 +33,7 @@ from qe.proof.multipliers import FormRelation, OptimumStatus
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
 GAPS = (GAP, 1000 * GAP, 1_000_000 * GAP)
-"""Shares of the value, tried in this order: digits cancel where it is small, and conditions may leave hardly any room."""
+"""Shares of the value, tried in this order: digits cancel where it is small, and conditions may leave hardly room."""
 MOST_EXACT = 12
 """Variables up to which an exact method is tried where rounded multipliers prove nothing."""
 EXACT_SECONDS = 1.0

@@ -55,7 +55,7 @@ def _solved(
         if row.squares:
             slack[n:] = -1.0 if row.is_ball or not balls_only else 0.0
             blocks = [_block(point, sqrt(w), d, width, unit) for w, point in row.squares]
-            lengths.append(sqrt(max(row.right, 0)) / unit)
+            lengths.append(sqrt(max(float(row.right), 0.0)) / unit)
             lines += [slack, *(-line for block, _ in blocks for line in block)]
             right += [lengths[-1], *(c for _, constant in blocks for c in constant)]
             cones.append(clarabel.SecondOrderConeT(1 + d * len(blocks)))

@@ -36,7 +36,9 @@ def read_chain(table: Table) -> Chain:
         raise table.error("closed", "true or false", describe(closed))
     points = _points(table, closed)
     size = len(points[0])
-    centre = table.as_point("centre", table.values["centre"], size) if "centre" in table.values else (Fraction(0),) * size
+    centre = (
+        table.as_point("centre", table.values["centre"], size) if "centre" in table.values else (Fraction(0),) * size
+    )
     return Chain(
         points,
         _whole(table, "degree", 3),

@@ -1,9 +1,9 @@
-"""What change makes an infeasible chain possible: another radius, one point elsewhere, one duration. Each is proved to be
-enough by a chain, and each comes with one that is proved not to be.
+"""What change makes an infeasible chain possible: another radius, one point elsewhere, one duration. Each is proved to
+be enough by a chain, and each comes with one that is proved not to be.
 
-The distance by which a point has to move is a convex problem, so both sides are those of its least value. The radius is
-one, too. Durations are not: a duration is looked for among some, and the one that is proved not to be enough is nearer to
-the given one, but others yet nearer are not excluded.
+The distance by which a point has to move is a convex problem, so both sides are those of its least value. The radius
+is one, too. Durations are not: a duration is looked for among some, and the one that is proved not to be enough is
+nearer to the given one, but others yet nearer are not excluded.
 """
 
 from __future__ import annotations
@@ -73,7 +73,9 @@ def both_sides(chain: Chain, change: str, enough: Fraction, less: Fraction) -> R
         return None
     proof = feasible(sides[0], solved[0], requirements(sides[0], solved[0]), inside)
     labels = [f"possible with {change} = {enough}", f"impossible with {change} = {less}"]
-    return Repair(change, (enough,), less, Certificate.bundle(list(zip(labels, (proof, none.certificate), strict=True))))
+    return Repair(
+        change, (enough,), less, Certificate.bundle(list(zip(labels, (proof, none.certificate), strict=True)))
+    )
 
 
 def least_radius(given: Chain, solved: Solved, rows: Sequence[Requirement]) -> Repair | None:

@@ -49,8 +49,8 @@ def chain(
 
     Degree 2 with continuity 1, degree 3 with 1 or 2, degree 5 with 2, in time: ``durations`` (s) of the curves, 1 each
     without them. Every control point, hence every curve, lies in the ball of this ``radius`` about ``centre`` (the
-    origin), in mm, and in all ``half_spaces`` (mappings with ``normal`` and ``offset``, or pairs: normal . p >= offset).
-    ``ends``: "free", or "zero" for rest.
+    origin), in mm, and in all ``half_spaces`` (mappings with ``normal`` and ``offset``, or pairs: normal . p >=
+    offset). ``ends``: "free", or "zero" for rest.
     ``objective``: "legs" (sum of the squared legs of all control polygons, mm²), "middle legs" (those between via
     points, as in (7)), "acceleration", "jerk", "snap" (integrals of their squares over time). Numbers are exact, as for
     ``bezier.plan``; the arguments are the keys of a file of ``bezier chain``.
@@ -74,7 +74,8 @@ def chain(
         "objective": objective,
     }
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    return perform(partial(_planned, chain_from(given)), bounds)
+    limited = bounds.timeout is not None or bounds.memory is not None
+    return perform(partial(_planned, chain_from(given)), bounds, at_once=limited)
 
 
 def chain_from(given: Mapping[str, object]) -> Chain:

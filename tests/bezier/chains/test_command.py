@@ -1,4 +1,4 @@
-"""``bezier chain`` and ``bezier.chain``: the same answers, certificates about this chain and no other, clear refusals."""
+"""``bezier chain`` and ``bezier.chain``: the same answers, certificates about this chain alone, clear refusals."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_repairs_work_and_less_does_not(none: Any) -> None:
 def test_altered_certificates_are_refused(none: Any, seed: int) -> None:
     """One number or label of a member changed, or members exchanged: nothing else than the proof is accepted."""
     chance, data = random.Random(seed), json.loads(none.proof.to_json())
-    members = data["payload"]
+    members = data["certificates"]
     member = chance.choice(members)
     kind = seed % 4
     if kind == 0:
@@ -90,12 +90,12 @@ def test_altered_certificates_are_refused(none: Any, seed: int) -> None:
         old = member["label"]
         member["label"] = old.replace("1", "2", 1) if "1" in old else "least value at least 3"
     elif kind == 2:
-        text = json.dumps(member["certificate"]["payload"]["start"])
+        text = json.dumps(member["payload"]["start"])
         place = chance.choice([i for i, c in enumerate(text) if c.isdigit()])
         changed = text[:place] + str((int(text[place]) + 1) % 10) + text[place + 1 :]
-        member["certificate"]["payload"]["start"] = json.loads(changed)
+        member["payload"]["start"] = json.loads(changed)
     else:
-        steps = member["certificate"]["payload"]["steps"][0]["evidence"]
+        steps = member["payload"]["steps"][0]["evidence"]
         key = "multipliers" if "multipliers" in steps else "values"
         steps[key] = [["7"] if key == "multipliers" else "7" for _ in steps[key]]
     from qe.proof.certificate import digest
