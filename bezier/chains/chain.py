@@ -62,6 +62,7 @@ class Chain:
 
     Every control point has to lie in the ball about ``centre`` with this ``radius_squared``, where it is given, and in
     all ``half_spaces``: (a, b) for a . p >= b. ``free_via``: the number of a point that may move.
+    ``max_length`` (mm) of all curves together, ``max_curvature`` (1/mm).
     """
 
     points: tuple[Point, ...]
@@ -75,6 +76,8 @@ class Chain:
     radius_squared: Fraction | None = None
     half_spaces: tuple[tuple[Point, Fraction], ...] = ()
     free_via: int | None = None
+    max_length: Fraction | None = None
+    max_curvature: Fraction | None = None
 
     def __post_init__(self) -> None:
         if (self.degree, self.continuity) not in KINDS:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from bezier.chains.chain import Chain, Solved, requirements
+from bezier.chains.chain import Chain, Requirement, Solved, requirements
 from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
+from bezier.chains.limits import LENGTH, best_within
 from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
+from bezier.chains.form import Point
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described
 from qe.errors import Unable
@@ -51,12 +54,15 @@ class ChainPlan:
         if self.value is None or self.bound is None:
             return ""
         words, gap, size = ("a billionth", "a millionth", "a thousandth"), self.value - self.bound, abs(self.value)
-        return next(word for word, share in zip(words, GAPS, strict=True) if gap <= share * size)
+        known = (word for word, share in zip(words, GAPS, strict=True) if gap <= share * size)
+        return next(known, f"{100 * float(gap / size):.2g} %")
 
     def with_repairs(self) -> ChainPlan:
         """The same with all ``repairs`` that are known: the radius, the point that has to move least, one duration of a
         curve that the conflict names."""
         if self.conflict is None:
+            return self
+        if LENGTH in self.conflict.conditions:
             return self
         pieces = sorted({int(label[1 : label.index(".")]) - 1 for label in self.conflict.conditions})
         listed = (self.repair, nearest_point(self.chain), nearest_duration(self.chain, pieces))
@@ -128,11 +134,19 @@ def planned(given: Chain) -> ChainPlan:
         raise Unable("the joins and the ends leave no chain: their equations contradict each other")
     rows = requirements(given, solved)
     inside = decided(given, solved, rows)
-    if not isinstance(inside, Contradiction):
-        found: Best = best(given, solved, rows, inside)
+    found = inside if isinstance(inside, Contradiction) else _best(given, solved, rows, inside)
+    if isinstance(found, Best):
         return ChainPlan(given, solved.curves(found.free), found.value, found.bound, found.certificate)
-    conflict = smallest_conflict(given, solved, inside)
-    return ChainPlan(given, (), None, None, inside.certificate, conflict, least_radius(given, solved, rows))
+    conflict = smallest_conflict(given, solved, found)
+    if LENGTH in conflict.conditions:
+        return ChainPlan(given, (), None, None, found.certificate, conflict)
+    return ChainPlan(given, (), None, None, found.certificate, conflict, least_radius(given, solved, rows))
+
+
+def _best(given: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best | Contradiction:
+    if given.max_length is None and given.max_curvature is None:
+        return best(given, solved, rows, inside)
+    return best_within(given, solved, rows, inside)
 
 
 def smallest_conflict(given: Chain, solved: Solved, known: Contradiction) -> Conflict:

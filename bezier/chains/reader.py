@@ -24,6 +24,8 @@ KEYS = (
     "ends",
     "closed",
     "objective",
+    "max_length",
+    "max_curvature",
 )
 _POINT = "a point of 2 or 3 numbers"
 
@@ -50,6 +52,8 @@ def read_chain(table: Table) -> Chain:
         centre,
         _radius_squared(table),
         tuple(_half_space(entry, size) for entry in table.tables("half_space")),
+        max_length=table.positive("max_length") if "max_length" in table.values else None,
+        max_curvature=table.positive("max_curvature") if "max_curvature" in table.values else None,
     )
 
 

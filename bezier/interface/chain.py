@@ -41,6 +41,8 @@ def chain(
     ends: object = "free",
     closed: bool = False,
     objective: object = "legs",
+    max_length: object = None,
+    max_curvature: object = None,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Listener = silent,
@@ -53,7 +55,8 @@ def chain(
     offset). ``ends``: "free", or "zero" for rest.
     ``objective``: "legs" (sum of the squared legs of all control polygons, mm²), "middle legs" (those between via
     points, as in (7)), "acceleration", "jerk", "snap" (integrals of their squares over time). Numbers are exact, as for
-    ``bezier.plan``; the arguments are the keys of a file of ``bezier chain``.
+    ``bezier.plan``. ``max_length`` (mm, of all curves together) and ``max_curvature`` (1/mm) hold for all t; the bound
+    from below is then one for chains with a necessary half-space instead, which ``accuracy`` shows. The arguments are the keys of a file of ``bezier chain``.
 
     Floating point proposes, rational numbers prove. Raises ``InputError`` naming the argument, ``BudgetExceeded`` at a
     limit, and ``Unable`` where neither a chain nor a contradiction could be proved, or no optimum (conditions that
@@ -72,6 +75,8 @@ def chain(
         "ends": ends,
         "closed": closed,
         "objective": objective,
+        "max_length": max_length,
+        "max_curvature": max_curvature,
     }
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
     limited = bounds.timeout is not None or bounds.memory is not None
