@@ -62,7 +62,7 @@ class Chain:
 
     Every control point has to lie in the ball about ``centre`` with this ``radius_squared``, where it is given, and in
     all ``half_spaces``: (a, b) for a . p >= b. ``free_via``: the number of a point that may move.
-    ``max_length`` (mm) of all curves together, ``max_curvature`` (1/mm).
+    ``max_length`` (mm) of all curves together, ``max_curvature`` (1/mm). ``free_total``: the sum of free durations.
     """
 
     points: tuple[Point, ...]
@@ -78,6 +78,7 @@ class Chain:
     free_via: int | None = None
     max_length: Fraction | None = None
     max_curvature: Fraction | None = None
+    free_total: Fraction | None = None
 
     def __post_init__(self) -> None:
         if (self.degree, self.continuity) not in KINDS:
@@ -90,6 +91,8 @@ class Chain:
             raise InputError("chain: neighbouring points that differ expected, found two that are equal")
         if self.durations and (len(self.durations) != self.pieces or min(self.durations) <= 0):
             raise InputError(f"chain: {self.pieces} durations above 0 expected")
+        if self.free_total is not None and (self.durations or self.free_total <= 0):
+            raise InputError("chain: a sum of free durations above 0 expected, and no durations")
         if self.closed and self.ends is not Ends.FREE:
             raise InputError("chain: a closed chain has no ends")
         if self.objective.order > self.degree:
@@ -150,6 +153,8 @@ class Requirement:
     form: Form
     squares: tuple[tuple[Fraction, Affine], ...] = ()
     is_ball: bool = False
+    detail: str = ""
+    """How to make it again, where the chain alone does not say it: behind the labels of proofs that use it."""
 
     @property
     def right(self) -> Fraction:

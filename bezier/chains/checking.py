@@ -10,6 +10,7 @@ from fractions import Fraction
 import qe
 from bezier.chains.chain import Chain, objective_form, requirements
 from bezier.chains.form import Form
+from bezier.chains.limits import LENGTH, keeps_limits, stated_chords
 from bezier.chains.proof import names_of, polynomial
 from bezier.chains.repair import changed
 from qe.errors import CertificateRejected, QEError
@@ -30,7 +31,8 @@ def checked(chain: Chain, certificate: Certificate) -> list[str]:
     members = certificate.payload if isinstance(certificate.payload, tuple) else ()
     if not members:
         raise CertificateRejected("bundle", "expected a bundle")
-    conflict = {part for m in members if m.label == EXCLUDE for part in _claimed(chain, m, _labels(chain))}
+    first = [m for m in members if m.label.partition(" with ")[0] == EXCLUDE]
+    conflict = {part for m in first for part in _claimed(chain, m, _labels(chain))}
     for member in members:
         try:
             _examine(chain, member, conflict)
@@ -44,28 +46,55 @@ def checked(chain: Chain, certificate: Certificate) -> list[str]:
 
 def _examine(chain: Chain, member: Labelled, conflict: Collection[Formula]) -> None:
     """Whether the sentence of a member is the one that its label announces."""
-    claim, _, change = member.label.partition(" with ")
-    if change.endswith(" free"):
-        chain = replace(chain, free_via=chain.point_names.index(change.removesuffix(" free")))
-    elif change:
-        name, _, value = change.partition(" = ")
-        chain = changed(chain, name, [Fraction(part) for part in value.split(", ")])
+    claim, *changes = member.label.split(" with ")
+    for change in changes:
+        chain = _changed(chain, change)
+    chords = "".join(change.removeprefix("chords ") for change in changes if change.startswith("chords "))
     known = _labels(chain)
-    said = set(_claimed(chain, member, known))
     everything = set(known.values())
+    if chords and chain.solved is not None:
+        known[LENGTH] = _atom(chain, stated_chords(chain, chain.solved, chords).form, Relation.LE)
+    said = set(_claimed(chain, member, known))
     if claim.startswith(LEAST):
         below = _value(chain, claim.removeprefix(LEAST), Relation.LT)
-        _is(member, below in said <= everything | {below}, FALSE)
+        _is(member, below in said and said <= {*known.values(), below}, FALSE)
     elif claim.startswith(MOST):
         _is(member, said == everything | {_value(chain, claim.removeprefix(MOST), Relation.LE)}, TRUE)
+        _keeps_limits(chain, member)
     elif claim in (EXCLUDE, IMPOSSIBLE):
-        _is(member, said <= everything, FALSE)
+        _is(member, said <= set(known.values()), FALSE)
     elif claim == POSSIBLE:
         _is(member, said == everything, TRUE)
+        _keeps_limits(chain, member)
+    elif claim.startswith(WITHOUT) and claim.removeprefix(WITHOUT) == LENGTH:
+        _is(member, bool(conflict) and said >= set(conflict) & everything, TRUE)
     elif claim.startswith(WITHOUT):
         _is(member, bool(conflict) and said >= set(conflict) - {known[claim.removeprefix(WITHOUT)]}, TRUE)
     else:
         raise CertificateRejected(member.label, "no claim about a chain")
+
+
+def _changed(chain: Chain, change: str) -> Chain:
+    if change.startswith("chords "):
+        return chain
+    if change.endswith(" free"):
+        return replace(chain, free_via=chain.point_names.index(change.removesuffix(" free")))
+    name, _, value = change.partition(" = ")
+    if name == "durations" and chain.free_total is None:
+        raise ValueError("durations are given")
+    return changed(chain, name, [Fraction(part) for part in value.split(", ")])
+
+
+def _keeps_limits(chain: Chain, member: Labelled) -> None:
+    """Whether the curves of a witness keep the bounds of length and curvature, by exact enclosures."""
+    solved = chain.solved
+    if solved is None or (chain.max_length is None and chain.max_curvature is None):
+        return
+    flat = [Fraction(text) for text in member.certificate.evidence_for("instance")["values"]]
+    d = chain.dimension
+    points = [tuple(flat[i : i + d]) for i in range(0, len(flat), d)]
+    if broken := keeps_limits(chain, solved.curves(points)):
+        raise CertificateRejected(member.label, broken)
 
 
 def _is(member: Labelled, fits: bool, answer: Formula) -> None:

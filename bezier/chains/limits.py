@@ -1,10 +1,10 @@
 """Chains whose length or curvature is bounded: floating point looks for one, and exact enclosures prove it for all t.
 
 LENGTH. A curve is at most as long as the polygons of its parts, and |a| <= |a|²/(2 l) + l/2 for every l > 0, with
-equality for l = |a|: so sum |a|²/(2 l) + l/2 <= L over the legs is a convex condition that keeps the length within L, and
+equality for l = |a|: so sum |a|²/(2 l) + l/2 <= L over the legs is a convex condition that keeps the length within L;
 choosing l anew (majorisation; Hunter, Lange, The American Statistician 58, 2004) leads to the optimum under the length
-of the polygon. A curve is at least as long as its chords: sum u . chord <= L is necessary for all |u| <= 1, a half-space,
-which takes part in the bound from below and in contradictions.
+of the polygon. A curve is at least as long as its chords: sum u . chord <= L is necessary for all |u| <= 1, a
+half-space, which takes part in the bound from below and in contradictions.
 
 CURVATURE has no convex condition: it is linearised again and again near the last chain (sequential convex programming).
 Chains without that bound are more, so that their bound from below holds, too.
@@ -16,6 +16,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise
 from math import comb
 from typing import Any
 
@@ -30,11 +31,13 @@ from qe.errors import Unable
 _ZERO, _ONE, _HALF = Fraction(0), Fraction(1), Fraction(1, 2)
 LENGTH = "length"
 """The label of the half-space that a bound on the length implies."""
+CHORDS = " with chords "
+"""In labels: the directions follow, from which that half-space is made."""
 DEPTH = 3
 """A curve is halved so often."""
-_ROUNDS, _STEPS, _PLACES = 12, 40, 10**6
+_ROUNDS, _STEPS, _PLACES = 12, 60, 10**6
 _INSIDE = Fraction(1, 10**9)
-_SAMPLES = tuple(k / 12 for k in range(13))
+_COARSE, _FINE = 12, 240
 
 
 def keeps_limits(chain: Chain, curves: Sequence[Bezier]) -> str:
@@ -51,7 +54,9 @@ def keeps_limits(chain: Chain, curves: Sequence[Bezier]) -> str:
     return ""
 
 
-def best_within(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best | Contradiction:
+def best_within(
+    chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]
+) -> Best | Contradiction:
     """The best chain that is seen to keep the bounds, with a proved bound from below; or a proof that none is short
     enough. Raises ``Unable``."""
     free = best(chain, solved, rows, inside)
@@ -60,9 +65,10 @@ def best_within(chain: Chain, solved: Solved, rows: Sequence[Requirement], insid
     inner, outer, point = list(rows), list(rows), free.free
     if chain.max_length is not None:
         shortest = _shortest(chain, solved, rows, point)
-        cut = chord_condition(chain, solved, directions(solved, shortest))
-        if isinstance(none := _decided(chain, solved, [*rows, cut]), Contradiction):
-            return none
+        for along in (_straight(chain), directions(solved, shortest)):
+            cut = chord_condition(chain, solved, along)
+            if isinstance(none := _decided(chain, solved, [*rows, cut]), Contradiction):
+                return none
         inner, point = _short_enough(chain, solved, rows, shortest)
         outer.append(chord_condition(chain, solved, directions(solved, point)))
     if chain.max_curvature is not None:
@@ -74,7 +80,7 @@ def best_within(chain: Chain, solved: Solved, rows: Sequence[Requirement], insid
     for weights in rational_weights(proposal.weights) if proposal is not None else ():
         named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
         try:
-            return _with_chords(bounded(chain, solved, outer, point, named, _ONE), directions(solved, point), named)
+            return bounded(chain, solved, outer, point, named, _ONE)
         except Unable:
             continue
     raise Unable("no bound from below was proved")
@@ -111,7 +117,7 @@ def _chords(solved: Solved) -> list[Affine]:
 
 
 def _length(vector: Affine, free: Sequence[Point]) -> float:
-    return max(float(sum(c * c for c in vector.at(free))) ** 0.5, 1e-6)
+    return max(float(sum(c * c for c in vector.at(free))), 1e-12) ** 0.5
 
 
 def _majorant(legs: Sequence[Affine], free: Sequence[Point], most: Fraction) -> Requirement:
@@ -151,13 +157,23 @@ def _short_enough(
     return last
 
 
+def _straight(chain: Chain) -> tuple[Point, ...]:
+    """From corner to corner, for all parts of a curve."""
+    result = []
+    for a, b in pairwise(chain.corners):
+        arrow = tuple(y - x for x, y in zip(a, b, strict=True))
+        result += [_shortened(arrow, float(sum(c * c for c in arrow)) ** 0.5)] * 2**DEPTH
+    return tuple(result)
+
+
+def _shortened(arrow: Point, length: float) -> Point:
+    """Along the arrow, of length at most 1."""
+    return tuple(Fraction(round(float(c) / (length * (1 + 2 / _PLACES)) * _PLACES), _PLACES) for c in arrow)
+
+
 def directions(solved: Solved, free: Sequence[Point]) -> tuple[Point, ...]:
     """Vectors of length at most 1 along the chords."""
-    result = []
-    for chord in _chords(solved):
-        vector, length = chord.at(free), _length(chord, free) * (1 + 1e-6)
-        result.append(tuple(Fraction(round(float(c) / length * 1000), 1000) for c in vector))
-    return tuple(u if sum(c * c for c in u) <= 1 else tuple(c * Fraction(998, 1000) for c in u) for u in result)
+    return tuple(_shortened(chord.at(free), _length(chord, free)) for chord in _chords(solved))
 
 
 def chord_condition(chain: Chain, solved: Solved, along: Sequence[Point]) -> Requirement:
@@ -165,19 +181,8 @@ def chord_condition(chain: Chain, solved: Solved, along: Sequence[Point]) -> Req
     if chain.max_length is None or any(sum(c * c for c in u) > 1 for u in along):
         raise ValueError("vectors of length at most 1 expected, and a bound on the length")
     forms = [(_ONE, linear_form(u, chord)) for u, chord in zip(along, _chords(solved), strict=True)]
-    return Requirement(LENGTH, weighted_sum(forms).shifted(-chain.max_length))
-
-
-def _with_chords(found: Best, along: Sequence[Point], weights: Any) -> Best:
-    """The certificate, with the directions of its half-space in the label of the bound."""
-    from qe.proof.certificate import Certificate, Labelled
-
-    if LENGTH not in weights:
-        return found
     text = "; ".join(" ".join(map(str, u)) for u in along)
-    members = [m for m in found.certificate.payload if isinstance(m, Labelled)]
-    first = (f"{members[0].label} with chords {text}", members[0].certificate)
-    return replace(found, certificate=Certificate.bundle([first, *((m.label, m.certificate) for m in members[1:])]))
+    return Requirement(LENGTH, weighted_sum(forms).shifted(-chain.max_length), detail=f"{CHORDS}{text}")
 
 
 def stated_chords(chain: Chain, solved: Solved, text: str) -> Requirement:
@@ -191,12 +196,12 @@ def stated_chords(chain: Chain, solved: Solved, text: str) -> Requirement:
 def _bent_less(
     chain: Chain, solved: Solved, rows: Sequence[Requirement], start: tuple[Point, ...]
 ) -> tuple[Point, ...]:
-    """A chain that samples show to be within the bound of the curvature. Raises ``Unable``."""
-    objective, size, point, kept = objective_form(chain, solved), solved.size, start, None
+    """A chain within the bounds, the best of those that were seen. Raises ``Unable``."""
+    objective, size, point, kept = objective_form(chain, solved), solved.size, start, list[tuple[Point, ...]]()
     most = float(chain.max_curvature or 0) * (1 - 1e-5)
     unit = max(abs(float(c)) for p in chain.points for c in p)
     varying = [replace(r, form=r.form.shifted(_INSIDE * abs(r.right))) for r in rows if not r.form.is_constant]
-    reach = unit / 2
+    reach = unit / 10
     for _ in range(_STEPS):
         near = [_near(i, u, Fraction(reach).limit_denominator(_PLACES)) for i, u in enumerate(point)]
         bent = [*varying, *_linearised(chain, solved, point, most), *near]
@@ -206,10 +211,12 @@ def _bent_less(
         if proposal is None:
             break
         other = rounded_point(chain, proposal.point, 50)
-        better, worse = _worst(solved, other), _worst(solved, point)
-        if better <= most and all(row.form.value(other) <= 0 for row in rows):
-            if kept is None or objective.value(other) < objective.value(kept):
-                kept = other
+        better, worse = _excess(solved, other, most), _excess(solved, point, most)
+        if not better and all(row.form.value(other) <= 0 for row in rows):
+            if kept and objective.value(other) >= objective.value(kept[-1]):
+                reach /= 2
+            elif not keeps_limits(chain, solved.curves(other)):
+                kept.append(other)
             point = other
         elif better < worse:
             point = other
@@ -217,9 +224,9 @@ def _bent_less(
             reach /= 2
         if reach < 1e-4 * unit:
             break
-    if kept is None:
+    if not kept:
         raise Unable(f"no chain with a curvature within {chain.max_curvature} was seen")
-    return kept
+    return kept[-1]
 
 
 def _near(i: int, at: Point, reach: Fraction) -> Requirement:
@@ -227,16 +234,19 @@ def _near(i: int, at: Point, reach: Fraction) -> Requirement:
     return Requirement(f"near {i}", squared_length(away).shifted(-(reach**2)), ((_ONE, away),))
 
 
-def _bends(points: Any, t: float, sign: float) -> tuple[float, float]:
-    """|v|³ and the area of v and a, in the plane signed, at t."""
+def _bends(points: Any, t: Any) -> tuple[Any, Any]:
+    """|v|³ and the area of v and a at these t, in the plane signed."""
     import numpy as np
 
     d = len(points) - 1
-    first, second = np.diff(points, axis=0) * d, np.diff(points, 2, axis=0) * d * (d - 1)
-    v, a = (sum(comb(len(b) - 1, k) * t**k * (1 - t) ** (len(b) - 1 - k) * b[k] for k in range(len(b))) for b in (first, second))
-    if points.shape[1] == 2:
-        return float(np.linalg.norm(v) ** 3), float(sign * (v[0] * a[1] - v[1] * a[0]))
-    return float(np.linalg.norm(v) ** 3), float(np.linalg.norm(np.cross(v, a)))
+    v, a = (_values(np.diff(points, k, axis=0) * scale, t) for k, scale in ((1, d), (2, d * (d - 1))))
+    areas = v[:, 0] * a[:, 1] - v[:, 1] * a[:, 0] if points.shape[1] == 2 else np.linalg.norm(np.cross(v, a), axis=1)
+    return np.linalg.norm(v, axis=1) ** 3, areas
+
+
+def _values(points: Any, t: Any) -> Any:
+    d = len(points) - 1
+    return sum(comb(d, k) * (t**k * (1 - t) ** (d - k))[:, None] * points[k] for k in range(d + 1))
 
 
 def _floats(solved: Solved, free: Sequence[Point]) -> list[Any]:
@@ -245,9 +255,17 @@ def _floats(solved: Solved, free: Sequence[Point]) -> list[Any]:
     return [np.array([[float(c) for c in p.at(free)] for p in piece]) for piece in solved.controls]
 
 
-def _worst(solved: Solved, free: Sequence[Point]) -> float:
-    values = [_bends(p, t / 40, s) for p in _floats(solved, free) for t in range(41) for s in (1, -1)]
-    return max(area / max(cube, 1e-12) for cube, area in values)
+def _curvatures(points: Any) -> tuple[Any, Any]:
+    import numpy as np
+
+    t = np.linspace(0, 1, _FINE + 1)
+    cubes, areas = _bends(points, t)
+    return t, np.abs(areas) / np.maximum(cubes, 1e-12)
+
+
+def _excess(solved: Solved, free: Sequence[Point], most: float) -> float:
+    """By how much the curvatures of the curves are too large at samples, in all."""
+    return sum(max(0.0, float(_curvatures(points)[1].max()) - most) for points in _floats(solved, free))
 
 
 def _linearised(chain: Chain, solved: Solved, free: Sequence[Point], most: float) -> Iterator[Requirement]:
@@ -255,20 +273,21 @@ def _linearised(chain: Chain, solved: Solved, free: Sequence[Point], most: float
     import numpy as np
 
     for k, points in enumerate(_floats(solved, free)):
-        step = 1e-6 * (np.ptp(points) or 1.0)
-        for t, sign in ((t, s) for t in _SAMPLES for s in ((1, -1) if chain.dimension == 2 else (1,))):
-            cube, area = _bends(points, t, sign)
-            value, slope = most * cube - area, np.zeros_like(points)
-            if value > 2 * most * cube and sign < 0:
-                continue
-            for place in np.ndindex(points.shape):
-                moved = points.copy()
-                moved[place] += step
-                above, side = _bends(moved, t, sign)
-                slope[place] = (most * above - side - value) / step
+        fine, bends = _curvatures(points)
+        t = np.unique(np.append(np.linspace(0, 1, _COARSE + 1), fine[bends.argmax()]))
+        step = 1e-6 * float(np.ptp(points) or 1.0)
+        cubes, areas = _bends(points, t)
+        slopes = np.zeros((2, len(t), *points.shape))
+        for place in np.ndindex(points.shape):
+            moved = points.copy()
+            moved[place] += step
+            above, side = _bends(moved, t)
+            slopes[0][:, *place], slopes[1][:, *place] = (above - cubes) / step, (side - areas) / step
+        for i, sign in ((i, s) for i in range(len(t)) for s in ((1, -1) if chain.dimension == 2 else (1,))):
+            value, slope = most * cubes[i] - sign * areas[i], most * slopes[0][i] - sign * slopes[1][i]
             scale = 1 / max(float(np.linalg.norm(slope)), 1e-9)
             constant = Fraction(float((slope * points).sum() - value) * scale)
             normals = [tuple(Fraction(float(-c) * scale) for c in row) for row in slope]
             forms = [(_ONE, linear_form(n, p)) for n, p in zip(normals, solved.controls[k], strict=True)]
             if not (form := weighted_sum(forms).shifted(constant)).is_constant:
-                yield Requirement(f"bend of C{k + 1} at {t:.3f}, {sign}", form)
+                yield Requirement(f"bend of C{k + 1} at {t[i]:.3f}, {sign}", form)

@@ -8,10 +8,11 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.chains.chain import Chain, Requirement, Solved, requirements
-from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
-from bezier.chains.limits import LENGTH, best_within
-from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
 from bezier.chains.form import Point
+from bezier.chains.limits import best_within
+from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
+from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
+from bezier.chains.timing import timed
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described
 from qe.errors import Unable
@@ -25,6 +26,9 @@ class Conflict:
     conditions: tuple[str, ...]
     smallest: bool
     certificate: Certificate
+
+    def __str__(self) -> str:
+        return f"{', '.join(self.conditions)} {'exclude each other' if len(self.conditions) > 1 else 'excludes it'}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +46,8 @@ class ChainPlan:
     conflict: Conflict | None = None
     repair: Repair | None = None
     repairs: tuple[Repair, ...] = ()
+    searched: bool = False
+    """Whether the durations were free: all that is proved holds for those that a search picked."""
 
     @property
     def feasible(self) -> bool:
@@ -60,9 +66,7 @@ class ChainPlan:
     def with_repairs(self) -> ChainPlan:
         """The same with all ``repairs`` that are known: the radius, the point that has to move least, one duration of a
         curve that the conflict names."""
-        if self.conflict is None:
-            return self
-        if LENGTH in self.conflict.conditions:
+        if self.conflict is None or _is_bounded(self.chain):
             return self
         pieces = sorted({int(label[1 : label.index(".")]) - 1 for label in self.conflict.conditions})
         listed = (self.repair, nearest_point(self.chain), nearest_duration(self.chain, pieces))
@@ -71,23 +75,29 @@ class ChainPlan:
     @property
     def proof(self) -> Certificate:
         """All certificates as one: the optimum, or the contradiction, the conflict and the repairs."""
-        if self.conflict is None:
-            return self.certificate
-        proofs = [
-            self.conflict.certificate,
-            *(repair.certificate for repair in self.repairs or (self.repair,) if repair),
-        ]
+        proofs = [self.certificate] if self.conflict is None else [self.conflict.certificate]
+        proofs += [repair.certificate for repair in self.repairs or (self.repair,) if repair]
         members = [m for proof in proofs for m in proof.payload if isinstance(m, Labelled)]
-        return Certificate.bundle([(m.label, m.certificate) for m in members])
+        return Certificate.bundle([(self._labelled(m.label), m.certificate) for m in members])
+
+    def _labelled(self, label: str) -> str:
+        """With the durations that a search picked, which the file does not say."""
+        claim, joined, change = label.partition(" with ")
+        times = f" with durations = {', '.join(map(str, self.chain.times))}" if self.searched else ""
+        return f"{claim}{times}{joined}{change}"
 
     @property
     def lines(self) -> list[str]:
         """What is said, a line for each."""
+        picked = [f"durations that a search picked: {', '.join(map(str, self.chain.times))}"] if self.searched else []
         if self.conflict is None:
-            return [str(self)]
-        why = f"no chain: {', '.join(self.conflict.conditions)} exclude each other"
-        why += ", all of them needed" if self.conflict.smallest else ""
-        return [why, *(f"possible with {repair}" for repair in self.repairs)]
+            return [str(self), *picked]
+        needed = self.conflict.smallest and len(self.conflict.conditions) > 1
+        return [
+            f"no chain: {self.conflict}{', all of them needed' if needed else ''}",
+            *picked,
+            *(f"possible with {repair}" for repair in self.repairs),
+        ]
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""
@@ -123,12 +133,14 @@ class ChainPlan:
         if self.value is not None:
             return f"{len(self.curves)} curves, objective {float(self.value):.12g}, proved to {self.accuracy}"
         assert self.conflict is not None
-        why = f"no chain: {', '.join(self.conflict.conditions)} exclude each other"
+        why = f"no chain: {self.conflict}"
         return why if self.repair is None else f"{why}; with radius {float(self.repair.radius):.10g} there is one"
 
 
 def planned(given: Chain) -> ChainPlan:
     """The best chain, or why there is none. Raises ``Unable``."""
+    if given.free_total is not None:
+        return replace(planned(timed(given)), searched=True)
     solved = given.solved
     if solved is None:
         raise Unable("the joins and the ends leave no chain: their equations contradict each other")
@@ -138,15 +150,17 @@ def planned(given: Chain) -> ChainPlan:
     if isinstance(found, Best):
         return ChainPlan(given, solved.curves(found.free), found.value, found.bound, found.certificate)
     conflict = smallest_conflict(given, solved, found)
-    if LENGTH in conflict.conditions:
+    if _is_bounded(given):  # a repair would have to keep the bounds, too
         return ChainPlan(given, (), None, None, found.certificate, conflict)
     return ChainPlan(given, (), None, None, found.certificate, conflict, least_radius(given, solved, rows))
 
 
 def _best(given: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best | Contradiction:
-    if given.max_length is None and given.max_curvature is None:
-        return best(given, solved, rows, inside)
-    return best_within(given, solved, rows, inside)
+    return (best_within if _is_bounded(given) else best)(given, solved, rows, inside)
+
+
+def _is_bounded(given: Chain) -> bool:
+    return given.max_length is not None or given.max_curvature is not None
 
 
 def smallest_conflict(given: Chain, solved: Solved, known: Contradiction) -> Conflict:
@@ -155,6 +169,8 @@ def smallest_conflict(given: Chain, solved: Solved, known: Contradiction) -> Con
     needed: dict[str, Certificate | None] = {}
     while (row := next((r for r in known.support if r.label not in needed), None)) is not None:
         others = [r for r in known.support if r is not row]
+        if not others:
+            break
         try:
             answer = decided(given, solved, others)
         except Unable:  # the others touch
@@ -165,6 +181,7 @@ def smallest_conflict(given: Chain, solved: Solved, known: Contradiction) -> Con
         else:
             needed[row.label] = feasible(given, solved, others, answer)
     labels = tuple(row.label for row in known.support)
-    proofs = [(f"without {label}", proof) for label in labels if (proof := needed[label]) is not None]
-    proof = Certificate.bundle([("they exclude each other", known.certificate), *proofs])
-    return Conflict(labels, len(proofs) == len(labels), proof)
+    proofs = [(f"without {label}", proof) for label in labels if (proof := needed.get(label)) is not None]
+    detail = next((row.detail for row in known.support if row.detail), "")
+    proof = Certificate.bundle([(f"they exclude each other{detail}", known.certificate), *proofs])
+    return Conflict(labels, len(proofs) == len(labels) or len(labels) == 1, proof)

@@ -184,9 +184,10 @@ def bounded(
         raise Unable("the two sides of the optimum are too far from each other")
     forms = [*(row.form for row in chosen), objective.shifted(-lowest[1])]
     below = _refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
-    reached = [*(row.form for row in rows), objective.shifted(-value)]
+    detail = next((row.detail for row in chosen if row.detail), "")
+    reached = [*(row.form for row in rows if not row.detail), objective.shifted(-value)]
     proofs = [
-        (f"least value at least {lowest[1]}", below),
+        (f"least value at least {lowest[1]}{detail}", below),
         (f"least value at most {value}", _witness(chain, size, reached, free)),
     ]
     used = {row.label: weights[row.label] for row in chosen}

@@ -21,6 +21,7 @@ KEYS = (
     "degree",
     "continuity",
     "durations",
+    "total",
     "ends",
     "closed",
     "objective",
@@ -41,17 +42,21 @@ def read_chain(table: Table) -> Chain:
     centre = (
         table.as_point("centre", table.values["centre"], size) if "centre" in table.values else (Fraction(0),) * size
     )
+    free = table.values.get("durations") == "free"
+    if "total" in table.values and not free:
+        raise table.error("total", 'this key with durations = "free" only', describe(table.values["total"]))
     return Chain(
         points,
         _whole(table, "degree", 3),
         _whole(table, "continuity", 2),
-        _durations(table),
+        () if free else _durations(table),
         table.choice("ends", Ends, Ends.FREE),
         closed,
         table.choice("objective", Objective, Objective.LEGS),
         centre,
         _radius_squared(table),
         tuple(_half_space(entry, size) for entry in table.tables("half_space")),
+        free_total=table.positive("total", Fraction(len(points) - (not closed))) if free else None,
         max_length=table.positive("max_length") if "max_length" in table.values else None,
         max_curvature=table.positive("max_curvature") if "max_curvature" in table.values else None,
     )
@@ -87,7 +92,7 @@ def _whole(table: Table, key: str, usual: int) -> int:
 def _durations(table: Table) -> tuple[Fraction, ...]:
     raw = table.values.get("durations", [])
     if not isinstance(raw, list):
-        raise table.error("durations", "a list of numbers, the seconds of each curve", describe(raw))
+        raise table.error("durations", 'a list of numbers, the seconds of each curve, or "free"', describe(raw))
     if any(isinstance(entry, list) for entry in raw):
         raise table.error("durations", "a list of numbers", "a list in it")
     durations = table.as_point("durations", raw, len(raw))

@@ -50,6 +50,8 @@ def changed(chain: Chain, change: str, value: Sequence[Fraction]) -> Chain:
     """The chain with this radius, point or duration. Raises ``InputError`` or ``ValueError`` for what is none."""
     if change == "radius":
         return replace(chain, radius_squared=value[0] ** 2)
+    if change == "durations":
+        return replace(chain, durations=tuple(value), free_total=None)
     if matched := re.fullmatch(r"durations\[(\d+)\]", change):
         times = list(chain.times)
         times[int(matched[1])] = value[0]

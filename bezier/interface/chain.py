@@ -38,6 +38,7 @@ def chain(
     degree: object = 3,
     continuity: object = 2,
     durations: object = (),
+    total: object = None,
     ends: object = "free",
     closed: bool = False,
     objective: object = "legs",
@@ -50,13 +51,15 @@ def chain(
     """The best chain of Bézier curves from ``start`` over all ``via`` points to ``goal`` (closed: back to the start).
 
     Degree 2 with continuity 1, degree 3 with 1 or 2, degree 5 with 2, in time: ``durations`` (s) of the curves, 1 each
-    without them. Every control point, hence every curve, lies in the ball of this ``radius`` about ``centre`` (the
-    origin), in mm, and in all ``half_spaces`` (mappings with ``normal`` and ``offset``, or pairs: normal . p >=
-    offset). ``ends``: "free", or "zero" for rest.
+    without them, or "free": a search picks some with the sum ``total`` (as many seconds as curves without it). Every
+    control point, hence every curve, lies in the ball of this ``radius`` about ``centre`` (the origin), in mm, and in
+    all ``half_spaces`` (mappings with ``normal`` and ``offset``, or pairs: normal . p >= offset). ``ends``: "free", or
+    "zero" for rest.
     ``objective``: "legs" (sum of the squared legs of all control polygons, mm²), "middle legs" (those between via
-    points, as in (7)), "acceleration", "jerk", "snap" (integrals of their squares over time). Numbers are exact, as for
-    ``bezier.plan``. ``max_length`` (mm, of all curves together) and ``max_curvature`` (1/mm) hold for all t; the bound
-    from below is then one for chains with a necessary half-space instead, which ``accuracy`` shows. The arguments are the keys of a file of ``bezier chain``.
+    points, as in (7)), "acceleration", "jerk", "snap" (integrals of their squares over time). ``max_length`` (mm, of
+    all curves together) and ``max_curvature`` (1/mm) hold for all t; the bound from below is then one for chains with a
+    necessary half-space in their place (``accuracy``). Numbers are exact, as for ``bezier.plan``; the arguments are the
+    keys of a file of ``bezier chain``.
 
     Floating point proposes, rational numbers prove. Raises ``InputError`` naming the argument, ``BudgetExceeded`` at a
     limit, and ``Unable`` where neither a chain nor a contradiction could be proved, or no optimum (conditions that
@@ -72,6 +75,7 @@ def chain(
         "degree": degree,
         "continuity": continuity,
         "durations": durations,
+        "total": total,
         "ends": ends,
         "closed": closed,
         "objective": objective,
