@@ -23,7 +23,16 @@ from typing import Any
 from bezier.chains import proposals
 from bezier.chains.chain import Chain, Requirement, Solved, objective_form
 from bezier.chains.form import Affine, Point, affine_sum, linear_form, squared_length, weighted_sum
-from bezier.chains.proof import Best, Contradiction, best, bounded, decided, rational_weights, rounded_point
+from bezier.chains.proof import (
+    Best,
+    Contradiction,
+    best,
+    bounded,
+    contradiction,
+    decided,
+    rational_weights,
+    rounded_point,
+)
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import curvature_enclosure, length_enclosure
 from qe.errors import Unable
@@ -64,12 +73,12 @@ def best_within(
         return free
     inner, outer, point = list(rows), list(rows), free.free
     if chain.max_length is not None:
-        shortest = _shortest(chain, solved, rows, point)
-        for along in (_straight(chain), directions(solved, shortest)):
+        least = _shortest(chain, solved, rows, point, _chords(solved))
+        for along in (_straight(chain), directions(solved, least)):
             cut = chord_condition(chain, solved, along)
-            if isinstance(none := _decided(chain, solved, [*rows, cut]), Contradiction):
+            if (none := _too_long(chain, solved, rows, cut)) is not None:
                 return none
-        inner, point = _short_enough(chain, solved, rows, shortest)
+        inner, point = _short_enough(chain, solved, rows, _shortest(chain, solved, rows, point, _legs(solved)))
         outer.append(chord_condition(chain, solved, directions(solved, point)))
     if chain.max_curvature is not None:
         point = _bent_less(chain, solved, inner, point)
@@ -84,6 +93,21 @@ def best_within(
         except Unable:
             continue
     raise Unable("no bound from below was proved")
+
+
+def _too_long(chain: Chain, solved: Solved, rows: Sequence[Requirement], cut: Requirement) -> Contradiction | None:
+    """That the half-space excludes every chain: near the shortest one it hardly varies, and small multipliers of the
+    balls hold the points that it leaves nearly free."""
+    if isinstance(none := _decided(chain, solved, [*rows, cut]), Contradiction):
+        return none
+    support = [cut, *(row for row in rows if row.is_ball and not row.form.is_constant)]
+    for share in (Fraction(1, 10**k) for k in range(2, 10)):
+        try:
+            weights = {row.label: _ONE if row is cut else share / (row.right * len(support)) for row in support}
+            return contradiction(chain, solved.size, weights, support)
+        except Unable:
+            continue
+    return None
 
 
 def _decided(chain: Chain, solved: Solved, rows: Sequence[Requirement]) -> Any:
@@ -128,9 +152,11 @@ def _majorant(legs: Sequence[Affine], free: Sequence[Point], most: Fraction) -> 
     return Requirement("length of the polygon", form, squares)
 
 
-def _shortest(chain: Chain, solved: Solved, rows: Sequence[Requirement], point: Sequence[Point]) -> tuple[Point, ...]:
-    """Nearly the shortest chain, in floating point."""
-    legs, varying, near = _legs(solved), [row for row in rows if not row.form.is_constant], tuple(point)
+def _shortest(
+    chain: Chain, solved: Solved, rows: Sequence[Requirement], point: Sequence[Point], legs: Sequence[Affine]
+) -> tuple[Point, ...]:
+    """Where these vectors are nearly shortest in all, in floating point."""
+    varying, near = [row for row in rows if not row.form.is_constant], tuple(point)
     for _ in range(_ROUNDS):
         proposal = proposals.least_value(chain, solved.size, varying, _majorant(legs, near, _ZERO).form)
         if proposal is None:

@@ -8,13 +8,14 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.chains.chain import Chain, Requirement, Solved, requirements
+from bezier.chains.exact import Exact, exactly
 from bezier.chains.form import Point
 from bezier.chains.limits import best_within
 from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
 from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
 from bezier.chains.timing import timed
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import described
+from bezier.curves.scalar import described, exact_text
 from qe.errors import Unable
 from qe.proof.certificate import Certificate, Labelled
 
@@ -46,6 +47,8 @@ class ChainPlan:
     conflict: Conflict | None = None
     repair: Repair | None = None
     repairs: tuple[Repair, ...] = ()
+    exact: Exact | None = None
+    """The optimum itself, where at most two conditions are active."""
     searched: bool = False
     """Whether the durations were free: all that is proved holds for those that a search picked."""
 
@@ -91,7 +94,8 @@ class ChainPlan:
         """What is said, a line for each."""
         picked = [f"durations that a search picked: {', '.join(map(str, self.chain.times))}"] if self.searched else []
         if self.conflict is None:
-            return [str(self), *picked]
+            exact = [] if self.exact is None else [f"exactly {exact_text(self.exact.value)}"]
+            return [str(self), *exact, *picked]
         needed = self.conflict.smallest and len(self.conflict.conditions) > 1
         return [
             f"no chain: {self.conflict}{', all of them needed' if needed else ''}",
@@ -105,6 +109,7 @@ class ChainPlan:
         if self.value is not None and self.bound is not None:
             data["objective"] = {"kind": self.chain.objective.value, "value": described(self.value)}
             data["objective"]["bound"] = described(self.bound)
+            data["objective"]["exact"] = None if self.exact is None else described(self.exact.value)
         if self.feasible:
             data["durations"] = [str(t) for t in self.chain.times]
             data["curves"] = [[[described(c) for c in p] for p in curve.points] for curve in self.curves]
@@ -148,7 +153,8 @@ def planned(given: Chain) -> ChainPlan:
     inside = decided(given, solved, rows)
     found = inside if isinstance(inside, Contradiction) else _best(given, solved, rows, inside)
     if isinstance(found, Best):
-        return ChainPlan(given, solved.curves(found.free), found.value, found.bound, found.certificate)
+        curves, exact = solved.curves(found.free), None if _is_bounded(given) else exactly(given, solved, rows, found)
+        return ChainPlan(given, curves, found.value, found.bound, found.certificate, exact=exact)
     conflict = smallest_conflict(given, solved, found)
     if _is_bounded(given):  # a repair would have to keep the bounds, too
         return ChainPlan(given, (), None, None, found.certificate, conflict)
