@@ -9,23 +9,38 @@ import qe
 from bezier.chains.checking import checked
 from bezier.chains.plan import planned
 from bezier.chains.reader import load_chain
+from bezier.curves.scalar import described
 from bezier.input import stored
 from qe.errors import InputError
 from qe.processes.channel import Channel
 
 
 def run(
-    channel: Channel, file: Path, *, evidence: bool = False, page: Path | None = None, as_json: bool = False
+    channel: Channel,
+    file: Path,
+    *,
+    evidence: bool = False,
+    page: Path | None = None,
+    region: str | None = None,
+    as_json: bool = False,
 ) -> tuple[str, str, bool]:
     """What to print, the certificate's text where there is ``evidence`` wanted, and whether there is a chain."""
     made = planned(load_chain(file)).with_repairs()
+    data, lines = made.to_json(), made.lines
+    shown = None if region is None else made.region(region)
+    if shown is not None:
+        data["region"], lines = shown.to_json(), [*lines, str(shown)]
+        if made.feasible and shown.name in made.chain.point_names:
+            radius = made.validity(shown.name)
+            data["region"]["may move by"] = [described(radius.low), described(radius.high)]
+            lines.append(str(radius))
     if page is not None:
         try:
-            page.write_text(made.page(file.name), encoding="utf-8")
+            page.write_text(made.page(file.name, shown), encoding="utf-8")
         except OSError as error:
             raise InputError(f"--page {page}: expected a writable file, found: {error.strerror}") from None
     proof = made.proof.to_json() if evidence else ""
-    text = json.dumps(made.to_json(), indent=1, ensure_ascii=False) if as_json else "\n".join(made.lines)
+    text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
     return text, proof, made.feasible
 
 

@@ -58,5 +58,5 @@ def exactly(chain: Chain, solved: Solved, rows: Sequence[Requirement], found: Be
     certificate = optimum_certificate(whole)
     if not qe.verify(certificate).accepted:  # another condition is broken there
         return None
-    point = [tuple(evidence.point[i : i + d]) for i in range(0, size * d, d)]
+    point: Any = [tuple(evidence.point[i : i + d]) for i in range(0, size * d, d)]
     return Exact(objective.value(evidence.point), solved.curves(point), certificate)

@@ -141,7 +141,8 @@ def _chords(solved: Solved) -> list[Affine]:
 
 
 def _length(vector: Affine, free: Sequence[Point]) -> float:
-    return max(float(sum(c * c for c in vector.at(free))), 1e-12) ** 0.5
+    square = float(sum(c * c for c in vector.at(free)))
+    return float(max(square, 1e-12) ** 0.5)
 
 
 def _majorant(legs: Sequence[Affine], free: Sequence[Point], most: Fraction) -> Requirement:

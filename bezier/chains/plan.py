@@ -12,12 +12,17 @@ from bezier.chains.exact import Exact, exactly
 from bezier.chains.form import Point
 from bezier.chains.limits import best_within
 from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
+from bezier.chains.region import Region, Validity, region, validity
 from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
 from bezier.chains.timing import timed
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described, exact_text
 from qe.errors import Unable
 from qe.proof.certificate import Certificate, Labelled
+
+
+LONG = 100
+"""Characters of an exact value that is printed; JSON has them all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,13 +100,24 @@ class ChainPlan:
         picked = [f"durations that a search picked: {', '.join(map(str, self.chain.times))}"] if self.searched else []
         if self.conflict is None:
             exact = [] if self.exact is None else [f"exactly {exact_text(self.exact.value)}"]
-            return [str(self), *exact, *picked]
+            return [str(self), *(line for line in exact if len(line) < LONG), *picked]
         needed = self.conflict.smallest and len(self.conflict.conditions) > 1
         return [
             f"no chain: {self.conflict}{', all of them needed' if needed else ''}",
             *picked,
             *(f"possible with {repair}" for repair in self.repairs),
         ]
+
+    def region(self, name: str, accuracy: Fraction | None = None) -> Region:
+        """Where a given point ("start", "via[0]", "goal"; the others as they are) or a control point ("C2.1") may be:
+        polytopes inside and outside, the gap of their sizes at most ``accuracy`` (0.001 in the plane, 0.05 in space).
+        Raises ``InputError``, ``Unable``."""
+        return region(self.chain, name, accuracy)
+
+    def validity(self, name: str) -> Validity:
+        """By how much a given point may move before there is no chain, from both sides. Raises ``InputError``,
+        ``Unable``."""
+        return validity(self.chain, name)
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""
@@ -121,8 +137,9 @@ class ChainPlan:
             ]
         return data
 
-    def page(self, title: str = "chain") -> str:
-        """An HTML page with pictures of the chain, or of the points that have none, in its ball and half-spaces."""
+    def page(self, title: str = "chain", shown: Region | None = None) -> str:
+        """An HTML page with pictures of the chain, or of the points that have none, in its ball and half-spaces; in the
+        plane with a region below."""
         from bezier.report.chain import page
         from bezier.report.html import Card, document, tone
 
@@ -132,7 +149,8 @@ class ChainPlan:
                 Card(self.chain.objective.value, f"{float(self.value):.10g}", note=f"least, to {self.accuracy}")
             )
         cards += [Card(f"possible with {r.change}", str(r).partition(" = ")[2]) for r in self.repairs]
-        return document(page(self.chain, self.curves, self.lines, title, cards))
+        lines = self.lines if shown is None else [*self.lines, str(shown)]
+        return document(page(self.chain, self.curves, lines, title, cards, shown))
 
     def __str__(self) -> str:
         if self.value is not None:

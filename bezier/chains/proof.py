@@ -104,13 +104,13 @@ def contradiction(
     if lowest is None or lowest[1] <= 0 or any(weights[row.label] < 0 for row in rows):
         raise Unable("these multipliers contradict nothing")
     forms = [row.form for row in rows]
-    return Contradiction(tuple(rows), _refuted(chain, size, forms, [weights[r.label] for r in rows], lowest[0]))
+    return Contradiction(tuple(rows), refuted(chain, size, forms, [weights[r.label] for r in rows], lowest[0]))
 
 
-def _refuted(
+def refuted(
     chain: Chain, size: int, forms: Sequence[Form], weights: Sequence[Fraction], at: Sequence[Point], *, strict: int = 0
 ) -> Certificate:
-    """That the forms are not all <= 0 (the last ``strict`` ones: < 0) anywhere."""
+    """That the forms, with these weights least at ``at``, are not all <= 0 (the last ``strict`` ones: < 0) anywhere."""
     relations = (FormRelation.LE,) * (len(forms) - strict) + (FormRelation.LT,) * strict
     system = ConvexSystem(names_of(chain, size), *_objective_and(chain, size, forms), relations)
     flat = tuple(c for p in at for c in p)
@@ -183,12 +183,12 @@ def bounded(
     if lowest is None or value - lowest[1] > gap * abs(value):
         raise Unable("the two sides of the optimum are too far from each other")
     forms = [*(row.form for row in chosen), objective.shifted(-lowest[1])]
-    below = _refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
+    below = refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
     detail = next((row.detail for row in chosen if row.detail), "")
     reached = [*(row.form for row in rows if not row.detail), objective.shifted(-value)]
     proofs = [
         (f"least value at least {lowest[1]}{detail}", below),
-        (f"least value at most {value}", _witness(chain, size, reached, free)),
+        (f"least value at most {value}", witness(chain, size, reached, free)),
     ]
     used = {row.label: weights[row.label] for row in chosen}
     return Best(tuple(free), value, lowest[1], used, Certificate.bundle(proofs))
@@ -196,10 +196,11 @@ def bounded(
 
 def feasible(chain: Chain, solved: Solved, rows: Sequence[Requirement], free: Sequence[Point]) -> Certificate:
     """That the free points keep these conditions."""
-    return _witness(chain, solved.size, [row.form for row in rows], free)
+    return witness(chain, solved.size, [row.form for row in rows], free)
 
 
-def _witness(chain: Chain, size: int, forms: Sequence[Form], free: Sequence[Point]) -> Certificate:
+def witness(chain: Chain, size: int, forms: Sequence[Form], free: Sequence[Point]) -> Certificate:
+    """That the forms are all <= 0 at the free points."""
     names = names_of(chain, size)
     ring = Ring.of(names)
     matrix = conj(tuple(atom(polynomial(form, ring, size, chain.dimension), Relation.LE) for form in forms))

@@ -262,6 +262,7 @@ def chain(
     certificate: Evidence = None,
     check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the chain.")] = None,
     page: Annotated[Path | None, typer.Option("--page", help="Write a page with pictures here.")] = None,
+    region: Annotated[str | None, typer.Option("--region", help="Where a point may be: start, via[0], C2.1, …")] = None,
     json: Json = False,
     timeout: Timeout = None,
     memory: Memory = None,
@@ -273,12 +274,13 @@ def chain(
     check_limits(timeout, memory)
     check_writable(certificate)
     if check is not None:
-        if certificate is not None or page is not None:
-            raise InputError("--check: expected no --certificate and no --page with it, found one")
+        if certificate is not None or page is not None or region is not None:
+            raise InputError("--check: expected no --certificate, --page and --region with it, found one")
         work = partial(command.check, file=file, against=check, as_json=json)
         print(limited(work, timeout=timeout, memory=memory, plain=json))
         return OK
     planning = partial(command.run, file=file, evidence=certificate is not None, page=page, as_json=json)
+    planning = partial(planning, region=region)
     text, evidence, is_success = limited(planning, timeout=timeout, memory=memory, plain=json)
     if certificate is not None:
         write_file(certificate, evidence)

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from bezier.chains.chain import Chain
+from bezier.chains.region import Region
 from bezier.curves.curve import Bezier
 from bezier.pictures.mesh import sampled
-from bezier.pictures.picture import COLOURS, GRID, INK, PALE, SHADE, Chart
+from bezier.pictures.picture import COLOURS, GRID, INK, PALE, Chart
 from bezier.pictures.plot import VIEWS, new_figure, place, svg_text
 from bezier.report import html
 from bezier.report.html import Card, Page, Section
@@ -19,9 +20,16 @@ BAD = "#c0392b"
 _CURVES = tuple(COLOURS.values())
 
 
-def page(chain: Chain, curves: tuple[Bezier, ...], lines: list[str], title: str, cards: list[Card]) -> Page:
+def page(
+    chain: Chain,
+    curves: tuple[Bezier, ...],
+    lines: list[str],
+    title: str,
+    cards: list[Card],
+    shown: Region | None = None,
+) -> Page:
     """``lines``: what the command says; without curves the given points alone are drawn."""
-    drawn = html.figures(pictures(chain, curves), wide=True)
+    drawn = html.figures(pictures(chain, curves, shown), wide=True)
     rows = [
         (f"C{k + 1}", str(chain.times[k]), html.joined(*(_point(p) for p in curve.points)))
         for k, curve in enumerate(curves)
@@ -37,22 +45,25 @@ def _point(point: Any) -> str:
     return f"({', '.join(f'{float(c):.6g}' for c in point)})"
 
 
-def pictures(chain: Chain, curves: tuple[Bezier, ...], region: Any = None) -> list[Chart]:
-    """The plane, or the three views of space. ``region``: polygons to draw below it, outer first, in the plane."""
+def pictures(chain: Chain, curves: tuple[Bezier, ...], shown: Region | None = None) -> list[Chart]:
+    """The plane, with the region where one is ``shown``, or the three views of space."""
     if chain.dimension == 2:
-        return [(_view(chain, curves, 0, 1, region), "the chain, its control polygons and its conditions")]
+        where = "" if shown is None else f"; shaded: where {shown.name} may be"
+        return [(_view(chain, curves, 0, 1, shown), f"the chain, its control polygons and its conditions{where}")]
     return [(_view(chain, curves, i, j, None), f"the chain, {title}") for title, i, j in VIEWS]
 
 
-def _view(chain: Chain, curves: tuple[Bezier, ...], i: int, j: int, region: Any) -> str:
+def _view(chain: Chain, curves: tuple[Bezier, ...], i: int, j: int, shown: Region | None) -> str:
     figure = new_figure(7.2, 6.4)
     axis = figure.add_axes((0.1, 0.08, 0.87, 0.88))
     given = np.array([[float(c) for c in p] for p in chain.points])
     polygons = [np.array([[float(c) for c in p] for p in curve.points]) for curve in curves]
     everything = np.concatenate([given, *polygons])[:, (i, j)]
     _conditions(axis, chain, i, j)
-    for polygon, colour in zip(region or (), (SHADE, PALE), strict=False):
-        axis.fill(*polygon.T, color=colour, alpha=0.6, linewidth=0.8)
+    if shown is not None:
+        corners = np.array([[float(c) for c in p] for p in shown.inner])
+        away = corners - corners.mean(axis=0)
+        axis.fill(*corners[np.argsort(np.arctan2(away[:, 1], away[:, 0]))].T, color=PALE, alpha=0.3, linewidth=0)
     drawn = [everything]
     for k, (curve, polygon) in enumerate(zip(curves, polygons, strict=True)):
         colour = _CURVES[k % len(_CURVES)]
