@@ -249,7 +249,7 @@ def rational_weights(weights: Sequence[float]) -> Iterator[tuple[Fraction, ...]]
         yield tuple(Fraction(round(Fraction(w) * unit)) / unit if w > share * largest else _ZERO for w in weights)
     for share in _ADDED:
         least = Fraction(round(Fraction(largest * share) * unit)) / unit
-        yield tuple(Fraction(round(Fraction(w) * unit)) / unit + least for w in weights)
+        yield tuple(Fraction(round(Fraction(max(w, 0.0)) * unit)) / unit + least for w in weights)
 
 
 def near_optimum(

@@ -96,6 +96,8 @@ class Places:
             raise Unable("no farthest place was proposed")
         bounds = []
         for weights in rational_weights(proposal.weights):
+            if min(weights) < 0:  # these prove nothing
+                continue
             lowest = _lagrangian(objective, self.rows, weights).minimum(size, d)
             if lowest is not None:
                 bounds.append((lowest[1], lowest[0], weights))
