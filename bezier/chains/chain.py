@@ -169,14 +169,15 @@ def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
     for k, piece in enumerate(solved.controls):
         last = k == chain.pieces - 1 and not chain.closed
         for j, point in enumerate(piece if last else piece[:-1]):
-            name = f"C{k + 1}.{j}"
+            corner = chain.point_names[(k + (j > 0)) % len(chain.points)]
+            name = f"C{k + 1}.{j}" if 0 < j < chain.degree else corner
             if chain.radius_squared is not None:
                 away = affine_sum(((_ONE, point), (-_ONE, Affine({}, chain.centre))))
                 form = squared_length(away).shifted(-chain.radius_squared)
                 result.append(Requirement(f"{name} in the ball", form, ((_ONE, away),), is_ball=True))
             for i, (normal, offset) in enumerate(chain.half_spaces):
                 form = linear_form(tuple(-c for c in normal), point).shifted(offset)
-                result.append(Requirement(f"{name} in half-space {i}", form))
+                result.append(Requirement(f"{name} in half_space[{i}]", form))
     return tuple(result)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -19,7 +20,6 @@ from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described, exact_text
 from qe.errors import Unable
 from qe.proof.certificate import Certificate, Labelled
-
 
 LONG = 100
 """Characters of an exact value that is printed; JSON has them all."""
@@ -76,7 +76,8 @@ class ChainPlan:
         curve that the conflict names."""
         if self.conflict is None or _is_bounded(self.chain):
             return self
-        pieces = sorted({int(label[1 : label.index(".")]) - 1 for label in self.conflict.conditions})
+        named = (re.match(r"C(\d+)\.", label) for label in self.conflict.conditions)
+        pieces = sorted({int(match[1]) - 1 for match in named if match is not None})
         listed = (self.repair, nearest_point(self.chain), nearest_duration(self.chain, pieces))
         return replace(self, repairs=tuple(repair for repair in listed if repair is not None))
 
