@@ -63,6 +63,7 @@ class Chain:
     Every control point has to lie in the ball about ``centre`` with this ``radius_squared``, where it is given, and in
     all ``half_spaces``: (a, b) for a . p >= b. ``free_via``: the number of a point that may move.
     ``max_length`` (mm) of all curves together, ``max_curvature`` (1/mm). ``free_total``: the sum of free durations.
+    ``velocities`` at the start and at the goal (mm/s), where these are fixed.
     """
 
     points: tuple[Point, ...]
@@ -79,6 +80,7 @@ class Chain:
     max_length: Fraction | None = None
     max_curvature: Fraction | None = None
     free_total: Fraction | None = None
+    velocities: tuple[Point, ...] = ()
 
     def __post_init__(self) -> None:
         if (self.degree, self.continuity) not in KINDS:
@@ -95,6 +97,8 @@ class Chain:
             raise InputError("chain: a sum of free durations above 0 expected, and no durations")
         if self.closed and self.ends is not Ends.FREE:
             raise InputError("chain: a closed chain has no ends")
+        if self.velocities and (self.closed or self.ends is not Ends.FREE or len(self.velocities) != 2):
+            raise InputError("chain: velocities at the start and at the goal of an open chain with free ends expected")
         if self.objective.order > self.degree:
             raise InputError(f"chain: a degree of at least {self.objective.order} expected for {self.objective.value}")
         if self.radius_squared is not None and self.radius_squared <= 0:
@@ -232,8 +236,8 @@ def _solved(chain: Chain) -> Solved | None:
     width = len(columns) + (moving is not None)
     rows = []
 
-    def equation(terms: Sequence[tuple[int, int, Fraction]]) -> None:
-        row, right = [_ZERO] * width, [_ZERO] * chain.dimension
+    def equation(terms: Sequence[tuple[int, int, Fraction]], value: Point = (_ZERO,) * chain.dimension) -> None:
+        row, right = [_ZERO] * width, list(value)
         for k, j, weight in terms:
             corner = (k + (j == d)) % len(chain.points) if j in (0, d) else None
             if corner is None:
@@ -253,6 +257,8 @@ def _solved(chain: Chain) -> Solved | None:
         for order in range(1, 3 if d == 5 else 2):
             equation(_begin(0, order, times[0]))
             equation(_end(m - 1, d, order, times[-1]))
+    for velocity, end in zip(chain.velocities, (_begin(0, 1, times[0]), _end(m - 1, d, 1, times[-1])), strict=False):
+        equation([(k, j, d * w) for k, j, w in end], velocity)
     work, pivots = echelon(rows)
     if any(p >= width for p in pivots):
         return None

@@ -80,9 +80,10 @@ def _changed(chain: Chain, change: str) -> Chain:
     if change.endswith(" free"):
         return replace(chain, free_via=chain.point_names.index(change.removesuffix(" free")))
     name, _, value = change.partition(" = ")
-    if name == "durations" and chain.free_total is None:
-        raise ValueError("durations are given")
-    return changed(chain, name, [Fraction(part) for part in value.split(", ")])
+    numbers = [Fraction(part) for part in value.split(", ")]
+    if name == "durations" and sum(numbers) != chain.free_total:
+        raise ValueError("other durations are given")
+    return changed(chain, name, numbers)
 
 
 def _keeps_limits(chain: Chain, member: Labelled) -> None:

@@ -12,21 +12,8 @@ from bezier.input.toml_table import LARGEST, Table
 from qe.errors import InputError
 
 KEYS = (
-    "start",
-    "via",
-    "goal",
-    "radius",
-    "centre",
-    "half_space",
-    "degree",
-    "continuity",
-    "durations",
-    "total",
-    "ends",
-    "closed",
-    "objective",
-    "max_length",
-    "max_curvature",
+    *("start", "via", "goal", "closed", "radius", "centre", "half_space", "degree", "continuity"),
+    *("durations", "total", "ends", "velocities", "objective", "max_length", "max_curvature"),
 )
 _POINT = "a point of 2 or 3 numbers"
 
@@ -56,6 +43,7 @@ def read_chain(table: Table) -> Chain:
         centre,
         _radius_squared(table),
         tuple(_half_space(entry, size) for entry in table.tables("half_space")),
+        velocities=_velocities(table, size),
         free_total=table.positive("total", Fraction(len(points) - (not closed))) if free else None,
         max_length=table.positive("max_length") if "max_length" in table.values else None,
         max_curvature=table.positive("max_curvature") if "max_curvature" in table.values else None,
@@ -100,6 +88,15 @@ def _durations(table: Table) -> tuple[Fraction, ...]:
         if t <= 0:
             raise table.error(f"durations[{i}]", "a number above zero", str(t))
     return durations
+
+
+def _velocities(table: Table, size: int) -> tuple[Point, ...]:
+    if "velocities" not in table.values:
+        return ()
+    raw = table.values["velocities"]
+    if not isinstance(raw, list) or len(raw) != 2:
+        raise table.error("velocities", "two points, those at the start and at the goal", describe(raw))
+    return tuple(table.as_point(f"velocities[{i}]", entry, size) for i, entry in enumerate(raw))
 
 
 def _radius_squared(table: Table) -> Fraction | None:

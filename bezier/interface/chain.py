@@ -40,6 +40,7 @@ def chain(
     durations: object = (),
     total: object = None,
     ends: object = "free",
+    velocities: Sequence[Point] | ArrayLike | None = None,
     closed: bool = False,
     objective: object = "legs",
     max_length: object = None,
@@ -54,7 +55,7 @@ def chain(
     without them, or "free": a search picks some with the sum ``total`` (as many seconds as curves without it). Every
     control point, hence every curve, lies in the ball of this ``radius`` about ``centre`` (the origin), in mm, and in
     all ``half_spaces`` (mappings with ``normal`` and ``offset``, or pairs: normal . p >= offset). ``ends``: "free", or
-    "zero" for rest.
+    "zero" for rest; ``velocities``: at the start and at the goal (mm/s), where these are fixed.
     ``objective``: "legs" (sum of the squared legs of all control polygons, mm²), "middle legs" (those between via
     points, as in (7)), "acceleration", "jerk", "snap" (integrals of their squares over time). ``max_length`` (mm, of
     all curves together) and ``max_curvature`` (1/mm) hold for all t; the bound from below is then one for chains with a
@@ -77,6 +78,7 @@ def chain(
         "durations": durations,
         "total": total,
         "ends": ends,
+        "velocities": velocities,
         "closed": closed,
         "objective": objective,
         "max_length": max_length,
