@@ -97,7 +97,7 @@ def chain_row(points: Sequence[Any], radius: Any) -> tuple[ChainRow, Any]:
     other, other_seconds = timed(lambda: clarabel_chain(points, float(radius)))
     status, least = other
     value = None if plan is None or plan.value is None else float(plan.value)
-    gap = None if plan is None or plan.value is None else float((plan.value - plan.bound) / plan.value)
+    gap = None if plan is None or plan.value is None else float(plan.value - (plan.bound or 0)) / (value or 1)
     ours = why or ("" if plan is None else str(plan))
     accepted = plan is not None and qe.verify(plan.certificate).accepted
     row = ChainRow(len(points) - 2, ours, value, gap, seconds, accepted, status, least, other_seconds)
@@ -199,7 +199,7 @@ def path_row(points: Sequence[Any], intervals: int) -> tuple[PathRow, Any] | Non
 # --- the page -------------------------------------------------------------------------------------------------
 def run(out: Path, count: int, note: Callable[[str], object]) -> list[Path]:
     """All comparisons; the page and the data are written into a folder. The files."""
-    chains, drawn = [], []
+    chains, drawn = list[ChainRow](), list[tuple[str, str]]()
     for points, radius in chain_cases(count):
         row, plan = chain_row(points, radius)
         chains.append(row)

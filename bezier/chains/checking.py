@@ -3,7 +3,8 @@ to be those of the chain's conditions and objective, which are made anew. No opt
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import re
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -12,6 +13,7 @@ from bezier.chains.chain import Chain, objective_form, requirements
 from bezier.chains.form import Form
 from bezier.chains.limits import LENGTH, keeps_limits, stated_chords
 from bezier.chains.proof import names_of, polynomial
+from bezier.chains.region import at_form, beyond_form, placed
 from bezier.chains.repair import changed
 from qe.errors import CertificateRejected, QEError
 from qe.exact.ring import Ring
@@ -46,6 +48,9 @@ def checked(chain: Chain, certificate: Certificate) -> list[str]:
 
 def _examine(chain: Chain, member: Labelled, conflict: Collection[Formula]) -> None:
     """Whether the sentence of a member is the one that its label announces."""
+    if matched := re.fullmatch(r"(a|no) chain has (\S+) (?:at|beyond) (.*)", member.label):
+        _examine_place(chain, member, matched[2], [Fraction(c) for c in matched[3].split(", ")], matched[1] == "a")
+        return
     claim, *changes = member.label.split(" with ")
     for change in changes:
         chain = _changed(chain, change)
@@ -72,6 +77,21 @@ def _examine(chain: Chain, member: Labelled, conflict: Collection[Formula]) -> N
         _is(member, bool(conflict) and said >= set(conflict) - {known[claim.removeprefix(WITHOUT)]}, TRUE)
     else:
         raise CertificateRejected(member.label, "no claim about a chain")
+
+
+def _examine_place(chain: Chain, member: Labelled, name: str, numbers: Sequence[Fraction], has: bool) -> None:
+    """A corner of a region (``numbers``: the point), or a half-space (its normal and offset)."""
+    freed, _, place = placed(chain, name)
+    d, known = chain.dimension, _labels(freed)
+    if len(numbers) != d + (not has):
+        raise ValueError("the coordinates of a point, or of a half-space, expected")
+    said = set(_claimed(freed, member, known))
+    if has:
+        here = {_atom(freed, form, Relation.LE) for form in at_form(place, tuple(numbers))}
+        _is(member, said == here | set(known.values()), TRUE)
+    else:
+        beyond = _atom(freed, beyond_form(place, tuple(numbers[:d]), numbers[d]), Relation.LT)
+        _is(member, beyond in said and said <= {*known.values(), beyond}, FALSE)
 
 
 def _changed(chain: Chain, change: str) -> Chain:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import qe
 from bezier.chains.checking import checked
-from bezier.chains.plan import planned
+from bezier.chains.plan import bundled, planned
 from bezier.chains.reader import load_chain
 from bezier.curves.scalar import described
 from bezier.input import stored
@@ -39,9 +39,9 @@ def run(
             page.write_text(made.page(file.name, shown), encoding="utf-8")
         except OSError as error:
             raise InputError(f"--page {page}: expected a writable file, found: {error.strerror}") from None
-    proof = made.proof.to_json() if evidence else ""
+    proof = made.proof if shown is None or made.searched else bundled([made.proof, shown.certificate])
     text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
-    return text, proof, made.feasible
+    return text, proof.to_json() if evidence else "", made.feasible
 
 
 def check(channel: Channel, file: Path, against: Path, *, as_json: bool = False) -> str:

@@ -86,7 +86,7 @@ class ChainPlan:
         """All certificates as one: the optimum, or the contradiction, the conflict and the repairs."""
         proofs = [self.certificate] if self.conflict is None else [self.conflict.certificate]
         proofs += [repair.certificate for repair in self.repairs or (self.repair,) if repair]
-        members = [m for proof in proofs for m in proof.payload if isinstance(m, Labelled)]
+        members = [m for m in bundled(proofs).payload if isinstance(m, Labelled)]
         return Certificate.bundle([(self._labelled(m.label), m.certificate) for m in members])
 
     def _labelled(self, label: str) -> str:
@@ -159,6 +159,12 @@ class ChainPlan:
         assert self.conflict is not None
         why = f"no chain: {self.conflict}"
         return why if self.repair is None else f"{why}; with radius {float(self.repair.radius):.10g} there is one"
+
+
+def bundled(proofs: Sequence[Certificate]) -> Certificate:
+    """All members of bundles as one."""
+    members = [m for proof in proofs for m in proof.payload if isinstance(m, Labelled)]
+    return Certificate.bundle([(m.label, m.certificate) for m in members])
 
 
 def planned(given: Chain) -> ChainPlan:

@@ -50,6 +50,30 @@ class Support:
     corner: Point
 
 
+def placed(chain: Chain, name: str) -> tuple[Chain, Solved, Affine]:
+    """The chain with this point free, and the point in it. Raises ``InputError``, ``Unable``."""
+    if chain.max_length is not None or chain.max_curvature is not None or chain.free_total is not None:
+        raise InputError("region: expected a chain with given durations, without bounds on length and curvature")
+    if name in chain.point_names:
+        k = chain.point_names.index(name)
+        chain = replace(chain, free_via=k)
+        curve, j = (k, 0) if k < chain.pieces else (k - 1, chain.degree)
+    elif (matched := re.fullmatch(r"C(\d{1,3})\.(\d)", name)) and 0 < int(matched[1]) <= chain.pieces:
+        curve, j = int(matched[1]) - 1, int(matched[2])
+    else:
+        curve, j = 0, chain.degree + 1
+    if j > chain.degree:
+        known = f"{', '.join(chain.point_names)}, or C1.0 to C{chain.pieces}.{chain.degree}"
+        raise InputError(f"region: expected one of {known}, found {name}")
+    solved = chain.solved
+    if solved is None:
+        raise Unable("the joins and the ends leave no chain: their equations contradict each other")
+    place = solved.controls[curve][j]
+    if not place.coefficients:
+        raise InputError(f"region: expected a point that may move, found {name}")
+    return chain, solved, place
+
+
 @dataclass(frozen=True)
 class Places:
     """What is looked at: the chain with its free points, its conditions, and the place as a combination of them."""
@@ -63,29 +87,12 @@ class Places:
     @staticmethod
     def of(chain: Chain, name: str) -> Places:
         """``name``: "start", "via[0]", "goal", or a control point such as "C2.1". Raises ``InputError``, ``Unable``."""
-        if chain.max_length is not None or chain.max_curvature is not None or chain.free_total is not None:
-            raise InputError("region: expected a chain with given durations, without bounds on length and curvature")
-        if name in chain.point_names:
-            k = chain.point_names.index(name)
-            chain = replace(chain, free_via=k)
-            curve, j = (k, 0) if k < chain.pieces else (k - 1, chain.degree)
-        elif (matched := re.fullmatch(r"C(\d{1,3})\.(\d)", name)) and 0 < int(matched[1]) <= chain.pieces:
-            curve, j = int(matched[1]) - 1, int(matched[2])
-        else:
-            curve, j = 0, chain.degree + 1
-        if j > chain.degree:
-            known = f"{', '.join(chain.point_names)}, or C1.0 to C{chain.pieces}.{chain.degree}"
-            raise InputError(f"region: expected one of {known}, found {name}")
-        solved = chain.solved
-        if solved is None:
-            raise Unable("the joins and the ends leave no chain: their equations contradict each other")
-        rows, place = requirements(chain, solved), solved.controls[curve][j]
-        if not place.coefficients:
-            raise InputError(f"region: expected a point that may move, found {name}")
-        inside = decided(chain, solved, rows)
+        freed, solved, place = placed(chain, name)
+        rows = requirements(freed, solved)
+        inside = decided(freed, solved, rows)
         if isinstance(inside, Contradiction):
             raise Unable(f"there is no chain, wherever {name} is")
-        return Places(chain, solved, tuple(row for row in rows if not row.form.is_constant), place, inside)
+        return Places(freed, solved, tuple(row for row in rows if not row.form.is_constant), place, inside)
 
     def support(self, normal: Point) -> Support:
         """The farthest places in a direction, from both sides. Raises ``Unable``."""
@@ -110,18 +117,32 @@ class Places:
 
     def proof(self, support: Support) -> Certificate:
         """That no chain has the place beyond this half-space."""
-        beyond = linear_form(tuple(-c for c in support.normal), self.place).shifted(support.offset)
+        beyond = beyond_form(self.place, support.normal, support.offset)
         chosen = [(w, row.form) for w, row in zip(support.weights, self.rows, strict=True) if w]
         forms, weights = [*(f for _, f in chosen), beyond], [*(w for w, _ in chosen), _ONE]
         return refuted(self.chain, self.solved.size, forms, weights, support.stationary, strict=1)
 
     def witness(self, support: Support) -> Certificate:
         """A chain with the place at the corner."""
-        d = self.chain.dimension
-        units = [tuple(_ONE if i == k else _ZERO for i in range(d)) for k in range(d)]
-        here = [linear_form(u, self.place).shifted(-c) for u, c in zip(units, support.corner, strict=True)]
-        both = [weighted_sum([(s, form)]) for form in here for s in (_ONE, -_ONE)]
-        return witness(self.chain, self.solved.size, [*(row.form for row in self.rows), *both], support.at)
+        return witness(
+            self.chain,
+            self.solved.size,
+            [*(r.form for r in self.rows), *at_form(self.place, support.corner)],
+            support.at,
+        )
+
+
+def at_form(place: Affine, point: Point) -> list[Form]:
+    """Forms that are all <= 0 where the place is this point."""
+    d = len(point)
+    units = [tuple(_ONE if i == k else _ZERO for i in range(d)) for k in range(d)]
+    here = [linear_form(u, place).shifted(-c) for u, c in zip(units, point, strict=True)]
+    return [weighted_sum([(s, form)]) for form in here for s in (_ONE, -_ONE)]
+
+
+def beyond_form(place: Affine, normal: Point, offset: Fraction) -> Form:
+    """A form that is < 0 where normal . place > offset."""
+    return linear_form(tuple(-c for c in normal), place).shifted(offset)
 
 
 def _lagrangian(objective: Form, rows: Sequence[Requirement], weights: Sequence[Fraction]) -> Form:
@@ -144,8 +165,8 @@ class Region:
     @property
     def certificate(self) -> Certificate:
         """A witness for each corner, multipliers for each half-space."""
-        corners = [(f"a chain with {self.name} at {_text(s.corner)}", self.places.witness(s)) for s in self.supports]
-        sides = [(f"none beyond {_text(s.normal)} . p <= {s.offset}", self.places.proof(s)) for s in self.sides]
+        corners = [(at_label(self.name, s.corner), self.places.witness(s)) for s in self.supports]
+        sides = [(beyond_label(self.name, s), self.places.proof(s)) for s in self.sides]
         return Certificate.bundle([*corners, *sides])
 
     def to_json(self) -> dict[str, Any]:
@@ -177,8 +198,14 @@ class Validity:
         return f"{self.name} may move by {low} in every direction; by more than {high} not in one of them"
 
 
-def _text(point: Point) -> str:
-    return f"({', '.join(map(str, point))})"
+def at_label(name: str, corner: Point) -> str:
+    """Of a witness."""
+    return f"a chain has {name} at {', '.join(map(str, corner))}"
+
+
+def beyond_label(name: str, support: Support) -> str:
+    """Of a half-space that no chain reaches beyond."""
+    return f"no chain has {name} beyond {', '.join(map(str, (*support.normal, support.offset)))}"
 
 
 @dataclass(frozen=True)
@@ -264,8 +291,8 @@ def validity(chain: Chain, name: str) -> Validity:
     most = root_above((high.offset - Fraction(dot(high.normal, here))) ** 2 / _square(high.normal))
     if any(f.beyond(here) > 0 for f in state.facets):
         raise Unable(f"there may be no chain with {name} where it is")
-    proofs = [(f"a chain with {name} at {_text(s.corner)}", places.witness(s)) for s in corners]
-    proofs.append((f"none beyond {_text(high.normal)} . p <= {high.offset}", places.proof(high)))
+    proofs = [(at_label(name, s.corner), places.witness(s)) for s in corners]
+    proofs.append((beyond_label(name, high), places.proof(high)))
     return Validity(name, least, most, high.normal, Certificate.bundle(proofs))
 
 

@@ -119,6 +119,10 @@ def test_altered_certificates_are_refused(none: Any, seed: int) -> None:
     (GOOD.replace("[2, 1]", "[2, 1, 4]"), "via[0]"),
     (GOOD.replace("[2, 1]", '"a"'), "via[0]"),
     (GOOD + "ends = 'stop'", "ends"),
+    (GOOD + "velocities = [[1, 2]]", "velocities"),
+    (GOOD + "total = 3", "total"),
+    (GOOD + "durations = 'fast'", "durations"),
+    (GOOD + "max_length = 0", "max_length"),
 )
 def test_bad_files_get_one_line_with_the_key(
     text: str, key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -128,6 +132,23 @@ def test_bad_files_get_one_line_with_the_key(
     assert main(["chain", str(file)]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert key in line and "chain.toml" in line and "expected" in line
+
+
+def test_certificates_of_regions_and_of_picked_durations(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, proof = tmp_path / "chain.toml", tmp_path / "proof.json"
+    file.write_text(GOOD + "radius = 6\n")
+    assert main(["chain", str(file), "--region", "C2.1", "--certificate", str(proof)]) == 0
+    assert main(["chain", str(file), "--check", str(proof)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("a chain has C2.1 at") == said.count("no chain has C2.1 beyond") > 20
+    wider = proof.read_text().replace("a chain has C2.1 at ", "a chain has C2.2 at ", 1)
+    proof.write_text(wider)
+    assert main(["chain", str(file), "--check", str(proof)]) == 4
+    file.write_text(GOOD + "radius = 6\ndurations = 'free'\ntotal = 5\n")
+    assert main(["chain", str(file), "--certificate", str(proof)]) == 0
+    assert main(["chain", str(file), "--check", str(proof)]) == 0
+    file.write_text(GOOD + "radius = 6\ndurations = 'free'\ntotal = 4\n")
+    assert main(["chain", str(file), "--check", str(proof)]) == 4
 
 
 def test_a_limit_on_time_is_kept() -> None:
