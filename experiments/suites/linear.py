@@ -13,6 +13,7 @@ UNSAT = (10, 20, 40, 80, 160, 320, 640)
 SAT = (20, 40, 80, 320, 1280)
 SPARSE = (50, 200, 500, 1000)
 CLAUSES = (10, 20, 40, 80, 160, 320)
+TIGHT = (10, 20, 40, 80)
 CASES = (10, 20, 40, 80)
 PROJECTIONS = (2, 4, 6, 8, 10)
 
@@ -27,7 +28,9 @@ def problems() -> list[Problem]:
         *_family("dense-unsat", dense_unsat, UNSAT, "false"),
         *_family("dense-sat", dense_sat, SAT, "true"),
         *_family("sparse", sparse, SPARSE, "true"),
-        *_family("clauses", clauses, CLAUSES),
+        *_family("clauses", clauses, CLAUSES, "true"),
+        *_family("few-variables", few_variables, CLAUSES, "true"),
+        *_family("tight-clauses", tight_clauses, TIGHT, "true"),
         *_family("clauses-unsat", clauses_unsat, CLAUSES, "false"),
         *_family("cases", cases, CASES, "false"),
         *_family("projection", projection, PROJECTIONS),
@@ -103,9 +106,25 @@ def sparse(n: int) -> str:
 
 
 def clauses(n: int) -> str:
-    """So many clauses of three bounds of random forms in three of n/4 variables, one true at a random point."""
+    """So many clauses of three bounds of random forms, each in three of as many variables."""
     rng = random.Random(SEED + n)
-    names = _names(max(4, n // 4))
+    return _clauses(n, n, rng, lambda value, position: rng.randint(-20, 20))
+
+
+def few_variables(n: int) -> str:
+    """The same in six variables, a bound of each clause holding at a random point."""
+    rng = random.Random(SEED + n)
+    return _clauses(n, 6, rng, lambda value, position: value + rng.randint(0, 5) if position else rng.randint(-20, 20))
+
+
+def tight_clauses(n: int) -> str:
+    """The same in n/4 variables, one bound of three holding at a random point, and hardly more."""
+    rng = random.Random(SEED + n)
+    return _clauses(n, n // 4, rng, lambda value, position: rng.randint(-20, 20) if position else value + rng.randint(0, 2))
+
+
+def _clauses(n: int, size: int, rng: random.Random, bound: Callable[[int, int], int]) -> str:
+    names = _names(max(4, size))
     point = [rng.randint(-9, 9) for _ in names]
     parts = []
     for _ in range(n):
@@ -113,8 +132,7 @@ def clauses(n: int) -> str:
         for position in range(3):
             row = {k: rng.choice((-3, -2, -1, 1, 2, 3)) for k in rng.sample(range(len(names)), 3)}
             value = sum(c * point[k] for k, c in row.items())
-            bound = value + rng.randint(0, 2) if position == 0 else rng.randint(-20, 20)
-            atoms.append(" + ".join(f"({c})*{names[k]}" for k, c in row.items()) + f" <= {bound}")
+            atoms.append(" + ".join(f"({c})*{names[k]}" for k, c in row.items()) + f" <= {bound(value, position)}")
         rng.shuffle(atoms)
         parts.append(f"({' or '.join(atoms)})")
     return _exists(names, parts)
