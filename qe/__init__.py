@@ -8,7 +8,7 @@ b^2 - 4*c >= 0
 from __future__ import annotations
 
 from importlib import import_module
-from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from qe.errors import (
@@ -90,7 +90,7 @@ def __getattr__(name: str) -> Any:
     if name == "sympy":
         return import_module("qe.sympy")
     if name not in __all__:
-        is_module = name.startswith("_") or find_spec(f"qe.{name}") is not None  # which the import system asks for
+        is_module = name in {path.stem for path in Path(__file__).parent.iterdir()}
         raise AttributeError(f"module 'qe' has no attribute {name!r}{'' if is_module else _nearest(name)}", name=name)
     found = globals()[name] = getattr(import_module(_ELSEWHERE.get(name, "qe.api.eliminate")), name)
     return found

@@ -73,8 +73,8 @@ def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **set
     rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
-    asked = under(instantiate(convert(given, ring), terms), TRUE, stated.known, limits)
-    return _decided(asked.closed(asked.formula), sentence, settings, limits).truth is True
+    whole = under(instantiate(convert(given, ring), terms), TRUE, stated.known, limits)
+    return _decided(whole.closed(whole.formula), sentence, settings, limits).truth is True
 
 
 def _polynomials(offered: Mapping[str, AnyFormula], known: Container[str]) -> dict[str, tuple[Poly, Fraction]]:
@@ -90,16 +90,16 @@ def equivalent(left: AnyFormula, right: AnyFormula, **settings: Unpack[Search]) 
     return compared(left, right, settings).truth is True
 
 
-def compared(left: AnyFormula, right: AnyFormula, given: Mapping[str, Any]) -> Answer:
+def compared(first: AnyFormula, second: AnyFormula, given: Mapping[str, Any]) -> Answer:
     """The answer to the question whether two formulas are equivalent; ``given``: settings, the others have defaults."""
     settings = cast(Search, {name: s.default for name, (_, s) in settings_in(Search).items()} | {**given})
     limits = limits_of(settings)
     plain: dict[str, Any] = {**settings, "assuming": None}
-    one, other = (posed(formula, plain, limits) for formula in (left, right))
+    one, other = (posed(formula, plain, limits) for formula in (first, second))
     f, g, *inner = together(one.formula, other.formula, one.known, other.known)
     stated = under(iff(f, g), conj(inner), settings["assuming"], limits, others=(*f.free, *g.free))
     claim = forall(dict.fromkeys((*f.free, *g.free, *stated.known.free)), implies(stated.known, stated.formula))
-    return _decided(claim, [left, right], settings, limits)
+    return _decided(claim, [first, second], settings, limits)
 
 
 def _decided(sentence: Formula, given: AnyFormula, settings: Search, limits: Limits) -> Answer:

@@ -14,7 +14,7 @@ from qe.api.input import AnyFormula, order_of, read_posed
 from qe.api.limits import limits_of, performed, posed, under
 from qe.api.settings import Elimination, Order, ProvedQuestion, Search, with_settings
 from qe.errors import InputError, Unable
-from qe.formula.assumed import Aim, Asked, claimed
+from qe.formula.assumed import Aim, Posed, claimed
 from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
 from qe.processes.limits import Limits
@@ -48,8 +48,8 @@ def eliminate(formula: AnyFormula, **settings: Unpack[Elimination]) -> Answer:
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     order = order_of(settings["order"], formula, given.restricted)
-    asked = Asked(given.formula, given.known, Aim.GENERIC if settings["generic"] else Aim.EQUIVALENT)
-    return answered_under(asked, order, settings, limits, anytime=settings["anytime"])
+    problem = Posed(given.formula, given.known, Aim.GENERIC if settings["generic"] else Aim.EQUIVALENT)
+    return answered_under(problem, order, settings, limits, anytime=settings["anytime"])
 
 
 @with_settings(ProvedQuestion)
@@ -64,15 +64,15 @@ def simplify(formula: AnyFormula, **settings: Unpack[ProvedQuestion]) -> Answer:
         given = posed(formula, settings, limits)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error))
-    asked, options = Asked(given.formula, given.known, Aim.SHORTER), Options(certify=settings["check"])
-    return _limited(asked, options, limits, settings["check"], None)
+    problem, options = Posed(given.formula, given.known, Aim.SHORTER), Options(certify=settings["check"])
+    return _limited(problem, options, limits, settings["check"], None)
 
 
 def answered_under(
-    asked: Formula | Asked, order: tuple[str, ...] | None, settings: Search, limits: Limits, *, anytime: bool = False
+    problem: Formula | Posed, order: tuple[str, ...] | None, settings: Search, limits: Limits, *, anytime: bool = False
 ) -> Answer:
     """The answer to a question that has been read; ``order`` is that of the settings, of its variables alone."""
-    asked = asked if isinstance(asked, Asked) else Asked(asked)
+    problem = problem if isinstance(problem, Posed) else Posed(problem)
     check, methods = settings["check"], cast(frozenset[Method], settings["race"])
     options = Options(
         method=Method(settings["method"]),
@@ -87,11 +87,11 @@ def answered_under(
         raise InputError("race: cannot go with method, workers, cluster or process=False")
     whole = limits.shared(WHOLE_SHARE) if anytime else limits
     if methods:
-        answer = _raced(asked, options, whole, check, methods)
+        answer = _raced(problem, options, whole, check, methods)
     else:
-        answer = _limited(asked, options, whole, check, helpers)
+        answer = _limited(problem, options, whole, check, helpers)
     if anytime and answer.formula is None:
-        answer = replace(answer, partial=_partial(asked.formula, options, limits))
+        answer = replace(answer, partial=_partial(problem.formula, options, limits))
     if settings["explain"]:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
@@ -105,13 +105,13 @@ def _cluster(settings: Search) -> Cluster | None:
     return None if address is None and not count else Cluster(count, address)
 
 
-def _limited(asked: Asked, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
+def _limited(problem: Posed, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
     """The answer, found in a worker process where it takes long or a limit is to hold."""
-    work = partial(_answer, asked, options, check, cluster)
+    work = partial(_answer, problem, options, check, cluster)
     try:
-        return performed(work, asked.formula, limits, at_once=cluster is not None)
+        return performed(work, problem.formula, limits, at_once=cluster is not None)
     except Unable as error:
-        return Answer(Status.UNABLE, None, reason=str(error), question=asked.formula)
+        return Answer(Status.UNABLE, None, reason=str(error), question=problem.formula)
 
 
 def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
@@ -137,30 +137,30 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
     return replace(known, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
 
 
-def _raced(asked: Asked, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:
+def _raced(problem: Posed, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:
     """The first answer that one of the methods has."""
     from qe.api.race import raced
 
     try:
-        return raced(partial(_answer_by, asked, options, check), methods, limits)
+        return raced(partial(_answer_by, problem, options, check), methods, limits)
     except Unable as error:
-        return Answer(Status.UNABLE, None, reason=str(error), question=asked.formula)
+        return Answer(Status.UNABLE, None, reason=str(error), question=problem.formula)
 
 
 def settled(sentence: Formula, options: Options, budget: Budget) -> Answer:
     """The answer to a sentence that has been read, in this process."""
-    answer = _answer(Asked(sentence), options, options.certify, None, budget)
+    answer = _answer(Posed(sentence), options, options.certify, None, budget)
     if answer.truth is None:
         raise Unable(answer.reason or "no decision was reached")
     return answer
 
 
-def _answer_by(asked: Asked, options: Options, check: bool, method: Method, budget: Budget) -> Answer:
-    return _answer(asked, options.with_(method=method), check, None, budget)
+def _answer_by(problem: Posed, options: Options, check: bool, method: Method, budget: Budget) -> Answer:
+    return _answer(problem, options.with_(method=method), check, None, budget)
 
 
-def _answer(asked: Asked, options: Options, check: bool, cluster: Cluster | None, budget: Budget) -> Answer:
-    """What the engine finds, which is loaded at the first call; verified where that is asked, or costs little.
+def _answer(problem: Posed, options: Options, check: bool, cluster: Cluster | None, budget: Budget) -> Answer:
+    """What the engine finds, which is loaded at the first call; verified where that is problem, or costs little.
 
     Where the answer is to be proved, it is kept before. The processes of a cluster help.
     """
@@ -168,18 +168,18 @@ def _answer(asked: Asked, options: Options, check: bool, cluster: Cluster | None
         from qe.processes.cluster import helping
 
         with helping(cluster) as budget.helpers:
-            return _answer(asked, options, check, None, budget)
-    from qe.engine.asked import answer_to, answered, proved
+            return _answer(problem, options, check, None, budget)
+    from qe.engine.posed import answer_to, answered, proved
 
     try:
-        known = answered(asked, options, budget)
+        known = answered(problem, options, budget)
         if options.certify:
             budget.keep(replace(answer_to(known), certificate=None, reason=UNPROVED))
         outcome = proved(known, options, budget)
     except Unable as error:
         log = RunLog()
         log.work("limits", {"work": budget.used})
-        return Answer(Status.UNABLE, None, reason=str(error), question=asked.formula, log=log)
+        return Answer(Status.UNABLE, None, reason=str(error), question=problem.formula, log=log)
     answer, certificate = answer_to(outcome), outcome.outcome.certificate
     if certificate is not None and (check or certificate.evidence_for("instance") or answer.witness is not None):
         from qe.api.verify import with_verdict
@@ -239,9 +239,9 @@ def verify(
     from qe.io import formats
 
     chosen = formats.checked(format)
-    asked = None
+    problem = None
     if formula is not None:
         given = under(*read_posed(formula, chosen.value), assuming, Limits())
-        asked = claimed(given.known, given.formula, given.formula)
+        problem = claimed(given.known, given.formula, given.formula)
     arguments.flag(core, "core")
-    return check(certificate, formula=asked, timeout=arguments.seconds(timeout), core=core)
+    return check(certificate, formula=problem, timeout=arguments.seconds(timeout), core=core)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from typing import Any, TypeVar
@@ -12,7 +11,8 @@ from typing import Any, TypeVar
 from qe.api.input import AnyFormula, Read, note_doubts, read_assumptions, read_posed, together, warned
 from qe.api.settings import Limited
 from qe.errors import InputError
-from qe.formula.build import conj, forall, implies
+from qe.formula.assumed import Posed
+from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import bound_variables, conjuncts
 from qe.formula.weight import may_block, text_may_block
@@ -51,23 +51,6 @@ def reading(formula: AnyFormula, format: str, limits: Limits) -> Formula:
     """The formula, with what it assumes, read under the limits where reading may take long. Raises as ``posed``."""
     given = posed(formula, {"format": format}, limits)
     return given.formula if given.known == TRUE else conj((given.known, given.formula))
-
-
-@dataclass(frozen=True, slots=True)
-class Posed:
-    """A question, and what is ``known``: conditions without quantifiers, over the same ring."""
-
-    formula: Formula
-    known: Formula = TRUE
-
-    @property
-    def restricted(self) -> Formula:
-        """Both together."""
-        return conj((self.known, self.formula))
-
-    def closed(self, formula: Formula) -> Formula:
-        """A formula wherever the assumptions hold; the values of what they speak of are any."""
-        return formula if self.known == TRUE else forall(self.known.free, implies(self.known, formula))
 
 
 def posed(

@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Unpack
+from typing import Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import eliminate
-from qe.api.input import AnyFormula, together
+from qe.api.input import AnyFormula, read_assumptions, together
 from qe.api.limits import limits_of, posed
-from qe.api.settings import Decision, with_settings
+from qe.api.settings import Limited, ProvedQuestion, with_settings
 from qe.errors import InputError
 from qe.exact.number import Assignment, ExactPoint
 from qe.formula.build import conj, exists
 from qe.formula.syntax import Formula
+from qe.io import formats
 from qe.proof.answer import Answer
 
 
@@ -28,13 +29,15 @@ class _Asserted:
 class Solver:
     """Formulas that are to hold together, of any kind that ``qe.decide`` takes; free variables are unknowns.
 
-    Settings are those of ``qe.decide``, for every check; with ``check`` the last ``answer`` has a certificate. After
+    Settings are those of ``qe.find``, for every check; with ``check`` the last ``answer`` has a certificate. After
     ``check()`` that was ``"sat"`` there is a ``model()``, after ``"unsat"`` a ``core()``.
     """
 
-    @with_settings(Decision)
-    def __init__(self, **settings: Unpack[Decision]) -> None:
-        self._settings = settings
+    @with_settings(ProvedQuestion)
+    def __init__(self, **settings: Unpack[ProvedQuestion]) -> None:
+        self._known = read_assumptions(settings["assuming"])
+        formats.checked(settings["format"])
+        self._settings: dict[str, Any] = {**settings, "assuming": None}
         self._asserted: list[_Asserted] = []
         self._levels: list[int] = []
         self._assumed: list[_Asserted] = []
@@ -56,9 +59,7 @@ class Solver:
 
     def pop(self, num: int = 1) -> None:
         """Forget what was asserted on the last ``num`` levels. Raises ``InputError`` where there are fewer."""
-        if arguments.whole(num, "num") > len(self._levels):
-            raise InputError(f"num: at most {len(self._levels)} levels expected, {num} found")
-        for _ in range(num):
+        for _ in range(arguments.whole(num, "num", len(self._levels))):
             del self._asserted[self._levels.pop() :]
         self.answer = None
 
@@ -106,14 +107,11 @@ class Solver:
     unsat_core = core
 
     def _read(self, formula: AnyFormula) -> Formula:
-        return posed(formula, {**self._settings, "assuming": None}, limits_of(self._settings)).restricted
+        return posed(formula, self._settings, limits_of(cast(Limited, self._settings))).restricted
 
     def _answer(self, parts: Iterable[_Asserted]) -> Answer:
-        whole = conj(together(*(one.formula for one in parts)))
-        known = self._read(self._settings["assuming"]) if self._settings["assuming"] is not None else conj(())
-        both = conj(together(whole, known))
-        settings: dict[str, Any] = {**self._settings, "order": None, "assuming": None}
-        return eliminate(exists(both.free, both), **settings)
+        whole = conj(together(self._known, *(one.formula for one in parts)))
+        return eliminate(exists(whole.free, whole), **self._settings)
 
     def __repr__(self) -> str:
         return f"Solver({', '.join(one.formula.brief() for one in self._asserted)})"

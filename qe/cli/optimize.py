@@ -50,8 +50,8 @@ def _best(channel: Channel, request: Request, goal: Goal) -> Reply:
     start = time.perf_counter()
     solve = api_optimum.maximize if goal.maximize else api_optimum.minimize
     constraints, known = read_question(channel, request.source)
-    asked = {**request.keywords(channel, constraints, known), "parameters": goal.parameters}
-    best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **asked)
+    keywords = {**request.keywords(channel, constraints, known), "parameters": goal.parameters}
+    best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **keywords)
     files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
     if isinstance(best, ParametricOptimum):
         status = OptimumStatus.OPTIMAL if best.cases else OptimumStatus.INFEASIBLE

@@ -53,11 +53,11 @@ def equivalent(channel: Channel, request: Request, other: Source) -> Reply:
     from qe.api.decide import compared
 
     start = time.perf_counter()
-    left, known = read_question(channel, request.source)
-    right, also = read_question(channel, other)
-    asked = request.keywords(channel, left, known)
-    asked["assuming"] = [also] if asked["assuming"] is None else [also, asked["assuming"]]
-    answer = compared(left, right, asked)
+    one, known = read_question(channel, request.source)
+    two, also = read_question(channel, other)
+    keywords = request.keywords(channel, one, known)
+    keywords["assuming"] = [also] if keywords["assuming"] is None else [also, keywords["assuming"]]
+    answer = compared(one, two, keywords)
     files = {"certificate": certificate_text(answer)} if request.certificate else {}
     if request.json:
         return _json({"status": "solved", "truth": answer.truth}, start, files, request.verdict(answer))

@@ -150,10 +150,10 @@ class Session:
         return self._keep(None, " or\n".join(said))
 
     def _equivalent(self, rest: str) -> str:
-        left, sign, right = rest.partition(";")
+        one, sign, two = rest.partition(";")
         if not sign:
             raise InputError("two formulas with ; between them expected, as in :equivalent x > 0 ; x^3 > 0")
-        return self._keep(None, str(qe.equivalent(left, right, **self._those_of("equivalent"))).lower())
+        return self._keep(None, str(qe.equivalent(one, two, **self._those_of("equivalent"))).lower())
 
     def _witnesses(self, rest: str) -> str:
         listed = qe.witnesses(rest, **self._those_of("witnesses"))

@@ -14,16 +14,14 @@ from typing import TYPE_CHECKING, Any
 
 from qe.cli.source import Source
 from qe.errors import CertificateRejected, InputError, Unable
-from qe.formula.build import conj
-from qe.formula.syntax import TRUE, Constant, Formula
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
 from qe.processes.channel import Channel
-from qe.proof.answer import Guarantee
 from qe.spelling import glued, quoted
 
 if TYPE_CHECKING:
+    from qe.formula.syntax import Formula
     from qe.proof.answer import Answer
     from qe.proof.partial import Partial
 
@@ -59,7 +57,7 @@ class Request:
             {"order": order_of(self.settings["order"], self.source.text, formula)} if "order" in self.settings else {}
         )
         given = {**self.settings, **order, "progress": channel.event, "check": self.certificate or self.check}
-        if known is not None and not isinstance(known, Constant):
+        if known is not None and known.free:
             given["assuming"] = [known] if given.get("assuming") is None else [known, given["assuming"]]
         return given
 
@@ -68,11 +66,13 @@ class Request:
         if not self.check:
             return ""
         reason = getattr(answer, "why_unchecked", getattr(answer, "reason", ""))
-        return "checked" if answer.guarantee is Guarantee.CHECKED else f"not checked: {reason}"
+        return "checked" if answer.guarantee.value == "checked" else f"not checked: {reason}"
 
 
 def read_formula(channel: Channel, source: Source) -> Formula:
     """The formula of a source, with what it assumes."""
+    from qe.formula.build import conj
+
     formula, known = read_question(channel, source)
     return conj((known, formula))
 
@@ -113,7 +113,7 @@ def eliminate(channel: Channel, request: Request, output: Format, *, shorter: bo
         data = {
             "status": answer.status.name.lower(),
             "formula": formats.write(answer.formula, output.value),
-            **({} if answer.assuming == TRUE else {"assuming": formats.write(answer.assuming, output.value)}),
+            **({} if not answer.assuming.free else {"assuming": formats.write(answer.assuming, output.value)}),
             **_summary(answer, seconds),
         }
         return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files, verdict=request.verdict(answer))

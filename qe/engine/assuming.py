@@ -127,8 +127,8 @@ def _shorter(question: Formula, known: Formula, options: Options, budget: Budget
         part = budget if best is None else budget.part(PLAIN_WORK + 2 * (budget.used - start))
         log = RunLog()
         try:
-            asked = _joined(question, known, log) if joined else question
-            outcome = answered(asked, options, part)
+            both = _joined(question, known, log) if joined else question
+            outcome = answered(both, options, part)
             log.entries += outcome.log.entries
             context = Context(options, budget, log, outcome_for)
             formula = shortened_under(outcome.formula, known, question, context)

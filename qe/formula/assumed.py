@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from qe.formula.build import conj, convert, disj
+from qe.formula.build import conj, convert, disj, forall, implies
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, ForAll, Formula
 from qe.formula.traverse import ring_of
@@ -25,12 +25,21 @@ class Aim(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class Posed:
     """A question as the engine gets it: ``known``, without quantifiers and over the same ring, may be used."""
 
     formula: Formula
     known: Formula = TRUE
     aim: Aim = Aim.EQUIVALENT
+
+    @property
+    def restricted(self) -> Formula:
+        """Question and assumptions together."""
+        return conj((self.known, self.formula))
+
+    def closed(self, formula: Formula) -> Formula:
+        """A formula wherever the assumptions hold; the values of what they speak of are any."""
+        return formula if self.known == TRUE else forall(self.known.free, implies(self.known, formula))
 
 
 def claimed(known: Formula, question: Formula, formula: Formula) -> Formula:

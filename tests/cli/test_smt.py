@@ -152,7 +152,7 @@ def test_values_that_are_not_read_may_be_any(script: str, expected: list[str]) -
     (["\ufeff(check-sat)\n", "(foo)"], ["sat", "line 2 column 1"]),
     (["(echo |a\n", "b|)(check-sat)\n"], ["|a b|", "sat"]),
     (["(assert (< -x 0))(assert (x > 1))"], ["the symbol -x is not declared", "is not supported"]),
-    (["(maximize (* x x))"], ["qe minimize --maximize does this"]),
+    (["(maximise (* x x))"], ["the command maximise is not supported"]),
     (["(declare-const x Real)(assert (x > 1))"], ["stands first: (> x …)"]),
     (["(declare-const x (_ BitVec 8))"], ["(_ BitVec 8) found"]),
 )
@@ -278,3 +278,22 @@ def test_a_script_under_a_limit_is_answered(tmp_path: Path, limit: tuple[str, st
     script.write_text("(declare-const x Real)(assert (> (* x x) 2))(check-sat)")
     done = subprocess.run([QE, "smt", script, *limit], capture_output=True, text=True, timeout=120)
     assert (done.stdout, done.stderr) == ("sat\n", "")
+
+
+@each(
+    (XY + "(assert (<= (+ (* x x) (* y y)) 2))(minimize (+ x y))(check-sat)(get-objectives)", "((+ x y) (- 2.0))"),
+    (
+        XY + "(assert (<= (+ x y) 10))(assert (<= 1 y 3))(maximize (+ x (* 2 y)) :id o)(maximize y)(check-sat)"
+        "(get-objectives)(get-value (x y))",
+        "((+ x (* 2 y)) 13.0) (y 3.0) ) ((x 7.0) (y 3.0))",
+    ),
+    (XY + "(assert (= (* x x) 2))(maximize x)(check-sat)(get-objectives)", "(x (root-obj (+ (^ x 2) (- 2)) 2))"),
+    (XY + "(assert (> x 1))(minimize x)(maximize y)(check-sat)(get-objectives)", "(x (+ 1.0 epsilon)) (y)"),
+    (XY + "(maximize x)(check-sat)(get-objectives)", "(x oo)"),
+    (XY + "(push)(maximize x)(pop)(check-sat)(get-objectives)", "sat (objectives )"),
+    (XY + "(assert (< x x))(maximize x)(check-sat)", "unsat"),
+    (XY + "(maximize (= x y))", "a term over the reals expected"),
+    (XY + "(get-objectives)", "no model is at hand"),
+)
+def test_objectives(script: str, expected: str) -> None:
+    assert expected in " ".join(" ".join(answers(script)).split())

@@ -108,7 +108,7 @@ def test_the_help_of_the_prompt_names_all_words() -> None:
 
 def test_an_unknown_name_gets_the_nearest_one() -> None:
     with pytest.raises(AttributeError, match="did you mean 'minimize'"):
-        qe.minimise  # noqa: B018
+        qe.minimise
     with pytest.raises(TypeError, match="Did you mean 'assuming'"):
         qe.eliminate("x > 0", asuming="x > 1")  # type: ignore[call-arg]
     done = run("minimise", "x")
@@ -127,7 +127,9 @@ def test_settings_at_the_prompt_hold_for_the_doors_that_take_them() -> None:
     session.reply(":assuming off")
     session.reply(":generic on")
     assert "assuming a /= 0" in session.reply("ex x. a*x = b")
-    assert session.reply(":instance x^2 = 4 and x > 0") == "x = 2" and ":equivalent" in session.reply(":equivalent x > 0")
+    assert session.reply(":instance x^2 = 4 and x > 0") == "x = 2" and ":equivalent" in session.reply(
+        ":equivalent x > 0"
+    )
 
 
 def test_what_is_assumed_in_files_is_read(tmp_path: Path) -> None:

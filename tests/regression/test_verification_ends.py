@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-import qe.api.eliminate as api
 from qe import Guarantee, Status, eliminate, equivalent
+from qe.api.input import read_formula
 from qe.certify.claims import is_about
 from qe.certify.verify import verify, verify_json
 from qe.cli.app import main
@@ -189,7 +189,7 @@ def test_simplified_answers_needed_signs_that_the_table_does_not_know(method: st
     """The certificate was rejected at payload.answer: the simplified answer had a factor beside a constraint."""
     answer = qe.eliminate(text, check=True, method=method)
     assert answer.guarantee is qe.Guarantee.CHECKED
-    assert qe.equivalent(answer.formula, api.read_formula(text))
+    assert qe.equivalent(answer.formula, read_formula(text))
 
 
 CUBIC = "ex x. x^3 + a*x + b = 0 and x > 0"

@@ -151,6 +151,16 @@ DOORS = {
     "Region.boundary": Door(REGION.boundary, {}),
     "Region.equals": Door(REGION.equals, {"other": "x < 2"}),
     "Region.is_disjoint": Door(REGION.is_disjoint, {"other": "x < 2"}),
+    "find": Door(qe.find, {"formula": "x > y", "n": 2, "seed": 1}, {"n": {"int", "zero"}, "seed": NUMBERS}),
+    "witnesses": Door(qe.witnesses, {"formula": "ex x. x > a"}, {"formula": set(), **BOUND}),
+    "optimum": Door(qe.optimum, {"objective": "x"}, GOAL),
+    "Solver": Door(qe.Solver, {}),
+    "Solver.add": Door(lambda formula: qe.Solver().add(formula), {"formula": "x > 0"}),
+    "Solver.assert_and_track": Door(
+        qe.Solver().assert_and_track, {"formula": "x > 0", "name": "n"}, {"name": {"text", "digits", "empty"}}
+    ),
+    "Solver.check": Door(lambda formula: qe.Solver().check(formula), {"formula": "x > 0"}),
+    "Solver.pop": Door(qe.Solver().pop, {"num": 0}, {"num": {"zero"}}),
     "simplify": Door(qe.simplify, {"formula": "x > 0 or x > y"}),
     "reduce": Door(qe.reduce, {"formula": "x > y"}, {"variables": {"none", "text", "digits", "list"}}),
     "solve": Door(qe.solve, {"formula": "x > y", "variables": "y"}, {"variables": {"none", "text", "digits", "list"}}),

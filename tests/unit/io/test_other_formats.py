@@ -239,7 +239,7 @@ def test_a_qepcad_session() -> None:
 
 
 @each(
-    ("(F x)[x = 0]", "quantifier F"),
+    ("(X 30 x)[x = 0]", "at most 20"),
     ("[x = 1", "too early"),
     ("[]\n(a,x)\n1\n(E y)[x = 1].", "unknown variable|quantifiers for x"),
     ("[]\n(a,x)\n1\n[x = 1].", "quantifiers for x"),

@@ -8,7 +8,7 @@ from qe.elimination.protocol import Outcome
 from qe.engine import run
 from qe.engine.assuming import answered_assuming, simplified
 from qe.exact.ring import Ring
-from qe.formula.assumed import Aim, Asked, claimed
+from qe.formula.assumed import Aim, Posed, claimed
 from qe.formula.build import convert
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import rename_apart, without_clashes
@@ -30,22 +30,22 @@ class Known:
     plainly: bool = True
 
 
-def answered(asked: Asked, options: Options, budget: Budget) -> Known:
+def answered(problem: Posed, options: Options, budget: Budget) -> Known:
     """What is found, with no certificate but one that a method made on its way. Raises ``Unable``."""
-    if asked.known == TRUE and asked.aim is Aim.EQUIVALENT:
-        return Known(asked.formula, run.answered(asked.formula, options, budget))
-    clear = without_clashes(asked.formula)
+    if problem.known == TRUE and problem.aim is Aim.EQUIVALENT:
+        return Known(problem.formula, run.answered(problem.formula, options, budget))
+    clear = without_clashes(problem.formula)
     log = RunLog()
-    log.step("renaming", asked.formula, clear)
-    if asked.aim is Aim.SHORTER:
-        made = simplified(clear, asked.known, options, budget)
+    log.step("renaming", problem.formula, clear)
+    if problem.aim is Aim.SHORTER:
+        made = simplified(clear, problem.known, options, budget)
     else:
         plain = log.step("roots counted", clear, without_root_atoms(clear))
-        made = answered_assuming(plain, asked.known, options, budget, generic=asked.aim is Aim.GENERIC)
+        made = answered_assuming(plain, problem.known, options, budget, generic=problem.aim is Aim.GENERIC)
     made.outcome.log.entries[:0] = log.entries
-    formula, ring = made.outcome.formula, Ring.of(asked.formula.free) if asked.formula.free else None
+    formula, ring = made.outcome.formula, Ring.of(problem.formula.free) if problem.formula.free else None
     outcome = made.outcome if ring is None else replace(made.outcome, formula=_moved(formula, ring))
-    return Known(asked.formula, outcome, made.known, made.generic, plainly=False)
+    return Known(problem.formula, outcome, made.known, made.generic, plainly=False)
 
 
 def _moved(formula: Formula, ring: Ring) -> Formula:
@@ -58,9 +58,9 @@ def proved(known: Known, options: Options, budget: Budget) -> Known:
         return replace(known, outcome=run.proved(known.question, known.outcome, options, budget))
     if not options.certify:
         return replace(known, outcome=replace(known.outcome, reason=NOT_WANTED))
-    asked, said = (claimed(known.assuming, known.question, f) for f in (known.question, known.outcome.formula))
-    question = rename_apart(without_root_atoms(without_clashes(asked)))
-    proof = derived_or_decomposed(asked, question, known.outcome.log, said, options, budget)
+    problem, said = (claimed(known.assuming, known.question, f) for f in (known.question, known.outcome.formula))
+    question = rename_apart(without_root_atoms(without_clashes(problem)))
+    proof = derived_or_decomposed(problem, question, known.outcome.log, said, options, budget)
     outcome = replace(known.outcome, certificate=proof.certificate, unchecked=proof.unchecked)
     return replace(known, outcome=replace(outcome, checked=proof.checked, reason=proof.reason))
 
