@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import random
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -191,3 +193,16 @@ def test_bad_input_is_one_line(given: dict[str, Any], word: str) -> None:
     with pytest.raises(InputError, match=word) as refused:
         chain(PLANE, **given)
     assert "\n" not in str(refused.value) and isinstance(Ends("free"), Ends)
+
+
+def test_the_chains_of_the_corpus(shared: Path) -> None:
+    """Values within 1e-8 of another solver's; what is infeasible has a smallest conflict and a repair that works."""
+    for record in json.loads((shared / "corpora" / "scenes" / "chains.json").read_text()):
+        made = chain(record["points"], radius=record["radius"])
+        assert made.feasible is (record["status"] == "optimal")
+        assert qe.verify(made.certificate).accepted
+        if made.feasible:
+            assert float(made.value) == pytest.approx(record["objective"], rel=1e-8)
+        else:
+            assert made.conflict.smallest and made.repair is not None and qe.verify(made.repair.certificate).accepted
+            assert chain(record["points"], radius=made.repair.radius * Fraction(101, 100)).feasible
