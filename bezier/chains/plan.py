@@ -18,6 +18,7 @@ from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest
 from bezier.chains.timing import timed
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described, exact_text
+from qe import arguments
 from qe.errors import Unable
 from qe.proof.certificate import Certificate, Labelled
 
@@ -120,16 +121,19 @@ class ChainPlan:
             *(f"possible with {repair}" for repair in self.repairs),
         ]
 
-    def region(self, name: str, accuracy: Fraction | None = None) -> Region:
+    def region(self, name: str, accuracy: Any = None) -> Region:
         """Where a given point ("start", "via[0]", "goal"; the others as they are) or a control point ("C2.1") may be:
         polytopes inside and outside, the gap of their sizes at most ``accuracy`` (0.001 in the plane, 0.05 in space).
         Raises ``InputError``, ``Unable``."""
-        return region(self.chain, name, accuracy)
+        share = None if accuracy is None else arguments.rational(accuracy, "accuracy")
+        if share is not None and share <= 0:
+            raise arguments.wrong("accuracy", "a number above zero", accuracy)
+        return region(self.chain, arguments.text(name, "name"), share)
 
     def validity(self, name: str) -> Validity:
         """By how much a given point may move before there is no chain, from both sides. Raises ``InputError``,
         ``Unable``."""
-        return validity(self.chain, name)
+        return validity(self.chain, arguments.text(name, "name"))
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""

@@ -30,7 +30,7 @@ KINDS = ((2, 1, "legs"), (3, 1, "legs"), (3, 2, "legs"), (3, 2, "acceleration"),
 
 
 def chain(points: Any, **given: Any) -> Any:
-    return bezier.chain(start=points[0], via=points[1:-1], goal=points[-1], **given)
+    return bezier.chain(**{"start": points[0], "via": points[1:-1], "goal": points[-1], **given})
 
 
 def derivative(curve: Bezier, order: int, at: int, time: Fraction) -> list[Fraction]:
@@ -188,6 +188,12 @@ def test_multipliers_that_prove_nothing_are_refused() -> None:
     ({"ends": "stop"}, "ends"),
     ({"centre": [0]}, "centre"),
     ({"closed": True}, "goal"),
+    ({"half_spaces": 3}, "half_spaces"),
+    ({"half_spaces": [([0, 1], None)]}, "offset"),
+    ({"via": 3}, "via"),
+    ({"start": "ab"}, "start"),
+    ({"velocities": [[1, 2]]}, "velocities"),
+    ({"timeout": -1}, "timeout"),
 )
 def test_bad_input_is_one_line(given: dict[str, Any], word: str) -> None:
     with pytest.raises(InputError, match=word) as refused:
