@@ -20,7 +20,7 @@ from qe.options import Budget
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import FormRelation, OptimumStatus
 
-MOST_ACTIVE, MOST_NUMBERS, SECONDS = 2, 4000, 1.0
+MOST_NUMBERS, SECONDS = 4000, 10.0
 _NOTHING = Fraction(1, 10**6)  # share of the largest multiplier
 
 
@@ -33,12 +33,13 @@ class Exact:
     certificate: Certificate
 
 
-def exactly(chain: Chain, solved: Solved, rows: Sequence[Requirement], found: Best) -> Exact | None:
-    """The optimum near this one; None where more conditions are active, or it takes too long."""
+def exactly(chain: Chain, solved: Solved, rows: Sequence[Requirement], found: Best, most: int) -> Exact | None:
+    """The optimum near this one; None where more than ``most`` conditions are active, or it takes too long: with one
+    milliseconds, with two up to seconds."""
     size, d = solved.size, chain.dimension
     largest = max(found.weights.values(), default=Fraction(0))
     active = [row for row in rows if found.weights.get(row.label, Fraction(0)) > _NOTHING * largest]
-    if len(active) > MOST_ACTIVE or len(rows) * size * d > MOST_NUMBERS or not size:
+    if len(active) > most or len(rows) * size * d > MOST_NUMBERS or not size:
         return None
     objective = objective_form(chain, solved).quadratic(size, d)
     forms = [row.form.quadratic(size, d) for row in rows if not row.form.is_constant]

@@ -18,9 +18,11 @@ from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest
 from bezier.chains.timing import timed
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described, exact_text
+from qe import arguments
 from qe.errors import Unable
 from qe.proof.certificate import Certificate, Labelled
 
+SHORT = 10**12
 LONG = 100
 """Characters of an exact value that is printed; JSON has them all."""
 
@@ -53,7 +55,7 @@ class ChainPlan:
     repair: Repair | None = None
     repairs: tuple[Repair, ...] = ()
     exact: Exact | None = None
-    """The optimum itself, where at most two conditions are active."""
+    """The optimum itself, where at most one condition is active; with two it takes longer: ``exactly``."""
     searched: bool = False
     """Whether the durations were free: all that is proved holds for those that a search picked."""
 
@@ -70,6 +72,16 @@ class ChainPlan:
         words, gap, size = ("a billionth", "a millionth", "a thousandth"), self.value - self.bound, abs(self.value)
         known = (word for word, share in zip(words, GAPS, strict=True) if gap <= share * size)
         return next(known, f"{100 * float(gap / size):.2g} %")
+
+    def exactly(self) -> Exact | None:
+        """The optimum itself as an algebraic number, where at most two conditions are active; else None."""
+        if self.exact is not None or self.value is None or _is_bounded(self.chain) or self.chain.solved is None:
+            return self.exact
+        solved = self.chain.solved
+        rows = requirements(self.chain, solved)
+        inside = decided(self.chain, solved, rows)
+        found = None if isinstance(inside, Contradiction) else best(self.chain, solved, rows, inside)
+        return None if found is None else exactly(self.chain, solved, rows, found, 2)
 
     def with_repairs(self) -> ChainPlan:
         """The same with all ``repairs`` that are known: the radius, the point that has to move least, one duration of a
@@ -109,16 +121,19 @@ class ChainPlan:
             *(f"possible with {repair}" for repair in self.repairs),
         ]
 
-    def region(self, name: str, accuracy: Fraction | None = None) -> Region:
+    def region(self, name: str, accuracy: Any = None) -> Region:
         """Where a given point ("start", "via[0]", "goal"; the others as they are) or a control point ("C2.1") may be:
         polytopes inside and outside, the gap of their sizes at most ``accuracy`` (0.001 in the plane, 0.05 in space).
         Raises ``InputError``, ``Unable``."""
-        return region(self.chain, name, accuracy)
+        share = None if accuracy is None else arguments.rational(accuracy, "accuracy")
+        if share is not None and share <= 0:
+            raise arguments.wrong("accuracy", "a number above zero", accuracy)
+        return region(self.chain, arguments.text(name, "name"), share)
 
     def validity(self, name: str) -> Validity:
         """By how much a given point may move before there is no chain, from both sides. Raises ``InputError``,
         ``Unable``."""
-        return validity(self.chain, name)
+        return validity(self.chain, arguments.text(name, "name"))
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""
@@ -178,7 +193,10 @@ def planned(given: Chain) -> ChainPlan:
     inside = decided(given, solved, rows)
     found = inside if isinstance(inside, Contradiction) else _best(given, solved, rows, inside)
     if isinstance(found, Best):
-        curves, exact = solved.curves(found.free), None if _is_bounded(given) else exactly(given, solved, rows, found)
+        curves, exact = (
+            solved.curves(found.free),
+            exactly(given, solved, rows, found, 1) if _is_quick(given) else None,
+        )
         return ChainPlan(given, curves, found.value, found.bound, found.certificate, exact=exact)
     conflict = smallest_conflict(given, solved, found)
     if _is_bounded(given):  # a repair would have to keep the bounds, too
@@ -188,6 +206,12 @@ def planned(given: Chain) -> ChainPlan:
 
 def _best(given: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best | Contradiction:
     return (best_within if _is_bounded(given) else best)(given, solved, rows, inside)
+
+
+def _is_quick(given: Chain) -> bool:
+    """Whether the exact optimum is likely to take milliseconds: short numbers, no bounds of length and curvature."""
+    numbers = [c for p in given.points for c in p] + [given.radius_squared or Fraction(1), *given.times]
+    return not _is_bounded(given) and max(c.denominator for c in numbers) < SHORT
 
 
 def _is_bounded(given: Chain) -> bool:

@@ -152,7 +152,9 @@ def best(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequ
         raise Unable("no optimum was proposed")
     points = list(near_optimum(chain, proposal, inside, varying, objective))
     reason = "no point near the optimum keeps all conditions"
-    for gap, free, weights in product(GAPS, points, rational_weights(proposal.weights)):
+    fitted = proposals.fitted_weights(varying, objective, proposal.point) or ()
+    multipliers = [*rational_weights(proposal.weights), *rational_weights(fitted)]
+    for gap, free, weights in product(GAPS, points, multipliers):
         named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
         try:
             return bounded(chain, solved, rows, free, named, gap)

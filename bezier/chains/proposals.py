@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from math import sqrt
 from typing import Any
 
@@ -12,7 +13,10 @@ from bezier.chains.chain import Chain, Requirement
 from bezier.chains.form import Affine, Form
 from qe.extras import wanted
 
-TOLERANCE = 1e-12
+TOLERANCES = (1e-12, 1e-10, 1e-8)
+"""Tried in this order: what is out of reach ends far from the optimum."""
+ACTIVE = Fraction(1, 10**6)
+"""The share of its room within which a condition counts as active."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,11 +86,14 @@ def _solved(
                 quadratic[i * d + k, j * d + k] = 2 * float(m) / scale
         for i, g in objective.gradient.items():
             linear[i * d : (i + 1) * d] = [float(c) / unit / scale for c in g]
+    upper, matrix = sparse.csc_matrix(np.triu(quadratic)), sparse.csc_matrix(np.array(lines).reshape(-1, width))
     settings = clarabel.DefaultSettings()
     settings.verbose = False
-    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = TOLERANCE
-    upper, matrix = sparse.csc_matrix(np.triu(quadratic)), sparse.csc_matrix(np.array(lines).reshape(-1, width))
-    answer = clarabel.DefaultSolver(upper, linear, matrix, np.array(right), cones, settings).solve()
+    for tolerance in TOLERANCES:
+        settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+        answer = clarabel.DefaultSolver(upper, linear, matrix, np.array(right), cones, settings).solve()
+        if str(answer.status) == "Solved":
+            break
     x = np.array(answer.x)
     if not np.all(np.isfinite(x)) or not np.all(np.isfinite(np.array(answer.z))):
         return None
@@ -113,3 +120,35 @@ def _block(point: Affine, factor: float, dimension: int, width: int, unit: float
         for k in range(dimension):
             block[k, i * dimension + k] = factor * float(a)
     return block, np.array([factor * float(c) for c in point.constant]) / unit
+
+
+def fitted_weights(
+    rows: Sequence[Requirement], objective: Form, point: Sequence[Sequence[float]]
+) -> tuple[float, ...] | None:
+    """Multipliers of the conditions that are active at a point, for which the Lagrange function is nearly stationary
+    there (least squares): better ones than the solver's where it stopped early."""
+    with wanted():
+        import numpy as np
+        from scipy.optimize import nnls
+    free = tuple(tuple(Fraction(c) for c in p) for p in point)
+    active = [k for k, row in enumerate(rows) if row.form.value(free) > -ACTIVE * (abs(row.form.constant) + 1)]
+    if not active:
+        return None
+    at = np.array(point, dtype=float)
+    columns = np.array([_slope(rows[k].form, at).ravel() for k in active]).T
+    try:
+        weights, _ = nnls(columns, -_slope(objective, at).ravel())
+    except (RuntimeError, ValueError):
+        return None
+    named = dict(zip(active, weights.tolist(), strict=True))
+    return tuple(named.get(k, 0.0) for k in range(len(rows)))
+
+
+def _slope(form: Form, at: Any) -> Any:
+    """The gradient, in floating point."""
+    slope = 0 * at
+    for (i, j), m in form.matrix.items():
+        slope[i] += 2 * float(m) * at[j]
+    for i, g in form.gradient.items():
+        slope[i] += [float(c) for c in g]
+    return slope

@@ -72,7 +72,7 @@ def chain(
         "goal": goal,
         "radius": radius,
         "centre": centre,
-        "half_space": [_half_space(h) for h in half_spaces],
+        "half_space": _half_spaces(half_spaces),
         "degree": degree,
         "continuity": continuity,
         "durations": durations,
@@ -94,6 +94,12 @@ def chain_from(given: Mapping[str, object]) -> Chain:
     named = {key: value for key, value in given.items() if value is not None}
     values = {key: table_value(value, f"{SOURCE}: {NAMES.get(key, key)}") for key, value in named.items()}
     return read_chain(Table(values, SOURCE, names=NAMES))
+
+
+def _half_spaces(given: object) -> list[object]:
+    if not isinstance(given, Sequence) or isinstance(given, str):
+        raise InputError(f"{SOURCE}: half_spaces: expected mappings or pairs, found {arguments.shown(given)}")
+    return [_half_space(entry) for entry in given]
 
 
 def _half_space(given: object) -> object:

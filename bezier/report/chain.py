@@ -10,7 +10,7 @@ import numpy as np
 from bezier.chains.chain import Chain
 from bezier.chains.region import Region
 from bezier.curves.curve import Bezier
-from bezier.pictures.mesh import sampled
+from bezier.pictures.mesh import hull, sampled
 from bezier.pictures.picture import COLOURS, GRID, INK, PALE, Chart
 from bezier.pictures.plot import VIEWS, new_figure, place, svg_text
 from bezier.report import html
@@ -46,11 +46,11 @@ def _point(point: Any) -> str:
 
 
 def pictures(chain: Chain, curves: tuple[Bezier, ...], shown: Region | None = None) -> list[Chart]:
-    """The plane, with the region where one is ``shown``, or the three views of space."""
+    """The plane, or the three views of space; with the region where one is ``shown``."""
+    where = "" if shown is None else f"; shaded: where {shown.name} may be"
     if chain.dimension == 2:
-        where = "" if shown is None else f"; shaded: where {shown.name} may be"
         return [(_view(chain, curves, 0, 1, shown), f"the chain, its control polygons and its conditions{where}")]
-    return [(_view(chain, curves, i, j, None), f"the chain, {title}") for title, i, j in VIEWS]
+    return [(_view(chain, curves, i, j, shown), f"the chain, {title}{where}") for title, i, j in VIEWS]
 
 
 def _view(chain: Chain, curves: tuple[Bezier, ...], i: int, j: int, shown: Region | None) -> str:
@@ -62,8 +62,7 @@ def _view(chain: Chain, curves: tuple[Bezier, ...], i: int, j: int, shown: Regio
     _conditions(axis, chain, i, j)
     if shown is not None:
         corners = np.array([[float(c) for c in p] for p in shown.inner])
-        away = corners - corners.mean(axis=0)
-        axis.fill(*corners[np.argsort(np.arctan2(away[:, 1], away[:, 0]))].T, color=PALE, alpha=0.3, linewidth=0)
+        axis.fill(*hull(corners[:, (i, j)]).T, color=PALE, alpha=0.3, linewidth=0)
     drawn = [everything]
     for k, (curve, polygon) in enumerate(zip(curves, polygons, strict=True)):
         colour = _CURVES[k % len(_CURVES)]

@@ -119,7 +119,15 @@ def test_free_durations_are_no_worse_than_equal_ones() -> None:
 )
 def test_optima_with_few_active_conditions_are_exact(given: Any, value: str | None) -> None:
     made = chain(**given)
-    assert made.exact is not None and qe.verify(made.exact.certificate).accepted
+    assert made.exactly() is made.exact is not None and qe.verify(made.exact.certificate).accepted
     assert made.bound <= made.exact.value <= made.value
     assert value is None or made.exact.value == Fraction(value)
     assert made.exact.curves[0].points[0] == made.curves[0].points[0]
+
+
+def test_two_active_conditions_on_demand() -> None:
+    points = [[-4, 0], [-3, 2], [-1, 3], [1, 1.5], [2, 2.5], [3.5, 1], [4, -1]]
+    made = chain(points, radius="17/4", durations=[1, 1, 1.2, 0.8, 1, 1], half_spaces=[([0, -1], -3.05)])
+    exact = made.exactly()
+    assert made.exact is None and exact is not None and qe.verify(exact.certificate).accepted
+    assert made.bound <= exact.value <= made.value

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import random
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,7 +30,7 @@ KINDS = ((2, 1, "legs"), (3, 1, "legs"), (3, 2, "legs"), (3, 2, "acceleration"),
 
 
 def chain(points: Any, **given: Any) -> Any:
-    return bezier.chain(start=points[0], via=points[1:-1], goal=points[-1], **given)
+    return bezier.chain(**{"start": points[0], "via": points[1:-1], "goal": points[-1], **given})
 
 
 def derivative(curve: Bezier, order: int, at: int, time: Fraction) -> list[Fraction]:
@@ -186,8 +188,27 @@ def test_multipliers_that_prove_nothing_are_refused() -> None:
     ({"ends": "stop"}, "ends"),
     ({"centre": [0]}, "centre"),
     ({"closed": True}, "goal"),
+    ({"half_spaces": 3}, "half_spaces"),
+    ({"half_spaces": [([0, 1], None)]}, "offset"),
+    ({"via": 3}, "via"),
+    ({"start": "ab"}, "start"),
+    ({"velocities": [[1, 2]]}, "velocities"),
+    ({"timeout": -1}, "timeout"),
 )
 def test_bad_input_is_one_line(given: dict[str, Any], word: str) -> None:
     with pytest.raises(InputError, match=word) as refused:
         chain(PLANE, **given)
     assert "\n" not in str(refused.value) and isinstance(Ends("free"), Ends)
+
+
+def test_the_chains_of_the_corpus(shared: Path) -> None:
+    """Values within 1e-8 of another solver's; what is infeasible has a smallest conflict and a repair that works."""
+    for record in json.loads((shared / "corpora" / "scenes" / "chains.json").read_text()):
+        made = chain(record["points"], radius=record["radius"])
+        assert made.feasible is (record["status"] == "optimal")
+        assert qe.verify(made.certificate).accepted
+        if made.feasible:
+            assert float(made.value) == pytest.approx(record["objective"], rel=1e-8)
+        else:
+            assert made.conflict.smallest and made.repair is not None and qe.verify(made.repair.certificate).accepted
+            assert chain(record["points"], radius=made.repair.radius * Fraction(101, 100)).feasible

@@ -173,5 +173,8 @@ def test_the_command_says_where(capsys: pytest.CaptureFixture[str], tmp_path: An
         assert main(["chain", str(file), "--region", name]) == 2
         (line,) = capsys.readouterr().err.splitlines()
         assert "expected one of" in line
+    for name, accuracy, word in ((3, None, "name"), ("start", "x", "accuracy"), ("start", 0, "accuracy")):
+        with pytest.raises(InputError, match=word):
+            chain(PLANE, radius=8).region(name, accuracy)
     with pytest.raises(InputError, match="bounds"):
         chain(PLANE, radius=8, max_length=20).region("via[0]")
