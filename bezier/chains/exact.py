@@ -33,12 +33,12 @@ class Exact:
     certificate: Certificate
 
 
-def exactly(chain: Chain, solved: Solved, rows: Sequence[Requirement], found: Best, most: int) -> Exact | None:
+def exactly(chain: Chain, solved: Solved, rows: Sequence[Requirement], best: Best, most: int) -> Exact | None:
     """The optimum near this one; None where more than ``most`` conditions are active, or it takes too long: with one
     milliseconds, with two up to seconds."""
     size, d = solved.size, chain.dimension
-    largest = max(found.weights.values(), default=Fraction(0))
-    active = [row for row in rows if found.weights.get(row.label, Fraction(0)) > _NOTHING * largest]
+    largest = max(best.weights.values(), default=Fraction(0))
+    active = [row for row in rows if best.weights.get(row.label, Fraction(0)) > _NOTHING * largest]
     if len(active) > most or len(rows) * size * d > MOST_NUMBERS or not size:
         return None
     objective = objective_form(chain, solved).quadratic(size, d)

@@ -97,15 +97,15 @@ def nearest_point(given: Chain) -> Repair | None:
     moves = sorted(_moves(given))
     for _, k in moves:
         try:
-            solved, found = _best_move(replace(given, free_via=k))
+            solved, best = _best_move(replace(given, free_via=k))
         except Unable:
             continue
-        corner = solved.controls[k % given.pieces][0 if k < given.pieces else -1].at(found.free)
+        corner = solved.controls[k % given.pieces][0 if k < given.pieces else -1].at(best.free)
         name = given.point_names[k]
-        members = found.certificate.payload
+        members = best.certificate.payload
         assert isinstance(members, tuple)
         labelled = [(f"{m.label} with {name} free", m.certificate) for m in members]
-        return Repair(name, corner, found.bound, Certificate.bundle(labelled))
+        return Repair(name, corner, best.bound, Certificate.bundle(labelled))
     return None
 
 

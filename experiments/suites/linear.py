@@ -87,7 +87,9 @@ def dense_sat(n: int) -> str:
     names = _names(n)
     parts = []
     for row in rows:
-        parts.append(f"{_form(row, names)} <= {sum(c * v for c, v in zip(row, point, strict=True)) + rng.randint(0, 1)}")
+        parts.append(
+            f"{_form(row, names)} <= {sum(c * v for c, v in zip(row, point, strict=True)) + rng.randint(0, 1)}"
+        )
     return _exists(names, [*parts, f"{_form([1] * n, names)} >= {sum(point)}"])
 
 
@@ -120,7 +122,9 @@ def few_variables(n: int) -> str:
 def tight_clauses(n: int) -> str:
     """The same in n/4 variables, one bound of three holding at a random point, and hardly more."""
     rng = random.Random(SEED + n)
-    return _clauses(n, n // 4, rng, lambda value, position: rng.randint(-20, 20) if position else value + rng.randint(0, 2))
+    return _clauses(
+        n, n // 4, rng, lambda value, position: rng.randint(-20, 20) if position else value + rng.randint(0, 2)
+    )
 
 
 def _clauses(n: int, size: int, rng: random.Random, bound: Callable[[int, int], int]) -> str:

@@ -32,7 +32,7 @@ class Refutation:
     weights: Mapping[int, int]
 
 
-def settled(
+def decided(
     system: LinearRows, seconds: Callable[[], float | None], propose: Proposer = highs
 ) -> tuple[Fraction, ...] | Refutation | None:
     """A point of all rows or their contradiction, checked exactly; None where the proposals do not lead to either.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
-from qe.convex.exact_basis import Refutation, settled
+from qe.convex.exact_basis import Refutation, decided
 from qe.convex.highs import Proposer, highs
 from qe.convex.linear_rows import LinearRows
 from qe.convex.system import NotConvex, atoms_of
@@ -67,7 +67,7 @@ def linear_point(
     large = sum(len(row.terms) for row in system.rows) >= LARGE
     outcome = None if large else _pivoted(system, budget, WORK)
     if outcome is None:
-        outcome = settled(system, seconds, propose) or _pivoted(system, budget)
+        outcome = decided(system, seconds, propose) or _pivoted(system, budget)
     assert outcome is not None
     if isinstance(outcome, Refutation):
         terms = tuple((system.rows[i].sign * w, atoms[i].poly) for i, w in outcome.weights.items())

@@ -212,7 +212,7 @@ def _read_off_cells(formula: Formula, known: Formula, question: Formula, context
 # --- generic answers -------------------------------------------------------------------------------------
 def _leading(question: Formula, known: Formula) -> tuple[Formula, ...]:
     """That the factors of leading coefficients in a bound variable, polynomials in free ones, are not zero."""
-    names, found = set(question.free), dict[Formula, None]()
+    names, leading = set(question.free), dict[Formula, None]()
     for a in atoms(question):
         ring = a.poly.ring
         for i in a.poly.variables:
@@ -220,8 +220,8 @@ def _leading(question: Formula, known: Formula) -> tuple[Formula, ...]:
                 continue
             lead = a.poly.coefficients(i)[-1]
             if not lead.is_constant and names.issuperset(ring.names[j] for j in lead.variables):
-                found |= dict.fromkeys(_nonzero(lead))
-    return tuple(n for n in found if simplify(n, known) != TRUE)[:MOST_GENERIC]
+                leading |= dict.fromkeys(_nonzero(lead))
+    return tuple(n for n in leading if simplify(n, known) != TRUE)[:MOST_GENERIC]
 
 
 def _nonzero(poly: Poly) -> Iterator[Formula]:

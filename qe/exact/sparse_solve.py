@@ -138,7 +138,9 @@ def _length(row: Mapping[int, int]) -> int:
 
 def _independent(table: Sequence[Sequence[int]]) -> list[int]:
     """Rows that are independent, modulo a prime: the pivot columns of the transposed table."""
-    reduced, rank = nmod_mat(len(table[0]), len(table), [c % _PRIME for line in zip(*table) for c in line], _PRIME).rref()
+    reduced, rank = nmod_mat(
+        len(table[0]), len(table), [c % _PRIME for line in zip(*table) for c in line], _PRIME
+    ).rref()
     pivots, start = [], 0
     for i in range(rank):
         start = next(j for j in range(start, len(table)) if int(reduced[i, j]))

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
-from math import prod
 
 from flint import fmpz_mpoly, fmpz_poly
 

@@ -52,7 +52,7 @@ def test_obstacles_are_tables_as_for_plan(states: Path) -> None:
     near = {"kind": "ball", "centre": [1, 1, 0], "radius": 1}
     assert bezier.certify(states, obstacles=[far]).kept
     met = bezier.certify(states, obstacles=[far, near])
-    assert not met.kept and not met.clear and "obstacle 2" in str(met)
+    assert not met.kept and not met.clear and "ball 2" in str(met)
 
 
 def test_splines_of_scipy() -> None:
