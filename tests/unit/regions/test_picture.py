@@ -112,7 +112,8 @@ def test_the_page_draws_all_its_triangles(tmp_path):
 STUB = """
 let fills = 0, drawn = 0, wrong = 0, onkeydown, onresize;
 const check = (...a) => { for (const x of a) if (!Number.isFinite(x)) wrong++; };
-const brush = {beginPath() {}, moveTo: check, lineTo: check, closePath() {}, fill() { fills++; }, stroke() {}, arc: check,
+const brush = {beginPath() {}, moveTo: check, lineTo: check, closePath() {}, stroke() {}, arc: check,
+  fill() { fills++; },
   fillText(text, ...at) { check(...at); if (text === "z") drawn++; }};
 const sheet = {getContext: () => brush, clientWidth: 300, clientHeight: 200, setPointerCapture() {}};
 const document = {querySelector: () => sheet,
