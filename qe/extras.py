@@ -18,7 +18,6 @@ _EXTRAS = {
     "mpl_toolkits": "pictures",
     "networkx": "plan",
     "numpy": "pictures",
-    "plotly": "plan",
     "pyarrow": "sweep",
     "pysat": "sat",
     "scipy": "plan",

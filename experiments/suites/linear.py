@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 
 from experiments.problem import Problem
 
@@ -57,7 +58,7 @@ def _exists(names: Sequence[str], parts: Sequence[str]) -> str:
 def chain(n: int) -> str:
     """x1 < x2 < ... < xn."""
     names = _names(n)
-    return _exists(names, [f"{x} < {y}" for x, y in zip(names, names[1:], strict=False)])
+    return _exists(names, [f"{x} < {y}" for x, y in pairwise(names)])
 
 
 def cycle(n: int) -> str:
@@ -146,7 +147,7 @@ def clauses_unsat(n: int) -> str:
     """Each of n/2 variables is at most 0 or at least 2, twice as a sum with its neighbour; their sum lies between."""
     names = _names(max(2, n // 2))
     parts = [f"({x} <= 0 or {x} >= 2)" for x in names]
-    parts += [f"({x} - {y} < 0 or {x} - {y} >= 0)" for x, y in zip(names, names[1:], strict=False)]
+    parts += [f"({x} - {y} < 0 or {x} - {y} >= 0)" for x, y in pairwise(names)]
     parts += [f"{x} >= 0 and {x} <= 2" for x in names]
     return _exists(names, [*parts, f"{' + '.join(names)} > 0", f"{' + '.join(names)} < 2"])
 

@@ -315,7 +315,8 @@ def answered(
     wanted = {"certificate": certificate is not None, "check": given["check"], "json": given["json"]}
     request = Request(source=text, settings=settings, **wanted)
     worked = partial(work, request=request)
-    reply = limited(worked, timeout=timeout, memory=memory, plain=given["plain"], text=text.text)
+    shown = {"plain": given["plain"], "lines": given["progress"]}
+    reply = limited(worked, timeout=timeout, memory=memory, text=text.text, **shown)
     return deliver(reply, files, explain=explain)
 
 

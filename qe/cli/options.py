@@ -36,10 +36,12 @@ ELSEWHERE = {"format", "progress", "process", "check", "without"}
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 _CERTIFICATE = typer.Option("--certificate", help="Write the certificate to this file.")
 _CHECK = typer.Option("--check", help="Prove the answer, verify the proof, and say so.")
+_PROGRESS = typer.Option("--progress", help="Lines of progress on stderr, also through a pipe.")
 REPORT = {
     "check": _parameter("check", False, Annotated[bool, _CHECK]),
     "certificate": _parameter("certificate", None, Annotated[Path | None, _CERTIFICATE]),
     "json": _parameter("json", False, Json),
+    "progress": _parameter("progress", False, Annotated[bool, _PROGRESS]),
     "plain": _parameter(
         "plain", False, Annotated[bool, typer.Option("--plain", help="No progress display and no notes.")]
     ),

@@ -1,7 +1,7 @@
 """Sparse systems of linear equations over Q: short pivots are eliminated by hand, what is dense then goes to FLINT.
 
-A pivot of a row with r entries whose column has c makes at most (r - 1)(c - 1) new ones (Markowitz 1957). The dense rest
-is solved by p-adic lifting (Dixon 1982), which costs little more than its answer is long.
+A pivot of a row with r entries whose column has c makes at most (r - 1)(c - 1) new ones (Markowitz 1957). The dense
+rest is solved by p-adic lifting (Dixon 1982), which costs little more than its answer is long.
 """
 
 from __future__ import annotations

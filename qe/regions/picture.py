@@ -42,14 +42,11 @@ def inline(sketch: Sketch) -> str:
 
 
 def write(sketch: Sketch, path: Path) -> Any:
-    """Write a picture, a page with a turnable one for .html; the axes of the former. No window is opened.
-
-    Raises ``InputError`` for a turnable picture of a region that is not in space.
-    """
+    """Write a picture, or a page for .html, in space with a turnable one; the axes of the former."""
     if path.suffix.lower() == TURNABLE:
         from qe.regions.turnable import page
 
-        path.write_text(page(sketch), encoding="utf-8")
+        path.write_text(page(sketch, "" if len(sketch.order) == 3 else _drawing(sketch)), encoding="utf-8")
         return None
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -60,6 +57,21 @@ def write(sketch: Sketch, path: Path) -> Any:
     figure.tight_layout()
     figure.savefig(path)
     return axes
+
+
+def _drawing(sketch: Sketch) -> str:
+    """The picture as SVG."""
+    from io import StringIO
+
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    from matplotlib.figure import Figure
+
+    figure, content = Figure(figsize=(6.4, 5.2)), StringIO()
+    FigureCanvasSVG(figure)
+    paint(sketch, figure.add_subplot())
+    figure.tight_layout()
+    figure.savefig(content, format="svg")
+    return content.getvalue()
 
 
 def show(sketch: Sketch, axes: Any) -> Any:

@@ -317,10 +317,10 @@ class Region(SetOperations):
     def plot(self, path: str | Path | None = None, *, ax: Any = None, timeout: float | None = None) -> Any:
         """A picture of a region in one to three variables; the matplotlib axes.
 
-        ``path``: written there, by its ending as PNG, SVG or PDF, or as a page with a turnable picture (.html, in three
+        ``path``: written there, by its ending as PNG, SVG or PDF, or as a page (.html; turnable in three
         variables; returns None). ``ax``: painted on these axes (of projection "3d" in three variables). With neither,
         on new ones of pyplot's. ``timeout`` (seconds) limits the exact part, not the painting. Raises ``InputError`` in
-        more variables and for a file that cannot be written, ``Unable`` where matplotlib or plotly is not installed.
+        more variables and for a file that cannot be written, ``Unable`` where matplotlib is not installed.
         """
         with wanted():
             from qe.regions.picture import check_ending, show, write

@@ -151,3 +151,10 @@ def test_contradicting_assumptions_are_noted() -> None:
     done = run("eliminate", "ex x. x = a", "--assuming", "a > 0 and a < 0")
     assert done.stdout == "true\n" and "nothing meets these conditions" in done.stderr
     assert run("find", "x > a", "--assuming", "a > 0 and a < 0").stdout == "none\n"
+
+
+def test_progress_is_written_through_a_pipe_where_it_is_wanted() -> None:
+    hard = "ex x, y. x^4 + y^4 + a*x*y + b = 0 and x^3 - y^2 + a > 0 and x + y^3 > b"
+    said = run("eliminate", hard, "--timeout", "3", "--progress").stderr.splitlines()
+    assert any("..." in line and " s)" in line for line in said[:-1])
+    assert run("eliminate", "ex x. x^2 = a", "--plain").stderr == ""

@@ -1,4 +1,4 @@
-"""Linear conditions: what floats propose is made exact, and agrees with the simplex method; nothing false gets through."""
+"""Linear conditions: what floats propose is made exact and agrees with the simplex method; nothing false gets by."""
 
 import random
 from dataclasses import replace

@@ -1,8 +1,10 @@
 """Parts of regions: sketches, walks, plane slices, measures, descriptions, operators."""
 
+from base64 import b64decode
 from fractions import Fraction
 from random import Random
 
+import numpy as np
 import pytest
 
 import qe
@@ -112,13 +114,12 @@ def test_file_names_of_pictures(tmp_path) -> None:  # type: ignore[no-untyped-de
         picture.check_ending(tmp_path / "a.jpg")
 
 
-def test_turnable_pages_are_of_space() -> None:
-    pytest.importorskip("plotly")
-    with pytest.raises(InputError, match="needs 3 variables, the region has 2"):
-        turnable.page(sketch.sketch(region("x^2 + y^2 <= 1", "x y")))
-    traces = turnable._traces(sketch.sketch(region("x^2 + y^2 + z^2 <= 1", "x y z")))
-    mesh = [t for t in traces if t.type == "mesh3d"]
-    assert mesh and all(abs(v) <= 1 + 1e-6 for t in mesh for v in t.z) and max(max(t.z) for t in mesh) > 0.99
+def test_turnable_pages_have_the_points_of_the_surface() -> None:
+    scene = turnable._scene(sketch.sketch(region("x^2 + y^2 + z^2 <= 1", "x y z")))
+    assert [scene["low"][0], scene["high"][0]] == ["-1", "1"] and min(scene["size"]) > 0.99
+    points = np.frombuffer(b64decode(str(scene["points"])), "<u2").reshape(-1, 3) / turnable.STEPS * 2 - 1
+    faces = np.frombuffer(b64decode(str(scene["faces"])), "<u4")
+    assert abs(np.linalg.norm(points, axis=1) - 1).max() < 0.05 and faces.max() < len(points) and len(faces) % 3 == 0
 
 
 # --- walks -----------------------------------------------------------------------------------------------------

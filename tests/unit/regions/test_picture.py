@@ -1,6 +1,7 @@
 """Pictures: on the caller's axes, on new ones, in files and pages; the backend stays as it is."""
 
 import itertools
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -84,10 +85,41 @@ def test_a_page_that_turns(tmp_path):
     target = tmp_path / "ball.html"
     assert qe.region(BALL).plot(target) is None
     text = target.read_text()
-    assert "mesh3d" in text and "plotly" in text
-    assert "<script src=" not in text  # needs no network
-    with pytest.raises(qe.InputError, match="3 variables"):
-        qe.region("x^2 + y^2 < 1").plot(target)
+    assert "<canvas" in text and len(text) < 400_000  # 5.2 MB when a library was in it
+    assert "src=" not in text and "http" not in text  # needs no network
+    qe.region("x^2 + y^2 < 1").plot(target)
+    assert "<svg" in target.read_text() and "<canvas" not in target.read_text()
+    with pytest.raises(qe.InputError, match="1 to 3 variables"):
+        qe.region("x^2 + y^2 + z^2 + w^2 < 1").plot(target)
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript")
+def test_the_page_draws_all_its_triangles(tmp_path):
+    """The script runs, with a canvas that counts, at the start, when it is turned, and for a point."""
+    for text, least in ((BALL, 5000), ("x = 1 and y = 2 and z = 3", 1), ("x^2 + y^2 + z^2 < 0", 0)):
+        qe.region(text).plot(tmp_path / "p.html")
+        page = (tmp_path / "p.html").read_text()
+        data = page.partition('id="data">')[2].partition("</script>")[0]
+        script = page.rpartition("<script>")[2].partition("</script>")[0]
+        (tmp_path / "data.json").write_text(data)
+        turned = "onkeydown({key: 'ArrowLeft'}); console.log(fills, drawn, wrong);"
+        (tmp_path / "run.js").write_text(STUB + script.replace('"use strict";', "") + turned)
+        done = subprocess.run(["node", tmp_path / "run.js"], capture_output=True, text=True, timeout=60, cwd=tmp_path)
+        fills, drawn, wrong = done.stdout.split()
+        assert done.returncode == 0 and int(fills) >= 2 * least and int(drawn) == 2 and wrong == "0", done
+
+
+STUB = """
+let fills = 0, drawn = 0, wrong = 0, onkeydown, onresize;
+const check = (...a) => { for (const x of a) if (!Number.isFinite(x)) wrong++; };
+const brush = {beginPath() {}, moveTo: check, lineTo: check, closePath() {}, stroke() {}, arc: check,
+  fill() { fills++; },
+  fillText(text, ...at) { check(...at); if (text === "z") drawn++; }};
+const sheet = {getContext: () => brush, clientWidth: 300, clientHeight: 200, setPointerCapture() {}};
+const document = {querySelector: () => sheet,
+  getElementById: () => ({textContent: require("fs").readFileSync("data.json", "utf8")})};
+const matchMedia = () => ({matches: false}), devicePixelRatio = 1, requestAnimationFrame = f => f();
+"""
 
 
 def test_the_backend_stays(tmp_path: Path):
