@@ -139,8 +139,14 @@ def _exactly(chain: Chain, size: int, rows: Sequence[Requirement]) -> tuple[Poin
     return tuple(tuple(exact[i : i + d]) for i in range(0, len(exact), d))
 
 
-def best(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best:
-    """Both sides of the optimum under these conditions, a billionth of it apart, or the least of ``GAPS`` that can be
+def best(
+    chain: Chain,
+    solved: Solved,
+    rows: Sequence[Requirement],
+    inside: Sequence[Point],
+    gaps: Sequence[Fraction] = GAPS,
+) -> Best:
+    """Both sides of the optimum under these conditions, a billionth of it apart, or the first of ``gaps`` that can be
     proved. ``inside``: free points that keep the conditions. Raises ``Unable`` where none can."""
     size, d, objective = solved.size, chain.dimension, objective_form(chain, solved)
     lowest = objective.minimum(size, d)
@@ -154,7 +160,7 @@ def best(chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequ
     reason = "no point near the optimum keeps all conditions"
     fitted = proposals.fitted_weights(varying, objective, proposal.point) or ()
     multipliers = [*rational_weights(proposal.weights), *rational_weights(fitted)]
-    for gap, free, weights in product(GAPS, points, multipliers):
+    for gap, free, weights in product(gaps, points, multipliers):
         named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
         try:
             return bounded(chain, solved, rows, free, named, gap)

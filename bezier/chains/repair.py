@@ -15,13 +15,14 @@ from fractions import Fraction
 
 from bezier.chains import proposals
 from bezier.chains.chain import Chain, Requirement, Solved, objective_form, requirements
-from bezier.chains.proof import Best, Contradiction, best, decided, feasible
+from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
 from qe.errors import Unable
 from qe.proof.certificate import Certificate
 
 NARROW = Fraction(1, 10**7)
 """How far, relative, the values that are proved to be enough, and not enough, lie from the one that was proposed."""
 _FACTORS = (1.25, 1.5, 2.0, 3.0, 4.0, 8.0)  # of a duration
+_GAPS = (*GAPS, Fraction(1, 20), Fraction(1, 2))  # of the square of a distance, which may be small
 _TOLERANCE = 1e-7  # of conditions, in floating point, in proportion to the room
 
 
@@ -117,7 +118,7 @@ def _best_move(freed: Chain) -> tuple[Solved, Best]:
     inside = decided(freed, solved, rows)
     if isinstance(inside, Contradiction):
         raise Unable("moving this point does not help")
-    return solved, best(freed, solved, rows, inside)
+    return solved, best(freed, solved, rows, inside, _GAPS)
 
 
 def _moves(given: Chain) -> Iterator[tuple[float, int]]:
