@@ -46,8 +46,8 @@ class LinearTheory(Protocol):
 
 
 class Propagator:
-    """What the SAT solver calls. The theories hear of literals that are ``needed`` only. ``last``: gives clauses against
-    a whole assignment, none where it is a solution; ``prefer`` is called before decisions.
+    """What the SAT solver calls. The theories hear of literals that are ``needed`` only. ``last``: gives clauses
+    against a whole assignment, none where it is a solution; ``prefer`` is called before decisions.
 
     ``lemmas``: the clauses that the solver was told. ``failure``: an error while it called, which ends its work.
     ``keeps_errors``: whether this is inside such a call, where errors become the failure.
