@@ -171,6 +171,24 @@ def speedup(
     return OK if found.same else BUG
 
 
+@app.command(short_help="Many small eliminations in one process.")
+def small(
+    count: Annotated[int, typer.Option(help="Questions of each family.", min=1)] = 200,
+    family: Annotated[list[str] | None, typer.Option(help="Only this family; may be given again.")] = None,
+) -> int:
+    """Eliminate one variable of many small questions and print each family's processor time and length of answers."""
+    from experiments.small import FAMILIES, measured
+
+    if unknown := set(family or ()) - set(FAMILIES):
+        raise InputError(f"no family {min(unknown)!r}; there are {', '.join(FAMILIES)}")
+    total = 0.0
+    for each in measured(count, family):
+        print(each, flush=True)
+        total += each.seconds
+    print(f"{total:.2f} s of processor time in all")
+    return OK
+
+
 @app.command(short_help="Run SMT-LIB scripts through qe smt.")
 def scripts(
     folder: Annotated[Path, typer.Argument(exists=True, file_okay=False, help="A folder of SMT-LIB scripts (*.smt2).")],

@@ -22,6 +22,7 @@ class Suite:
 SUITES = {
     "paper": Suite(paper.problems),
     "classics": Suite(corpus.classics),
+    "textbook": Suite(corpus.textbook),
     "literature": Suite(corpus.literature),
     "hard": Suite(corpus.hard),
     "wild": Suite(corpus.wild),

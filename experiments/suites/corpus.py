@@ -24,12 +24,18 @@ def records() -> list[dict[str, Any]]:
 
 def _problem(record: dict[str, Any]) -> Problem:
     keys = ("formula", "expected", "assume")
-    return Problem("project", str(record["id"]), **{key: record[key] for key in keys if key in record})
+    name = "textbook" if "textbook" in record["tags"] else "project"
+    return Problem(name, str(record["id"]), **{key: record[key] for key in keys if key in record})
 
 
 def classics() -> list[Problem]:
     """The project's own corpus: classics of the field, odd shapes, wrong answers that systems have given."""
-    return [_problem(record) for record in records()]
+    return [_problem(record) for record in records() if "textbook" not in record["tags"]]
+
+
+def textbook() -> list[Problem]:
+    """Theorems and conditions of the literature that are known in closed form."""
+    return [_problem(record) for record in records() if "textbook" in record["tags"]]
 
 
 def timing_ids() -> list[str]:

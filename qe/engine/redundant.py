@@ -100,14 +100,14 @@ def without_redundant_parts(
             kept.add(sentence)
             points.take(outcome.witness if outcome is not None else None)
             patience -= 1
-    return formula
+    return _without_excluded_parts(formula, context, points)
 
 
-def _without_excluded_parts(formula: Formula, context: Context) -> Formula:
+def _without_excluded_parts(formula: Formula, context: Context, points: _Points | None = None) -> Formula:
     """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
     if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
         return formula
-    points, kept, terms = _Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
+    points, kept, terms = points or _Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
     # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
     while (part := next((p for p in _by_size(formula, points) if p.formula not in kept), None)) is not None:

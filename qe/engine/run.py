@@ -77,6 +77,7 @@ class _Run:
     budget: Budget
     log: RunLog = field(default_factory=RunLog)
     tried: set[Formula] = field(default_factory=set)
+    short: set[Formula] = field(default_factory=set)
 
     # --- the question as a whole ---------------------------------------------------------------
     def outcome(self, question: Formula) -> Outcome:
@@ -91,7 +92,7 @@ class _Run:
             outcome = replace(outcome, witness=values)
         if outcome.certificate is not None or isinstance(outcome.formula, Constant):
             return outcome
-        return replace(outcome, formula=shortened(outcome.formula, self.context(), Start(question, mark)))
+        return replace(outcome, formula=shortened(outcome.formula, self.context(), Start(question, mark), self.short))
 
     def outcome_at_length(self, question: Formula, problem: Block | None) -> Outcome:
         """The same, not yet shortened."""
@@ -261,7 +262,7 @@ class _Run:
             self.log.switch(name, f"{', '.join(features(formula).bound)} left for another method")
             formula = self.without_quantifiers(formula)
         if attempt.shorten and problem.free:
-            formula = shortened(formula, self.context())
+            formula = shortened(formula, self.context(), known=self.short)
         simple = self.log.step("simplification", formula, simplify(formula, watch=self.budget.check))
         return outcome if simple == outcome.formula else replace(outcome, formula=simple)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from qe.elimination.protocol import Context
 from qe.engine.constant import Start, constant
+from qe.engine.implied import affine_hull_first, is_linear_conjunction
 from qe.engine.redundant import is_worth_questions, without_redundant_parts
 from qe.engine.strategy import allows
 from qe.engine.untangle import has_equations, untangled, untangled_negation
@@ -63,18 +64,25 @@ RULES: tuple[Rule, ...] = (
     Rule("equations", untangled, has_equations, Stage.EQUATIONS),
     Rule("equations of the negation", untangled_negation, stage=Stage.EQUATIONS),
     Rule("cells", read_off_cells, _has_few_cells),
+    Rule("affine hull", affine_hull_first, is_linear_conjunction, Stage.REDUNDANT, last=True),
     Rule("redundant parts", without_redundant_parts, is_worth_questions, Stage.REDUNDANT, last=True),
     Rule("constant", constant, last=True),
 )
 
 
-def shortened(formula: Formula, context: Context, start: Start | None = None) -> Formula:
-    """A shorter equivalent of a quantifier-free formula, as far as the rules know one; ``start``: of a whole answer."""
+def shortened(
+    formula: Formula, context: Context, start: Start | None = None, known: set[Formula] | None = None
+) -> Formula:
+    """A shorter equivalent of a quantifier-free formula, as far as the rules know one; ``start``: of a whole answer.
+
+    ``known`` collects what comes out: such a formula, if not long, is not decomposed again.
+    """
     if Stage.SHORTENING in context.options.without or has_root_atoms(formula):
         return formula
     for rule in RULES:
         off = rule.stage in context.options.without or (rule.last and start is None)
-        if off or not rule.pays(formula, context):
+        again = rule.apply is read_off_cells and known is not None and formula in known and length(formula)[1] < LONG
+        if off or again or not rule.pays(formula, context):
             continue
         mark = context.log.mark()
         try:
@@ -82,4 +90,6 @@ def shortened(formula: Formula, context: Context, start: Start | None = None) ->
         except Unable:
             context.budget.check("shorten")
             context.log.forget_steps(mark)
+    if known is not None:
+        known.add(formula)
     return formula

@@ -19,7 +19,7 @@ from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
 from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, lower_end, precision, upper_end
 from qe.exact.coincidence import Shape, Side, seen_to_be_equal
-from qe.exact.isolate import sign_at, simplest_between
+from qe.exact.isolate import simplest_between
 from qe.exact.lazard import lazard_evaluation
 from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point, common_fibre
@@ -35,6 +35,8 @@ class Section:
     value: fmpq | RealAlgebraic | FibreRoot
     members: list[int]
     bits: int = FIRST_PRECISION
+    even: tuple[int, ...] = ()
+    """The integer polynomials of which it is a root of even multiplicity."""
 
     def ball(self, bits: int | None = None) -> arb:
         """An enclosure of the value, to ``bits`` or to as many as it was isolated with."""
@@ -135,7 +137,7 @@ def isolate_over(
     changes: list[list[int]] = [[0] for _ in polys]  # the sectors that begin at one of its roots, and the first
     for sector, section in enumerate(ordered, start=1):
         for j in section.members:
-            changes[j].append(sector)
+            changes[j].append(-sector if j in section.even else sector)
     signs = tuple(_signs(shape, sectors, own) for shape, own in zip(shapes, changes, strict=True))
     given = dict(zip(polys, shapes, strict=True))
     return Isolation(point, polys, tuple(ordered), tuple(sectors), signs, tuple(nullified), given)
@@ -143,12 +145,10 @@ def isolate_over(
 
 def _specialise(point: Point, f: Poly, var: int) -> Shape:
     """f over the point: integer univariate, a fibre with algebraic coefficients, or None if nullified."""
+    univariate = point.univariate(f, var)
+    if univariate is not None:
+        return univariate or None
     g = point.reduce(f)
-    if not g:
-        return None
-    variables = g.variables
-    if not variables or variables == (var,):
-        return g.to_univariate(var)
     fibre = Fibre(point, var, g.coefficients(var), f)
     with precision(EXACT_FROM + 16):
         certain = any(not point.enclose(c, EXACT_FROM).contains(0) for c in fibre.coefficients)
@@ -168,15 +168,13 @@ def _collect(
     if isinstance(shape, Fibre):
         loose += [Section(FibreRoot(shape, i), [j]) for i in range(len(shape.roots()))]
         return
-    for q, _ in irreducible_factors(shape):
-        for root in irreducible_roots(q):
-            key = (tuple(q.coeffs()), root.index)
-            known = sections.get(key)
-            if known is not None:
-                if j not in known.members:
-                    known.members.append(j)
-            else:
-                sections[key] = Section(root.as_fmpq() if root.is_rational else root, [j])
+    for q, multiplicity in irreducible_factors(shape):
+        values = [fmpq(-q[0], q[1])] if q.degree() == 1 else irreducible_roots(q)
+        for index, value in enumerate(values):
+            section = sections.setdefault((tuple(q.coeffs()), index), Section(value, []))
+            section.members.append(j)
+            if multiplicity % 2 == 0:
+                section.even = (*section.even, j)
 
 
 def _separate(point: Point, sections: list[Section], polys: Sequence[Poly], shapes: Sequence[Shape]) -> list[Section]:
@@ -202,7 +200,7 @@ def _separate(point: Point, sections: list[Section], polys: Sequence[Poly], shap
             if equal or (equal is None and _equal(point, a, b)):
                 kept, lost = (a, b) if _weight(a) <= _weight(b) else (b, a)
                 sections.remove(lost)
-                kept.members = sorted({*a.members, *b.members})
+                kept.members, kept.even = sorted({*a.members, *b.members}), (*a.even, *b.even)
                 continue
             apart.add(key)
         a.bits = b.bits = 2 * max(a.bits, b.bits)
@@ -308,13 +306,22 @@ def _sector_samples(sections: list[Section]) -> list[fmpq]:
 
 
 def _signs(shape: Shape, sectors: list[fmpq], changes: list[int]) -> tuple[int, ...]:
-    """The signs of a polynomial at the sector samples; between two of its own roots one evaluation is enough."""
+    """The signs of a polynomial at the sector samples: an integer polynomial changes its sign at roots of odd
+    multiplicity (``changes``: minus the sector above a root of even one); of others one evaluation between two roots.
+    """
     if shape is None:
         return (0,) * len(sectors)
     signs: list[int] = []
+    sign = 1
+    if isinstance(shape, fmpz_poly):
+        odd = sum(change > 0 for change in changes)
+        sign = 1 if (shape.leading_coefficient() > 0) == (odd % 2 == 0) else -1
     for first, end in itertools.pairwise((*changes, len(sectors))):
-        sign = sign_at(shape, sectors[first]) if isinstance(shape, fmpz_poly) else shape.value_sign(sectors[first])
-        signs += [sign] * (end - first)
+        if isinstance(shape, fmpz_poly):
+            sign = -sign if first > 0 else sign
+        else:
+            sign = shape.value_sign(sectors[first])
+        signs += [sign] * (abs(end) - abs(first))
     return tuple(signs)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from flint import acb, arb, arb_poly, fmpq, fmpq_mpoly
+from flint import acb, arb, arb_poly, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, select_root
 from qe.exact.ball_roots import certified_roots, distinct_roots, quadratic_roots
@@ -118,6 +118,15 @@ class Point:
                 stored = stored.at_rational(i, Fraction(int(self.value.p), int(self.value.q)))
             self._reduced[f] = stored
         return stored
+
+    def univariate(self, f: Poly, i: int) -> fmpz_poly | None:
+        """A positive multiple of f with the rational coordinates substituted, where it has no variable but ``i``."""
+        if self.parent is None or self._given is not None or not isinstance(self.value, fmpq):
+            g = self.reduce(f)
+            return g.to_univariate(i) if g.variables in ((), (i,)) else None
+        g, own = self.parent.reduce(f), self.depth - 1
+        rows = g.rows(own, i)
+        return None if rows is None else fmpq_poly([row(self.value) for row in rows]).numer()
 
     def ball(self, i: int, bits: int) -> arb:
         """A ball around coordinate i (algebraic)."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 
 from qe.formula.build import conj, disj
 from qe.formula.syntax import And, Atom, Constant, Formula, Or
+from qe.formula.traverse import atoms
 from qe.simplifier.facts import key_of
 
 _MEMBERS = 60  # more members than this are left alone
@@ -15,7 +16,8 @@ Level = Callable[[tuple[Formula, ...], bool], Formula]
 
 def absorb(members: list[Formula], conjunctive: bool, level: Level) -> list[Formula]:
     """Members of a disjunction (conjunction) with (A) or (A and B) = A, and (A and p) or (A and q) = A and r
-    where ``p or q`` is one atom or a constant. ``level`` simplifies such a pair.
+    where ``p or q`` is one atom or a constant, or has fewer atoms than p and q where these are disjunctions. ``level``
+    simplifies such a pair.
     """
     if not 1 < len(members) <= _MEMBERS:
         return members
@@ -40,20 +42,25 @@ def _merge_pair(
         if member not in sets:
             continue
         for part in sets[member]:
-            if not isinstance(part, Atom):
+            if not isinstance(part, Atom | And | Or):
                 continue
             rest = sets[member] - {part}
-            slot = (key_of(part.poly)[0], rest)
+            slot = (key_of(part.poly)[0] if isinstance(part, Atom) else None, rest)
             earlier = seen.get(slot)
             if earlier is None:
                 seen[slot] = (member, part)
                 continue
             union = join((earlier[1], part))
-            if not isinstance(union, Atom | Constant):
+            atomic = isinstance(part, Atom)
+            if not isinstance(union, Atom | Constant) and (atomic or not _is_less(union, (earlier[1], part))):
                 continue
             ordered = [p for p in member.args if p is not part and p in rest]  # type: ignore[union-attr]
-            if isinstance(union, Atom):
+            if not isinstance(union, Constant):
                 ordered.append(union)
             replacement = build(ordered)
             return [replacement if m is earlier[0] else m for m in members if m is not member]
     return None
+
+
+def _is_less(union: Formula, parts: tuple[Formula, ...]) -> bool:
+    return sum(1 for _ in atoms(union)) < sum(1 for part in parts for _ in atoms(part))

@@ -16,7 +16,7 @@ from qe.options import Budget
 from tests.corpus.catalogue import KEYS, Problem, problems, records
 from tests.differential.generate import at_point
 
-TAGS = {"timing", "regression", "shape", "geometry", "published", "slow"}
+TAGS = {"timing", "regression", "shape", "geometry", "published", "slow", "textbook"}
 
 # Out of the reach of the reference elimination within the time it is given here; z3 checks what it can of them.
 BEYOND_REFERENCE = frozenset(
@@ -71,7 +71,11 @@ def points(problem: Problem, count: int) -> list[dict[str, Fraction]]:
     return [{n: Fraction(0) for n in names}, *({n: rng.choice(values) for n in names} for _ in range(count - 1))]
 
 
-@pytest.mark.parametrize("problem", [p for p in problems() if p.id not in BEYOND_REFERENCE], ids=lambda p: p.id)
+@pytest.mark.parametrize(
+    "problem",
+    [p for p in problems() if p.id not in BEYOND_REFERENCE and "textbook" not in p.tags],  # these are theorems
+    ids=lambda p: p.id,
+)
 def test_expected_answer_holds_at_points_by_the_reference(problem: Problem) -> None:
     formula, expected = read(problem.formula), read(problem.expected)
     budget = Budget(60.0)  # a bound on blunders, not a measurement: the machine may be busy

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from bezier.obstacles.clearance import Contact, examine
-from experiments import arm_figures, cli, measures, speedup
+from experiments import arm_figures, cli, measures, small, speedup
 from experiments.arm_figures import Figure, table
 from experiments.bench_obstacles import hidden_contacts, many_pairs, sampled_contact
 from experiments.cli import main
@@ -206,6 +206,13 @@ def test_the_page_in_a_browser(log, drawn, tmp_path):
     assert "CONSOLE" not in done.stderr
     assert 'data-seen="4 4 of 4"' in done.stdout
     assert not re.search(r'(src|href)="(?!#|data:)', path.read_text()), "nothing is loaded from elsewhere"
+
+
+def test_small_questions_are_the_same_at_every_call_and_answered() -> None:
+    for name in small.FAMILIES:
+        assert small.questions(name, 3) == small.questions(name, 4)[:3]
+    (linear,) = small.measured(3, ["linear"])
+    assert linear.count == 3 and linear.seconds > 0 and linear.slowest[1] in small.questions("linear", 3)
 
 
 def test_the_bounds_of_the_speedup() -> None:

@@ -30,6 +30,9 @@ SHORT = {
     "p*q < 0 and q /= 0 or p = 0 and q = 0": "p*q < 0 or p = 0 and q = 0",
     "b < 1 and a - b < 1 and a + b > -1 and a <= 2 and a >= -2": "b < 1 and a - b < 1 and a + b > -1",
     "a < 0 or b < 0 or a + b < 0 or a + b < 1": "a + b < 1 or a < 0 or b < 0",
+    "(a > 0 or a = 0 and b > 0) and (c > 0 or d > 0) or (a < 0 or a = 0 and b < 0) and (c > 0 or d > 0)": (
+        "(a /= 0 or b /= 0) and (c > 0 or d > 0)"
+    ),
     LYAPUNOV: "a + d < 0 and a*d - b*c > 0",
 }
 

@@ -7,13 +7,15 @@ import pytest
 
 import qe
 from qe.certify.registry import RULES
-from qe.engine.conditions import convex_conditions
+from qe.engine.conditions import convex_conditions, quadratic_and_few_parameters
 from qe.engine.run import solve
 from qe.engine.strategy import METHODS, STRATEGY, Attempt, Listed, Scope, attempts
 from qe.formula.block import Block
 from qe.formula.syntax import TRUE, Formula
+from qe.formula.traverse import atoms
 from qe.io import formats
 from qe.options import Budget, Method, Options, Stage
+from qe.proof.run_log import Choice
 from qe.rules.step import StepKind, steps_without
 from tests.differential.generate import LARGE, NESTED, SMALL, random_formula
 from tests.tables import each
@@ -53,6 +55,24 @@ def test_critical_values_go_first_for_weak_convex_conditions_only(second: str) -
     assert convex_conditions(problem(QUESTIONS["critical"]), Options()) is not None
     first = "y + z <= a + b" if ">=" in second else "(y - a)^2 + (z - b)^2 <= 1"
     assert convex_conditions(problem(f"ex y, z. {first} and {second}"), Options()) is None
+
+
+@each("a*x^2 + b*x + 1 < 0", "x^2 < a and x > 1")
+def test_one_quadratic_variable_is_shown_to_substitution_first(body: str) -> None:
+    assert quadratic_and_few_parameters(problem(f"ex x. {body}"), Options()) is not None
+
+
+@each("ex x. x^3 < a", "ex x, y. x^2 + y < a", "ex x. x^2 < 2", "ex x. a*x^2 + b*x + c*d*e < 0")
+def test_other_blocks_are_not(text: str) -> None:
+    assert quadratic_and_few_parameters(problem(text), Options()) is None
+
+
+@each("ex x. x^2 + a*x + 1 = 0", "ex x. x^2 + a*x + b < 0 and x > 0 and b > 1")
+def test_an_answer_of_one_atom_needs_no_decomposition(text: str) -> None:
+    answer = qe.eliminate(text)
+    methods = [entry.method for entry in answer.log.entries if isinstance(entry, Choice)]
+    assert qe.equivalent(answer.formula, qe.eliminate(text, method="cad").formula)
+    assert ("cad" in methods) is (len(list(atoms(answer.formula))) > 1)
 
 
 def test_everything_but_simplification_and_decomposition_can_be_left_out() -> None:

@@ -1,0 +1,76 @@
+"""Linear inequalities of an answer without interior points: the equations of its affine hull in their place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import lcm
+
+from qe.elimination.protocol import Context
+from qe.exact.quadratic_form import Number, echelon
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj
+from qe.formula.features import length
+from qe.formula.syntax import FALSE, And, Atom, Formula, Relation
+from qe.formula.traverse import ring_of
+from qe.rules.linear import Pivot, substitute
+from qe.simplifier.simplify import simplify
+
+
+def is_linear_conjunction(formula: Formula, context: Context) -> bool:
+    """Whether the formula has more weak linear inequalities than variables and nothing else."""
+    if not isinstance(formula, And) or len(formula.args) <= len(formula.free):
+        return False
+    weak = (Relation.LE, Relation.GE)
+    return all(isinstance(a, Atom) and a.relation in weak and a.poly.total_degree == 1 for a in formula.args)
+
+
+def affine_hull_first(formula: Formula, context: Context, start: object = None) -> Formula:
+    """The equations of the affine hull, solved, and the inequalities that are left on it."""
+    from qe.convex.facial_reduction import implied_equations
+    from qe.convex.system import NotConvex
+
+    ring = ring_of(formula)
+    assert ring is not None
+    equations: list[Poly] = []
+    rest = formula
+    while True:
+        try:
+            more = implied_equations(rest, budget=context.budget)
+        except NotConvex:  # equations are all that is left
+            break
+        if more is None:
+            return context.log.step("simplification", formula, FALSE)
+        if not more:
+            break
+        equations = _solved([*equations, *more], ring)
+        rest = simplify(_at(equations, rest), watch=context.budget.check)
+    shorter = conj((*(atom(e, Relation.EQ) for e in equations), rest))
+    return context.log.step("simplification", formula, shorter) if length(shorter) < length(formula) else formula
+
+
+def _solved(equations: list[Poly], ring: Ring) -> list[Poly]:
+    """The same linear equations, each with a variable that the others do not have."""
+    variables, nowhere = range(len(ring.names)), [0] * len(ring.names)
+    rows = [
+        [*(e.coefficients(i)[-1].constant_value() if e.degree(i) else 0 for i in variables), e.evaluate(nowhere)]
+        for e in equations
+    ]
+    return [_linear(row, ring) for row in echelon(rows)[0]]
+
+
+def _linear(row: Sequence[Number], ring: Ring) -> Poly:
+    """The polynomial with these coefficients and this constant, last, without denominators."""
+    scale = lcm(*(Fraction(c).denominator for c in row))
+    *factors, constant = (int(scale * c) for c in row)
+    return sum((c * ring.gen(i) for i, c in enumerate(factors) if c), ring.constant(constant))
+
+
+def _at(equations: list[Poly], formula: Formula) -> Formula:
+    """The formula with the first variable of each equation substituted."""
+    for equation in equations:
+        i = equation.variables[0]
+        constant, lead = equation.coefficients(i)
+        sign = 1 if lead.constant_value() > 0 else -1
+        formula = substitute(formula, Pivot(0, i, lead, constant, sign, False)) or formula
+    return formula
