@@ -18,7 +18,6 @@ from typing import TextIO, cast
 import qe
 import qe.api.eliminate as api
 from qe.cli.smt_check import Checks, Result
-from qe.cli.smt_objectives import best
 from qe.cli.smt_values import Evaluation, Number, written
 from qe.cli.source import MOST_BYTES
 from qe.errors import InputError, ParseError, Unable
@@ -268,20 +267,14 @@ class Solver(Checks):
         if result.answer == "sat" and any(self.lost):
             result = Result("unknown", "(an assertion was not understood)")
         if result.answer == "sat" and self.script.objectives:
-            result = self.optimised(result, [*nodes, *extra])
+            from qe.cli.smt_objectives import optimised  # and what optimises
+
+            result = optimised(self.script, result, [*nodes, *extra], self.left(), self.memory)
         self.result = result._replace(asked=asked)
         if {self.status, result.answer} == {"sat", "unsat"}:
             self.warn(f"the script says :status {self.status}, but the answer is {result.answer}")
         self.status = ""
         return result.answer
-
-    def optimised(self, result: Result, nodes: Sequence[s.Node]) -> Result:
-        """The result with the optima, and a point that has them where one does."""
-        try:
-            found = best(self.script, nodes, self.left(), self.memory)
-        except Unable as error:
-            return Result("unknown", f"(no optimum: {error})")
-        return result._replace(best=found.lines, point=found.point or result.point)
 
     def assuming(self, command: list[Expression]) -> str:
         self.script.arity(command, 1)

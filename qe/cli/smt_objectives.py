@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import qe.api.optimum as api
+from qe.cli.smt_check import Result
 from qe.cli.smt_values import Number, written
 from qe.errors import Unable
 from qe.exact.field import FieldElement
@@ -24,19 +24,24 @@ VALUE = "objective value"
 """The name of the term that is optimised, which no symbol of a script has."""
 
 
-class Best(NamedTuple):
-    """The values of the objectives as ``get-objectives`` writes them; the point, where all are taken."""
+def optimised(
+    script: Script, result: Result, nodes: Iterable[s.Node], limit: float | None, memory: int | None
+) -> Result:
+    """The result of a check that was sat with the optima, and with a point that has them where one does."""
+    try:
+        lines, point = _best(script, list(nodes), limit, memory)
+    except Unable as error:
+        return Result("unknown", f"(no optimum: {error})")
+    return result._replace(best=lines, point=point or result.point)
 
-    lines: tuple[str, ...]
-    point: dict[str, Number] | None
 
-
-def best(script: Script, nodes: Iterable[s.Node], limit: float | None, memory: int | None) -> Best:
-    """The optima of what a script asserts, which can hold. Raises ``Unable`` where one is not found."""
-    listed, lines, point = list(nodes), list[str](), dict[str, Number]()
-    fixed: list[tuple[s.Node, Number]] = []
+def _best(
+    script: Script, nodes: Sequence[s.Node], limit: float | None, memory: int | None
+) -> tuple[tuple[str, ...], dict[str, Number] | None]:
+    """The optima as ``get-objectives`` writes them; the point, where all are taken."""
+    lines, point, fixed = list[str](), dict[str, Number](), list[tuple[s.Node, Number]]()
     for objective in script.objectives:
-        formula = _formula(script, objective, listed, fixed)
+        formula = _formula(script, objective, nodes, fixed)
         solve = api.minimize if objective.least else api.maximize
         optimum = solve(f"`{VALUE}`", formula, timeout=limit, memory=memory)
         if optimum.status is OptimumStatus.UNBOUNDED:
@@ -50,10 +55,10 @@ def best(script: Script, nodes: Iterable[s.Node], limit: float | None, memory: i
                 value = f"(+ {value} {'epsilon' if objective.least else '(* (- 1) epsilon)'})"
         lines.append(f"({show(objective.written)} {value})")
         if optimum.attained is not True or optimum.value is None:
-            return Best((*lines, *(f"({show(o.written)})" for o in script.objectives[len(lines) :])), None)
+            return (*lines, *(f"({show(o.written)})" for o in script.objectives[len(lines) :])), None
         point = {name: _plain(given) for name, given in optimum.point.items() if name != VALUE}
         fixed.append((_graph(objective, f"{VALUE} {len(fixed)}"), number))
-    return Best(tuple(lines), point)
+    return tuple(lines), point
 
 
 def _plain(number: Number) -> Number:

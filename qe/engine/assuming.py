@@ -7,7 +7,7 @@ Every step stands at the place of the question in ``A implies question`` (``qe.f
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from qe.decomposition.formulas import Undistinguished
@@ -67,10 +67,11 @@ def answered_assuming(
         return Assumed(answered(question, options, budget), known)
     if not generic:
         return Assumed(_shorter(question, known, options, budget), known)
-    supposed = _leading(question, known)
+    supposed = _together((), _leading(question), known, options, budget)
     outcome = _shorter(question, conj((known, *supposed)), options, budget)
-    if cases := tuple(n for n in _by_cases(outcome.formula) if n not in supposed):
-        supposed = (*supposed, *cases)
+    more = _together(supposed, _by_cases(outcome.formula), known, options, budget)
+    if more != supposed:
+        supposed = more
         outcome = _shorter(question, conj((known, *supposed)), options, budget)
     needed = _needed(question, known, supposed, outcome.formula, options, budget)
     if needed != supposed:
@@ -210,7 +211,22 @@ def _read_off_cells(formula: Formula, known: Formula, question: Formula, context
 
 
 # --- generic answers -------------------------------------------------------------------------------------
-def _leading(question: Formula, known: Formula) -> tuple[Formula, ...]:
+def _together(
+    supposed: tuple[Formula, ...], new: Iterable[Formula], known: Formula, options: Options, budget: Budget
+) -> tuple[Formula, ...]:
+    """Those inequations, and of the new ones those that say something more and can hold together with them."""
+    for one in new:
+        before = conj((known, *supposed))
+        if (
+            len(supposed) < MOST_GENERIC
+            and simplify(one, before) != TRUE
+            and can_hold(conj((before, one)), options, budget)
+        ):
+            supposed = (*supposed, one)
+    return supposed
+
+
+def _leading(question: Formula) -> tuple[Formula, ...]:
     """That the factors of leading coefficients in a bound variable, polynomials in free ones, are not zero."""
     names, leading = set(question.free), dict[Formula, None]()
     for a in atoms(question):
@@ -221,7 +237,7 @@ def _leading(question: Formula, known: Formula) -> tuple[Formula, ...]:
             lead = a.poly.coefficients(i)[-1]
             if not lead.is_constant and names.issuperset(ring.names[j] for j in lead.variables):
                 leading |= dict.fromkeys(_nonzero(lead))
-    return tuple(n for n in leading if simplify(n, known) != TRUE)[:MOST_GENERIC]
+    return tuple(leading)
 
 
 def _nonzero(poly: Poly) -> Iterator[Formula]:

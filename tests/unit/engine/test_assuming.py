@@ -100,6 +100,15 @@ def test_generic_answers_list_what_they_assume(text: str, said: str, listed: lis
     assert qe.verify(answer.certificate, formula=text, assuming=list(answer.generic)).accepted  # type: ignore
 
 
+@each("a = 0", "a*d = 0", "a = 0 or b^2 + d^2 < 0")
+def test_nothing_is_assumed_against_what_the_caller_assumes(assumed: str) -> None:
+    """a /= 0 (and d /= 0) would contradict it, and everything would be right."""
+    text = "ex x, y. a*x = b and d*y = c"
+    plain, answer = qe.eliminate(text), qe.eliminate(text, assuming=assumed, generic=True, check=True)
+    assert qe.find_instance(answer.assuming) is not None and answer.guarantee is qe.Guarantee.CHECKED
+    assert qe.equivalent(plain, answer, assuming=answer.assuming)
+
+
 def test_symbols_of_sympy_say_what_is_assumed() -> None:
     a, x = sympy.Symbol("a", positive=True), sympy.Symbol("x", real=True)
     c = sympy.Symbol("c")
