@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 
 from experiments.problem import Problem
 
@@ -57,7 +58,7 @@ def _exists(names: Sequence[str], parts: Sequence[str]) -> str:
 def chain(n: int) -> str:
     """x1 < x2 < ... < xn."""
     names = _names(n)
-    return _exists(names, [f"{x} < {y}" for x, y in zip(names, names[1:], strict=False)])
+    return _exists(names, [f"{x} < {y}" for x, y in pairwise(names)])
 
 
 def cycle(n: int) -> str:
@@ -87,7 +88,9 @@ def dense_sat(n: int) -> str:
     names = _names(n)
     parts = []
     for row in rows:
-        parts.append(f"{_form(row, names)} <= {sum(c * v for c, v in zip(row, point, strict=True)) + rng.randint(0, 1)}")
+        parts.append(
+            f"{_form(row, names)} <= {sum(c * v for c, v in zip(row, point, strict=True)) + rng.randint(0, 1)}"
+        )
     return _exists(names, [*parts, f"{_form([1] * n, names)} >= {sum(point)}"])
 
 
@@ -120,7 +123,9 @@ def few_variables(n: int) -> str:
 def tight_clauses(n: int) -> str:
     """The same in n/4 variables, one bound of three holding at a random point, and hardly more."""
     rng = random.Random(SEED + n)
-    return _clauses(n, n // 4, rng, lambda value, position: rng.randint(-20, 20) if position else value + rng.randint(0, 2))
+    return _clauses(
+        n, n // 4, rng, lambda value, position: rng.randint(-20, 20) if position else value + rng.randint(0, 2)
+    )
 
 
 def _clauses(n: int, size: int, rng: random.Random, bound: Callable[[int, int], int]) -> str:
@@ -142,7 +147,7 @@ def clauses_unsat(n: int) -> str:
     """Each of n/2 variables is at most 0 or at least 2, twice as a sum with its neighbour; their sum lies between."""
     names = _names(max(2, n // 2))
     parts = [f"({x} <= 0 or {x} >= 2)" for x in names]
-    parts += [f"({x} - {y} < 0 or {x} - {y} >= 0)" for x, y in zip(names, names[1:], strict=False)]
+    parts += [f"({x} - {y} < 0 or {x} - {y} >= 0)" for x, y in pairwise(names)]
     parts += [f"{x} >= 0 and {x} <= 2" for x in names]
     return _exists(names, [*parts, f"{' + '.join(names)} > 0", f"{' + '.join(names)} < 2"])
 

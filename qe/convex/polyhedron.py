@@ -144,7 +144,7 @@ def _tightest(halves: Iterable[HalfSpace]) -> tuple[HalfSpace, ...] | None:
         if known is None or (row.constant, row.strict) > (known.constant, known.strict):
             best[row.normal] = row
     everything = best.pop((), None)
-    if everything is not None and (everything.constant, everything.strict) >= (0, True):
+    if everything is not None and (everything.constant > 0 or (everything.constant == 0 and everything.strict)):
         return None
     return tuple(best.values())
 

@@ -47,7 +47,7 @@ MANY = 24
 intervals, 0.4 s for 0.1 s)."""
 
 PROJECTED = 3
-"""So many variables of a polyhedron are eliminated by combining bounds; of fewer, the other methods' answers are as short
+"""So many variables of a polyhedron are eliminated by combining bounds; of fewer, other methods' answers are as short
 (measured: four variables and three parameters 0.02 s, and none in 25 s by substitution and shortening)."""
 
 CONVEX_PARTS = 24

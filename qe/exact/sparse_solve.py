@@ -1,7 +1,7 @@
 """Sparse systems of linear equations over Q: short pivots are eliminated by hand, what is dense then goes to FLINT.
 
-A pivot of a row with r entries whose column has c makes at most (r - 1)(c - 1) new ones (Markowitz 1957). The dense rest
-is solved by p-adic lifting (Dixon 1982), which costs little more than its answer is long.
+A pivot of a row with r entries whose column has c makes at most (r - 1)(c - 1) new ones (Markowitz 1957). The dense
+rest is solved by p-adic lifting (Dixon 1982), which costs little more than its answer is long.
 """
 
 from __future__ import annotations
@@ -138,7 +138,9 @@ def _length(row: Mapping[int, int]) -> int:
 
 def _independent(table: Sequence[Sequence[int]]) -> list[int]:
     """Rows that are independent, modulo a prime: the pivot columns of the transposed table."""
-    reduced, rank = nmod_mat(len(table[0]), len(table), [c % _PRIME for line in zip(*table) for c in line], _PRIME).rref()
+    reduced, rank = nmod_mat(
+        len(table[0]), len(table), [c % _PRIME for line in zip(*table) for c in line], _PRIME
+    ).rref()
     pivots, start = [], 0
     for i in range(rank):
         start = next(j for j in range(start, len(table)) if int(reduced[i, j]))

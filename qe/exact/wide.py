@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
-from math import prod
 
 from flint import fmpz_mpoly, fmpz_poly
 
@@ -122,9 +121,9 @@ class WidePoly(Poly):
     def variables(self) -> tuple[int, ...]:
         """The indices that occur, ascending."""
         count, most = len(self.support), len(self.p)
-        if count > _FEW and most >= count and self.p.total_degree() == 1:
-            if most > count or any(self.p.monomial(most - 1)):
-                return tuple(sorted(self.support))
+        linear = count > _FEW and most >= count and self.p.total_degree() == 1
+        if linear and (most > count or any(self.p.monomial(most - 1))):
+            return tuple(sorted(self.support))
         return tuple(i for i in sorted(self.support) if self.p.derivative(self.ring.slot(i)))
 
     @property

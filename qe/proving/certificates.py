@@ -18,8 +18,8 @@ from qe.kernel.renaming import is_same
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED
 from qe.proof.certificate import Certificate, Kind, Proof
-from qe.proof.entry import formula_to_json
 from qe.proof.derivation import put_together
+from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
 from qe.proving.linear import substitution_certificate
 

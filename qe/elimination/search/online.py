@@ -46,7 +46,8 @@ class LinearTheory(Protocol):
 
 
 class Propagator:
-    """What the SAT solver calls. The theories are told of literals that are ``needed`` only. ``last``: gives clauses against a whole assignment, none where it is a solution;
+    """What the SAT solver calls. The theories are told of literals that are ``needed`` only. ``last``: gives clauses
+    against a whole assignment, none where it is a solution;
     ``prefer`` is called before decisions.
 
     ``lemmas``: the clauses that the solver was told. ``failure``: an error while it called, which ends its work.
