@@ -56,7 +56,7 @@ def whole(
 @app.command(short_help="Run suites through solvers.")
 def run(
     suites: Annotated[
-        list[str], typer.Option("--suite", help="paper, classics, literature, scaling, ablation or arm.")
+        list[str], typer.Option("--suite", help="paper, classics, literature, scaling, linear, ablation or arm.")
     ],
     solvers: Annotated[list[str] | None, typer.Option("--solver", help="A solver; default: ours.")] = None,
     limit: Annotated[

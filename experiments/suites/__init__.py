@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from experiments.problem import Problem
 from experiments.solvers import ABLATIONS
-from experiments.suites import corpus, paper, scaling
+from experiments.suites import corpus, linear, paper, scaling
 from qe.errors import InputError
 
 
@@ -27,6 +27,7 @@ SUITES = {
     "hard": Suite(corpus.hard),
     "wild": Suite(corpus.wild),
     "scaling": Suite(scaling.problems),
+    "linear": Suite(linear.problems),
     "ablation": Suite(corpus.ablation, ("ours", *ABLATIONS)),
 }
 

@@ -1,7 +1,7 @@
 """Linear conditions decided by a proposed basis, made exact: a point that keeps them, or weights that refute them.
 
 Applegate, Cook, Dash, Espinoza 2007 (QSopt_ex). First all inequalities get a common slack t: where it can be positive,
-a rounded point will do; where it is negative, the multipliers contradict; where it is 0, only the strict ones get one.
+a rounded point will do; where it is negative, the multipliers contradict; where it is 0, only strict ones get a slack.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ class Outcome:
     one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one.
     ``order``: that of the free variables in which the formula was read off, where that matters to who goes on.
     ``back``: where a method reduces the problem to another question, which is ``formula`` then: the outcome for the
-    problem from the one for that question.
+    problem from the one for that question. ``shortest``: no part of the formula can be left out.
     ``unchecked``: the rules of the steps that no checker has accepted, where that was asked for. ``checked``: whether
     the checkers have accepted the certificate; ``reason``: why there is none. ``log``: how the whole answer was found;
     the engine fills these in.
@@ -46,6 +46,7 @@ class Outcome:
     reason: str = ""
     log: RunLog = field(default_factory=RunLog)
     back: Callable[[Outcome], Outcome] | None = None
+    shortest: bool = False
 
     def nested(self, question: Formula) -> Nested:
         """How the answer to the question was derived, as evidence of a step to another."""

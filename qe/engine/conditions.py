@@ -46,6 +46,10 @@ MANY = 24
 """The same for so many alternatives of linear conditions in fewer variables (measured: two variables, each in one of 80
 intervals, 0.4 s for 0.1 s)."""
 
+PROJECTED = 3
+"""So many variables of a polyhedron are eliminated by combining bounds; of fewer, other methods' answers are as short
+(measured: four variables and three parameters 0.02 s, and none in 25 s by substitution and shortening)."""
+
 CONVEX_PARTS = 24
 """In more variables, conditions that fall apart into some without common variables are not one convex problem."""
 
@@ -125,6 +129,19 @@ def closed_in_many_variables(problem: Block, options: Options) -> str | None:
     if count > CONVEX_PARTS and _falls_apart(problem):
         return None  # preparation takes the parts apart, and each is decided alone
     return f"a sentence in {count} variables"
+
+
+def polyhedron(problem: Block, options: Options) -> str | None:
+    """Linear conditions on ``PROJECTED`` variables or more, and on parameters, where no certificate is asked for.
+
+    Fourier's elimination has no steps of its own in certificates: where one is wanted, substitution goes first.
+    """
+    if options.certify or not problem.free or len(problem.variables) < PROJECTED or not problem.is_flat:
+        return None
+    parts = problem.conditions
+    if problem.curved or any(not isinstance(p, Atom) or p.poly.total_degree > 1 for p in parts):
+        return None
+    return f"a polyhedron projected along {len(problem.variables)} variables"
 
 
 def curved_inequalities(problem: Block, options: Options) -> str | None:

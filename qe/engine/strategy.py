@@ -86,6 +86,7 @@ METHODS = {
     "roots by signs": Listed(
         "qe.elimination.rootsigns.method", "RootsBySigns", "the signs of Hermite's forms", Stage.ROOTS, Method.ROOTS
     ),
+    "projection": Listed("qe.elimination.projection", "Projection", "projecting polyhedra", Stage.SUBSTITUTION),
     "linear form named": Listed("qe.elimination.named_form", "NamedForm", "naming a linear form", Stage.NAMING),
 }
 """Every method by its name. Attempts of ``STRATEGY`` say when it is tried, with how much work at most."""
@@ -197,6 +198,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "samples", on.curved_inequalities, PROBE),
     Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, 2 * SHORTCUT),
+    Attempt(Scope.ASKED, "projection", on.polyhedron, FIRST),
     Attempt(Scope.ASKED, "linear form named", on.several_parameters),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),

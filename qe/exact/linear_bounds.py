@@ -62,6 +62,12 @@ class LinearBounds:
         self.upper.clear()
         self._changed.clear()
 
+    def free(self, x: int) -> None:
+        """No bounds on a variable from now on; what ``mark`` knew of them is lost."""
+        self.lower.pop(x, None)
+        self.upper.pop(x, None)
+        self._changed.clear()
+
     def start(self, x: int, value: Fraction) -> None:
         """Give a variable a value to start from, where it is free to have one; without bounds only."""
         if x not in self.rows:

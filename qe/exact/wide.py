@@ -121,12 +121,8 @@ class WidePoly(Poly):
     def variables(self) -> tuple[int, ...]:
         """The indices that occur, ascending."""
         count, most = len(self.support), len(self.p)
-        if (
-            count > _FEW
-            and most >= count
-            and self.p.total_degree() == 1
-            and (most > count or any(self.p.monomial(most - 1)))
-        ):
+        linear = count > _FEW and most >= count and self.p.total_degree() == 1
+        if linear and (most > count or any(self.p.monomial(most - 1))):
             return tuple(sorted(self.support))
         return tuple(i for i in sorted(self.support) if self.p.derivative(self.ring.slot(i)))
 

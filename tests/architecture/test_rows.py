@@ -43,6 +43,7 @@ ROWS = {
     "qe.elimination.cgs": 7,
     "qe.elimination.critical": 7,
     "qe.elimination.convex": 7,
+    "qe.elimination.projection": 7,
     "qe.elimination.witness": 7,
     "qe.elimination": 7,
     "qe.proving": 8,

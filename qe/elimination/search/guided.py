@@ -39,7 +39,7 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
     differences = Differences(bounds) if Differences.suit(bounds) else None
     leading: Forms | None = None  # whose point says what is preferred; among curved conditions it says too little
     if differences is None or any(difference(one.direction) is None for one in bounds):
-        theories.append(forms := Forms(bounds))
+        theories.append(forms := Forms(bounds, lambda: budget.check("search: bounds")))
         leading = forms if all(poly.total_degree == 1 for poly in clauses.polys) else None
     if differences is not None:
         theories.insert(0, differences)

@@ -130,8 +130,8 @@ class Differences:
 class Forms:
     """Bounds of all linear forms, by the simplex method; squares are at least 0."""
 
-    def __init__(self, bounds: Iterable[Said]) -> None:
-        self.bounds = FormBounds()
+    def __init__(self, bounds: Iterable[Said], check: Callable[[], object] = lambda: None) -> None:
+        self.bounds, self.check = FormBounds(), check
         self.said: dict[int, tuple[int, Said]] = {}
         self.offered: defaultdict[int, list[Said]] = defaultdict(list)
         for one in bounds:
@@ -156,7 +156,7 @@ class Forms:
         if not self.changed:
             return None
         self.changed = False
-        conflict = self.bounds.conflict(lambda: None)
+        conflict = self.bounds.conflict(self.check)
         return None if conflict is None else _literals(self.bounds.weakened(self._offered))
 
     def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:

@@ -13,7 +13,6 @@ from qe.convex.highs import Proposal, Slackened, highs
 from qe.convex.linear_point import LinearContradiction, linear_point
 from qe.convex.linear_rows import LinearRows
 from qe.convex.system import atoms_of
-from qe.exact.sparse_solve import solve_sparse
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
 from qe.io import formats
@@ -122,25 +121,3 @@ def test_close_numbers_are_told_from_equal_ones() -> None:
     formula = formats.read(f"x + y >= 1 and 3*x - y >= 2 and 4*x < 3 + {tiny}", "text")
     point = by_floats(formula)
     assert isinstance(point, tuple) and holds_at(formula, dict(zip(rows(formula).names, point, strict=True)))
-
-
-def test_sparse_systems_are_solved_exactly() -> None:
-    rng = random.Random(6)
-    for _ in range(100):
-        size = rng.randint(1, 12)
-        solution = [Fraction(rng.randint(-9, 9), rng.randint(1, 5)) for _ in range(size)]
-        table = [
-            {j: rng.randint(-5, 5) or 1 for j in rng.sample(range(size), rng.randint(1, size))} for _ in range(size)
-        ]
-        scale = 60
-        right = [sum(c * solution[j] for j, c in row.items()) * scale for row in table]
-        solved = solve_sparse([{j: c * scale for j, c in row.items()} for row in table], [int(b) for b in right])
-        if solved is None:  # not the only one
-            continue
-        for row, b in zip(table, right, strict=True):
-            assert sum(c * solved[j] for j, c in row.items()) * scale == b
-
-
-def test_contradictory_equations_have_no_solution() -> None:
-    assert solve_sparse([{0: 1, 1: 1}, {0: 2, 1: 2}], [1, 3]) is None
-    assert solve_sparse([{0: 1}, {0: 1}], [1, 2]) is None

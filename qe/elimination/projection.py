@@ -1,0 +1,67 @@
+"""Shadows of polyhedra: an existential block over linear conditions with numbers as coefficients, and its dual."""
+
+from __future__ import annotations
+
+from qe.convex.linear_rows import LinearRows
+from qe.convex.polyhedron import HalfSpace, Polyhedron, whole
+from qe.convex.system import NotConvex, atoms_of
+from qe.elimination.protocol import Context, Outcome
+from qe.exact.ring import Ring
+from qe.formula.block import Block
+from qe.formula.build import atom, conj
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, Formula, Relation
+from qe.options import Options
+
+_STEP = 10
+"""Units of work of one look at a row."""
+
+
+class Projection:
+    """Conjunctions of linear conditions: the answer has no condition that the others imply."""
+
+    name = "projection"
+
+    def suits(self, problem: Block, options: Options) -> str | None:
+        """One block with parameters."""
+        return f"{len(problem.variables)} variables" if problem.is_flat and problem.free else None
+
+    def run(self, problem: Block, context: Context) -> Outcome | None:
+        """The shadow; None where the body is no conjunction of linear equations and inequalities."""
+        try:
+            atoms = atoms_of(problem.positive)
+        except NotConvex:
+            return None
+        if not atoms or any(a.poly.total_degree > 1 or a.relation is Relation.NE for a in atoms):
+            return None
+
+        def check() -> None:
+            context.budget.spend(_STEP)
+            context.budget.check("projection")
+
+        system = LinearRows.of(atoms)
+        halves = [(HalfSpace.of(row.terms, row.constant, row.is_strict), row.is_equation) for row in system.rows]
+        equations, others = (tuple(h for h, equal in halves if equal == kind) for kind in (True, False))
+        bound = [j for j, name in enumerate(system.names) if name in problem.variables]
+        shadow = Polyhedron(len(system.names), equations, others).shadow(bound, check)
+        positive = FALSE if shadow is None else _formula(shadow, system.names, problem.free)
+        after = nnf(positive, negate=problem.universal)
+        return Outcome(context.log.step("projection", problem.formula, after), shortest=True)
+
+
+def _formula(shadow: Polyhedron, names: tuple[str, ...], free: tuple[str, ...]) -> Formula:
+    """The conditions; two half-spaces that touch are an equation."""
+    ring = Ring.of(free)
+
+    def made(row: HalfSpace, relation: Relation) -> Formula:
+        terms, constant = whole(row)
+        poly = ring.from_sparse([(((ring.index[names[j]], 1),), c) for j, c in terms.items()])
+        return atom(poly + constant, relation)
+
+    known = {(row.normal, row.constant) for row in shadow.halves if not row.strict}
+    parts = [made(row, Relation.EQ) for row in shadow.equations]
+    for row in shadow.halves:
+        opposite = tuple((j, -c) for j, c in row.normal), -row.constant
+        weak = Relation.EQ if not row.strict and opposite in known else Relation.LE
+        parts.append(made(row, Relation.LT if row.strict else weak))
+    return conj(dict.fromkeys(parts))
