@@ -15,7 +15,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from bezier.chains.plan import ChainPlan, chain
+    from bezier.chains.plan import ChainPlan
+    from bezier.interface.chain import chain
     from bezier.interface.function import plan
     from bezier.interface.planned import NoPath, Planned
     from bezier.interface.trajectory import certify
@@ -26,7 +27,7 @@ _LATER = {
     "Certified": "bezier.trajectories.command",
     "certify": "bezier.interface.trajectory",
     "ChainPlan": "bezier.chains.plan",
-    "chain": "bezier.chains.plan",
+    "chain": "bezier.interface.chain",
     "NoPath": "bezier.interface.planned",
     "Outcome": "bezier.plans",
     "Planned": "bezier.interface.planned",

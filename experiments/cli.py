@@ -322,6 +322,19 @@ def sweep(
     print(f"{len(wanted) - len(failed)} of {len(wanted)} problems solved")
 
 
+@app.command(short_help="Chains and paths next to clarabel and toppra.")
+def planning(
+    out: Annotated[Path, typer.Option(help="Folder for the page and the data.")] = OUT / "planning",
+    count: Annotated[int, typer.Option(help="Chains, and paths, at most.", min=1)] = 12,
+) -> int:
+    """Plan chains next to clarabel, certify what toppra makes of paths; write a table with pictures."""
+    from experiments.planning import run as compared
+
+    for file in compared(out, count, print):
+        print(file)
+    return OK
+
+
 def _arm_figures(repeat: int) -> None:
     from experiments.arm_figures import figures, table
 

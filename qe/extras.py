@@ -11,6 +11,7 @@ _EXTRAS = {
     "clarabel": "squares",
     "dask": "sweep",
     "distributed": "sweep",
+    "highspy": "linear",
     "jinja2": "plan",
     "markupsafe": "plan",
     "matplotlib": "pictures",

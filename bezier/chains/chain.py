@@ -62,6 +62,8 @@ class Chain:
 
     Every control point has to lie in the ball about ``centre`` with this ``radius_squared``, where it is given, and in
     all ``half_spaces``: (a, b) for a . p >= b. ``free_via``: the number of a point that may move.
+    ``max_length`` (mm) of all curves together, ``max_curvature`` (1/mm). ``free_total``: the sum of free durations.
+    ``velocities`` at the start and at the goal (mm/s), where these are fixed.
     """
 
     points: tuple[Point, ...]
@@ -75,6 +77,10 @@ class Chain:
     radius_squared: Fraction | None = None
     half_spaces: tuple[tuple[Point, Fraction], ...] = ()
     free_via: int | None = None
+    max_length: Fraction | None = None
+    max_curvature: Fraction | None = None
+    free_total: Fraction | None = None
+    velocities: tuple[Point, ...] = ()
 
     def __post_init__(self) -> None:
         if (self.degree, self.continuity) not in KINDS:
@@ -87,8 +93,12 @@ class Chain:
             raise InputError("chain: neighbouring points that differ expected, found two that are equal")
         if self.durations and (len(self.durations) != self.pieces or min(self.durations) <= 0):
             raise InputError(f"chain: {self.pieces} durations above 0 expected")
+        if self.free_total is not None and (self.durations or self.free_total <= 0):
+            raise InputError("chain: a sum of free durations above 0 expected, and no durations")
         if self.closed and self.ends is not Ends.FREE:
             raise InputError("chain: a closed chain has no ends")
+        if self.velocities and (self.closed or self.ends is not Ends.FREE or len(self.velocities) != 2):
+            raise InputError("chain: velocities at the start and at the goal of an open chain with free ends expected")
         if self.objective.order > self.degree:
             raise InputError(f"chain: a degree of at least {self.objective.order} expected for {self.objective.value}")
         if self.radius_squared is not None and self.radius_squared <= 0:
@@ -98,6 +108,12 @@ class Chain:
     def dimension(self) -> int:
         """Of the points."""
         return len(self.points[0])
+
+    @property
+    def point_names(self) -> tuple[str, ...]:
+        """What the points are called: "start", "via[0]", ..., "goal"."""
+        via = len(self.points) - (1 if self.closed else 2)
+        return ("start", *(f"via[{i}]" for i in range(via)), *(() if self.closed else ("goal",)))
 
     @property
     def corners(self) -> tuple[Point, ...]:
@@ -134,14 +150,21 @@ class Solved:
 
 @dataclass(frozen=True, slots=True)
 class Requirement:
-    """``form`` <= 0, which says that the control point ``index`` of curve ``piece`` keeps a condition."""
+    """``form`` <= 0. ``squares``: with it sum w |p|² is bounded; none where the form is linear. ``is_ball``: a larger
+    radius is a wider condition."""
 
     label: str
     form: Form
-    piece: int
-    point: Affine
-    half_space: int | None
-    """Its number; None for the ball."""
+    squares: tuple[tuple[Fraction, Affine], ...] = ()
+    is_ball: bool = False
+    detail: str = ""
+    """How to make it again, where the chain alone does not say it: behind the labels of proofs that use it."""
+
+    @property
+    def right(self) -> Fraction:
+        """The bound of the sum of squares."""
+        squares = ((w, squared_length(p).constant) for w, p in self.squares)
+        return sum((w * c for w, c in squares), -self.form.constant)
 
 
 def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
@@ -150,14 +173,15 @@ def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
     for k, piece in enumerate(solved.controls):
         last = k == chain.pieces - 1 and not chain.closed
         for j, point in enumerate(piece if last else piece[:-1]):
-            name = f"C{k + 1}.{j}"
+            corner = chain.point_names[(k + (j > 0)) % len(chain.points)]
+            name = f"C{k + 1}.{j}" if 0 < j < chain.degree else corner
             if chain.radius_squared is not None:
                 away = affine_sum(((_ONE, point), (-_ONE, Affine({}, chain.centre))))
                 form = squared_length(away).shifted(-chain.radius_squared)
-                result.append(Requirement(f"{name} in the ball", form, k, point, None))
+                result.append(Requirement(f"{name} in the ball", form, ((_ONE, away),), is_ball=True))
             for i, (normal, offset) in enumerate(chain.half_spaces):
                 form = linear_form(tuple(-c for c in normal), point).shifted(offset)
-                result.append(Requirement(f"{name} in half-space {i}", form, k, point, i))
+                result.append(Requirement(f"{name} in half_space[{i}]", form))
     return tuple(result)
 
 
@@ -212,8 +236,8 @@ def _solved(chain: Chain) -> Solved | None:
     width = len(columns) + (moving is not None)
     rows = []
 
-    def equation(terms: Sequence[tuple[int, int, Fraction]]) -> None:
-        row, right = [_ZERO] * width, [_ZERO] * chain.dimension
+    def equation(terms: Sequence[tuple[int, int, Fraction]], value: Point = (_ZERO,) * chain.dimension) -> None:
+        row, right = [_ZERO] * width, list(value)
         for k, j, weight in terms:
             corner = (k + (j == d)) % len(chain.points) if j in (0, d) else None
             if corner is None:
@@ -233,6 +257,8 @@ def _solved(chain: Chain) -> Solved | None:
         for order in range(1, 3 if d == 5 else 2):
             equation(_begin(0, order, times[0]))
             equation(_end(m - 1, d, order, times[-1]))
+    for velocity, end in zip(chain.velocities, (_begin(0, 1, times[0]), _end(m - 1, d, 1, times[-1])), strict=False):
+        equation([(k, j, d * w) for k, j, w in end], velocity)
     work, pivots = echelon(rows)
     if any(p >= width for p in pivots):
         return None

@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from bezier.chains import proposals
-from bezier.chains.chain import Chain, Ends, Objective, Requirement, Solved, requirements
+from bezier.chains.chain import Chain, Requirement, Solved, requirements
+from bezier.chains.exact import Exact, exactly
 from bezier.chains.form import Point
-from bezier.chains.proof import Best, Contradiction, best, decided, feasible
+from bezier.chains.limits import best_within
+from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
+from bezier.chains.region import Region, Validity, region, validity
+from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
+from bezier.chains.timing import timed
 from bezier.curves.curve import Bezier
+from bezier.curves.scalar import described, exact_text
 from qe import arguments
-from qe.errors import InputError, Unable
-from qe.proof.certificate import Certificate
+from qe.errors import Unable
+from qe.proof.certificate import Certificate, Labelled
 
-NARROW = Fraction(1, 10**7)
-"""How far, relative, the radii that are proved to be enough, and not enough, lie from the one that was proposed."""
-
-
-@dataclass(frozen=True, slots=True)
-class Repair:
-    """With ``radius`` there is a chain, with ``too_small`` there is none; ``certificate`` proves both."""
-
-    radius: Fraction
-    too_small: Fraction
-    certificate: Certificate
+SHORT = 10**12
+LONG = 100
+"""Characters of an exact value that is printed; JSON has them all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,12 +35,16 @@ class Conflict:
     smallest: bool
     certificate: Certificate
 
+    def __str__(self) -> str:
+        return f"{', '.join(self.conditions)} {'exclude each other' if len(self.conditions) > 1 else 'excludes it'}"
+
 
 @dataclass(frozen=True, slots=True)
 class ChainPlan:
-    """``curves``: with the least value of the objective, which lies between ``bound`` and ``value`` (rational, at most
-    a billionth of it apart); empty where there is no chain. Then ``conflict`` says why, and ``repair`` which radius
-    helps (None: there is no ball, or none helps). ``certificate``: of the optimum, or of the contradiction."""
+    """``curves``: with the least value of the objective, which lies between ``bound`` and ``value`` (rational, a
+    billionth of it apart, or what ``accuracy`` says); empty where there is no chain. Then ``conflict`` says why, and
+    ``repair`` which radius helps (None: there is no ball, or none helps); ``with_repairs`` adds other ``repairs``.
+    ``certificate``: of the optimum, or of the contradiction."""
 
     chain: Chain
     curves: tuple[Bezier, ...]
@@ -51,91 +53,169 @@ class ChainPlan:
     certificate: Certificate
     conflict: Conflict | None = None
     repair: Repair | None = None
+    repairs: tuple[Repair, ...] = ()
+    exact: Exact | None = None
+    """The optimum itself, where at most one condition is active; with two it takes longer: ``exactly``."""
+    searched: bool = False
+    """Whether the durations were free: all that is proved holds for those that a search picked."""
 
     @property
     def feasible(self) -> bool:
         """Whether there is a chain."""
         return self.value is not None
 
+    @property
+    def accuracy(self) -> str:
+        """How much of ``value`` lies between it and ``bound``, at most."""
+        if self.value is None or self.bound is None:
+            return ""
+        words, gap, size = ("a billionth", "a millionth", "a thousandth"), self.value - self.bound, abs(self.value)
+        known = (word for word, share in zip(words, GAPS, strict=True) if gap <= share * size)
+        return next(known, f"{100 * float(gap / size):.2g} %")
+
+    def exactly(self) -> Exact | None:
+        """The optimum itself as an algebraic number, where at most two conditions are active; else None."""
+        if self.exact is not None or self.value is None or _is_bounded(self.chain) or self.chain.solved is None:
+            return self.exact
+        solved = self.chain.solved
+        rows = requirements(self.chain, solved)
+        inside = decided(self.chain, solved, rows)
+        found = None if isinstance(inside, Contradiction) else best(self.chain, solved, rows, inside)
+        return None if found is None else exactly(self.chain, solved, rows, found, 2)
+
+    def with_repairs(self) -> ChainPlan:
+        """The same with all ``repairs`` that are known: the radius, the point that has to move least, one duration of a
+        curve that the conflict names."""
+        if self.conflict is None or _is_bounded(self.chain):
+            return self
+        named = (re.match(r"C(\d+)\.", label) for label in self.conflict.conditions)
+        pieces = sorted({int(match[1]) - 1 for match in named if match is not None})
+        listed = (self.repair, nearest_point(self.chain), nearest_duration(self.chain, pieces))
+        return replace(self, repairs=tuple(repair for repair in listed if repair is not None))
+
+    @property
+    def proof(self) -> Certificate:
+        """All certificates as one: the optimum, or the contradiction, the conflict and the repairs."""
+        proofs = [self.certificate] if self.conflict is None else [self.conflict.certificate]
+        proofs += [repair.certificate for repair in self.repairs or (self.repair,) if repair]
+        members = [m for m in bundled(proofs).payload if isinstance(m, Labelled)]
+        return Certificate.bundle([(self._labelled(m.label), m.certificate) for m in members])
+
+    def _labelled(self, label: str) -> str:
+        """With the durations that a search picked, which the file does not say."""
+        claim, joined, change = label.partition(" with ")
+        times = f" with durations = {', '.join(map(str, self.chain.times))}" if self.searched else ""
+        return f"{claim}{times}{joined}{change}"
+
+    @property
+    def lines(self) -> list[str]:
+        """What is said, a line for each."""
+        picked = [f"durations that a search picked: {', '.join(map(str, self.chain.times))}"] if self.searched else []
+        if self.conflict is None:
+            exact = [] if self.exact is None else [f"exactly {exact_text(self.exact.value)}"]
+            return [str(self), *(line for line in exact if len(line) < LONG), *picked]
+        needed = self.conflict.smallest and len(self.conflict.conditions) > 1
+        return [
+            f"no chain: {self.conflict}{', all of them needed' if needed else ''}",
+            *picked,
+            *(f"possible with {repair}" for repair in self.repairs),
+        ]
+
+    def region(self, name: str, accuracy: Any = None) -> Region:
+        """Where a given point ("start", "via[0]", "goal"; the others as they are) or a control point ("C2.1") may be:
+        polytopes inside and outside, the gap of their sizes at most ``accuracy`` (0.001 in the plane, 0.05 in space).
+        Raises ``InputError``, ``Unable``."""
+        share = None if accuracy is None else arguments.rational(accuracy, "accuracy")
+        if share is not None and share <= 0:
+            raise arguments.wrong("accuracy", "a number above zero", accuracy)
+        return region(self.chain, arguments.text(name, "name"), share)
+
+    def validity(self, name: str) -> Validity:
+        """By how much a given point may move before there is no chain, from both sides. Raises ``InputError``,
+        ``Unable``."""
+        return validity(self.chain, arguments.text(name, "name"))
+
+    def to_json(self) -> dict[str, Any]:
+        """Everything, with exact numbers."""
+        data: dict[str, Any] = {"status": "solved" if self.feasible else "infeasible"}
+        if self.value is not None and self.bound is not None:
+            data["objective"] = {"kind": self.chain.objective.value, "value": described(self.value)}
+            data["objective"]["bound"] = described(self.bound)
+            data["objective"]["exact"] = None if self.exact is None else described(self.exact.value)
+        if self.feasible:
+            data["durations"] = [str(t) for t in self.chain.times]
+            data["curves"] = [[[described(c) for c in p] for p in curve.points] for curve in self.curves]
+        if self.conflict is not None:
+            data["conflict"] = {"conditions": list(self.conflict.conditions), "smallest": self.conflict.smallest}
+            data["repairs"] = [
+                {"change": r.change, "value": [described(c) for c in r.value], "too small": described(r.too_small)}
+                for r in self.repairs
+            ]
+        return data
+
+    def page(self, title: str = "chain", shown: Region | None = None) -> str:
+        """An HTML page with pictures of the chain, or of the points that have none, in its ball and half-spaces; in the
+        plane with a region below."""
+        from bezier.report.chain import page
+        from bezier.report.html import Card, document, tone
+
+        cards = [Card("chain", "proved" if self.feasible else "there is none", tone(self.feasible))]
+        if self.value is not None:
+            cards.append(
+                Card(self.chain.objective.value, f"{float(self.value):.10g}", note=f"least, to {self.accuracy}")
+            )
+        cards += [Card(f"possible with {r.change}", str(r).partition(" = ")[2]) for r in self.repairs]
+        lines = self.lines if shown is None else [*self.lines, str(shown)]
+        return document(page(self.chain, self.curves, lines, title, cards, shown))
+
     def __str__(self) -> str:
         if self.value is not None:
-            return f"{len(self.curves)} curves, objective {float(self.value):.12g}, proved to a billionth"
+            return f"{len(self.curves)} curves, objective {float(self.value):.12g}, proved to {self.accuracy}"
         assert self.conflict is not None
-        why = f"no chain: {', '.join(self.conflict.conditions)} exclude each other"
+        why = f"no chain: {self.conflict}"
         return why if self.repair is None else f"{why}; with radius {float(self.repair.radius):.10g} there is one"
 
 
-def chain(
-    *,
-    start: Sequence[Any],
-    via: Iterable[Sequence[Any]],
-    goal: Sequence[Any] | None = None,
-    radius: Any = None,
-    centre: Sequence[Any] | None = None,
-    half_spaces: Iterable[tuple[Sequence[Any], Any]] = (),
-    degree: int = 3,
-    continuity: int = 2,
-    durations: Iterable[Any] = (),
-    ends: str | Ends = Ends.FREE,
-    closed: bool = False,
-    objective: str | Objective = Objective.LEGS,
-) -> ChainPlan:
-    """The best chain of Bézier curves from ``start`` over all ``via`` points to ``goal`` (closed: back to the start).
-
-    Degree 2 with continuity 1, degree 3 with 1 or 2, degree 5 with 2, in time: ``durations`` (s) of the curves, 1 each
-    without them. Every control point, hence every curve, lies in the ball of this ``radius`` about ``centre`` (the
-    origin), in mm, and in all ``half_spaces`` ((a, b): a . p >= b). ``ends``: "free", or "zero" for rest.
-    ``objective``: "legs" (sum of the squared legs of all control polygons, mm²), "middle legs" (those between via
-    points, as in (7)), "acceleration", "jerk", "snap" (integrals of their squares over time).
-
-    Floating point proposes, rational numbers prove. Raises ``InputError``, and ``Unable`` where neither a chain nor a
-    contradiction could be proved, or no optimum (conditions that touch, or nearly).
-    """
-    corners = [start, *via] + ([] if goal is None else [goal])
-    points = tuple(_point(p, f"point {k}") for k, p in enumerate(corners))
-    if closed is (goal is not None):
-        raise InputError("goal: none of a closed chain, one of any other expected")
-    size = len(points[0])
-    middle = (Fraction(0),) * size if centre is None else _point(centre, "centre")
-    spaces = tuple((_point(a, "half_spaces"), arguments.rational(b, "half_spaces")) for a, b in half_spaces)
-    if len(middle) != size or any(len(a) != size for a, _ in spaces):
-        raise InputError(f"centre, half_spaces: {size} coordinates expected")
-    if radius is not None and (radius := arguments.rational(radius, "radius")) <= 0:
-        raise InputError("radius: a number above 0 expected")
-    return planned(
-        Chain(
-            points,
-            degree,
-            continuity,
-            tuple(arguments.rational(t, "durations") for t in durations),
-            arguments.member(ends, Ends, "ends"),
-            closed,
-            arguments.member(objective, Objective, "objective"),
-            middle,
-            None if radius is None else radius**2,
-            spaces,
-        )
-    )
-
-
-def _point(given: Any, what: str) -> Point:
-    if isinstance(given, str) or not isinstance(given, Iterable):
-        raise InputError(f"{what}: coordinates expected, {arguments.shown(given)} found")
-    return tuple(arguments.rational(c, what) for c in given)
+def bundled(proofs: Sequence[Certificate]) -> Certificate:
+    """All members of bundles as one."""
+    members = [m for proof in proofs for m in proof.payload if isinstance(m, Labelled)]
+    return Certificate.bundle([(m.label, m.certificate) for m in members])
 
 
 def planned(given: Chain) -> ChainPlan:
     """The best chain, or why there is none. Raises ``Unable``."""
+    if given.free_total is not None:
+        return replace(planned(timed(given)), searched=True)
     solved = given.solved
     if solved is None:
         raise Unable("the joins and the ends leave no chain: their equations contradict each other")
     rows = requirements(given, solved)
     inside = decided(given, solved, rows)
-    if not isinstance(inside, Contradiction):
-        found: Best = best(given, solved, inside)
-        return ChainPlan(given, solved.curves(found.free), found.value, found.bound, found.certificate)
-    conflict = smallest_conflict(given, solved, inside)
-    return ChainPlan(given, (), None, None, inside.certificate, conflict, least_radius(given, solved, rows))
+    found = inside if isinstance(inside, Contradiction) else _best(given, solved, rows, inside)
+    if isinstance(found, Best):
+        curves, exact = (
+            solved.curves(found.free),
+            exactly(given, solved, rows, found, 1) if _is_quick(given) else None,
+        )
+        return ChainPlan(given, curves, found.value, found.bound, found.certificate, exact=exact)
+    conflict = smallest_conflict(given, solved, found)
+    if _is_bounded(given):  # a repair would have to keep the bounds, too
+        return ChainPlan(given, (), None, None, found.certificate, conflict)
+    return ChainPlan(given, (), None, None, found.certificate, conflict, least_radius(given, solved, rows))
+
+
+def _best(given: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best | Contradiction:
+    return (best_within if _is_bounded(given) else best)(given, solved, rows, inside)
+
+
+def _is_quick(given: Chain) -> bool:
+    """Whether the exact optimum is likely to take milliseconds: short numbers, no bounds of length and curvature."""
+    numbers = [c for p in given.points for c in p] + [given.radius_squared or Fraction(1), *given.times]
+    return not _is_bounded(given) and max(c.denominator for c in numbers) < SHORT
+
+
+def _is_bounded(given: Chain) -> bool:
+    return given.max_length is not None or given.max_curvature is not None
 
 
 def smallest_conflict(given: Chain, solved: Solved, known: Contradiction) -> Conflict:
@@ -144,6 +224,8 @@ def smallest_conflict(given: Chain, solved: Solved, known: Contradiction) -> Con
     needed: dict[str, Certificate | None] = {}
     while (row := next((r for r in known.support if r.label not in needed), None)) is not None:
         others = [r for r in known.support if r is not row]
+        if not others:
+            break
         try:
             answer = decided(given, solved, others)
         except Unable:  # the others touch
@@ -154,27 +236,7 @@ def smallest_conflict(given: Chain, solved: Solved, known: Contradiction) -> Con
         else:
             needed[row.label] = feasible(given, solved, others, answer)
     labels = tuple(row.label for row in known.support)
-    proofs = [(f"without {label}", proof) for label in labels if (proof := needed[label]) is not None]
-    proof = Certificate.bundle([("they exclude each other", known.certificate), *proofs])
-    return Conflict(labels, len(proofs) == len(labels), proof)
-
-
-def least_radius(given: Chain, solved: Solved, rows: Sequence[Requirement]) -> Repair | None:
-    """The least radius with which there is a chain, from both sides."""
-    if given.radius_squared is None:
-        return None
-    free = [row for row in rows if not row.form.is_constant]
-    proposal = proposals.least_excess(given, solved.size, free, balls_only=True) if free else None
-    fixed = [row.form.constant for row in rows if row.form.is_constant and row.half_space is None]
-    farthest = float(max(fixed, default=Fraction(0)) + given.radius_squared) ** 0.5
-    wanted = max(float(given.radius_squared) ** 0.5 + (proposal.excess if proposal else 0.0), farthest)
-    sides = [replace(given, radius_squared=(Fraction(wanted) * (1 + s * NARROW)) ** 2) for s in (1, -1)]
-    try:
-        enough, less = (decided(side, solved, requirements(side, solved)) for side in sides)
-    except Unable:
-        return None
-    if isinstance(enough, Contradiction) or not isinstance(less, Contradiction):
-        return None
-    proof = feasible(sides[0], solved, requirements(sides[0], solved), enough)
-    bundle = Certificate.bundle([("with the radius", proof), ("with less", less.certificate)])
-    return Repair(Fraction(wanted) * (1 + NARROW), Fraction(wanted) * (1 - NARROW), bundle)
+    proofs = [(f"without {label}", proof) for label in labels if (proof := needed.get(label)) is not None]
+    detail = next((row.detail for row in known.support if row.detail), "")
+    proof = Certificate.bundle([(f"they exclude each other{detail}", known.certificate), *proofs])
+    return Conflict(labels, len(proofs) == len(labels) or len(labels) == 1, proof)

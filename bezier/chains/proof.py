@@ -12,10 +12,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import product
 from math import lcm
 
 from bezier.chains import proposals
-from bezier.chains.chain import Chain, Requirement, Solved, objective_form, requirements
+from bezier.chains.chain import Chain, Requirement, Solved, objective_form
 from bezier.chains.form import Form, Point, weighted_sum
 from qe.convex.evidence import optimum_certificate
 from qe.convex.minimise import evidence_about, solve
@@ -31,12 +32,15 @@ from qe.proof.certificate import Certificate
 from qe.proof.multipliers import FormRelation, OptimumStatus
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
+GAPS = (GAP, 1000 * GAP, 1_000_000 * GAP)
+"""Shares of the value, tried in this order: digits cancel where it is small, and conditions may leave hardly room."""
 MOST_EXACT = 12
 """Variables up to which an exact method is tried where rounded multipliers prove nothing."""
 EXACT_SECONDS = 1.0
 _PLACES = (20, 30, 40, 50)  # binary, of a point, in proportion to the size of the problem
 _DROPPED = (1e-6, 1e-9, 0.0)  # shares of the largest weight below which weights are left out
-_SMALLER = tuple(Fraction(1, 10**k) for k in (13, 12, 11, 10))  # shares of the squared radius
+_ADDED = (1e-12, 1e-10, 1e-8)
+_SMALLER = tuple(Fraction(1, 10**k) for k in (13, 12, 11, 10))  # shares of the room of a condition
 _AXES = "xyz"
 
 
@@ -81,8 +85,7 @@ def decided(chain: Chain, solved: Solved, rows: Sequence[Requirement]) -> tuple[
             free = rounded_point(chain, proposal.point, places)
             if all(row.form.value(free) <= 0 for row in varying):
                 return free
-        for share in _DROPPED:
-            weights = rounded_weights(proposal.weights, share)
+        for weights in rational_weights(proposal.weights):
             support = [(w, row) for w, row in zip(weights, varying, strict=True) if w]
             lowest = weighted_sum((w, row.form) for w, row in support).minimum(size, d) if support else None
             if lowest is not None and lowest[1] > 0:
@@ -101,13 +104,13 @@ def contradiction(
     if lowest is None or lowest[1] <= 0 or any(weights[row.label] < 0 for row in rows):
         raise Unable("these multipliers contradict nothing")
     forms = [row.form for row in rows]
-    return Contradiction(tuple(rows), _refuted(chain, size, forms, [weights[r.label] for r in rows], lowest[0]))
+    return Contradiction(tuple(rows), refuted(chain, size, forms, [weights[r.label] for r in rows], lowest[0]))
 
 
-def _refuted(
+def refuted(
     chain: Chain, size: int, forms: Sequence[Form], weights: Sequence[Fraction], at: Sequence[Point], *, strict: int = 0
 ) -> Certificate:
-    """That the forms are not all <= 0 (the last ``strict`` ones: < 0) anywhere."""
+    """That the forms, with these weights least at ``at``, are not all <= 0 (the last ``strict`` ones: < 0) anywhere."""
     relations = (FormRelation.LE,) * (len(forms) - strict) + (FormRelation.LT,) * strict
     system = ConvexSystem(names_of(chain, size), *_objective_and(chain, size, forms), relations)
     flat = tuple(c for p in at for c in p)
@@ -136,36 +139,47 @@ def _exactly(chain: Chain, size: int, rows: Sequence[Requirement]) -> tuple[Poin
     return tuple(tuple(exact[i : i + d]) for i in range(0, len(exact), d))
 
 
-def best(chain: Chain, solved: Solved, inside: Sequence[Point]) -> Best:
-    """Both sides of the optimum, at most ``GAP`` of it apart. ``inside``: free points that keep all conditions.
-
-    Raises ``Unable`` where that cannot be proved.
-    """
+def best(
+    chain: Chain,
+    solved: Solved,
+    rows: Sequence[Requirement],
+    inside: Sequence[Point],
+    gaps: Sequence[Fraction] = GAPS,
+) -> Best:
+    """Both sides of the optimum under these conditions, a billionth of it apart, or the first of ``gaps`` that can be
+    proved. ``inside``: free points that keep the conditions. Raises ``Unable`` where none can."""
     size, d, objective = solved.size, chain.dimension, objective_form(chain, solved)
-    rows = requirements(chain, solved)
     lowest = objective.minimum(size, d)
     if lowest is not None and all(row.form.value(lowest[0]) <= 0 for row in rows):
-        return bounded(chain, solved, lowest[0], {})
+        return bounded(chain, solved, rows, lowest[0], {})
     varying = [row for row in rows if not row.form.is_constant]
     proposal = proposals.least_value(chain, size, varying, objective)
     if proposal is None:
         raise Unable("no optimum was proposed")
+    points = list(near_optimum(chain, proposal, inside, varying, objective))
     reason = "no point near the optimum keeps all conditions"
-    for free in _inside(chain, proposal, inside, varying, objective):
-        for share in _DROPPED:
-            weights = rounded_weights(proposal.weights, share)
-            named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
-            try:
-                return bounded(chain, solved, free, named)
-            except Unable as error:
-                reason = str(error)
+    fitted = proposals.fitted_weights(varying, objective, proposal.point) or ()
+    multipliers = [*rational_weights(proposal.weights), *rational_weights(fitted)]
+    for gap, free, weights in product(gaps, points, multipliers):
+        named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
+        try:
+            return bounded(chain, solved, rows, free, named, gap)
+        except Unable as error:
+            reason = str(error)
     raise Unable(reason)
 
 
-def bounded(chain: Chain, solved: Solved, free: Sequence[Point], weights: Mapping[str, Fraction]) -> Best:
+def bounded(
+    chain: Chain,
+    solved: Solved,
+    rows: Sequence[Requirement],
+    free: Sequence[Point],
+    weights: Mapping[str, Fraction],
+    gap: Fraction = GAP,
+) -> Best:
     """What a point and multipliers prove together. Raises ``Unable`` where the point breaks a condition, a weight is
-    negative or of no condition, or the two sides are more than ``GAP`` of the value apart."""
-    size, objective, rows = solved.size, objective_form(chain, solved), requirements(chain, solved)
+    negative or of no condition, or the two sides are more than ``gap`` of the value apart."""
+    size, objective = solved.size, objective_form(chain, solved)
     broken = [row.label for row in rows if row.form.value(free) > 0]
     if broken:
         raise Unable(f"the point breaks a condition: {broken[0]}")
@@ -174,29 +188,34 @@ def bounded(chain: Chain, solved: Solved, free: Sequence[Point], weights: Mappin
     chosen = [row for row in rows if weights.get(row.label)]
     lagrangian = weighted_sum([(_ONE, objective), *((weights[row.label], row.form) for row in chosen)])
     lowest, value = lagrangian.minimum(size, chain.dimension), objective.value(free)
-    if lowest is None or value - lowest[1] > GAP * abs(value):
+    if lowest is None or value - lowest[1] > gap * abs(value):
         raise Unable("the two sides of the optimum are too far from each other")
     forms = [*(row.form for row in chosen), objective.shifted(-lowest[1])]
-    below = _refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
-    reached = [*(row.form for row in rows), objective.shifted(-value)]
-    proofs = [("optimum: bound", below), ("optimum: point", _witness(chain, size, reached, free))]
+    below = refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
+    detail = next((row.detail for row in chosen if row.detail), "")
+    reached = [*(row.form for row in rows if not row.detail), objective.shifted(-value)]
+    proofs = [
+        (f"least value at least {lowest[1]}{detail}", below),
+        (f"least value at most {value}", witness(chain, size, reached, free)),
+    ]
     used = {row.label: weights[row.label] for row in chosen}
     return Best(tuple(free), value, lowest[1], used, Certificate.bundle(proofs))
 
 
 def feasible(chain: Chain, solved: Solved, rows: Sequence[Requirement], free: Sequence[Point]) -> Certificate:
     """That the free points keep these conditions."""
-    return _witness(chain, solved.size, [row.form for row in rows], free)
+    return witness(chain, solved.size, [row.form for row in rows], free)
 
 
-def _witness(chain: Chain, size: int, forms: Sequence[Form], free: Sequence[Point]) -> Certificate:
+def witness(chain: Chain, size: int, forms: Sequence[Form], free: Sequence[Point]) -> Certificate:
+    """That the forms are all <= 0 at the free points."""
     names = names_of(chain, size)
     ring = Ring.of(names)
-    matrix = conj(tuple(atom(_poly(form, ring, size, chain.dimension), Relation.LE) for form in forms))
+    matrix = conj(tuple(atom(polynomial(form, ring, size, chain.dimension), Relation.LE) for form in forms))
     return Certificate.witness(matrix, names, [c for p in free for c in p])
 
 
-def _poly(form: Form, ring: Ring, size: int, dimension: int) -> Poly:
+def polynomial(form: Form, ring: Ring, size: int, dimension: int) -> Poly:
     """A positive multiple with whole coefficients."""
     terms: dict[tuple[int, ...], Fraction] = {}
     width = size * dimension
@@ -227,35 +246,42 @@ def rounded_point(chain: Chain, point: Sequence[Sequence[float]], places: int) -
     return tuple(tuple(Fraction(round(Fraction(c) * unit)) / unit for c in p) for p in point)
 
 
-def rounded_weights(weights: Sequence[float], share: float) -> tuple[Fraction, ...]:
-    """Without those that are below this share of the largest one, the others with 50 binary places of that."""
+def rational_weights(weights: Sequence[float]) -> Iterator[tuple[Fraction, ...]]:
+    """Rational multipliers near these: without those below a share of the largest one, then with a small one for each
+    condition, which holds points that the large ones leave nearly free."""
     largest = max(weights, default=0.0)
     if not largest > 0:
-        return (_ZERO,) * len(weights)
+        return
     unit = Fraction(2) ** (50 - Fraction(largest).numerator.bit_length() + Fraction(largest).denominator.bit_length())
-    return tuple(Fraction(round(Fraction(w) * unit)) / unit if w > share * largest else _ZERO for w in weights)
+    for share in _DROPPED:
+        yield tuple(Fraction(round(Fraction(w) * unit)) / unit if w > share * largest else _ZERO for w in weights)
+    for share in _ADDED:
+        least = Fraction(round(Fraction(largest * share) * unit)) / unit
+        yield tuple(Fraction(round(Fraction(max(w, 0.0)) * unit)) / unit + least for w in weights)
 
 
-def _inside(
+def near_optimum(
     chain: Chain, proposal: proposals.Proposal, inside: Sequence[Point], rows: Sequence[Requirement], objective: Form
 ) -> Iterator[tuple[Point, ...]]:
-    """Points near the proposal that keep all conditions: the best ones of slightly smaller balls, and the first one on
-    the way from the proposal to the inside."""
-    size, radius_squared = len(inside), chain.radius_squared
+    """Points near the proposal that keep all conditions: the best ones of slightly narrower conditions, and the first
+    one on the way from the proposal to the inside."""
+    size = len(inside)
     for share in _SMALLER:
-        if radius_squared is None:
-            break
-        smaller = replace(chain, radius_squared=radius_squared * (1 - share))
-        near = proposals.least_value(smaller, size, rows, objective)
+        near = proposals.least_value(chain, size, [narrower(row, share) for row in rows], objective)
         free = rounded_point(chain, near.point, 50) if near is not None else ()
         if free and all(row.form.value(free) <= 0 for row in rows):
             yield free
             break
     start = rounded_point(chain, proposal.point, 50)
-    for places in range(46, 2, -2):
+    for places in range(46, -1, -2):
         share = Fraction(1, 2**places)
         pairs = zip(start, inside, strict=True)
         free = tuple(tuple(a + share * (b - a) for a, b in zip(p, q, strict=True)) for p, q in pairs)
         if all(row.form.value(free) <= 0 for row in rows):
             yield free
             break
+
+
+def narrower(row: Requirement, share: Fraction) -> Requirement:
+    """The condition with this share less room."""
+    return replace(row, form=row.form.shifted(share * row.right if row.squares else share * abs(row.form.constant)))

@@ -257,6 +257,37 @@ def certify(
     return OK
 
 
+def chain(
+    file: Annotated[Path, typer.Argument(metavar="CHAIN.toml", help="Points and conditions.", show_default=False)],
+    certificate: Evidence = None,
+    check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the chain.")] = None,
+    page: Annotated[Path | None, typer.Option("--page", help="Write a page with pictures here.")] = None,
+    region: Annotated[str | None, typer.Option("--region", help="Where a point may be: start, via[0], C2.1, …")] = None,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Find the best chain of curves through many via points, both sides of the optimum proved; or say what excludes it
+    and what repairs it."""
+    from bezier.chains import command
+
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    if check is not None:
+        if certificate is not None or page is not None or region is not None:
+            raise InputError("--check: expected no --certificate, --page and --region with it, found one")
+        work = partial(command.check, file=file, against=check, as_json=json)
+        print(limited(work, timeout=timeout, memory=memory, plain=json))
+        return OK
+    planning = partial(command.run, file=file, evidence=certificate is not None, page=page, as_json=json)
+    planning = partial(planning, region=region)
+    text, evidence, is_success = limited(planning, timeout=timeout, memory=memory, plain=json)
+    if certificate is not None:
+        write_file(certificate, evidence)
+    print(text)
+    return OK if is_success else UNABLE
+
+
 COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
     ("plan", plan, "Plan a path, with its page and proofs.", "examples/three_balls.toml --out out"),
     ("check", check, "Verify the folder of a plan.", "out"),
@@ -267,6 +298,7 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
         "Any trajectory within its limits, for all t.",
         "examples/joints/path.csv --limits examples/joints/limits.toml",
     ),
+    ("chain", chain, "Curves through many via points, at best.", "examples/chains/plane.toml"),
     ("compare", compare, "Quadratic and cubic curves side by side.", "examples/cubic_joins.toml --out out"),
     ("ik", ik, "All joint positions of an arm at a point.", "ev3-120 599/66 824/33 323/10"),
     ("certify-path", certify_path, "Whether an arm can follow a path.", "ev3-120 examples/arm_curve.toml"),

@@ -136,10 +136,10 @@ class Table:
         """A required point of three exact numbers."""
         return self.as_point(key, self.required(key, POINT))
 
-    def as_point(self, key: str, raw: object) -> tuple[Fraction, ...]:
-        """A value as a point of three exact numbers."""
-        if not isinstance(raw, list) or len(raw) != DIMENSION:
-            raise self.error(key, POINT, describe(raw))
+    def as_point(self, key: str, raw: object, size: int = DIMENSION) -> tuple[Fraction, ...]:
+        """A value as a point of three exact numbers, or of ``size`` ones."""
+        if not isinstance(raw, list) or len(raw) != size:
+            raise self.error(key, POINT if size == DIMENSION else f"a point of {size} numbers", describe(raw))
         return tuple(self._exact(f"{key}[{i}]", entry) for i, entry in enumerate(raw))
 
     def words(self, key: str, choices: Iterable[str], what: str) -> tuple[str, ...]:

@@ -7,12 +7,18 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
+from qe.convex.exact_basis import Refutation, decided
+from qe.convex.highs import Proposer, highs
+from qe.convex.linear_rows import LinearRows
 from qe.convex.system import NotConvex, atoms_of
 from qe.exact.linear_bounds import LinearBounds
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
+
+LARGE, WORK = 1000, 20_000
+"""So many coefficients are for HiGHS at once; with fewer, what takes the simplex method more new entries (20 ms)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,9 +43,14 @@ class LinearContradiction:
         return {"theory": {"polynomials": listed, "lemmas": lemmas, "cases": []}}
 
 
-def linear_point(conditions: Formula, *, budget: Budget) -> dict[str, Fraction] | LinearContradiction | None:
+def linear_point(
+    conditions: Formula, *, budget: Budget, propose: Proposer = highs
+) -> dict[str, Fraction] | LinearContradiction | None:
     """Values of the variables that meet all conditions, or how these contradict each other; None where they are no
     conjunction of linear atoms without /=.
+
+    Small systems by the simplex method alone; of others ``propose`` says what to look at, and the simplex method takes
+    those where that does not help.
     """
     try:
         atoms = atoms_of(conditions)
@@ -47,41 +58,61 @@ def linear_point(conditions: Formula, *, budget: Budget) -> dict[str, Fraction] 
         return None
     if not atoms or any(a.poly.total_degree > 1 or a.relation is Relation.NE for a in atoms):
         return None
-    bounds, columns, scales = LinearBounds(), dict[str, int](), list[Fraction]()
+    system = LinearRows.of(atoms)
 
-    def contradiction(parts: Iterable[tuple[Hashable, Fraction]]) -> LinearContradiction:
-        known = [(k, c / scales[k]) for k, c in parts if isinstance(k, int)]
+    def seconds() -> float | None:
+        budget.check("linear conditions")
+        return budget.remaining()
+
+    large = sum(len(row.terms) for row in system.rows) >= LARGE
+    outcome = None if large else _pivoted(system, budget, WORK)
+    if outcome is None:
+        outcome = decided(system, seconds, propose) or _pivoted(system, budget)
+    assert outcome is not None
+    if isinstance(outcome, Refutation):
+        terms = tuple((system.rows[i].sign * w, atoms[i].poly) for i, w in outcome.weights.items())
+        return LinearContradiction(terms, sum(w * system.rows[i].constant for i, w in outcome.weights.items()))
+    return dict(zip(system.names, outcome, strict=True))
+
+
+class _TooMuch(Exception):
+    """The simplex method takes too long."""
+
+
+def _pivoted(system: LinearRows, budget: Budget, work: int | None = None) -> tuple[Fraction, ...] | Refutation | None:
+    """What the simplex method says; None where it takes more than so much ``work``."""
+    bounds = LinearBounds()
+    columns = [bounds.variable() for _ in system.names]
+    factors: list[Fraction] = []
+
+    def refutation(parts: Iterable[tuple[Hashable, Fraction]]) -> Refutation:
+        known = [(k, c / factors[k]) for k, c in parts if isinstance(k, int)]
         whole = lcm(*(c.denominator for _, c in known))
-        terms = tuple((int(c * whole), atoms[k].poly) for k, c in known)
-        return LinearContradiction(terms, sum(c * int(_constant(p)) for c, p in terms))
+        weights = {k: int(c * whole) for k, c in known}
+        return Refutation(weights if system.refuted_by(weights) else {k: -w for k, w in weights.items()})
 
-    for number, given in enumerate(atoms):
-        names, terms, constant = given.poly.ring.names, dict[int, Fraction](), Fraction(0)
-        for powers, c in given.poly.sparse_terms():
-            if not powers:
-                constant = Fraction(c)
-                continue
-            name = names[powers[0][0]]
-            if name not in columns:
-                columns[name] = bounds.variable()
-            terms[columns[name]] = Fraction(c)
-        scale = next(iter(terms.values())) if len(terms) == 1 else Fraction(1)
-        scales.append(scale)
-        x, bound = next(iter(terms)) if len(terms) == 1 else bounds.form(terms), -constant / scale
-        relation = given.relation if scale > 0 else given.relation.flipped
+    def watch() -> None:
+        budget.check("linear conditions")
+        if work is not None and bounds.work > work:
+            raise _TooMuch
+
+    for number, row in enumerate(system.rows):
+        terms = {columns[j]: Fraction(c) for j, c in row.terms.items()}
+        factor = next(iter(terms.values())) if len(terms) == 1 else Fraction(1)
+        factors.append(factor)
+        x, bound = next(iter(terms)) if len(terms) == 1 else bounds.form(terms), -row.constant / factor
         conflict = None
-        if relation in (Relation.GT, Relation.GE, Relation.EQ):
-            conflict = bounds.at_least(x, bound, strict=relation.is_strict, reason=number)
-        if relation in (Relation.LT, Relation.LE, Relation.EQ) and conflict is None:
-            conflict = bounds.at_most(x, bound, strict=relation.is_strict, reason=number)
+        if row.is_equation or factor < 0:
+            conflict = bounds.at_least(x, bound, strict=row.is_strict, reason=number)
+        if (row.is_equation or factor > 0) and conflict is None:
+            conflict = bounds.at_most(x, bound, strict=row.is_strict, reason=number)
         if conflict is not None:
             (other,) = conflict - {number} or {number}
-            return contradiction([(number, Fraction(1)), (other, Fraction(-1))])
-    if bounds.conflict(lambda: budget.check("linear conditions")) is not None:
-        return contradiction(bounds.contradiction())
+            return refutation([(number, Fraction(1)), (other, Fraction(-1))])
+    try:
+        if bounds.conflict(watch) is not None:
+            return refutation(bounds.contradiction())
+    except _TooMuch:
+        return None
     values = bounds.point()
-    return {name: values[x] for name, x in columns.items()}
-
-
-def _constant(poly: Poly) -> Fraction:
-    return next((Fraction(c) for powers, c in poly.sparse_terms() if not powers), Fraction(0))
+    return tuple(values[x] for x in columns)

@@ -228,7 +228,7 @@ def _together(
 
 def _leading(question: Formula) -> tuple[Formula, ...]:
     """That the factors of leading coefficients in a bound variable, polynomials in free ones, are not zero."""
-    names, found = set(question.free), dict[Formula, None]()
+    names, leading = set(question.free), dict[Formula, None]()
     for a in atoms(question):
         ring = a.poly.ring
         for i in a.poly.variables:
@@ -236,8 +236,8 @@ def _leading(question: Formula) -> tuple[Formula, ...]:
                 continue
             lead = a.poly.coefficients(i)[-1]
             if not lead.is_constant and names.issuperset(ring.names[j] for j in lead.variables):
-                found |= dict.fromkeys(_nonzero(lead))
-    return tuple(found)
+                leading |= dict.fromkeys(_nonzero(lead))
+    return tuple(leading)
 
 
 def _nonzero(poly: Poly) -> Iterator[Formula]:

@@ -21,7 +21,8 @@ _GREEDY = 60
 
 
 class LinearBounds:
-    """Variables are numbers from 0; ``reasons`` of a conflict are those given with the bounds that contradict."""
+    """Variables are numbers from 0; ``reasons`` of a conflict are those given with the bounds that contradict.
+    ``work``: how many entries pivots have computed."""
 
     def __init__(self) -> None:
         self.rows: dict[int, dict[int, fmpq]] = {}
@@ -30,6 +31,7 @@ class LinearBounds:
         self.lower: dict[int, Bound] = {}
         self.upper: dict[int, Bound] = {}
         self.stuck: tuple[int, bool] | None = None
+        self.work = 0
         self._changed: list[tuple[dict[int, Bound], int, Bound | None]] = []
 
     def variable(self) -> int:
@@ -228,6 +230,7 @@ class LinearBounds:
         self.values[x] = wanted
         new = {z: -c / lead for z, c in row.items()}
         new[x] = 1 / lead
+        self.work += len(new) * len(self.using[y])
         for r in list(self.using[y]):
             other = self.rows[r]
             factor = other.pop(y)

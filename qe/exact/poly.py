@@ -417,17 +417,6 @@ class Poly:
         images = [ring._gens[slots.get(slot, slot)] for slot in range(ring.size)]
         return Poly(ring, self.p.compose(*images, ctx=ring.ctx))
 
-    def rows(self, i: int, j: int) -> list[fmpz_poly] | None:
-        """The coefficients in variable ``j``, from degree 0 up, as FLINT polynomials in variable ``i``; None where
-        another variable occurs.
-        """
-        memory: dict[Any, Any] = self.__dict__
-        key = ("rows", i, j)
-        if key not in memory:
-            memory[key] = None if set(self.variables) - {i, j} else [c.to_univariate(i) for c in self.coefficients(j)]
-        stored: list[fmpz_poly] | None = memory[key]
-        return stored
-
     def to_univariate(self, i: int) -> fmpz_poly:
         """The polynomial as a FLINT univariate one; no other variable may occur."""
         slot = self.ring.slot(i)

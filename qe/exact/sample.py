@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
+from typing import Any
 
 from flint import acb, arb, arb_poly, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
 
@@ -125,7 +126,7 @@ class Point:
             g = self.reduce(f)
             return g.to_univariate(i) if g.variables in ((), (i,)) else None
         g, own = self.parent.reduce(f), self.depth - 1
-        rows = g.rows(own, i)
+        rows = _rows(g, own, i)
         return None if rows is None else fmpq_poly([row(self.value) for row in rows]).numer()
 
     def ball(self, i: int, bits: int) -> arb:
@@ -241,6 +242,18 @@ class Point:
 
     def __repr__(self) -> str:
         return f"Point({', '.join(str(self.number(i)) for i in range(self.depth))})"
+
+
+def _rows(f: Poly, i: int, j: int) -> list[fmpz_poly] | None:
+    """The coefficients in variable ``j``, from degree 0 up, as FLINT polynomials in variable ``i``; None where another
+    variable occurs. They are kept with the polynomial, which stands over many points.
+    """
+    memory: dict[Any, Any] = f.__dict__
+    key = ("rows", i, j)
+    if key not in memory:
+        memory[key] = None if set(f.variables) - {i, j} else [c.to_univariate(i) for c in f.coefficients(j)]
+    stored: list[fmpz_poly] | None = memory[key]
+    return stored
 
 
 class Fibre:

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
-from math import prod
 
 from flint import fmpz_mpoly, fmpz_poly
 
@@ -20,6 +19,10 @@ from qe.exact.poly import Poly, Ring, SparseTerm
 
 WIDE = 24
 """In rings with more variables, polynomials keep track of the few that they contain."""
+
+
+_FEW = 8
+"""Variables that are looked for one by one."""
 
 
 class WideRing(Ring, more_than=WIDE):
@@ -44,10 +47,12 @@ class WideRing(Ring, more_than=WIDE):
 
     def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
         """The polynomial with these terms; see ``Poly.sparse_terms``."""
-        total = self.constant(0)
+        sums: dict[tuple[str, ...], int] = {}
         for powers, c in terms:
-            total += prod((self.gen(i) ** k for i, k in powers), start=self.constant(c))
-        return total
+            names = tuple(self.names[i] for i, k in powers for _ in range(k))
+            sums[names] = sums.get(names, 0) + c
+        kept = {names: c for names, c in sums.items() if c}
+        return self.combination(kept) if kept else self.constant(0)
 
     def combination(self, coefficients: Mapping[tuple[str, ...], int]) -> Poly:
         made = super().combination(coefficients)
@@ -115,6 +120,14 @@ class WidePoly(Poly):
     @cached_property
     def variables(self) -> tuple[int, ...]:
         """The indices that occur, ascending."""
+        count, most = len(self.support), len(self.p)
+        if (
+            count > _FEW
+            and most >= count
+            and self.p.total_degree() == 1
+            and (most > count or any(self.p.monomial(most - 1)))
+        ):
+            return tuple(sorted(self.support))
         return tuple(i for i in sorted(self.support) if self.p.derivative(self.ring.slot(i)))
 
     @property
@@ -155,12 +168,10 @@ class WidePoly(Poly):
         return tuple(terms)
 
     def _linear_terms(self) -> tuple[SparseTerm, ...]:
-        rest, terms = self.p, list[SparseTerm]()
-        for i in self.variables:
-            slope = self.p.derivative(self.ring.slot(i))
-            rest -= slope * self.ring._gens[self.ring.slot(i)]
-            terms.append((((i, 1),), int(slope.leading_coefficient())))
-        return (*terms, ((), int(rest.leading_coefficient()))) if rest else tuple(terms)
+        coefficients = [int(c) for c in self.p.coeffs()]  # that of the last variable first, the constant last
+        count = len(self.variables)
+        terms = tuple((((i, 1),), c) for i, c in zip(self.variables, coefficients[count - 1 :: -1]))
+        return (*terms, ((), coefficients[-1])) if len(coefficients) > count else terms
 
     def terms(self) -> list[tuple[tuple[int, ...], int]]:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""

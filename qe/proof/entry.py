@@ -163,18 +163,19 @@ def parse_poly(text: str, ring: Ring) -> Poly:
 
     Some texts that are never printed are read as well; the caller compares.
     """
-    terms: dict[tuple[int, ...], int] = {}
+    terms: dict[tuple[tuple[int, int], ...], int] = {}
     at, sign = 0, 1
     while text != "0":
         matched = _TERM.match(text, at)
         if matched is None or matched.end() == at or (at and matched[1]):
             raise ValueError(text[at : at + 40])
-        exponents = [0] * ring.size
+        powers: dict[int, int] = {}
         for name, exponent in _POWER.findall(matched[3] or ""):
             if len(exponent) > 5 or int(exponent or 1) > MAX_EXPONENT:
                 raise ValueError(exponent[:40])
-            exponents[ring.index[unquoted(name) if name.startswith("`") else name]] += int(exponent or 1)
-        terms[tuple(exponents)] = (-sign if matched[1] else sign) * int(matched[2] or 1)
+            i = ring.index[unquoted(name) if name.startswith("`") else name]
+            powers[i] = powers.get(i, 0) + int(exponent or 1)
+        terms[tuple(sorted(powers.items()))] = (-sign if matched[1] else sign) * int(matched[2] or 1)
         at = matched.end()
         if at == len(text):
             break
@@ -182,7 +183,7 @@ def parse_poly(text: str, ring: Ring) -> Poly:
         if joint is None:
             raise ValueError(text[at : at + 40])
         at, sign = joint.end(), 1 if joint[1] == "+" else -1
-    return ring.from_terms(terms)
+    return ring.from_sparse(terms.items())
 
 
 def formula_to_json(formula: Formula, *, quantified: bool = False) -> Json:

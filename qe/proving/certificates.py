@@ -9,14 +9,17 @@ from typing import TypeVar
 from qe.certify.claims import is_about
 from qe.elimination.protocol import Outcome, witness_of
 from qe.errors import Contradiction, Unable
+from qe.exact.ring import Ring
 from qe.formula.block import Block
+from qe.formula.build import convert
 from qe.formula.normal import without_clashes
 from qe.formula.syntax import Formula
 from qe.kernel.renaming import is_same
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED
-from qe.proof.certificate import Certificate, Proof
+from qe.proof.certificate import Certificate, Kind, Proof
 from qe.proof.derivation import put_together
+from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
 from qe.proving.linear import substitution_certificate
 
@@ -47,6 +50,8 @@ def certificate_of(
     problem, made = Block.of(question), outcome.certificate
     if made is None and outcome.witness is not None and problem is not None and problem.is_flat and not problem.free:
         made = witness_of(problem, outcome.witness)
+    if made is not None and _says_just(made, question, outcome.formula):
+        return Proof(made)
     said = None if made is None else is_about(made, question)
     if made is not None and said is not None and is_same(said, outcome.formula):
         step = made.single_step
@@ -56,6 +61,20 @@ def certificate_of(
     if linear is not None or not options.certify:
         return Proof(linear, reason="" if linear is not None else NOT_WANTED)
     return derived_or_decomposed(asked, question, log, outcome.formula, options, budget)
+
+
+def _says_just(made: Certificate, question: Formula, answer: Formula) -> bool:
+    """Whether a derivation leads from this question to this answer as they stand: then nothing has to be read."""
+    payload = made.payload
+    if made.kind != Kind.DERIVATION or isinstance(payload, tuple):
+        return False
+    order = payload["order"]
+    assert isinstance(order, list)
+    ring = Ring.of(map(str, order))
+    if not ring.index.keys() >= {*question.free, *question.bound}:
+        return False
+    sides = (formula_to_json(convert(side, ring), quantified=True) for side in (question, answer))
+    return all(payload[name] == side for name, side in zip(("start", "answer"), sides))
 
 
 def derived_or_decomposed(

@@ -59,6 +59,8 @@ ROWS = {
     "bezier.input": 13,
     "bezier.obstacles": 14,
     "bezier.chains": 15,
+    "bezier.chains.plan": 23,
+    "bezier.chains.command": 24,
     "bezier.trajectories": 15,
     "bezier.trajectories.command": 24,
     "bezier.paths": 15,

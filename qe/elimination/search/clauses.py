@@ -21,7 +21,8 @@ Clause = list[int]
 
 class Clauses:
     """The clauses of one formula; ``literal`` gives the number of an atom. ``orders``: the pairs of bounds of one
-    linear form that the clauses exclude."""
+    linear form that the clauses exclude. ``needed``: the literals on which the truth of the formula rests; that others
+    hold, or hold together, does not matter to it."""
 
     def __init__(self, formula: Formula) -> None:
         self.formula = formula
@@ -30,6 +31,7 @@ class Clauses:
         self._signs: dict[Poly, tuple[int, int, int]] = {}
         self._nodes: dict[Formula, int] = {}
         self._count = 0
+        self.needed: set[int] = set()
         self._assert(formula)
         self._order()
 
@@ -157,6 +159,7 @@ class Clauses:
     def _named(self, formula: Formula) -> int:
         """A literal that implies the formula."""
         if isinstance(formula, Atom):
+            self._need(formula)
             return self.literal(formula)
         found = self._nodes.get(formula)
         if found is None:
@@ -169,6 +172,17 @@ class Clauses:
                 case _:
                     raise AssertionError(f"not in negation normal form: {formula}")
         return found
+
+    def _need(self, given: Atom) -> None:
+        """What says an atom to the theories: of equations and inequations the inequalities that they are made of."""
+        positive, negative, _ = self._of(given.poly)
+        match given.relation:
+            case Relation.EQ:
+                self.needed.update((-positive, -negative))
+            case Relation.NE:
+                self.needed.update((positive, negative))
+            case _:
+                self.needed.add(self.literal(given))
 
     def _order(self) -> None:
         """What bounds of one linear form say about each other: form > 3 implies form > 2."""

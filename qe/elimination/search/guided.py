@@ -62,7 +62,7 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
         if leading is not None and (changed := leading.changes()):
             pysolvers.cadical195_setphases(solver.cadical, changed)
 
-    propagator = Propagator(theories, check, last, prefer)
+    propagator = Propagator(theories, clauses.needed, check, last, prefer)
     with Cadical195(bootstrap_with=clauses.clauses) as solver:
         if leading is not None:
             solver.set_phases([-zero for _, _, zero in clauses.triples()])

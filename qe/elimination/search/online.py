@@ -7,7 +7,7 @@ point: nothing rests on the solver having been told of the right things at the r
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from fractions import Fraction
 from types import TracebackType
 from typing import Protocol
@@ -46,8 +46,8 @@ class LinearTheory(Protocol):
 
 
 class Propagator:
-    """What the SAT solver calls. ``last``: gives clauses against a whole assignment, none where it is a solution;
-    ``prefer`` is called before decisions.
+    """What the SAT solver calls. The theories hear of literals that are ``needed`` only. ``last``: gives clauses
+    against a whole assignment, none where it is a solution; ``prefer`` is called before decisions.
 
     ``lemmas``: the clauses that the solver was told. ``failure``: an error while it called, which ends its work.
     ``keeps_errors``: whether this is inside such a call, where errors become the failure.
@@ -58,11 +58,13 @@ class Propagator:
     def __init__(
         self,
         theories: Sequence[LinearTheory],
+        needed: Container[int],
         check: Callable[[], None],
         last: Callable[[Sequence[int]], list[Literals]],
         prefer: Callable[[], None] = lambda: None,
     ) -> None:
-        self.theories, self.check, self.last, self.prefer = theories, check, last, prefer
+        self.theories, self.needed = theories, needed
+        self.check, self.last, self.prefer = check, last, prefer
         self.lemmas: list[Literals] = []
         self.failure: BaseException | None = None
         self.keeps_errors = False
@@ -169,7 +171,7 @@ class Propagator:
             literal = self._told[self._next]
             self._marks.append([theory.mark() for theory in self.theories])
             self._next += 1
-            for theory in self.theories:
+            for theory in self.theories if literal in self.needed else ():
                 if self._against(theory.tell(literal)):
                     return []
         if any(self._against(theory.settle()) for theory in self.theories):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import random
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,7 +30,7 @@ KINDS = ((2, 1, "legs"), (3, 1, "legs"), (3, 2, "legs"), (3, 2, "acceleration"),
 
 
 def chain(points: Any, **given: Any) -> Any:
-    return bezier.chain(start=points[0], via=points[1:-1], goal=points[-1], **given)
+    return bezier.chain(**{"start": points[0], "via": points[1:-1], "goal": points[-1], **given})
 
 
 def derivative(curve: Bezier, order: int, at: int, time: Fraction) -> list[Fraction]:
@@ -125,6 +127,43 @@ def test_a_broken_proposer_never_proves_anything_false(seed: int, monkeypatch: p
             assert found.bound <= known.value and known.bound <= found.value
 
 
+def test_a_thousand_false_claims_are_refused() -> None:
+    """Contradictions of conditions that a chain keeps, and bounds above its value: random multipliers prove none."""
+    given = Chain(tuple(tuple(map(Fraction, p)) for p in PLANE), centre=(Fraction(0),) * 2, radius_squared=Fraction(36))
+    solved, chance = given.solved, random.Random(1)
+    assert solved is not None
+    rows = [row for row in requirements(given, solved) if not row.form.is_constant]
+    inside = proof.decided(given, solved, rows)
+    assert not isinstance(inside, Contradiction)
+    least = proof.best(given, solved, rows, inside).value
+    accepted = 0
+    for _ in range(500):
+        weights = {row.label: Fraction(chance.choice([0, 1, 7, -1, 40]), chance.randint(1, 9)) for row in rows}
+        with pytest.raises(Unable):
+            proof.contradiction(given, solved.size, weights, rows)
+        moved = [tuple(c + Fraction(chance.randint(-9, 9), 30) for c in p) for p in inside]
+        try:
+            claimed = proof.bounded(given, solved, rows, moved, weights, Fraction(chance.choice([0, 1, 9]), 10))
+        except Unable:
+            continue
+        accepted += 1
+        assert claimed.bound <= least <= claimed.value
+    assert accepted < 500
+
+
+@each(((3, 2), [1, 2], [3, -1]), ((5, 2), [0, 1], [0, 0]), ((3, 1), [2, 0], [1, 1]), ((2, 1), [1, 3], None))
+def test_velocities_at_the_ends(kind: tuple[int, int], first: Any, last: Any) -> None:
+    times = [Fraction(2), Fraction(1), Fraction(3)]
+    named = {"degree": kind[0], "continuity": kind[1], "durations": times}
+    if last is None:
+        with pytest.raises(Unable, match="joins"):
+            chain(PLANE, velocities=[first, first], **named)
+        return
+    made = chain(PLANE, velocities=[first, last], **named)
+    assert derivative(made.curves[0], 1, 0, times[0]) == first
+    assert derivative(made.curves[-1], 1, 1, times[-1]) == last
+
+
 def test_multipliers_that_prove_nothing_are_refused() -> None:
     given = Chain(tuple(tuple(map(Fraction, p)) for p in PLANE), centre=(Fraction(0),) * 2, radius_squared=Fraction(36))
     solved = given.solved
@@ -136,7 +175,7 @@ def test_multipliers_that_prove_nothing_are_refused() -> None:
         with pytest.raises(Unable):
             proof.contradiction(given, solved.size, weights, rows[:1])
     with pytest.raises(Unable):
-        proof.bounded(given, solved, inside, {"no such condition": Fraction(1)})
+        proof.bounded(given, solved, rows, inside, {"no such condition": Fraction(1)})
 
 
 @each(
@@ -147,10 +186,29 @@ def test_multipliers_that_prove_nothing_are_refused() -> None:
     ({"objective": "length"}, "objective"),
     ({"objective": "snap"}, "degree"),
     ({"ends": "stop"}, "ends"),
-    ({"centre": [0]}, "coordinates"),
+    ({"centre": [0]}, "centre"),
     ({"closed": True}, "goal"),
+    ({"half_spaces": 3}, "half_spaces"),
+    ({"half_spaces": [([0, 1], None)]}, "offset"),
+    ({"via": 3}, "via"),
+    ({"start": "ab"}, "start"),
+    ({"velocities": [[1, 2]]}, "velocities"),
+    ({"timeout": -1}, "timeout"),
 )
 def test_bad_input_is_one_line(given: dict[str, Any], word: str) -> None:
     with pytest.raises(InputError, match=word) as refused:
         chain(PLANE, **given)
     assert "\n" not in str(refused.value) and isinstance(Ends("free"), Ends)
+
+
+def test_the_chains_of_the_corpus(shared: Path) -> None:
+    """Values within 1e-8 of another solver's; what is infeasible has a smallest conflict and a repair that works."""
+    for record in json.loads((shared / "corpora" / "scenes" / "chains.json").read_text()):
+        made = chain(record["points"], radius=record["radius"])
+        assert made.feasible is (record["status"] == "optimal")
+        assert qe.verify(made.certificate).accepted
+        if made.feasible:
+            assert float(made.value) == pytest.approx(record["objective"], rel=1e-8)
+        else:
+            assert made.conflict.smallest and made.repair is not None and qe.verify(made.repair.certificate).accepted
+            assert chain(record["points"], radius=made.repair.radius * Fraction(101, 100)).feasible

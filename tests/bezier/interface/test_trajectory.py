@@ -47,11 +47,12 @@ def test_the_certificate_is_about_this_trajectory(states: Path) -> None:
 
 
 def test_obstacles_are_tables_as_for_plan(states: Path) -> None:
-    far = {"kind": "ball", "centre": [9, 9], "radius": 1}
-    near = {"kind": "ball", "centre": [1, 1], "radius": 1}
+    states.write_text("time,x,y,z\n0,0,0,0\n1,2,1,0\n3,3,5,0\n")
+    far = {"kind": "ball", "centre": [9, 9, 0], "radius": 1}
+    near = {"kind": "ball", "centre": [1, 1, 0], "radius": 1}
     assert bezier.certify(states, obstacles=[far]).kept
     met = bezier.certify(states, obstacles=[far, near])
-    assert not met.kept and not met.clear and "obstacle 2" in str(met)
+    assert not met.kept and not met.clear and "ball 2" in str(met)
 
 
 def test_splines_of_scipy() -> None:

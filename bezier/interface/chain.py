@@ -1,0 +1,114 @@
+"""``bezier.chain``: the problems of ``bezier chain`` from Python values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from bezier.chains.chain import Chain
+from bezier.chains.plan import ChainPlan, planned
+from bezier.chains.reader import read_chain
+from bezier.input.toml_table import Table
+from bezier.interface.function import table_value
+from qe import arguments
+from qe.errors import InputError
+from qe.options import Budget
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
+from qe.progress import Listener, silent
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    Point = ArrayLike | Sequence[object]
+
+SOURCE = "bezier.chain"
+NAMES = {"half_space": "half_spaces"}
+
+
+def chain(
+    *,
+    start: Point,
+    via: Sequence[Point] | ArrayLike,
+    goal: Point | None = None,
+    radius: object = None,
+    centre: Point | None = None,
+    half_spaces: Sequence[object] = (),
+    degree: object = 3,
+    continuity: object = 2,
+    durations: object = (),
+    total: object = None,
+    ends: object = "free",
+    velocities: Sequence[Point] | ArrayLike | None = None,
+    closed: bool = False,
+    objective: object = "legs",
+    max_length: object = None,
+    max_curvature: object = None,
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Listener = silent,
+) -> ChainPlan:
+    """The best chain of Bézier curves from ``start`` over all ``via`` points to ``goal`` (closed: back to the start).
+
+    Degree 2 with continuity 1, degree 3 with 1 or 2, degree 5 with 2, in time: ``durations`` (s) of the curves, 1 each
+    without them, or "free": a search picks some with the sum ``total`` (as many seconds as curves without it). Every
+    control point, hence every curve, lies in the ball of this ``radius`` about ``centre`` (the origin), in mm, and in
+    all ``half_spaces`` (mappings with ``normal`` and ``offset``, or pairs: normal . p >= offset). ``ends``: "free", or
+    "zero" for rest; ``velocities``: at the start and at the goal (mm/s), where these are fixed.
+    ``objective``: "legs" (sum of the squared legs of all control polygons, mm²), "middle legs" (those between via
+    points, as in (7)), "acceleration", "jerk", "snap" (integrals of their squares over time). ``max_length`` (mm, of
+    all curves together) and ``max_curvature`` (1/mm) hold for all t; the bound from below is then one for chains with a
+    necessary half-space in their place (``accuracy``). Numbers are exact, as for ``bezier.plan``; the arguments are the
+    keys of a file of ``bezier chain``.
+
+    Floating point proposes, rational numbers prove. Raises ``InputError`` naming the argument, ``BudgetExceeded`` at a
+    limit, and ``Unable`` where neither a chain nor a contradiction could be proved, or no optimum (conditions that
+    touch, or nearly).
+    """
+    given = {
+        "start": start,
+        "via": via,
+        "goal": goal,
+        "radius": radius,
+        "centre": centre,
+        "half_space": _half_spaces(half_spaces),
+        "degree": degree,
+        "continuity": continuity,
+        "durations": durations,
+        "total": total,
+        "ends": ends,
+        "velocities": velocities,
+        "closed": closed,
+        "objective": objective,
+        "max_length": max_length,
+        "max_curvature": max_curvature,
+    }
+    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
+    limited = bounds.timeout is not None or bounds.memory is not None
+    return perform(partial(_planned, chain_from(given)), bounds, at_once=limited)
+
+
+def chain_from(given: Mapping[str, object]) -> Chain:
+    """The chain of these arguments; None for one that is not given. Raises ``InputError``."""
+    named = {key: value for key, value in given.items() if value is not None}
+    values = {key: table_value(value, f"{SOURCE}: {NAMES.get(key, key)}") for key, value in named.items()}
+    return read_chain(Table(values, SOURCE, names=NAMES))
+
+
+def _half_spaces(given: object) -> list[object]:
+    if not isinstance(given, Sequence) or isinstance(given, str):
+        raise InputError(f"{SOURCE}: half_spaces: expected mappings or pairs, found {arguments.shown(given)}")
+    return [_half_space(entry) for entry in given]
+
+
+def _half_space(given: object) -> object:
+    if isinstance(given, Mapping):
+        return given
+    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
+        raise InputError(f"{SOURCE}: half_spaces: expected mappings or pairs, found {arguments.shown(given)}")
+    return {"normal": given[0], "offset": given[1]}
+
+
+def _planned(given: Chain, budget: Budget) -> ChainPlan:
+    return planned(given)

@@ -1,0 +1,125 @@
+"""Linear conditions decided by a proposed basis, made exact: a point that keeps them, or weights that refute them.
+
+Applegate, Cook, Dash, Espinoza 2007 (QSopt_ex). First all inequalities get a common slack t: where it can be positive,
+a rounded point will do; where it is negative, the multipliers contradict; where it is 0, only the strict ones get one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import isfinite, lcm
+
+from qe.convex.highs import Proposal, Proposer, Slackened, highs
+from qe.convex.linear_rows import LinearRows
+from qe.exact.sparse_solve import solve_sparse
+
+_ROUNDED = (0, 3, 10, 20, 40)
+"""Binary digits after the point that are tried for a point with room to spare."""
+
+_CLOSEST = 1 << 100
+"""How much larger differences from a vertex are asked for, at most."""
+
+_TINY = 1e-9
+"""Multipliers that count as zero."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refutation:
+    """Multipliers of rows by Farkas's lemma (``LinearRows.refuted_by``)."""
+
+    weights: Mapping[int, int]
+
+
+def decided(
+    system: LinearRows, seconds: Callable[[], float | None], propose: Proposer = highs
+) -> tuple[Fraction, ...] | Refutation | None:
+    """A point of all rows or their contradiction, checked exactly; None where the proposals do not lead to either.
+
+    ``seconds``: how many are left, asked between steps.
+    """
+    inequalities = [i for i, row in enumerate(system.rows) if not row.is_equation]
+    strict = [i for i in inequalities if system.rows[i].is_strict]
+    for slack in (inequalities, strict) if 0 < len(strict) < len(inequalities) else (inequalities,):
+        problem: Slackened | None = _slackened(system, slack)
+        while problem is not None:
+            proposal = propose(problem, seconds())
+            if proposal is None:
+                return None
+            seconds()
+            outcome = _rounded(problem, proposal) or _refutation(problem, proposal)
+            if outcome is not None:
+                return outcome
+            vertex = _vertex(problem, proposal)
+            if vertex is not None and system.holds(vertex[:-1]):
+                return vertex[:-1]
+            problem = _closer(problem, vertex)
+    return None
+
+
+def _closer(problem: Slackened, vertex: tuple[Fraction, ...] | None) -> Slackened | None:
+    """The same problem, seen from a vertex that floats took for a solution; None where it is one, or close enough."""
+    if vertex is None or problem.zoom >= _CLOSEST:
+        return None
+    closer = replace(problem, centre=vertex, zoom=problem.zoom << 20)
+    return None if closer.is_solved else closer
+
+
+def _slackened(system: LinearRows, slack: Iterable[int]) -> Slackened:
+    scales = [0] * len(system.rows)
+    for i in slack:
+        scales[i] = max(map(abs, system.rows[i].terms.values()))
+    return Slackened(system, scales)
+
+
+def _rounded(problem: Slackened, proposal: Proposal) -> tuple[Fraction, ...] | None:
+    """The point in few digits, where all rows have a slack."""
+    if proposal.ray or not all(map(isfinite, proposal.point)):
+        return None
+    above = proposal.point[problem.size] / problem.zoom + (problem.centre[-1] if problem.centre else 0)
+    if above <= 0 or any(row.is_equation for row in problem.system.rows):
+        return None
+    exact = [Fraction(v) / problem.zoom for v in proposal.point[: problem.size]]
+    if problem.centre:
+        exact = [c + v for c, v in zip(problem.centre, exact)]
+    for digits in (*_ROUNDED, problem.zoom.bit_length() + 40):
+        unit = 1 << digits
+        point = tuple(Fraction(round(v * unit), unit) for v in exact)
+        if problem.system.holds(point):
+            return point
+    return None
+
+
+def _refutation(problem: Slackened, proposal: Proposal) -> Refutation | None:
+    """The multipliers of the rows, from those that are not zero in floats."""
+    rows = problem.system.rows
+    support = [i for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY]
+    equations: dict[int, dict[int, int]] = {}
+    for k, i in enumerate(support):
+        for j, c in (rows[i].terms if proposal.ray else problem.terms(i)).items():
+            equations.setdefault(j, {})[k] = c
+    if proposal.ray:
+        equations[problem.size] = {k: rows[i].constant for k, i in enumerate(support) if rows[i].constant}
+    if not equations.get(problem.size):
+        return None
+    solved = solve_sparse(equations.values(), [int(j == problem.size) for j in equations])
+    if solved is None:
+        return None
+    whole = lcm(*(w.denominator for w in solved.values()))
+    weights = {support[k]: int(w * whole) for k, w in solved.items() if w}
+    return Refutation(weights) if problem.system.refuted_by(weights) else None
+
+
+def _vertex(problem: Slackened, proposal: Proposal) -> tuple[Fraction, ...] | None:
+    """x and t at which the tight rows are equations."""
+    if proposal.ray:
+        return None
+    basic, last = set(proposal.columns), problem.size
+    fixed = 0 if last in basic else 1
+    tight = [{j: c for j, c in problem.terms(i).items() if j in basic} for i in proposal.rows]
+    right = [-problem.system.rows[i].constant - fixed * problem.scales[i] for i in proposal.rows]
+    solved = solve_sparse(tight, right)
+    if solved is None:
+        return None
+    return (*(solved.get(j, Fraction(0)) for j in range(last)), solved.get(last, Fraction(fixed)))

@@ -1,0 +1,85 @@
+"""Linear conditions as sparse rows of integers, and the exact checks of what is proposed about them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+
+from qe.formula.syntax import Atom, Relation
+from qe.proof.multipliers import FormRelation
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """sum terms[j] * x_j + constant relation 0, where the polynomial of the condition is ``sign`` times that sum."""
+
+    terms: Mapping[int, int]
+    constant: int
+    relation: FormRelation
+    sign: int
+
+    @property
+    def is_strict(self) -> bool:
+        """Whether equality is excluded."""
+        return self.relation is FormRelation.LT
+
+    @property
+    def is_equation(self) -> bool:
+        """Whether equality is demanded."""
+        return self.relation is FormRelation.EQ
+
+
+@dataclass(frozen=True, slots=True)
+class LinearRows:
+    """A conjunction of rows in the variables ``names``."""
+
+    names: tuple[str, ...]
+    rows: tuple[Row, ...]
+
+    @staticmethod
+    def of(atoms: Iterable[Atom]) -> LinearRows:
+        """The rows of linear atoms other than inequations, in their order; the variables as they first occur."""
+        columns: dict[str, int] = {}
+        rows = tuple(_row(given, columns) for given in atoms)
+        return LinearRows(tuple(columns), rows)
+
+    def holds(self, point: Sequence[Fraction]) -> bool:
+        """Whether a point keeps all conditions."""
+        whole = lcm(*(v.denominator for v in point))
+        scaled = [v.numerator * (whole // v.denominator) for v in point]
+        for row in self.rows:
+            value = sum(c * scaled[j] for j, c in row.terms.items()) + row.constant * whole
+            if value > 0 or (value == 0 and row.is_strict) or (value < 0 and row.is_equation):
+                return False
+        return True
+
+    def refuted_by(self, weights: Mapping[int, int]) -> bool:
+        """THEOREM (Farkas 1902, Motzkin 1936). There is no point if weights, nonnegative on inequalities, make the sum
+        of the rows a positive number, or 0 with a strict inequality among those of positive weight."""
+        if any(w < 0 and not self.rows[i].is_equation for i, w in weights.items()):
+            return False
+        sums: dict[int, int] = {}
+        total = 0
+        for i, w in weights.items():
+            row = self.rows[i]
+            total += w * row.constant
+            for j, c in row.terms.items():
+                sums[j] = sums.get(j, 0) + w * c
+        if any(sums.values()):
+            return False
+        return total > 0 or (total == 0 and any(w and self.rows[i].is_strict for i, w in weights.items()))
+
+
+def _row(given: Atom, columns: dict[str, int]) -> Row:
+    names, constant, relation = given.poly.ring.names, 0, given.relation
+    sign = -1 if relation in (Relation.GT, Relation.GE) else 1
+    terms: dict[int, int] = {}
+    for powers, c in given.poly.sparse_terms():
+        if powers:
+            terms[columns.setdefault(names[powers[0][0]], len(columns))] = sign * c
+        else:
+            constant = sign * c
+    kind = FormRelation.LT if relation.is_strict else FormRelation.LE
+    return Row(terms, constant, FormRelation.EQ if relation is Relation.EQ else kind, sign)
