@@ -343,7 +343,7 @@ METHODS: dict[str, Row] = {
     "roots by signs": RULES["roots by signs"],
     "linear form named": RULES["linear form named"],
     "projection": row(
-        "ex x, y, z. x + {p}*y {<|<=} a and y - {p}*z {<|<=} b and z - x {<|<=|=} {n} and x + y + z {O} c and z {<|<=} a",
+        "ex x, y, z. x + {p}*y {<|<=} a and y - {p}*z {<|<=} b and z - x {<|<=|=} {n} and x + y + z {O} c",
         "ex x, y, z. x + y + z = a and x - {p}*y {<|<=} b and {p}*z - y {O} {n} and x {O} 0 and y {<|<=} z",
     ),
 }
