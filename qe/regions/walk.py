@@ -18,11 +18,12 @@ TRIES = 64
 """Random walks in a row that may find nothing new before the rest of the points is looked for systematically."""
 FAR = 8
 """How far a walk goes from the end of a range that goes on for ever."""
-STEPS = 1 << 12
-"""Into how many steps the width of a range is divided, at least, for a random value."""
+FEWEST_STEPS, STEPS = 4, 1 << 12
+"""Into how many steps the width of a range is divided, at least, for a random value; for one of several different ones
+into few at first, so that their values are short."""
 
 
-def walked(region: Region, random: Random, budget: Budget) -> Values | None:
+def walked(region: Region, random: Random, budget: Budget, steps: int = STEPS) -> Values | None:
     """A random point of a region; None if there is none."""
     if region.is_empty:
         return None
@@ -30,7 +31,7 @@ def walked(region: Region, random: Random, budget: Budget) -> Values | None:
     for _ in region.order:
         budget.check("walk to a point", len(values))
         offered = region.fibre(values)
-        values.append(_value(random.choice(offered), random))
+        values.append(_value(random.choice(offered), random, steps))
     return ExactPoint(zip(region.order, values, strict=True))
 
 
@@ -38,21 +39,26 @@ def different_points(region: Region, n: int, seed: int, budget: Budget) -> list[
     """Up to ``n`` different points, fewer only where there are no more; the same for the same seed."""
     random = Random(seed)
     points: dict[tuple[Number, ...], Values] = {}
-    misses = 0
+    misses, steps = 0, FEWEST_STEPS
     while len(points) < n and misses < TRIES:
-        point = walked(region, random, budget)
+        point = walked(region, random, budget, steps)
         if point is None:
             return []
         before = len(points)
         points.setdefault(tuple(point.values()), point)
-        misses = 0 if len(points) > before else misses + 1
+        if len(points) > before:
+            misses = 0
+        elif steps < STEPS:
+            steps *= 2
+        else:
+            misses += 1
     if len(points) < n and misses:  # few isolated points, perhaps, that are hard to meet
         for point in region.sample_points():
             points.setdefault(tuple(simplest(value) for value in point.values()), point)
     return list(islice(points.values(), n))
 
 
-def _value(offered: Interval, random: Random) -> Number:
+def _value(offered: Interval, random: Random, steps: int) -> Number:
     """A value of an interval, rational unless it is a single irrational one."""
     lower, upper = offered
     if lower is not None and lower == upper:
@@ -60,7 +66,7 @@ def _value(offered: Interval, random: Random) -> Number:
     middle = rational_between(lower, upper)
     low, high = (middle - FAR if lower is None else lower), (middle + FAR if upper is None else upper)
     start, stop = _rational(low), _rational(high)
-    value = Fraction(round((start + (stop - start) * Fraction(random.random())) / (grid := _grid(stop - start)))) * grid
+    value = Fraction(round((start + (stop - start) * Fraction(random.random())) / (grid := _grid(stop - start, steps)))) * grid
     return value if value in offered else middle
 
 
@@ -68,11 +74,11 @@ def _rational(number: Number) -> Fraction:
     return number if isinstance(number, Fraction) else sum(number.interval(64), Fraction(0)) / 2
 
 
-def _grid(width: Fraction) -> Fraction:
-    """The greatest power of two that is at most the width over ``STEPS``."""
+def _grid(width: Fraction, steps: int) -> Fraction:
+    """The greatest power of two that is at most the width over ``steps``."""
     step = Fraction(1)
-    while step * STEPS > width:
+    while step * steps > width:
         step /= 2
-    while step * STEPS * 2 <= width:
+    while step * steps * 2 <= width:
         step *= 2
     return step

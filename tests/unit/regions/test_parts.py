@@ -150,7 +150,12 @@ def test_different_points() -> None:
 
 @each((4096, 1), (8191, 1), (8192, 2), (Fraction(1, 2), Fraction(1, 8192)), (3, Fraction(1, 2048)))
 def test_the_grid_of_random_values(width: Fraction, step: Fraction) -> None:
-    assert walk._grid(Fraction(width)) == step
+    assert walk._grid(Fraction(width), walk.STEPS) == step
+
+
+def test_different_points_have_short_values_first() -> None:
+    points = walk.different_points(region("x^2 + y^2 < 9", "x y"), 8, 0, Budget(60))
+    assert len(points) == 8 and all(value.denominator <= 8 for point in points for value in point.values())
 
 
 def test_values_of_intervals() -> None:
@@ -162,9 +167,9 @@ def test_values_of_intervals() -> None:
         Interval(None, None, False, False),
     ):
         for seed in range(5):
-            value = walk._value(interval, Random(seed))
+            value = walk._value(interval, Random(seed), walk.STEPS)
             assert isinstance(value, Fraction) and value in interval
-    assert walk._value(Interval(root, root, True, True), Random(0)) == root
+    assert walk._value(Interval(root, root, True, True), Random(0), walk.STEPS) == root
 
 
 # --- measures --------------------------------------------------------------------------------------------------
