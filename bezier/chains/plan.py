@@ -13,7 +13,7 @@ from bezier.chains.exact import Exact, exactly
 from bezier.chains.form import Point
 from bezier.chains.limits import best_within
 from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
-from bezier.chains.region import Region, Validity, region, validity
+from bezier.chains.region import PointRegion, Validity, region, validity
 from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
 from bezier.chains.timing import timed
 from bezier.curves.curve import Bezier
@@ -121,7 +121,7 @@ class ChainPlan:
             *(f"possible with {repair}" for repair in self.repairs),
         ]
 
-    def region(self, name: str, accuracy: Any = None) -> Region:
+    def region(self, name: str, accuracy: Any = None) -> PointRegion:
         """Where a given point ("start", "via[0]", "goal"; the others as they are) or a control point ("C2.1") may be:
         polytopes inside and outside, the gap of their sizes at most ``accuracy`` (0.001 in the plane, 0.05 in space).
         Raises ``InputError``, ``Unable``."""
@@ -153,7 +153,7 @@ class ChainPlan:
             ]
         return data
 
-    def page(self, title: str = "chain", shown: Region | None = None) -> str:
+    def page(self, title: str = "chain", shown: PointRegion | None = None) -> str:
         """An HTML page with pictures of the chain, or of the points that have none, in its ball and half-spaces; in the
         plane with a region below."""
         from bezier.report.chain import page

@@ -150,7 +150,7 @@ def _lagrangian(objective: Form, rows: Sequence[Requirement], weights: Sequence[
 
 
 @dataclass(frozen=True)
-class Region:
+class PointRegion:
     """``inner``: corners of a polytope in which every place has a chain; ``outer``: (a, b) with a . p <= b for all
     places that have one. The outer polytope lies in the inner one, enlarged by 1 + ``gap`` about its centre."""
 
@@ -244,7 +244,7 @@ def _looked(places: Places, state: _Sandwich, side: Facet, enough: Callable[[Sup
     return _Sandwich(supports, tuple(facets), state.known, state.centre)
 
 
-def region(chain: Chain, name: str, accuracy: Fraction | None = None) -> Region:
+def region(chain: Chain, name: str, accuracy: Fraction | None = None) -> PointRegion:
     """Where this point may be, with a gap of at most ``accuracy`` (0.001 in the plane, 0.05 in space). Raises
     ``InputError`` for a name of no point, ``Unable``."""
     places = Places.of(chain, name)
@@ -265,7 +265,7 @@ def region(chain: Chain, name: str, accuracy: Fraction | None = None) -> Region:
     corners, sides = [state.supports[i] for i in used], [state.known[f] for f in state.facets]
     largest = max(gap(f, state.known[f]) for f in state.facets)
     outer = tuple((s.normal, s.offset) for s in sides)
-    return Region(name, tuple(s.corner for s in corners), outer, largest, places, tuple(corners), tuple(sides))
+    return PointRegion(name, tuple(s.corner for s in corners), outer, largest, places, tuple(corners), tuple(sides))
 
 
 def validity(chain: Chain, name: str) -> Validity:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bezier.chains.chain import Chain
-from bezier.chains.region import Region
+from bezier.chains.region import PointRegion
 from bezier.curves.curve import Bezier
 from bezier.pictures.mesh import hull, sampled
 from bezier.pictures.picture import COLOURS, GRID, INK, PALE, Chart
@@ -26,7 +26,7 @@ def page(
     lines: list[str],
     title: str,
     cards: list[Card],
-    shown: Region | None = None,
+    shown: PointRegion | None = None,
 ) -> Page:
     """``lines``: what the command says; without curves the given points alone are drawn."""
     drawn = html.figures(pictures(chain, curves, shown), wide=True)
@@ -45,7 +45,7 @@ def _point(point: Any) -> str:
     return f"({', '.join(f'{float(c):.6g}' for c in point)})"
 
 
-def pictures(chain: Chain, curves: tuple[Bezier, ...], shown: Region | None = None) -> list[Chart]:
+def pictures(chain: Chain, curves: tuple[Bezier, ...], shown: PointRegion | None = None) -> list[Chart]:
     """The plane, or the three views of space; with the region where one is ``shown``."""
     where = "" if shown is None else f"; shaded: where {shown.name} may be"
     if chain.dimension == 2:
@@ -53,7 +53,7 @@ def pictures(chain: Chain, curves: tuple[Bezier, ...], shown: Region | None = No
     return [(_view(chain, curves, i, j, shown), f"the chain, {title}{where}") for title, i, j in VIEWS]
 
 
-def _view(chain: Chain, curves: tuple[Bezier, ...], i: int, j: int, shown: Region | None) -> str:
+def _view(chain: Chain, curves: tuple[Bezier, ...], i: int, j: int, shown: PointRegion | None) -> str:
     figure = new_figure(7.2, 6.4)
     axis = figure.add_axes((0.1, 0.08, 0.87, 0.88))
     given = np.array([[float(c) for c in p] for p in chain.points])
