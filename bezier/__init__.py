@@ -19,11 +19,16 @@ if TYPE_CHECKING:
     from bezier.interface.chain import chain
     from bezier.interface.function import plan
     from bezier.interface.planned import NoPath, Planned
+    from bezier.interface.scene import route
     from bezier.interface.trajectory import certify
     from bezier.plans import Outcome
+    from bezier.scenes.route import Blocked, Route
     from bezier.trajectories.command import Certified
 
 _LATER = {
+    "Blocked": "bezier.scenes.route",
+    "Route": "bezier.scenes.route",
+    "route": "bezier.interface.scene",
     "Certified": "bezier.trajectories.command",
     "certify": "bezier.interface.trajectory",
     "ChainPlan": "bezier.chains.plan",
@@ -51,4 +56,16 @@ def __dir__() -> list[str]:
     return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})
 
 
-__all__ = ["Certified", "ChainPlan", "NoPath", "Outcome", "Planned", "certify", "chain", "plan"]
+__all__ = [
+    "Blocked",
+    "Certified",
+    "ChainPlan",
+    "NoPath",
+    "Outcome",
+    "Planned",
+    "Route",
+    "certify",
+    "chain",
+    "plan",
+    "route",
+]

@@ -288,6 +288,29 @@ def chain(
     return OK if is_success else UNABLE
 
 
+def route(
+    file: Annotated[Path, typer.Argument(metavar="SCENE.json", help="Domain and obstacles.", show_default=False)],
+    certificate: Evidence = None,
+    check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the scene.")] = None,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Find a path from start to goal that is clear of all obstacles, or prove that there is none (status 3)."""
+    from bezier.scenes import command
+
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    if check is not None and certificate is not None:
+        raise InputError("--check: expected no --certificate with it, found one")
+    work = partial(command.run, file=file, against=check, as_json=json)
+    text, evidence, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
+    if certificate is not None and evidence:  # none where the start or the goal itself is in an obstacle
+        write_file(certificate, evidence)
+    print(text)
+    return OK if is_free else UNABLE
+
+
 COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
     ("plan", plan, "Plan a path, with its page and proofs.", "examples/three_balls.toml --out out"),
     ("check", check, "Verify the folder of a plan.", "out"),
@@ -299,6 +322,7 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
         "examples/joints/path.csv --limits examples/joints/limits.toml",
     ),
     ("chain", chain, "Curves through many via points, at best.", "examples/chains/plane.toml"),
+    ("route", route, "A path through a scene, or proof of none.", "examples/scenes/slit.json"),
     ("compare", compare, "Quadratic and cubic curves side by side.", "examples/cubic_joins.toml --out out"),
     ("ik", ik, "All joint positions of an arm at a point.", "ev3-120 599/66 824/33 323/10"),
     ("certify-path", certify_path, "Whether an arm can follow a path.", "ev3-120 examples/arm_curve.toml"),

@@ -66,7 +66,8 @@ def _value(offered: Interval, random: Random, steps: int) -> Number:
     middle = rational_between(lower, upper)
     low, high = (middle - FAR if lower is None else lower), (middle + FAR if upper is None else upper)
     start, stop = _rational(low), _rational(high)
-    value = Fraction(round((start + (stop - start) * Fraction(random.random())) / (grid := _grid(stop - start, steps)))) * grid
+    grid = _grid(stop - start, steps)
+    value = Fraction(round((start + (stop - start) * Fraction(random.random())) / grid)) * grid
     return value if value in offered else middle
 
 

@@ -64,6 +64,7 @@ ROWS = {
     "bezier.chains.command": 24,
     "bezier.trajectories": 15,
     "bezier.trajectories.command": 24,
+    "bezier.scenes": 15,
     "bezier.paths": 15,
     "bezier.motion": 16,
     "bezier.arm": 17,

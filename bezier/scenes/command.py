@@ -1,0 +1,29 @@
+"""``bezier route``: start and goal of the scene in a file, joined or separated; or a certificate about it, checked."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import qe
+from bezier.input import stored
+from bezier.scenes.route import decided
+from bezier.scenes.scene import read_scene
+from qe.options import Budget
+from qe.processes.channel import Channel
+
+
+def run(channel: Channel, file: Path, *, against: Path | None = None, as_json: bool = False) -> tuple[str, str, bool]:
+    """What to print, the text of the certificate, and whether there is a way.
+
+    ``against``: the file of a certificate that is checked about this scene, in place of a proof that is made; the way
+    or the two sides are looked for again. Raises ``CertificateRejected`` where it is not about them.
+    """
+    known = decided(read_scene(file), Budget(), proof=against is None)
+    data, lines = known.to_json(), [str(known)]
+    if against is not None:
+        known.check(qe.Certificate.from_json(stored.text(against)))
+        data["checked"] = True
+        lines.append("accepted")
+    text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
+    return text, "" if known.certificate is None else known.certificate.to_json(), not known.blocked
