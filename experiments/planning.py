@@ -1,8 +1,9 @@
-"""Chains and timed paths side by side with the programs that people use: clarabel on a model of its own, toppra.
+"""Chains, timed paths and scenes side by side with what people use: clarabel on a model of its own, toppra, a flood.
 
 Chains: cubic, C2, in a ball, least sum of squared legs. clarabel gets all control points as variables and the joins as
 equations; it gives numbers, no proof. Paths: natural cubic splines timed by toppra for |v| <= 1, |a| <= 2; our part is
-``bezier.certify``, which says exactly where the limits are broken, and the slowing-down that repairs it. Cases come
+``bezier.certify``, which says exactly where the limits are broken, and the slowing-down that repairs it. Scenes:
+``bezier.route``, next to a flood of a grid of 200 points a side that proves nothing. Cases come
 from ``shared/corpora/scenes`` next to the project where it is, else from a seed.
 """
 
@@ -24,6 +25,7 @@ import qe
 from bezier.report import html
 from bezier.report.chain import pictures
 from bezier.report.html import Card, Page, Section, document
+from bezier.scenes.scene import SolidBall
 from bezier.trajectories.piecewise import Trajectory
 from qe.errors import Unable
 
@@ -65,6 +67,18 @@ class PathRow:
     worst: str
     slower_by: float | None
     seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class SceneRow:
+    """One scene: what is proved, and whether a flood of a grid gets through (None in space)."""
+
+    name: str
+    obstacles: int
+    ours: str
+    seconds: float
+    accepted: bool
+    flood: bool | None
 
 
 def timed(work: Callable[[], T]) -> tuple[T, float]:
@@ -196,6 +210,84 @@ def path_row(points: Sequence[Any], intervals: int) -> tuple[PathRow, Any] | Non
     return PathRow(axes, intervals, duration, toppra_seconds, result.kept, words, slower, seconds), result
 
 
+# --- scenes ---------------------------------------------------------------------------------------------------
+def scene_cases() -> Iterator[tuple[str, Any]]:
+    """Name and scene."""
+    files = sorted(f for f in CORPUS.glob("*.json") if f.stem not in ("chains", "paths"))
+    yield from ((f.stem, f) for f in files)
+    if not files:
+        walls = [{"kind": "box", "low": [4, 0], "high": [6, 5]}, {"kind": "box", "low": [4, "5.01"], "high": [6, 10]}]
+        domain = {"low": [0, 0], "high": [10, 10]}
+        yield "slit", {"domain": domain, "start": [1, 5], "goal": [9, 5], "obstacle": walls}
+
+
+def scene_row(name: str, given: Any) -> tuple[SceneRow, Any]:
+    """What is proved of a scene, and the answer."""
+    answer, seconds = timed(lambda: bezier.route(given))
+    accepted = answer.certificate is not None and qe.verify(answer.certificate).accepted
+    ours = "blocked" if isinstance(answer, bezier.Blocked) else f"path of {len(answer.points) - 1} segments"
+    flood = flooded(answer.scene) if answer.scene.dimension == 2 else None
+    return SceneRow(name, len(answer.scene.obstacles), ours, seconds, accepted, flood), answer
+
+
+def flooded(scene: Any, count: int = 200) -> bool:
+    """Whether free points of a grid lead from start to goal, in floats."""
+    from scipy.ndimage import label
+
+    low, high = (np.array(c, dtype=float) for c in (scene.domain.low, scene.domain.high))
+    ticks = [np.linspace(a, b, count) for a, b in zip(low, high, strict=True)]
+    grid = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1)
+    free = np.ones(grid.shape[:-1], dtype=bool)
+    for body in scene.obstacles:
+        if isinstance(body, SolidBall):
+            away = np.sum((grid - np.array(body.centre, dtype=float)) ** 2, axis=-1) > float(body.radius) ** 2
+        else:
+            below, above = (np.array(c, dtype=float) for c in (body.low, body.high))
+            away = np.any((grid < below) | (grid > above), axis=-1)
+        free &= away
+    parts, _ = label(free)
+    at = [
+        tuple(np.round((np.array(p, dtype=float) - low) / (high - low) * (count - 1)).astype(int))
+        for p in (scene.start, scene.goal)
+    ]
+    return bool(parts[at[0]] and parts[at[0]] == parts[at[1]])
+
+
+def drawing(answer: Any) -> str:
+    """Obstacles of a plane scene, and the path through them or the side of the start."""
+    scene = answer.scene
+    (x, y), (right, top) = ([float(c) for c in corner] for corner in (scene.domain.low, scene.domain.high))
+    unit = 300 / (right - x)
+
+    def at(p: Any) -> str:
+        return f"{(float(p[0]) - x) * unit:.2f},{(top - float(p[1])) * unit:.2f}"
+
+    def rectangle(a: Any, b: Any, look: str) -> str:
+        left, upper = max(float(a[0]), x), min(float(b[1]), top)
+        wide, tall = min(float(b[0]), right) - left, upper - max(float(a[1]), y)
+        place = f'x="{(left - x) * unit:.2f}" y="{(top - upper) * unit:.2f}"'
+        return f'<rect {place} width="{wide * unit:.2f}" height="{tall * unit:.2f}" {look}/>'
+
+    look = 'fill="#98a2b3"'
+    parts = [rectangle(a, b, 'fill="#fda29b" opacity="0.4"') for a, b in (answer.start_side if answer.blocked else ())]
+    for body in scene.obstacles:
+        if isinstance(body, SolidBall):
+            cx, cy = at(body.centre).split(",")
+            parts.append(f'<circle cx="{cx}" cy="{cy}" r="{float(body.radius) * unit:.2f}" {look}/>')
+        else:
+            parts.append(rectangle(body.low, body.high, look))
+    if not answer.blocked:
+        way = " ".join(map(at, answer.points))
+        parts.append(f'<polyline points="{way}" fill="none" stroke="#175cd3" stroke-width="2"/>')
+    for point, colour in ((scene.start, "#067647"), (scene.goal, "#b42318")):
+        cx, cy = at(point).split(",")
+        parts.append(f'<circle cx="{cx}" cy="{cy}" r="4" fill="{colour}"/>')
+    height = (top - y) * unit
+    frame = f'<rect width="300" height="{height:.0f}" fill="none" stroke="#667085"/>'
+    view = f'xmlns="http://www.w3.org/2000/svg" viewBox="-2 -2 304 {height + 4:.0f}" width="304"'
+    return f'<svg {view} role="img">{"".join(parts)}{frame}</svg>'
+
+
 # --- the page -------------------------------------------------------------------------------------------------
 def run(out: Path, count: int, note: Callable[[str], object]) -> list[Path]:
     """All comparisons; the page and the data are written into a folder. The files."""
@@ -214,15 +306,28 @@ def run(out: Path, count: int, note: Callable[[str], object]) -> list[Path]:
                 break
             paths.append(made[0])
             note(f"path in {made[0].axes} axes, toppra with {intervals}: {made[0].worst or 'all limits kept'}")
+    scenes = []
+    for name, given in scene_cases():
+        scene, answer = scene_row(name, given)
+        scenes.append(scene)
+        note(f"scene {name}: {scene.ours} ({scene.seconds:.2f} s)")
+        if answer.scene.dimension == 2:
+            drawn.append((drawing(answer), f"{name}: {scene.ours}"))
     out.mkdir(parents=True, exist_ok=True)
-    data = {"chains": [asdict(row) for row in chains], "paths": [asdict(row) for row in paths]}
+    data = {
+        "chains": [asdict(row) for row in chains],
+        "paths": [asdict(row) for row in paths],
+        "scenes": [asdict(row) for row in scenes],
+    }
     files = [out / "planning.json", out / "planning.html"]
     files[0].write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
-    files[1].write_text(document(page(chains, paths, drawn)), encoding="utf-8")
+    files[1].write_text(document(page(chains, paths, scenes, drawn)), encoding="utf-8")
     return files
 
 
-def page(chains: Sequence[ChainRow], paths: Sequence[PathRow], drawn: Sequence[tuple[str, str]]) -> Page:
+def page(
+    chains: Sequence[ChainRow], paths: Sequence[PathRow], scenes: Sequence[SceneRow], drawn: Sequence[tuple[str, str]]
+) -> Page:
     """The tables and the pictures."""
     lines = [
         (
@@ -251,9 +356,24 @@ def page(chains: Sequence[ChainRow], paths: Sequence[PathRow], drawn: Sequence[t
     ]
     below = ("axes", "intervals", "duration", "toppra, s", "worst of |v| <= 1, |a| <= 2", "repaired by", "proof, s")
     table = html.table(below, timings, numbers=(0, 1, 2, 3, 5, 6)) or html.note("toppra is not installed.")
+    known = [
+        (
+            row.name,
+            str(row.obstacles),
+            row.ours,
+            f"{row.seconds:.3f}",
+            html.toned("accepted" if row.accepted else "none", row.accepted),
+            "" if row.flood is None else "gets through" if row.flood else "does not",
+        )
+        for row in scenes
+    ]
+    routes = html.table(
+        ("scene", "obstacles", "proved", "s", "certificate", "flood of 200 x 200"), known, numbers=(1, 3)
+    )
     sections = [
         Section("chains", "Chains", html.table(head, lines, numbers=(0, 2, 5)), short="chains"),
         Section("paths", "Paths timed by toppra, certified", table, short="paths"),
+        Section("scenes", "Scenes", routes, short="scenes"),
         Section("pictures", "Pictures", html.figures(drawn, wide=True), short="pictures"),
     ]
     broken = sum(not row.kept for row in paths)
@@ -261,7 +381,5 @@ def page(chains: Sequence[ChainRow], paths: Sequence[PathRow], drawn: Sequence[t
         Card("chains that agree", f"{sum(row.agrees for row in chains)} of {len(chains)}"),
         Card("timings that break their limits", f"{broken} of {len(paths)}"),
     ]
-    lead = "Chains against clarabel and timed paths of toppra, proved or refuted. Seconds are processor time."
-    return Page(
-        title="Planning side by side", lead=lead, sections=sections, footer="Scenes are not in it yet.", cards=cards
-    )
+    lead = "Chains against clarabel, timed paths of toppra and scenes, proved or refuted. Seconds are processor time."
+    return Page(title="Planning side by side", lead=lead, sections=sections, footer="", cards=cards)
