@@ -10,13 +10,13 @@ from qe.decomposition.decompose import decompose
 from qe.decomposition.pieces import merge
 from qe.elimination.protocol import witness_of
 from qe.engine.run import solve
-from qe.errors import Unable
+from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import ExactPoint, Values, optimum_in_latex, point_text, simplest
 from qe.exact.polynomial_system import solve_system
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
-from qe.formula.build import atom, conj, convert, exists
+from qe.formula.build import atom, conj, convert, disj, exists, neg
 from qe.formula.syntax import FALSE, Atom, Constant, Formula, Relation
 from qe.optimization.finite import listed
 from qe.optimization.values import Goal
@@ -31,6 +31,9 @@ Members = list[tuple[str, Certificate]]
 
 SHOWN = 8
 """So many points stand in the short forms."""
+
+LEVEL_WORK = 2_000
+"""Units of work for finding the factor of an irrational value's polynomial that holds its points."""
 
 POINT = "point"
 """The label of the certificate of a point."""
@@ -244,4 +247,23 @@ def level_set(goal: Goal, value: Number, budget: Budget) -> Formula:
         atom(scaled * low.denominator - low.numerator * bottom, Relation.GE),
         atom(scaled * high.denominator - high.numerator * bottom, Relation.LE),
     )
-    return conj((conditions, atom(root, Relation.EQ), *between))
+    return disj(_on_factor(factor, conditions, conj(between), budget) for factor, _ in root.factors()[1])
+
+
+def _on_factor(factor: Poly, conditions: Formula, between: Formula, budget: Budget) -> Formula:
+    """Where a factor vanishes and the conditions and bounds hold; the bounds are left out where they follow.
+
+    A minimum is a double root of f - v, so the minimal polynomial of v, taken at f, has a square factor, and the other
+    factors belong to other values.
+    """
+    zeros, names = conj((conditions, atom(factor, Relation.EQ))), factor.ring.names
+    whole = conj((zeros, between))
+    try:
+        part = budget.part(LEVEL_WORK)
+        if solve(exists(names, whole), Options(), part).formula == FALSE:
+            return FALSE
+        return zeros if solve(exists(names, conj((zeros, neg(between)))), Options(), part).formula == FALSE else whole
+    except Unable as error:
+        if isinstance(error, BudgetExceeded):
+            budget.check("the points of an optimum")
+        return whole
