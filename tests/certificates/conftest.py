@@ -27,12 +27,24 @@ MOST = 500
 """So many texts that tests of this folder read go to both readers, evenly chosen; with the deep tests all of them."""
 
 
-@pytest.fixture(scope="package", autouse=True)
-def both_readers_agree(
+@pytest.fixture(scope="session")
+def texts(
     reader: Path, tmp_path_factory: pytest.TempPathFactory, pytestconfig: pytest.Config
-) -> Iterator[None]:
-    """After the tests of this folder: the same verdicts on the texts that were read, whatever was made of them then."""
-    read, texts = Certificate.from_json, dict[str, None]()
+) -> Iterator[dict[str, None]]:
+    """What the tests of this folder read; after all tests: the same verdicts by both readers, whatever was made of it.
+
+    Once in a process: pytest-xdist takes the files in any order, with those of other folders between them.
+    """
+    read = dict[str, None]()
+    yield read
+    step = 1 if "not deep" not in pytestconfig.option.markexpr else max(1, -(-len(read) // MOST))
+    compared(reader, list(read)[::step], tmp_path_factory.mktemp("texts"))
+
+
+@pytest.fixture(scope="package", autouse=True)
+def both_readers_agree(texts: dict[str, None]) -> Iterator[None]:
+    """In the end, on what is read meanwhile."""
+    read = Certificate.from_json
 
     @wraps(read)
     def kept(text: str) -> Certificate:
@@ -40,10 +52,6 @@ def both_readers_agree(
             texts.setdefault(text.encode().decode())
         return read(text)
 
-    Certificate.from_json = staticmethod(kept)  # type: ignore[method-assign]
-    try:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Certificate, "from_json", staticmethod(kept))
         yield
-    finally:
-        Certificate.from_json = staticmethod(read)  # type: ignore[method-assign]
-    step = 1 if "not deep" not in pytestconfig.option.markexpr else max(1, len(texts) // MOST)
-    compared(reader, list(texts)[::step], tmp_path_factory.mktemp("texts"))
