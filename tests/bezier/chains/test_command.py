@@ -22,8 +22,9 @@ EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "chains"
 GOOD = "start = [0, 0]\nvia = [[2, 1], [3, 3]]\ngoal = [5, 2]\n"
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def none() -> Any:
+    """No chain, with its repairs; whoever changes the certificate takes a copy."""
     given = {"start": [1, -5, -1], "via": [[-2, -4, 4], [-1, 6, 1], [1, 2, 2]], "goal": [-4, -1, -3], "radius": "6.5"}
     return bezier.chain(**given).with_repairs()
 
