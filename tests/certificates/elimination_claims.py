@@ -18,19 +18,14 @@ from qe.formula.build import atom, conj, disj
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, Exists, Formula, Relation
 from qe.formula.traverse import polynomials
-from qe.io.text import read
 from qe.kernel.derivation import limits_of
 from qe.kernel.elimination_points import read_points
 from qe.kernel.elimination_set import check_elimination_set, start
 from qe.kernel.step import Claim, Limits
-from qe.options import Budget, Options
-from qe.proof.derivation import put_together
+from qe.options import Budget
 from qe.proof.entry import Entry, formula_to_json
-from qe.proof.step import Step
 from qe.proving.elimination_points import Points
-from qe.proving.prover import proved
 from qe.proving.shifts import low
-from qe.simplifier.simplify import simplify
 from tests.unit.elimination.vs.line import holds, samples, specialise
 
 RING = Ring.of(("a", "b", "x"))
@@ -221,13 +216,3 @@ def examined(seed: int, count: int) -> tuple[int, int]:
                 right += 1
                 assert is_true(whole, other), (whole, other, made)
     return looked, right
-
-
-def unchecked(text: str, highest: int = 2) -> tuple[str, ...]:
-    """The steps of ``ex x. F`` as virtual substitution does it, without other steps before it."""
-    formula = read(text)
-    assert isinstance(formula, Exists)
-    result = eliminate_block(formula.variables, formula.body, budget=Budget(20), simplify=simplify, highest=highest)
-    step = Step("elimination set", formula, result.formula, TRUE, {"trace": result.trace})
-    derivation = put_together(formula, [step], result.formula)
-    return proved(derivation, result.formula, Options(), Budget(20)).unchecked

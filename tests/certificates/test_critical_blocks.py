@@ -30,8 +30,8 @@ from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.prover import Prover
 from tests.certificates.altered_derivations import steps
-from tests.certificates.test_broken_producers import accepted
 from tests.certificates.test_critical_values import block, check, example, made
+from tests.certificates.test_steps_by_hand import accepted
 
 DISC = "ex x, y. (x - a)^2 + (y - b)^2 < 1 and x^2 + y^2 < 4"
 SLIDE = "ex x. (x - a)^2 < 1 and x^2 < 4"

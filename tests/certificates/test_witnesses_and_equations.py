@@ -27,7 +27,7 @@ from qe.proof.entry import poly_to_text
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from tests.certificates.mutation import PLACE, leaves, lists, replaced, without
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 
 NAMES = ("x", "y", "z")
 ROOT2 = Root((-2, 0, 1), Fraction(1), Fraction(2))

@@ -19,7 +19,7 @@ from qe.options import Budget, Options
 from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
-from tests.certificates.test_broken_producers import accepted as accepted_in_its_ring
+from tests.certificates.test_steps_by_hand import accepted as accepted_in_its_ring
 from tests.tables import each
 from tests.unit.proving.elaborated import refused
 

@@ -15,7 +15,7 @@ from qe.formula.block import Block
 from qe.formula.evaluate import holds_at
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 from tests.tables import each
 
 THREAD = (

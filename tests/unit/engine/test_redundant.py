@@ -17,7 +17,7 @@ from qe.formula.syntax import FALSE, Formula
 from qe.options import Budget, Options
 from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 
 LYAPUNOV = (
     "ex p, q, r. p > 0 and p*r - q^2 > 0 and a*p + c*q < 0 and 4*(a*p + c*q)*(b*q + d*r) > (b*p + (a + d)*q + c*r)^2"

@@ -19,7 +19,7 @@ from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))

@@ -13,7 +13,7 @@ from qe.kernel.statements import theorem
 from qe.rules import closed_forms
 from qe.rules.closed_forms import square_root
 from qe.rules.step import StepKind
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 from tests.tables import each
 from tests.unit.rules.applied import steps_of
 

@@ -17,7 +17,7 @@ from qe.formula.traverse import atoms
 from qe.proof.derivation import moved
 from qe.proof.step import Step
 from qe.rules.step import StepKind
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 from tests.tables import each
 from tests.unit.rules.applied import steps_of
 

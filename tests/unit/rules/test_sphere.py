@@ -16,7 +16,7 @@ from qe.proof.derivation import moved
 from qe.proof.step import Step
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 from tests.tables import each
 from tests.unit.rules.applied import steps_of
 

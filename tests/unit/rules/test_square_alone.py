@@ -8,7 +8,7 @@ import qe
 from qe.io.text import read
 from qe.rules.lift import holds_at
 from qe.rules.step import StepKind
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 from tests.unit.rules.applied import steps_of
 
 CYLINDER = "ex x, y, z. x^2 + y^2 <= 1 and (x - a)^2 + (y - b)^2 + (z - c)^2 {} r^2"

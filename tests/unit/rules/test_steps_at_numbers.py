@@ -18,7 +18,7 @@ from qe.formula.traverse import polynomials
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
-from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_steps_by_hand import accepted
 
 FORMS = (
     "ex {v}. {p} and {q}",

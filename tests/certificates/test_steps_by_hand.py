@@ -1,38 +1,24 @@
-"""Each side condition of a rule, switched off in its producer, leads to a step that is not accepted."""
+"""Steps made by hand or by a careless producer: accepted where they are right, and only there."""
 
 from __future__ import annotations
 
-import builtins
-from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
-from pkgutil import resolve_name
 
 import pytest
-from _pytest.mark import ParameterSet
 
-import qe
-import qe.elimination.vs.infinity_first as infinity_first
-import qe.elimination.witness as witness
-import qe.engine.run as run
 import qe.engine.untangle as untangle
-import qe.formula.counting as counting
 import qe.rules.rotation as rotation
 import qe.rules.symmetry as symmetry
 from qe.api.input import read_formula
-from qe.elimination.critical.method import ConvexUniversal
-from qe.elimination.protocol import Context, Method
-from qe.elimination.rootsigns import theory
+from qe.elimination.protocol import Context
 from qe.exact.ring import Ring
-from qe.formula.block import Block
 from qe.formula.build import conj
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import clashes, conjuncts
-from qe.io.text import read
 from qe.options import Budget, Options
-from qe.proof.derivation import moved, put_together
+from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.nested import names_within
@@ -40,13 +26,6 @@ from qe.proving.prover import Prover
 from qe.rules import preparation
 from qe.rules.step import StepKind
 from qe.simplifier.simplify import simplify
-from tests.certificates import broken_producers as broken
-from tests.certificates.broken_producers import Make
-from tests.certificates.elimination_claims import unchecked
-from tests.certificates.test_steps_of_methods import claimed_by_signs, is_proved, produced, step
-
-Judge = Callable[[str], Iterable[str]]
-"""The rules of the steps on the way from a question to its answer that are not accepted."""
 
 
 def accepted(step: Step) -> bool:
@@ -64,143 +43,11 @@ def accepted(step: Step) -> bool:
     return led == after and not prover.unchecked
 
 
-def prepared(text: str) -> set[str]:
-    """Of a preparation by all rules."""
-    log = RunLog()
-    preparation.prepare(read_formula(text), log=log)
-    return {step.rule for step in log.steps() if not accepted(step)}
-
-
 def steps_of(text: str, kind: StepKind) -> list[Step]:
     """The steps of one rule alone."""
     log = RunLog()
     preparation.prepare(read_formula(text), enabled={kind}, log=log)
     return [step for step in log.steps() if step.rule == kind.value]
-
-
-def alone(kind: StepKind, text: str) -> set[str]:
-    """Of one rule alone, whose steps, if there are any, are all accepted, or none of them."""
-    verdicts = {accepted(step) for step in steps_of(text, kind)}
-    assert len(verdicts) < 2
-    return {kind.value} if False in verdicts else set()
-
-
-def unproved(given: Formula, log: RunLog, answer: Formula) -> set[str]:
-    """The rules of the steps from a formula to an answer for which no evidence is accepted, decompositions apart."""
-    derivation = put_together(given, log.steps(), answer)
-    rings = [f.ring for f in (derivation.start, *(s.before for s in derivation.steps)) if f.ring is not None]
-    ring = Ring.of(dict.fromkeys((*rings[0].names, *names_within(list(derivation.steps)))))
-    prover = Prover(ring, Options(), Budget(), tables=False)
-    prover.whole(derivation, moved(derivation.start, ring), moved(answer, ring))
-    return set(prover.unchecked)
-
-
-def by(method: Callable[[], Method], text: str) -> set[str]:
-    """By one method alone."""
-    given, log = read_formula(text), RunLog()
-    problem = Block.of(given)
-    assert problem is not None
-    answer = method().run(problem, Context(Options(), Budget(), log))
-    return set() if answer is None else unproved(given, log, answer.formula)
-
-
-def roots(text: str) -> set[str]:
-    """By the rule "roots counted" alone."""
-    given, log = read_formula(text), RunLog()
-    return unproved(given, log, log.step("roots counted", given, counting.without_root_atoms(given)))
-
-
-def whole(text: str, *, certify: bool = False) -> set[str]:
-    """The whole engine; with ``certify`` it keeps the evidence of tables."""
-    given = read_formula(text)
-    answer = run.solve(given, Options(certify=certify), Budget())
-    return unproved(given, answer.log, answer.formula)
-
-
-def by_counts(text: str) -> set[str]:
-    """By the number of solutions, with decompositions."""
-    return set() if is_proved(step(text)) else {"comprehensive Gröbner system"}
-
-
-def by_signs(text: str) -> set[str]:
-    """By the signs of minors, with decompositions; what is known of them is forgotten before and after."""
-    before = read(text)
-    caches = (theory.rows, theory.minors, theory.coefficients)
-    try:
-        for cache in caches:
-            cache.cache_clear()
-        return set() if claimed_by_signs(before, produced(before)) else {"roots by signs"}
-    except qe.Unable:  # the rows of signs contradict each other
-        return {"roots by signs"}
-    finally:
-        for cache in caches:
-            cache.cache_clear()
-
-
-JUDGES: dict[str, Judge] = {
-    "infinity first": partial(by, infinity_first.InfinityFirst),
-    "witness in the parameters": partial(by, witness.PolynomialWitnesses),
-    "roots counted": roots,
-    "degenerate truth set": partial(by, ConvexUniversal),
-    "constant": whole,
-}
-
-
-def cases() -> Iterator[ParameterSet]:
-    """A judge, the rule that it is to name, a question, and what is replaced."""
-    tables: list[tuple[dict[str, broken.Row], str, Callable[[str], Judge]]] = [
-        (broken.PREPARATION, "", lambda rule: prepared),
-        (broken.ALONE, "", lambda rule: partial(alone, StepKind(rule))),
-        (broken.BLOCKS, "", JUDGES.__getitem__),
-        (broken.SUBSTITUTION, "elimination set", lambda rule: unchecked),
-        (broken.CUBICS, "elimination set", lambda rule: partial(unchecked, highest=3)),
-        (broken.COUNTED, "comprehensive Gröbner system", lambda rule: by_counts),
-        (broken.ROOT_SIGNS, "roots by signs", lambda rule: by_signs),
-    ]
-    for table, common, judge_of in tables:
-        for name, (texts, parts) in table.items():
-            rule = common or name.split(": ")[0]
-            for text in (texts,) if isinstance(texts, str) else texts:
-                yield pytest.param(judge_of(rule), rule, text, parts, id=f"{name}: {text}")
-
-
-@pytest.mark.parametrize(("judge", "rule", "text", "parts"), list(cases()))
-def test_with_its_side_condition_the_step_is_accepted(judge: Judge, rule: str, text: str, parts: object) -> None:
-    assert rule not in judge(text)
-
-
-@pytest.mark.parametrize(("judge", "rule", "text", "parts"), list(cases()))
-def test_the_step_is_not_accepted(
-    judge: Judge, rule: str, text: str, parts: dict[str, Make], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for place, make in parts.items():
-        owner, _, name = place.rpartition(".")
-        real = getattr(resolve_name(owner), name, getattr(builtins, name, None))
-        monkeypatch.setattr(place, make(real), raising=not hasattr(builtins, name))
-    assert rule in judge(text)
-
-
-RIGHT = [
-    ("infinity first", "ex x. a*x^3 + b*x + c < 0"),
-    ("infinity first", "all x. a*x^5 + b*x^2 + c > 0 or x = d"),
-    ("witness in the parameters", "all a, b. ex x. 4*(x - a)^2 <= (a - b)^2 and 4*(x - b)^2 <= (a - b)^2"),
-    ("degenerate truth set", "all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1"),
-    ("degenerate truth set", "all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4"),
-    *(
-        ("roots counted", f"ex a. not x {relation} root({k}, x^{3 if relation == '<=' else 2} - a*x + y) or a = 1")
-        for relation in ("=", "/=", "<", "<=", ">", ">=")
-        for k in (1, 2, -1, -2)
-    ),
-]
-
-
-@pytest.mark.parametrize(("rule", "text"), RIGHT)
-def test_other_steps_are_accepted(rule: str, text: str) -> None:
-    assert not JUDGES[rule](text)
-
-
-def test_a_constant_is_accepted_with_its_table() -> None:
-    assert not whole("a^2 + b^2 < 1 and a*b > 1", certify=True)
 
 
 def test_a_coefficient_that_conjuncts_with_the_variable_keep_from_zero() -> None:
