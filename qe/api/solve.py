@@ -8,17 +8,18 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
 from qe import arguments
-from qe.api.input import AnyFormula, read_block
+from qe.api.input import AnyFormula, read_block, together
 from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
 from qe.engine.run import solve as eliminated
-from qe.errors import Unable
+from qe.errors import InternalError, Unable
 from qe.exact.number import ExactPoint, Values
-from qe.formula.build import conj, exists, implies
+from qe.formula.build import conj, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import without_clashes
 from qe.formula.syntax import TRUE, Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
+from qe.io.text import read
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitnesses
     from qe.regions.region import Region
 
+TEXT_WORK = 10_000
+"""Units of work for the proof that a text of solutions says the same as the formula."""
+
 
 @with_settings(ProvedQuestion)
 def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQuestion]) -> Solutions:
@@ -40,7 +44,7 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
 
     ``variables``: those to solve for, in their order; they come after all others, so that each is expressed in terms of
     the parameters and of the variables before it. Without them all free variables are meant, in the formula's order.
-    Quantifiers are eliminated first. With ``check`` the decomposition is verified: ``region.guarantee`` says so.
+    Quantifiers are eliminated first. With ``check`` the decomposition and the text are proved: ``guarantee``.
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     limits, wanted = limits_of(settings), arguments.names(variables, "variables")
@@ -69,7 +73,24 @@ def _solutions(
     if by_value is not None and sum(map(len, by_value)) < sum(map(len, lines)):
         lines = by_value
     region.limits = whole
-    return Solutions(region.order, cases, region, tuple(lines))
+    solutions = Solutions(region.order, cases, region, tuple(lines))
+    return replace(solutions, answer=_compared(str(solutions), given, known, budget)) if check else solutions
+
+
+def _compared(text: str, given: Formula, known: Formula, budget: Budget) -> Answer:
+    """The answer to the question whether a text says the same as a formula."""
+    from qe.api.eliminate import settled
+
+    written, question, assumed = together(read(text), given, known)
+    claim = implies(assumed, iff(written, question))
+    try:
+        answer = settled(forall(claim.free, claim), Options(certify=True), budget.part(TEXT_WORK))
+    except Unable as error:
+        budget.check("compare the text")
+        return Answer(Status.UNABLE, None, question=claim, reason=str(error))
+    if answer.truth is False:
+        raise InternalError(f"the text says something else than the formula: {text}")
+    return answer
 
 
 def _described(given: Formula, order: tuple[str, ...] | None, inner: Limits, check: bool, budget: Budget) -> Region:

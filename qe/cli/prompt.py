@@ -137,7 +137,7 @@ class Session:
         names, colon, formula = rest.partition(":")
         named = bool(colon) and not re.search(r"[=<>.()]|\b(ex|all|exists|forall)\b", names)
         solutions = qe.solve(formula if named else rest, names if named else None, **self._those_of("solve"))
-        return self._keep(solutions.region, str(solutions))
+        return self._keep(solutions, str(solutions))
 
     def _find(self, rest: str) -> str:
         count = _COUNT.match(rest)
@@ -198,7 +198,7 @@ class Session:
         words = shlex.split(rest)
         if len(words) != 1:
             raise InputError("the name of a file expected, as in :plot region.png")
-        self.last.plot(words[0], timeout=self.settings.get("timeout"))
+        getattr(self.last, "region", self.last).plot(words[0], timeout=self.settings.get("timeout"))
         return f"written: {words[0]}"
 
     def _why(self, rest: str) -> str:

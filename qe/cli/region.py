@@ -46,9 +46,9 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
     start = time.perf_counter()
     formula, known = read_question(channel, request.source, solved=variables or ())
     solutions = api_solve.solve(formula, variables, **request.keywords(channel, formula, known))
-    files = {"certificate": certificate_text(solutions.region)} if request.certificate else {}
+    files = {"certificate": certificate_text(solutions)} if request.certificate else {}
     if not request.json:
-        return Reply(str(solutions), files=files, verdict=request.verdict(solutions.region))
+        return Reply(str(solutions), files=files, verdict=request.verdict(solutions))
     data = {
         "status": "solved",
         "variables": list(solutions.order),
@@ -56,7 +56,7 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
         "seconds": round(time.perf_counter() - start, 6),
     }
     text = json.dumps(data, indent=2, ensure_ascii=False)
-    return Reply(text, files=files, verdict=request.verdict(solutions.region))
+    return Reply(text, files=files, verdict=request.verdict(solutions))
 
 
 def _drawn(drawn: Region, ending: str) -> bytes:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from qe.decomposition.radicals import halved, quotient_text
 from qe.decomposition.sampled_cells import Number, Place, child, coordinates, root_place
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.algebraic_brief import brief_algebraic
@@ -68,31 +69,7 @@ class RootFunction:
             return -c[0], None, c[1]
         if len(c) > 3 or not c[2].is_constant:
             return None
-        front, inside, bottom = -c[1], c[1] * c[1] - 4 * (c[2] * c[0]), 2 * c[2]
-        if front.normal()[0] % 2 == 0 and inside.normal()[0] % 4 == 0:
-            front, inside, bottom = front.exact_divide(2), inside.exact_divide(4), c[2]
-        return front, inside, bottom
-
-
-def quotient_text(front: Poly, inside: Poly | None, bottom: Poly, sign: int) -> str:
-    """``(front ± sqrt(inside))/bottom``, without the square root where nothing is ``inside``."""
-    if inside is None:
-        return _quotient(format_poly(front), format_poly(bottom))
-    root = f"sqrt({format_poly(inside)})"
-    if front:
-        return _quotient(f"{format_poly(front)} {'-' if sign < 0 else '+'} {root}", format_poly(bottom))
-    below = format_poly(bottom)
-    return ("-" if sign < 0 else "") + root + ("" if below == "1" else f"/{_bracketed(below)}")
-
-
-def _quotient(top: str, bottom: str) -> str:
-    if bottom == "1":
-        return top
-    return f"{_bracketed(top)}/{_bracketed(bottom)}"
-
-
-def _bracketed(text: str) -> str:
-    return f"({text})" if " " in text or "*" in text else text
+        return halved(c)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -136,10 +113,16 @@ class Range:
         lower = "" if self.lower is None else shown(self.lower)
         if self.is_point:
             return f"{quoted(self.variable)} = {lower}"
-        left = "" if self.lower is None else f"{lower} {'<=' if self.lower_closed else '<'} "
-        right = "" if self.upper is None else f" {'<=' if self.upper_closed else '<'} {shown(self.upper)}"
-        name = quoted(self.variable)
-        return f"{left}{name}{right}" if left or right else f"{name} any"
+        upper = "" if self.upper is None else shown(self.upper)
+        return range_text(quoted(self.variable), lower, upper, self.lower_closed, self.upper_closed)
+
+
+def range_text(name: str, lower: str, upper: str, lower_closed: bool, upper_closed: bool) -> str:
+    """What lies between two terms, either of which may be missing ("")."""
+    if lower and not upper:
+        return f"{name} {'>=' if lower_closed else '>'} {lower}"
+    left = f"{lower} {'<=' if lower_closed else '<'} " if lower else ""
+    return f"{left}{name} {'<=' if upper_closed else '<'} {upper}" if upper else f"{name} any"
 
 
 @dataclass(frozen=True, slots=True, repr=False)

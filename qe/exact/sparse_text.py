@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from flint import fmpz
 
@@ -10,10 +10,10 @@ SparseTerm = tuple[tuple[tuple[int, int], ...], int]
 """((variable, exponent > 0), ...), ascending, and the coefficient."""
 
 
-def sparse_text(terms: Sequence[SparseTerm], names: Sequence[str] | Mapping[int, str]) -> str:
-    """Text such as ``x^2 - 2*x*y + 1``, high terms first."""
+def sparse_text(terms: Iterable[SparseTerm], names: Sequence[str] | Mapping[int, str]) -> str:
+    """Text such as ``x^2 - 2*x*y + 1``; the order of terms is ``in_order``."""
     pieces: list[str] = []
-    for exponents, coefficient in sorted(terms, key=_by_degree, reverse=True):
+    for exponents, coefficient in in_order(terms):
         used = ((names[i], k) for i, k in exponents)
         powers = [name if k == 1 else f"{name}^{k}" for name, k in used]
         magnitude = abs(coefficient)
@@ -25,6 +25,14 @@ def sparse_text(terms: Sequence[SparseTerm], names: Sequence[str] | Mapping[int,
     return " ".join(pieces) or "0"
 
 
-def _by_degree(term: SparseTerm) -> tuple[int, list[tuple[int, int]]]:
-    """Total degree, then the exponents of the variables in order: an early variable makes a term high."""
-    return sum(k for _, k in term[0]), [(-i, k) for i, k in term[0]]
+def in_order(terms: Iterable[SparseTerm]) -> list[SparseTerm]:
+    """The terms as people write them: by falling degree, then few of the late variables first, as in b^2 - 4*a*c; where
+    the first one has no powers, the early variables first, as in a*d - b*c."""
+    late_last = sorted(terms, key=lambda term: (_degree(term), [(-i, -k) for i, k in reversed(term[0])]), reverse=True)
+    if late_last and any(k > 1 for _, k in late_last[0][0]):
+        return late_last
+    return sorted(late_last, key=lambda term: (_degree(term), [(-i, k) for i, k in term[0]]), reverse=True)
+
+
+def _degree(term: SparseTerm) -> int:
+    return sum(k for _, k in term[0])

@@ -10,6 +10,7 @@ from typing import Protocol
 
 from qe.exact.digits import digits as digits
 from qe.exact.ring import Poly
+from qe.exact.sparse_text import in_order
 from qe.formula.relation import Relation
 
 Monomial = tuple[int, tuple[tuple[str, int], ...]]
@@ -25,10 +26,9 @@ class Level(IntEnum):
 
 
 def monomials(poly: Poly) -> list[Monomial]:
-    """(coefficient, ((name, exponent), …)) by falling total degree, then in ring order."""
+    """(coefficient, ((name, exponent), …)), in the order in which people write them."""
     names = poly.ring.names
-    ordered = sorted(poly.terms(), key=lambda term: (sum(term[0]), term[0]), reverse=True)
-    return [(c, tuple((names[i], k) for i, k in enumerate(e) if k)) for e, c in ordered]
+    return [(c, tuple((names[i], k) for i, k in powers)) for powers, c in in_order(poly.sparse_terms())]
 
 
 def oriented(poly: Poly, relation: Relation) -> tuple[list[Monomial], Relation]:

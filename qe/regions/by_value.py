@@ -1,27 +1,33 @@
-"""Solutions by their values: each value once, under the condition on the parameters under which it is a solution.
+"""Solutions by what is said of the variables: each value and each range once, under the condition on the parameters
+under which it is a solution.
 
-Over a cell of the parameters a section is a root of a factor. Where the signs of the factor's coefficients and of its
-discriminant are known there, it is a quotient (degree 1), a fraction with a square root (degree 2), else the k-th root.
-Cells over which the same terms are solutions are put together, and the condition that they are is read off the signs
+Over a cell of the parameters a section is a root of a factor. Where the sign of the factor's leading coefficient and
+the number of its roots are known there, it is a quotient (degree 1), has a square root (degree 2, and degree 4 with
+even powers alone), is a radical (two terms), else the k-th root. What lies between two of them is a range.
+Cells over which the same is said are put together, and the condition that it holds is read off the signs
 (``formula_of_cells``). So the cases say what the cells of the table say, and need not be disjoint.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import groupby, product
 
 from qe.decomposition.formulas import Undistinguished, formula_of_cells
-from qe.decomposition.pieces import RootFunction, Sections, merge, quotient_text
+from qe.decomposition.pieces import RootFunction, Sections, merge, range_text
+from qe.decomposition.radicals import radicals
 from qe.decomposition.sampled_cells import Place, any_true, child, leaves
 from qe.decomposition.sign_table import Columns, placed_signs
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.build import conj, convert
-from qe.formula.syntax import TRUE, Formula, Or
+from qe.formula.syntax import TRUE, Formula
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget
 from qe.proof.cells import SIGN_OF, Cell, CellTable, FreeCell
+from qe.simplifier.simplify import simplify
 from qe.spelling import quoted
 
 MOST_CELLS = 400
@@ -35,8 +41,8 @@ def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: For
     """The cases as texts, with ``or`` between them a formula for the true cells of a table without quantifiers.
 
     ``parameters``: how many variables are not solved for; ``known``: what the conditions on them need not say. Where a
-    variable has neither finitely many values nor all, it is a parameter, too. None where there are too many cells,
-    and where signs do not tell which ones are meant.
+    variable before the last has neither finitely many values nor all, it is a parameter, too. None where there are too
+    many cells, and where signs do not tell which ones are meant.
     """
     ring, lines = Ring.of(table.order), list[str]()
     given = convert(conj(f for f in conjuncts(known) if {*f.free} <= {*table.order[:parameters]}), ring)
@@ -45,7 +51,8 @@ def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: For
         bases = list(leaves(table, depth=depth))
         if len(bases) > MOST_CELLS:
             return None
-        determined = {i for i, base in enumerate(bases) if _is_determined(base.cell)}
+        last = depth == len(table.order) - 1
+        determined = {i for i, base in enumerate(bases) if last or _is_determined(base.cell, len(table.order) - depth)}
         try:
             lines += _lines(table, depth, bases, determined, everything, _outside(table, bases, given), budget)
         except Undistinguished:
@@ -55,8 +62,7 @@ def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: For
             return lines
         everything |= {base.path for base in bases if _is_all(base.cell)}
         table = _only(table, rest | everything)
-    rest = frozenset(base.path for base in leaves(table) if not _begins(base.path, everything))
-    return lines + [str(piece) for piece in merge(_only(table, rest), budget=budget)]
+    return None
 
 
 def _outside(table: CellTable, bases: list[Place], known: Formula) -> frozenset[int]:
@@ -84,25 +90,26 @@ def _lines(
     outside: frozenset[int],
     budget: Budget,
 ) -> list[str]:
-    """The cases over those cells of the parameters that are known to have finitely many values, or all; but not over
-    those with ``everything``, which is said already; ``outside`` are those that conditions may or may not include."""
-    values = _Values(table, Sections(table, budget))
+    """The cases over those cells of the parameters that are known to have finitely many values or ranges, or all; but
+    not over those with ``everything``, which is said already. Conditions may or may not include what is ``outside``."""
+    said = _Said(table, Sections(table, budget))
     found: dict[tuple[int, tuple[int, ...]], set[Terms]] = {}
     for i in sorted(known):
         budget.check("solutions by value")
-        found |= {(i, place.path): terms for place, terms in values.over(bases[i])}
+        found |= {(i, place.path): terms for place, terms in said.over(bases[i])}
     free = frozenset(i for i in known if _is_all(bases[i].cell))
-    holding: dict[frozenset[int], list[Terms]] = {}
+    holding: dict[tuple[frozenset[int], frozenset[int]], list[Terms]] = {}
     for terms in _cover(found):
-        holding.setdefault(frozenset(i for (i, _), all_terms in found.items() if terms in all_terms), []).append(terms)
+        cells = frozenset(i for (i, _), all_terms in found.items() if terms in all_terms)
+        defined = frozenset(i for i in free if said.is_defined(terms, bases[i]))
+        holding.setdefault((cells, defined - cells), []).append(terms)
     if new := free - {i for i in free if _begins(bases[i].path, everything)}:
-        holding[new] = [()]
-    ordered = sorted(holding.items(), key=lambda pair: min(pair[0]))
-    names = table.order[depth:]
+        holding[new, free - new] = [()]
+    ordered = sorted(holding.items(), key=lambda pair: min(pair[0][0]))
     return [
         line
-        for cells, terms in ordered
-        for line in _cases(_condition(table, bases, cells, (free | outside) - cells, budget), terms, names)
+        for (cells, open_), terms in ordered
+        for line in _cases(_condition(table, bases, cells, (open_ | outside) - cells, budget), terms)
     ]
 
 
@@ -127,62 +134,78 @@ def _is_all(cell: Cell) -> bool:
     return cell.truth is True if cell.stack is None else all(map(_is_all, cell.stack.cells))
 
 
-def _is_determined(cell: Cell) -> bool:
-    """Whether over a cell each variable has finitely many values that are solutions, or all are."""
-    if cell.stack is None or _is_all(cell):
+def _is_determined(cell: Cell, levels: int) -> bool:
+    """Whether over a cell each variable before the last has finitely many values that are solutions, or all are."""
+    if cell.stack is None or levels == 1 or _is_all(cell):
         return True
-    return not any(map(any_true, cell.stack.cells[::2])) and all(map(_is_determined, cell.stack.cells))
+    inner = cell.stack.cells
+    return not any(map(any_true, inner[::2])) and all(_is_determined(below, levels - 1) for below in inner)
 
 
 @dataclass(frozen=True, slots=True)
-class _Values:
-    """What the true sections over cells of the parameters are."""
+class _Said:
+    """What is said of the variables over cells of the parameters. ``needs``: polynomials in a text, with the signs with
+    which it has a value."""
 
     table: CellTable
     sections: Sections
+    needs: dict[str, list[tuple[Poly, frozenset[int]]]] = field(default_factory=lambda: defaultdict(list))
 
     def over(self, place: Place, fixed: Mapping[int, Fraction] | None = None) -> Iterator[tuple[Place, set[Terms]]]:
-        """The solutions over a cell, with the terms that they are; ``fixed``: the variables with a rational value."""
+        """The solutions over a cell, with the terms that say them; ``fixed``: the variables with a rational value."""
         fixed, stack = fixed or {}, place.cell.stack
         if stack is None or _is_all(place.cell):
             return
         ends = self.sections.of(place)
-        for k, candidates in enumerate(ends):
-            above = child(self.table, place, 2 * k + 1)
-            if not any_true(above.cell):
+        counts = Counter(end.poly for candidates in ends for end in candidates)
+        name = quoted(self.table.order[place.depth])
+        values = [{t for end in c for t in self.texts(end, counts[end.poly], place, fixed)} for c in ends]
+        for start, stop in _runs(stack.cells):
+            first = child(self.table, place, start)
+            equal = values[start // 2] if start % 2 and start == stop else set()
+            if not equal or _is_all(first.cell):
+                low, high = (values[k] if k in range(len(values)) else {""} for k in ((start - 1) // 2, stop // 2))
+                between = [(a, b) for a, b in product(low, high) if a != b]
+                said = {range_text(name, *pair, start % 2 == 1, stop % 2 == 1): pair for pair in between}
+                said |= {f"{name} = {value}": (value, "") for value in equal}
+                self.needs.update(
+                    {text: [*self.needs.get(a, ()), *self.needs.get(b, ())] for text, (a, b) in said.items()}
+                )
+                yield first, {(text,) for text in said}
                 continue
-            values = {text for end in candidates for text in self.texts(end, place, fixed)}
-            if _is_all(above.cell):
-                yield above, {(value,) for value in values}
-                continue
-            number = above.point.number(place.depth)
-            inner = {**fixed, place.depth: number} if isinstance(number, Fraction) and _is_fixed(candidates) else fixed
-            for end, terms in self.over(above, inner):
-                yield end, {(value, *rest) for value in values for rest in terms}
+            number = first.point.number(place.depth)
+            is_fixed = isinstance(number, Fraction) and any(end.value is not None for end in ends[start // 2])
+            inner = {**fixed, place.depth: number} if isinstance(number, Fraction) and is_fixed else fixed
+            equations = {f"{name} = {value}": self.needs[value] for value in equal}
+            self.needs.update(equations)
+            for end, terms in self.over(first, inner):
+                yield end, {(text, *rest) for text in equations for rest in terms}
 
-    def texts(self, end: RootFunction, place: Place, fixed: Mapping[int, Fraction]) -> list[str]:
-        """The terms that a section is as a root of a factor."""
+    def texts(self, end: RootFunction, count: int, place: Place, fixed: Mapping[int, Fraction]) -> Iterator[str]:
+        """The terms that a section is as the ``k``-th of ``count`` different roots of a factor."""
         level, poly = place.depth, end.poly
         if end.value is not None:
-            return [str(end.value)]
+            yield str(end.value)
+            return
         signs = [self.sign(c, place) for c in poly.coefficients(level)]
-        while len(signs) > 1 and signs[-1] == 0:
-            signs.pop()
-        inside = None
-        if len(signs) == 3 and signs[2]:
-            c, b, a = poly.coefficients(level)[:3]
-            inside = self.sign(b * b - 4 * (a * c), place)
-        short = poly
+        degree, short = max((k for k, sign in enumerate(signs) if sign != 0), default=0), poly
         for i, value in fixed.items():
             short = short.at_rational(i, value)
-        forms = [form.coefficients(level) for form in dict.fromkeys((short, poly))]
-        if len(signs) == 2 and signs[1]:
-            return [quotient_text(-form[0], None, form[1], 0) for form in forms]
-        if inside is not None and inside >= 0 and signs[2]:
-            greater = (end.k == 2) == (signs[2] > 0)
-            which = (-1, 1) if inside == 0 else (1 if greater else -1,)
-            return [_quadratic_text(form[:3], sign) for form in forms for sign in which]
-        return [f"root({end.k}, {format_poly(poly)}, {quoted(self.table.order[level])})"]
+        radical = None
+        if lead := signs[degree]:
+            for form in dict.fromkeys((short, poly)):
+                for radical in radicals(form.coefficients(level)[: degree + 1], end.k, count, lead):
+                    self.needs.setdefault(radical.text, [*radical.needs])
+                    yield radical.text
+        if radical is None:
+            text = f"root({end.k}, {format_poly(poly)}, {quoted(self.table.order[level])})"
+            self.needs[text] = [(poly.ring.constant(1), frozenset())]
+            yield text
+
+    def is_defined(self, terms: Terms, base: Place) -> bool:
+        """Whether the texts have values over a cell of the parameters, as far as signs that are known there tell."""
+        needs = (need for text in terms for need in self.needs[text])
+        return all(poly.level >= base.depth or self.sign(poly, base) in signs for poly, signs in needs)
 
     def sign(self, poly: Poly, place: Place) -> int | None:
         """The sign of a product of factors on the cell; None where it is not among those that the table says."""
@@ -202,17 +225,14 @@ class _Values:
         return result
 
 
-def _is_fixed(candidates: frozenset[RootFunction]) -> bool:
-    """Whether the value does not depend on the cell, but is the same number wherever these are solutions."""
-    return any(end.value is not None for end in candidates)
-
-
-def _quadratic_text(coefficients: tuple[Poly, ...], sign: int) -> str:
-    c, b, a = coefficients
-    front, inside, bottom = -b, b * b - 4 * (a * c), 2 * a
-    if front.normal()[0] % 2 == 0 and inside.normal()[0] % 4 == 0:
-        front, inside, bottom = front.exact_divide(2), inside.exact_divide(4), a
-    return quotient_text(front, inside, bottom, sign)
+def _runs(cells: Sequence[Cell]) -> Iterator[tuple[int, int]]:
+    """First and last of neighbouring cells of a stack over which all is true, and each other one that has solutions."""
+    for whole, run in groupby(range(len(cells)), key=lambda k: _is_all(cells[k])):
+        places = list(run)
+        if whole:
+            yield places[0], places[-1]
+        else:
+            yield from ((k, k) for k in places if any_true(cells[k]))
 
 
 def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Terms]:
@@ -235,37 +255,49 @@ def _condition(
     table: CellTable, bases: list[Place], chosen: frozenset[int], open_: frozenset[int], budget: Budget
 ) -> str:
     """The condition on the parameters that says which cells: the ``chosen`` ones, and perhaps some of those that are
-    open. It is a formula, or what one piece says if that is shorter."""
+    open. It is a formula, or what pieces say whose ends are numbers and polynomials, if that is shorter."""
     depth = max((base.depth for base in bases), default=0)
     cells = [
         FreeCell(base.path, tuple(map(placed_signs, base.used, base.signs)), i in chosen)
         for i, base in enumerate(bases)
         if i not in open_
     ]
-    formula = formula_of_cells(table.factors[:depth], cells)
+    formula = simplify(formula_of_cells(table.factors[:depth], cells))
     if formula == TRUE:
         return ""
-    text = f"({formula})" if isinstance(formula, Or) else str(formula)
+    text = str(formula)
     pieces = merge(_only(table, frozenset(bases[i].path for i in chosen), True), budget=budget)
-    return min([text, *map(str, pieces)], key=len) if len(pieces) == 1 else text
+    if all(end is None or _is_plain(end) for piece in pieces for r in piece.ranges for end in (r.lower, r.upper)):
+        return min(text, " or ".join(map(str, pieces)), key=len)
+    return text
 
 
-def _cases(condition: str, values: list[Terms], names: tuple[str, ...]) -> list[str]:
-    """A condition and the values of which one holds; those of the first variable that are the same are said once."""
-    parts = _values(values, names)
-    if condition and len(parts) > 1:
-        parts = [f"({' or '.join(parts)})"]
-    return [" and ".join(part for part in (condition, said) if part) or "true" for said in parts or [""]]
+def _is_plain(end: RootFunction) -> bool:
+    """Whether it is a number or a polynomial."""
+    return end.value is not None or (end.written is not None and end.written[1] is None and end.written[2].is_constant)
 
 
-def _values(values: list[Terms], names: tuple[str, ...]) -> list[str]:
+def _cases(condition: str, said: list[Terms]) -> list[str]:
+    """A condition and what holds under it; what is said of the first variable is said once."""
+    parts = _parts(said)
+    if not (condition and parts):
+        return parts or [condition or "true"]
+    return [
+        " and ".join(
+            f"({text})" if is_or else text
+            for text, is_or in ((condition, " or " in condition), (" or ".join(parts), len(parts) > 1))
+        )
+    ]
+
+
+def _parts(said: list[Terms]) -> list[str]:
     firsts: dict[str, list[Terms]] = {}
-    for terms in values:
+    for terms in said:
         if terms:
             firsts.setdefault(terms[0], []).append(terms[1:])
     parts = []
     for first, rest in firsts.items():
-        inner = _values(rest, names[1:])
-        said = f"({' or '.join(inner)})" if len(inner) > 1 else "".join(inner)
-        parts.append(f"{quoted(names[0])} = {first}" + (f" and {said}" if said else ""))
+        inner = _parts(rest)
+        then = f"({' or '.join(inner)})" if len(inner) > 1 else "".join(inner)
+        parts.append(f"{first} and {then}" if then else first)
     return parts

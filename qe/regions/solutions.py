@@ -10,6 +10,8 @@ from qe.decomposition.pieces import Piece
 from qe.formula.build import disj
 from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
+from qe.proof.answer import UNPROVED, Answer, Guarantee
+from qe.proof.certificate import Certificate
 from qe.regions.region import Region
 from qe.services import SymPyForm
 
@@ -28,13 +30,36 @@ class Solutions(SymPyForm):
 
     ``cases``: the same as disjoint pieces (``Piece``: ``.ranges``, ``.sample``, ``.formula``), over which one iterates:
     for the first variables where they lie, and for each later one, over those, between which values. ``region``: the
-    set that they are.
+    set that they are. ``answer``, with ``qe.solve(..., check=True)``: to the question whether the text says the same as
+    the formula (where what was assumed holds); its certificate is beside that of the region's table in ``certificate``.
     """
 
     order: tuple[str, ...]
     cases: tuple[Piece, ...]
     region: Region
     lines: tuple[str, ...]
+    answer: Answer | None = None
+
+    @property
+    def guarantee(self) -> Guarantee:
+        """CHECKED where separate code accepted the proofs of the table and of the text."""
+        return Guarantee.DERIVED if self.reason else Guarantee.CHECKED
+
+    @property
+    def reason(self) -> str:
+        """Why they are not proved; empty where they are."""
+        if self.answer is None or self.region.guarantee is not Guarantee.CHECKED:
+            return self.region.reason or UNPROVED
+        why = self.answer.why_unchecked
+        return f"the text is not proved: {why}" if why else ""
+
+    @property
+    def certificate(self) -> Certificate:
+        """The certificates of the region and, where there is one, of the text."""
+        text, of_region = None if self.answer is None else self.answer.certificate, self.region.proof
+        if text is None:
+            return of_region
+        return Certificate.bundle([("cells", of_region), ("text", text)])
 
     @property
     def formula(self) -> Formula:

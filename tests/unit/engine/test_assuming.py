@@ -22,9 +22,9 @@ QUADRATIC = "ex x. a*x^2 + b*x + c = 0"
 
 
 @each(
-    ("ex x. a*x^2 + b*x + c < 0", "a > 0", "4*a*c - b^2 < 0"),
-    ("all x. a*x^2 + b*x + c > 0", "a > 0", "4*a*c - b^2 > 0"),
-    (QUADRATIC, "a > 0 and b > 0", "4*a*c - b^2 <= 0"),
+    ("ex x. a*x^2 + b*x + c < 0", "a > 0", "b^2 - 4*a*c > 0"),
+    ("all x. a*x^2 + b*x + c > 0", "a > 0", "b^2 - 4*a*c < 0"),
+    (QUADRATIC, "a > 0 and b > 0", "b^2 - 4*a*c >= 0"),
     ("ex x. a*x = b", "a /= 0", "true"),
     ("ex x. x^2 = a", "a = c^2", "true"),
     ("ex x. x^3 + p*x + q = 0 and x > 0", "p > 0", "q < 0"),
@@ -83,7 +83,7 @@ def test_contradicting_assumptions(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @each(
-    (QUADRATIC, "4*a*c - b^2 <= 0", ["a /= 0"]),
+    (QUADRATIC, "b^2 - 4*a*c >= 0", ["a /= 0"]),
     ("ex x. a*x = b", "true", ["a /= 0"]),
     ("ex x. a*x = b and c*x = d", "a*d - b*c = 0", ["c /= 0"]),
     ("ex x. (a*b - 1)*x^2 + x + 1 < 0", "4*a*b - 5 < 0", []),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from fractions import Fraction
 from statistics import median
 
@@ -48,6 +49,43 @@ EXPECTED = (
     ("x^2 + y^2 <= 1", None, "-1 <= x <= 1 and -sqrt(1 - x^2) <= y <= sqrt(1 - x^2)"),
     ("a*x > b", "x", "a = 0 and b < 0 or a < 0 and x < b/a or a > 0 and x > b/a"),
     ("x^2 >= a", "x", "a <= 0 or a > 0 and (x <= -sqrt(a) or x >= sqrt(a))"),
+    (
+        "a*x^2 + b*x + c <= 0",
+        "x",
+        "a = 0 and b = 0 and c <= 0 or a = 0 and b < 0 and x >= -c/b or a = 0 and b > 0 and x <= -c/b or a < 0 and "
+        "b^2 - 4*a*c <= 0 or a < 0 and b^2 - 4*a*c > 0 and (x <= (-b + sqrt(b^2 - 4*a*c))/(2*a) or "
+        "x >= (-b - sqrt(b^2 - 4*a*c))/(2*a)) or a > 0 and b^2 - 4*a*c >= 0 and "
+        "(-b - sqrt(b^2 - 4*a*c))/(2*a) <= x <= (-b + sqrt(b^2 - 4*a*c))/(2*a)",
+    ),
+    (
+        "a*x^2 + b*x + c < 0",
+        "x",
+        "a = 0 and b = 0 and c < 0 or a = 0 and b < 0 and x > -c/b or a = 0 and b > 0 and x < -c/b or a < 0 and "
+        "b^2 - 4*a*c < 0 or a < 0 and b^2 - 4*a*c >= 0 and (x < (-b + sqrt(b^2 - 4*a*c))/(2*a) or "
+        "x > (-b - sqrt(b^2 - 4*a*c))/(2*a)) or a > 0 and b^2 - 4*a*c > 0 and "
+        "(-b - sqrt(b^2 - 4*a*c))/(2*a) < x < (-b + sqrt(b^2 - 4*a*c))/(2*a)",
+    ),
+    (
+        "x^4 + a*x^2 + b = 0",
+        "x",
+        "a^2 - 4*b >= 0 and (b <= 0 or a <= 0) and (x = -sqrt((-a + sqrt(a^2 - 4*b))/2) or "
+        "x = sqrt((-a + sqrt(a^2 - 4*b))/2)) or a^2 - 4*b >= 0 and a <= 0 and b >= 0 and "
+        "(x = -sqrt((-a - sqrt(a^2 - 4*b))/2) or x = sqrt((-a - sqrt(a^2 - 4*b))/2))",
+    ),
+    ("x^3 = a", "x", "x = cbrt(a)"),
+    ("x^4 = a", "x", "a >= 0 and (x = -a^(1/4) or x = a^(1/4))"),
+    ("x^2 < a", "x", "a > 0 and -sqrt(a) < x < sqrt(a)"),
+    (
+        "x^2 + a*x + b >= 0",
+        "x",
+        "a^2 - 4*b <= 0 or a^2 - 4*b > 0 and (x <= (-a - sqrt(a^2 - 4*b))/2 or x >= (-a + sqrt(a^2 - 4*b))/2)",
+    ),
+    ("x^2 - 2*a*x + b <= 0", "x", "a^2 - b >= 0 and a - sqrt(a^2 - b) <= x <= a + sqrt(a^2 - b)"),
+    ("1/x < a", "x", "a < 0 and 1/a < x < 0 or a = 0 and x < 0 or a > 0 and (x < 0 or x > 1/a)"),
+    ("(x - a)*(x - b) < 0", "x", "a < b and a < x < b or b < a and b < x < a"),
+    ("a*x^2 + 1 > 0", "x", "a >= 0 or a < 0 and -1/sqrt(-a) < x < 1/sqrt(-a)"),
+    ("|x| > a", "x", "a < 0 or x < -a or x > a"),
+    ("sqrt(x) < a", "x", "a > 0 and 0 <= x < a^2"),
     ("x^2 + 1 = 0", None, "false"),
     ("0*x = 0", "x", "true"),
 )
@@ -57,8 +95,14 @@ EXPECTED = (
 @each(*EXPECTED)
 def test_answers_are_not_much_longer_than_those_of_people(question: str, variables: str | None, expected: str) -> None:
     solutions = qe.solve(question, variables)
-    assert len(str(solutions)) <= 1.5 * len(expected)
+    assert len(str(solutions)) <= 1.5 * len(expected) and len(solutions.lines) <= 1.5 * _number_of_cases(expected)
     assert qe.equivalent(str(solutions), question)
+
+
+def _number_of_cases(text: str) -> int:
+    while "(" in text:
+        text = re.sub(r"\([^()]*\)", "", text)
+    return text.count(" or ") + 1
 
 
 def test_in_the_median_they_are_no_longer() -> None:
@@ -96,3 +140,10 @@ def test_the_lines_hold_where_the_question_does(seed: int) -> None:
     for point in points:
         whole = {name: point.get(name, Fraction(0)) for name in "abx"}
         assert written.contains(whole) is region.contains(whole), (question, str(solutions), whole)
+
+
+@each(*(row for row in EXPECTED if "<" in row[0] or "x^4" in row[0]))
+def test_what_is_printed_is_proved(question: str, variables: str | None, expected: str) -> None:
+    solutions = qe.solve(question, variables, check=True)
+    assert solutions.guarantee is qe.Guarantee.CHECKED and not solutions.reason
+    assert qe.verify(solutions.certificate) and str(solutions.certificate.to_json()).count('"text"') == 1
