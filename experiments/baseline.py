@@ -21,7 +21,7 @@ from experiments.problem import Problem
 from experiments.results import Log, Result, Status
 from experiments.runner import LONGEST_ANSWER, Job, compared, run_one
 from experiments.solvers import OURS, Solver, adapter
-from experiments.suites.corpus import classics, literature
+from experiments.suites.corpus import literature, tagged
 from qe.errors import InputError
 
 SETS = ("public", "realgeom", "project")
@@ -61,7 +61,7 @@ class Entry:
 
 def problems(only: str = "") -> list[Problem]:
     """The problems of a baseline. Raises ``InputError`` where the literature sets are absent."""
-    return [p for p in [*literature(), *classics()] if p.set in SETS and only in f"{p.set} {p.id}"]
+    return [p for p in [*literature(), *tagged("classics")] if p.set in SETS and only in f"{p.set} {p.id}"]
 
 
 def pair(

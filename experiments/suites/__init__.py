@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from experiments.problem import Problem
 from experiments.solvers import ABLATIONS
@@ -21,8 +22,7 @@ class Suite:
 
 SUITES = {
     "paper": Suite(paper.problems),
-    "classics": Suite(corpus.classics),
-    "textbook": Suite(corpus.textbook),
+    **{name: Suite(partial(corpus.tagged, name)) for name in ("classics", "textbook", "threads")},
     "literature": Suite(corpus.literature),
     "hard": Suite(corpus.hard),
     "wild": Suite(corpus.wild),

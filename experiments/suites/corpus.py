@@ -22,20 +22,16 @@ def records() -> list[dict[str, Any]]:
     return [r for path in sorted(CORPUS.glob("*.toml")) for r in tomllib.loads(path.read_text())["problem"]]
 
 
-def _problem(record: dict[str, Any]) -> Problem:
-    keys = ("formula", "expected", "assume")
-    name = "textbook" if "textbook" in record["tags"] else "project"
-    return Problem(name, str(record["id"]), **{key: record[key] for key in keys if key in record})
+def tagged(tag: str) -> list[Problem]:
+    """The problems of the corpus with a tag that is the name of a suite, or ``classics``: the others.
 
-
-def classics() -> list[Problem]:
-    """The project's own corpus: classics of the field, odd shapes, wrong answers that systems have given."""
-    return [_problem(record) for record in records() if "textbook" not in record["tags"]]
-
-
-def textbook() -> list[Problem]:
-    """Theorems and conditions of the literature that are known in closed form."""
-    return [_problem(record) for record in records() if "textbook" in record["tags"]]
+    ``textbook``: theorems and conditions of the literature that are known in closed form. ``threads``: questions from
+    public threads, as text. ``classics``: classics of the field, odd shapes, wrong answers that systems have given.
+    """
+    keys, named = ("formula", "expected", "assume"), {"textbook", "threads"}
+    chosen = [r for r in records() if (tag in r["tags"] if tag in named else named.isdisjoint(r["tags"]))]
+    name = tag if tag in named else "project"
+    return [Problem(name, str(r["id"]), **{key: r[key] for key in keys if key in r}) for r in chosen]
 
 
 def timing_ids() -> list[str]:
@@ -46,7 +42,7 @@ def timing_ids() -> list[str]:
 def ablation() -> list[Problem]:
     """Problems on which stages of the engine matter: timing problems, the paper's formulas, middle sizes of scaling."""
     timing = set(timing_ids())
-    found = [p for p in classics() if p.id in timing]
+    found = [p for p in tagged("classics") if p.id in timing]
     found += [p for p in paper.problems() if p.id.endswith("-0")]
     return found + [p for p in scaling.problems() if p.id in MIDDLE_SIZES]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from qe.decomposition.pieces import Range, RootFunction
+from qe.decomposition.pieces import Range, RootFunction, range_text
 from qe.io import latex
 
 Place = Sequence[Range]
@@ -41,10 +41,8 @@ def _range(one: Range) -> str:
     name = latex.name(one.variable)
     if one.lower is not None and one.is_point:
         return f"{name} = {root_in_latex(one.lower)}"
-    left = "" if one.lower is None else f"{root_in_latex(one.lower)} {_order(one.lower_closed)} "
-    right = "" if one.upper is None else f" {_order(one.upper_closed)} {root_in_latex(one.upper)}"
-    return f"{left}{name}{right}" if left or right else rf"{name} \in \mathbb{{R}}"
-
-
-def _order(closed: bool) -> str:
-    return r"\leq" if closed else "<"
+    lower, upper = ("" if end is None else root_in_latex(end) for end in (one.lower, one.upper))
+    if not lower and not upper:
+        return rf"{name} \in \mathbb{{R}}"
+    text = range_text(name, lower, upper, one.lower_closed, one.upper_closed)
+    return text.replace("<=", r"\leq").replace(">=", r"\geq")

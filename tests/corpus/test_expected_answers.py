@@ -16,7 +16,7 @@ from qe.options import Budget
 from tests.corpus.catalogue import KEYS, Problem, problems, records
 from tests.differential.generate import at_point
 
-TAGS = {"timing", "regression", "shape", "geometry", "published", "slow", "textbook"}
+TAGS = {"timing", "regression", "shape", "geometry", "published", "slow", "textbook", "threads"}
 
 # Out of the reach of the reference elimination within the time it is given here; z3 checks what it can of them.
 BEYOND_REFERENCE = frozenset(
@@ -73,7 +73,7 @@ def points(problem: Problem, count: int) -> list[dict[str, Fraction]]:
 
 @pytest.mark.parametrize(
     "problem",
-    [p for p in problems() if p.id not in BEYOND_REFERENCE and "textbook" not in p.tags],  # these are theorems
+    [p for p in problems() if p.id not in BEYOND_REFERENCE and not {"textbook", "threads"} & {*p.tags}],  # known ones
     ids=lambda p: p.id,
 )
 def test_expected_answer_holds_at_points_by_the_reference(problem: Problem) -> None:

@@ -13,21 +13,21 @@ from tests.tables import each
 
 @each(
     ("x^2 + b*x + c", "true", "b, c", ["(-b^2 + 4*c)/4 at x = -b/2"]),
-    ("a*x^2 + x", "true", "a", ["unbounded if a < 0", "unbounded if a = 0", "-1/(4*a) at x = -1/(2*a) if 0 < a"]),
-    ("x", "x^2 + y^2 <= r", "r", ["-sqrt(r) at x = -sqrt(r), y = 0 if 0 <= r"]),
+    ("a*x^2 + x", "true", "a", ["unbounded if a < 0", "unbounded if a = 0", "-1/(4*a) at x = -1/(2*a) if a > 0"]),
+    ("x", "x^2 + y^2 <= r", "r", ["-sqrt(r) at x = -sqrt(r), y = 0 if r >= 0"]),
     (
         "x^4 + a*x^2",
         "true",
         "a",
-        ["-a^2/4 at x = -sqrt(-2*a)/2 or x = sqrt(-2*a)/2 if a < 0", "0 at x = 0 if 0 <= a"],
+        ["-a^2/4 at x = -sqrt(-2*a)/2 or x = sqrt(-2*a)/2 if a < 0", "0 at x = 0 if a >= 0"],
     ),
     ("x", "x > a and x < 1", "a", ["a (not attained) if a < 1"]),
     ("x", "x^2 < 0 and a = a", "a", ["no point meets the constraints"]),
-    ("max(x, a)", "x >= 0", "a", ["0 at x = 0 if a <= 0", "a at 0 <= x <= value if 0 < a"]),
-    ("x/y", "x > a and y > 0", "a", ["unbounded if a < 0", "0 (not attained) if 0 <= a"]),
-    ("a*x", "true", "a", ["unbounded if a < 0", "0 at any x if a = 0", "unbounded if 0 < a"]),
-    ("a", "a > 0", "a", ["a if 0 < a"]),
-    ("abs(x - a)", "ex y. y^2 = x", "a", ["-a at x = 0 if a <= 0", "0 at x = a if 0 < a"]),
+    ("max(x, a)", "x >= 0", "a", ["0 at x = 0 if a <= 0", "a at 0 <= x <= value if a > 0"]),
+    ("x/y", "x > a and y > 0", "a", ["unbounded if a < 0", "0 (not attained) if a >= 0"]),
+    ("a*x", "true", "a", ["unbounded if a < 0", "0 at any x if a = 0", "unbounded if a > 0"]),
+    ("a", "a > 0", "a", ["a if a > 0"]),
+    ("abs(x - a)", "ex y. y^2 = x", "a", ["-a at x = 0 if a <= 0", "0 at x = a if a > 0"]),
 )
 def test_cases(objective, constraints, parameters, printed):
     assert str(qe.minimize(objective, constraints, parameters=parameters)).splitlines() == printed
@@ -35,7 +35,7 @@ def test_cases(objective, constraints, parameters, printed):
 
 def test_the_greatest_value():
     found = qe.maximize("x^3 - a*x", "x^2 <= 1", parameters="a")
-    assert [str(case.ranges[0]) for case in found] == ["a < 3/4", "a = 3/4", "3/4 < a <= 3", "3 < a"]
+    assert [str(case.ranges[0]) for case in found] == ["a < 3/4", "a = 3/4", "3/4 < a <= 3", "a > 3"]
     assert [len(case.minimisers) for case in found] == [1, 2, 1, 1]
     assert all(case.attained for case in found)
     assert [str(case.value) for case in found] == ["-a + 1", "-a + 1", "sqrt(108*a^3)/27", "a - 1"]
@@ -125,7 +125,7 @@ def test_an_irrational_parameter():
 def test_points_that_are_too_much_work_are_left_to_single_parameters(monkeypatch):
     monkeypatch.setattr("qe.optimization.minimisers.MOST_WORK", 1)
     found = qe.minimize("x^4 - a*x^2", parameters="a")
-    assert [str(case) for case in found] == ["0 if a <= 0", "-a^2/4 if 0 < a"]
+    assert [str(case) for case in found] == ["0 if a <= 0", "-a^2/4 if a > 0"]
     assert [case.minimisers for case in found] == [None, None]
     assert found.to_dict()["cases"][0]["minimisers"] is None
     assert qe.equivalent(str(found.at({"a": 8}).minimisers), "x^2 = 4")
@@ -138,12 +138,12 @@ def test_for_machines_and_for_print():
         "variable": "value",
         "cases": [
             {"where": ["a <= 0"], "value": "0", "attained": False, "minimisers": []},
-            {"where": ["0 < a"], "value": "-a^2/4", "attained": True, "minimisers": [["x = a/2"]]},
+            {"where": ["a > 0"], "value": "-a^2/4", "attained": True, "minimisers": [["x = a/2"]]},
         ],
     }
     assert found.to_latex() == (
         "\\begin{cases}\n0\\ (\\text{not attained}) & a \\leq 0 \\\\\n"
-        "\\frac{-a^{2}}{4}\\ \\text{at}\\ x = \\frac{a}{2} & 0 < a\n\\end{cases}"
+        "\\frac{-a^{2}}{4}\\ \\text{at}\\ x = \\frac{a}{2} & a > 0\n\\end{cases}"
     )
     roots = qe.minimize("x", "x^2 - x <= r and x^3 < s", parameters="r, s").to_latex()
     assert "\\frac{1 - \\sqrt{4\\,r + 1}}{2}" in roots
