@@ -15,6 +15,9 @@ CORE := $(VENV)/.core-installed
 DEV := $(VENV)/.dev-installed
 DOCS := $(VENV)/.docs-installed
 
+# As a folder on the path and by no import hook, so that type checkers of editors find the packages.
+EDITABLE := --config-settings editable_mode=compat --editable
+
 .PHONY: help setup plan paper test docs deep fuzz theorems lint bench clean
 .DEFAULT_GOAL := help
 
@@ -24,11 +27,11 @@ help: ## list the targets
 $(CORE): pyproject.toml constraints.txt
 	@test -n "$(PYTHON)" || { echo "Python 3.11 or newer with venv and pip is needed" >&2; exit 1; }
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(PIP) install --editable '.[plan]'
+	$(PIP) install $(EDITABLE) '.[plan]'
 	@touch $@
 
 $(DEV): $(CORE) | $(BIN)/experiments
-	$(PIP) install --editable '.[dev,solvers,sweep,sat]'
+	$(PIP) install $(EDITABLE) '.[dev,solvers,sweep,sat]'
 	@touch $@
 
 # Nothing of so common a name is installed: the package is taken from here, whatever the current folder.
@@ -39,7 +42,7 @@ $(BIN)/experiments: Makefile | $(CORE)
 	@chmod +x $@
 
 $(DOCS): $(CORE)
-	$(PIP) install --editable '.[docs,squares]'
+	$(PIP) install $(EDITABLE) '.[docs,squares]'
 	@touch $@
 
 setup: $(DEV) ## create .venv with every dependency

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Unpack, cast
+from typing import Any, TypeVar, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import eliminate
@@ -18,6 +18,18 @@ from qe.formula.build import conj, exists
 from qe.formula.syntax import Formula
 from qe.io import formats
 from qe.proof.answer import Answer
+
+Part = TypeVar("Part")
+
+
+def needed(parts: Sequence[Part], refuted: Callable[[Sequence[Part]], bool]) -> list[Part]:
+    """Of parts that are refuted together those that still are, none of which can be omitted."""
+    kept = list(parts)
+    for part in parts:
+        rest = [other for other in kept if other is not part]
+        if refuted(rest):
+            kept = rest
+    return kept
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,11 +109,7 @@ class Solver:
         none of them can be omitted. Raises ``InputError`` where that was not ``"unsat"``."""
         if self.answer is None or self.answer.truth is not False:
             raise InputError("core: a check that was unsat expected before")
-        kept = [*self._asserted, *self._assumed]
-        for one in list(kept):
-            rest = [other for other in kept if other is not one]
-            if self._answer(rest).truth is False:
-                kept = rest
+        kept = needed([*self._asserted, *self._assumed], lambda some: self._answer(some).truth is False)
         return [one.name or one.formula for one in kept]
 
     unsat_core = core

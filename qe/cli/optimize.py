@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from qe.cli.numbers import exact_and_decimal, shown
-from qe.cli.work import Reply, Request, certificate_text, read_question
+from qe.cli.work import Reply, Request, in_json, read_question
 from qe.exact.number import point_text
 from qe.processes.channel import Channel
 from qe.proof.multipliers import OptimumStatus
@@ -39,7 +39,7 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     verdict = low.verdict if low.verdict == high.verdict else f"least: {low.verdict}; greatest: {high.verdict}"
     if request.json:
         both = {"least": json.loads(low.text), "greatest": json.loads(high.text)}
-        return Reply(json.dumps(both, indent=2, ensure_ascii=False), verdict=verdict)
+        return Reply(in_json(both), verdict=verdict)
     return Reply(f"least\n{low.text}\ngreatest\n{high.text}", verdict=verdict)
 
 
@@ -52,19 +52,15 @@ def _best(channel: Channel, request: Request, goal: Goal) -> Reply:
     constraints, known = read_question(channel, request.source)
     keywords = {**request.keywords(channel, constraints, known), "parameters": goal.parameters}
     best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **keywords)
-    files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
     if isinstance(best, ParametricOptimum):
         status = OptimumStatus.OPTIMAL if best.cases else OptimumStatus.INFEASIBLE
         data, lines = {"status": status.value, **best.to_dict()}, str(best).splitlines()
     else:
         data, lines = _data(best), _lines(best, "greatest" if goal.maximize else "least")
     seconds = time.perf_counter() - start
-    if request.json:
-        text = json.dumps({**data, "seconds": round(seconds, 6)}, indent=2, ensure_ascii=False)
-        return Reply(text, files=files, verdict=request.verdict(best))
     how = f"proved {data['status']}" if best.certificate is not None and not best.reason else "found"
     text = "\n".join([*lines, f"{how} in {seconds:.3f} s"])
-    return Reply(text, files=files, verdict=request.verdict(best))
+    return request.reply(best, text, {**data, "seconds": round(seconds, 6)})
 
 
 def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:

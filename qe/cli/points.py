@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import time
-from typing import Any
 
 from qe.cli.source import Source
-from qe.cli.work import Reply, Request, certificate_text, read_question
+from qe.cli.work import Reply, Request, in_json, read_question
 from qe.errors import Unable
 from qe.processes.channel import Channel
 from qe.spelling import quoted
@@ -23,11 +21,10 @@ def find(channel: Channel, request: Request, n: int, seed: int) -> Reply:
     formula, known = read_question(channel, request.source)
     points = api.find(formula, n, seed=seed, **request.keywords(channel, formula, known))
     listed = [{name: str(value) for name, value in point.items()} for point in points]
-    verdict = "checked" if request.check else ""
-    if request.json:
-        return _json({"status": "solved", "points": listed}, start, verdict=verdict)
     lines = [", ".join(f"{quoted(name)} = {value}" for name, value in p.items()) or "true" for p in listed]
-    return Reply("\n".join(lines) or "none", verdict=verdict)
+    data = {"status": "solved", "points": listed, "seconds": round(time.perf_counter() - start, 6)}
+    text = in_json(data) if request.json else "\n".join(lines) or "none"
+    return Reply(text, verdict="checked" if request.check else "")  # or an error was raised
 
 
 def witnesses(channel: Channel, request: Request) -> Reply:
@@ -40,12 +37,9 @@ def witnesses(channel: Channel, request: Request) -> Reply:
     _, known = read_question(channel, source)
     block, _ = read_block(source.text, source.format.value)
     listed = api.witnesses(block, **request.keywords(channel, block, known))
-    files = {"certificate": certificate_text(listed.answer)} if request.certificate else {}
-    verdict = request.verdict(listed.answer)
-    if request.json:
-        cases = [{"guard": str(one.guard), "terms": dict(one.terms)} for one in listed]
-        return _json({"status": "solved", "witnesses": cases}, start, files, verdict)
-    return Reply("\n".join(map(str, listed)) or "none", files=files, verdict=verdict)
+    cases = [{"guard": str(one.guard), "terms": dict(one.terms)} for one in listed]
+    data = {"status": "solved", "witnesses": cases, "seconds": round(time.perf_counter() - start, 6)}
+    return request.reply(listed.answer, "\n".join(map(str, listed)) or "none", data)
 
 
 def equivalent(channel: Channel, request: Request, other: Source) -> Reply:
@@ -58,12 +52,5 @@ def equivalent(channel: Channel, request: Request, other: Source) -> Reply:
     keywords = request.keywords(channel, one, known)
     keywords["assuming"] = [also] if keywords["assuming"] is None else [also, keywords["assuming"]]
     answer = compared(one, two, keywords)
-    files = {"certificate": certificate_text(answer)} if request.certificate else {}
-    if request.json:
-        return _json({"status": "solved", "truth": answer.truth}, start, files, request.verdict(answer))
-    return Reply("true" if answer.truth else "false", files=files, verdict=request.verdict(answer))
-
-
-def _json(data: dict[str, Any], start: float, files: Any = None, verdict: str = "") -> Reply:
-    data["seconds"] = round(time.perf_counter() - start, 6)
-    return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files or {}, verdict=verdict)
+    data = {"status": "solved", "truth": answer.truth, "seconds": round(time.perf_counter() - start, 6)}
+    return request.reply(answer, "true" if answer.truth else "false", data)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import tempfile
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from qe.cli.numbers import shown
-from qe.cli.work import Reply, Request, certificate_text, read_question
+from qe.cli.work import Reply, Request, read_question
 from qe.errors import InputError
 from qe.processes.channel import Channel
 from qe.spelling import quoted
@@ -30,9 +29,7 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
     formula, known = read_question(channel, request.source)
     solution_set = api.region(formula, **request.keywords(channel, formula, known))
     seconds = time.perf_counter() - start
-    files: dict[str, str | bytes] = {}
-    if request.certificate:
-        files["certificate"] = solution_set.proof.to_json()
+    files: dict[str, str | bytes] = {"certificate": solution_set.proof.to_json()} if request.certificate else {}
     if picture is not None:
         files["plot"] = _drawn(solution_set, picture)
     text = solution_set.to_json() if request.json else "\n".join(_in_words(solution_set, seconds))
@@ -46,17 +43,9 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
     start = time.perf_counter()
     formula, known = read_question(channel, request.source, solved=variables or ())
     solutions = api_solve.solve(formula, variables, **request.keywords(channel, formula, known))
-    files = {"certificate": certificate_text(solutions)} if request.certificate else {}
-    if not request.json:
-        return Reply(str(solutions), files=files, verdict=request.verdict(solutions))
-    data = {
-        "status": "solved",
-        "variables": list(solutions.order),
-        "cases": list(solutions.lines),
-        "seconds": round(time.perf_counter() - start, 6),
-    }
-    text = json.dumps(data, indent=2, ensure_ascii=False)
-    return Reply(text, files=files, verdict=request.verdict(solutions))
+    names, seconds = list(solutions.order), round(time.perf_counter() - start, 6)
+    data = {"status": "solved", "variables": names, "cases": list(solutions.lines), "seconds": seconds}
+    return request.reply(solutions, str(solutions), data)
 
 
 def _drawn(drawn: Region, ending: str) -> bytes:

@@ -291,25 +291,21 @@ class Solver(Checks):
     def core(self) -> str:
         """Named assertions that cannot hold together with the others and what was assumed; none can be left out."""
         assumed = [self.script.formula(item, self.script.globals) for item in self.last("unsat").asked]
+        from qe.api.solver import needed
+
         named = [a for a in self.script.assertions if a.name is not None]
         others = [*assumed, *(a.node for a in self.script.assertions if a.name is None)]
-        kept = list(named)
-        for assertion in named:
-            rest = [a for a in kept if a is not assertion]
-            if self.solved([*others, *(a.node for a in rest)]).answer == "unsat":
-                kept = rest
+        kept = needed(named, lambda some: self.solved([*others, *(a.node for a in some)]).answer == "unsat")
         return f"({' '.join(str(a.name) for a in kept)})"
 
     def refuted(self, asked: Sequence[Expression]) -> list[Expression]:
         """Assumptions that cannot hold together with the assertions; none of them can be left out."""
         nodes = [a.node for a in self.script.assertions]
-        kept = list(asked)
-        for item in asked:
-            rest = [other for other in kept if other is not item]
-            assumed = [self.script.formula(other, self.script.globals) for other in rest]
-            if self.solved([*nodes, *assumed]).answer == "unsat":
-                kept = rest
-        return kept
+        from qe.api.solver import needed
+
+        assumed = [(item, self.script.formula(item, self.script.globals)) for item in asked]
+        kept = needed(assumed, lambda some: self.solved([*nodes, *(node for _, node in some)]).answer == "unsat")
+        return [item for item, _ in kept]
 
     # --- models ----------------------------------------------------------------------------------------------
     def evaluation(self) -> Evaluation:

@@ -68,6 +68,20 @@ class Request:
         reason = getattr(answer, "why_unchecked", getattr(answer, "reason", ""))
         return "checked" if answer.guarantee.value == "checked" else f"not checked: {reason}"
 
+    def reply(
+        self, answer: Any, text: str, data: Mapping[str, Any], *, notes: tuple[str, ...] = (), **files: str | bytes
+    ) -> Reply:
+        """An answer as text, or as JSON where that is wanted, with its certificate and what a check has shown."""
+        if self.certificate:
+            files["certificate"] = certificate_text(answer)
+        shown = in_json(data) if self.json else text
+        return Reply(shown, () if self.json else notes, files, verdict=self.verdict(answer))
+
+
+def in_json(data: Mapping[str, Any]) -> str:
+    """Data as commands print it."""
+    return json.dumps(data, indent=2, ensure_ascii=False)
+
 
 def read_formula(channel: Channel, source: Source) -> Formula:
     """The formula of a source, with what it assumes."""
@@ -108,19 +122,13 @@ def eliminate(channel: Channel, request: Request, output: Format, *, shorter: bo
         if answer.partial is None:
             raise Unable(answer.reason or "no answer")
         return _partial_reply(answer, answer.partial, request, output)
-    files = {"certificate": certificate_text(answer)} if request.certificate else {}
-    if request.json:
-        data = {
-            "status": answer.status.name.lower(),
-            "formula": formats.write(answer.formula, output.value),
-            **({} if not answer.assuming.free else {"assuming": formats.write(answer.assuming, output.value)}),
-            **_summary(answer, seconds),
-        }
-        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files, verdict=request.verdict(answer))
-    text = formats.write(answer.formula, output.value).rstrip("\n")
+    written = formats.write(answer.formula, output.value)
+    assumed = {"assuming": formats.write(answer.assuming, output.value)} if answer.assuming.free else {}
+    data = {"status": answer.status.name.lower(), "formula": written, **assumed, **_summary(answer, seconds)}
+    text = written.rstrip("\n")
     if answer.generic:
         text += f"\nassuming {' and '.join(map(str, answer.generic))}"
-    return Reply(text, _story(answer, seconds), files, verdict=request.verdict(answer))
+    return request.reply(answer, text, data, notes=_story(answer, seconds))
 
 
 def _partial_reply(answer: Answer, partial: Partial, request: Request, output: Format) -> Reply:
@@ -132,7 +140,7 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
         guarantee = "checked" if partial.is_checked else "derived"
         known = {"reason": answer.reason, "partial": written, "guarantee": guarantee}
         data = {"status": answer.status.name.lower(), **known}
-        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files, code=3)
+        return Reply(in_json(data), files=files, code=3)
     lines = [f"{name}: {text}" for name, text in written.items()]
     if request.certificate:
         lines.append("certificate: " + ("checked" if partial.is_checked else partial.reason))
@@ -163,11 +171,8 @@ def decide(channel: Channel, request: Request) -> Reply:
     if answer.truth is None:
         raise Unable(answer.reason or "no answer")
     text = ("sat" if answer.truth else "unsat") if script else ("true" if answer.truth else "false")
-    files = {"certificate": certificate_text(answer)} if request.certificate else {}
-    if request.json:
-        data = {"status": answer.status.name.lower(), **_summary(answer, seconds)}
-        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files, verdict=request.verdict(answer))
-    return Reply(text, _story(answer, seconds), files, verdict=request.verdict(answer))
+    data = {"status": answer.status.name.lower(), **_summary(answer, seconds)}
+    return request.reply(answer, text, data, notes=_story(answer, seconds))
 
 
 def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
@@ -226,7 +231,7 @@ def check(
     if as_json:
         claims = list(claim_of(certificate).words)
         data = {"status": "accepted", "claims": claims, "trusts": list(trusts), "seconds": round(took, 6)}
-        return Reply(json.dumps(data, indent=2, ensure_ascii=False))
+        return Reply(in_json(data))
     lines = [f"accepted ({took:.3f} s)", *claim_of(certificate).words, *_rests(trusts)]
     if formula is not None:
         parts = parts_of(certificate, formula)

@@ -7,8 +7,8 @@ Every step stands at the place of the question in ``A implies question`` (``qe.f
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from qe.decomposition.formulas import Undistinguished
 from qe.elimination.cad import short_where
@@ -17,7 +17,6 @@ from qe.engine.redundant import is_cheap_sentence, without_redundant_parts
 from qe.engine.run import answered, outcome_for
 from qe.engine.strategy import allows
 from qe.errors import Unable
-from qe.exact.ring import Poly
 from qe.formula.assumed import claimed, restricted
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.features import is_small, length
@@ -43,18 +42,22 @@ MOST_GENERIC = 12
 
 
 @dataclass(frozen=True, slots=True)
-class Assumed:
-    """``outcome``: the answer where ``known`` holds, FALSE where nothing can; ``generic``: the inequations in it that
-    were not assumed by the caller."""
+class Known:
+    """An outcome, the question that it is for, and where it is right; FALSE where nothing can hold.
 
+    ``generic``: the inequations in ``assuming`` that the caller did not assume; ``plainly``: by the way without any.
+    """
+
+    question: Formula
     outcome: Outcome
-    known: Formula
-    generic: tuple[Formula, ...] = field(default=())
+    assuming: Formula = TRUE
+    generic: tuple[Formula, ...] = ()
+    plainly: bool = False
 
 
 def answered_assuming(
     question: Formula, known: Formula, options: Options, budget: Budget, *, generic: bool = False
-) -> Assumed:
+) -> Known:
     """The answer to a question where ``known``, quantifier-free and over the same ring, holds. With ``generic`` also
     leading coefficients, polynomials in the parameters, are assumed not to be zero.
 
@@ -62,11 +65,11 @@ def answered_assuming(
     """
     nothing = _refuted(known, options, budget)
     if nothing is not None:
-        return Assumed(_whatever(question, known, nothing), known)
+        return Known(question, _whatever(question, known, nothing), known)
     if not question.free:
-        return Assumed(answered(question, options, budget), known)
+        return Known(question, answered(question, options, budget), known)
     if not generic:
-        return Assumed(_shorter(question, known, options, budget), known)
+        return Known(question, _shorter(question, known, options, budget), known)
     supposed = _together((), _leading(question), known, options, budget)
     outcome = _shorter(question, conj((known, *supposed)), options, budget)
     more = _together(supposed, _by_cases(outcome.formula), known, options, budget)
@@ -78,10 +81,10 @@ def answered_assuming(
         again = _shorter(question, conj((known, *needed)), options, budget)
         if length(again.formula) <= length(outcome.formula):
             outcome, supposed = again, needed
-    return Assumed(outcome, conj((known, *supposed)), supposed)
+    return Known(question, outcome, conj((known, *supposed)), supposed)
 
 
-def simplified(question: Formula, known: Formula, options: Options, budget: Budget) -> Assumed:
+def simplified(question: Formula, known: Formula, options: Options, budget: Budget) -> Known:
     """A formula that is not longer, equivalent where ``known`` holds; with the quantifiers of the question."""
     log = RunLog()
     simple = simplify(question, known, watch=budget.check)
@@ -89,7 +92,7 @@ def simplified(question: Formula, known: Formula, options: Options, budget: Budg
         made = answered_assuming(question, known, options, budget)
         if length(made.outcome.formula) <= length(simple):
             return made
-    return Assumed(Outcome(log.step("simplification", question, simple, context=known), log=log), known)
+    return Known(question, Outcome(log.step("simplification", question, simple, context=known), log=log), known)
 
 
 def can_hold(known: Formula, options: Options, budget: Budget) -> bool:
@@ -229,19 +232,11 @@ def _together(
 def _leading(question: Formula) -> tuple[Formula, ...]:
     """That the factors of leading coefficients in a bound variable, polynomials in free ones, are not zero."""
     names, leading = set(question.free), dict[Formula, None]()
-    for a in atoms(question):
-        ring = a.poly.ring
-        for i in a.poly.variables:
-            if ring.names[i] in names:
-                continue
-            lead = a.poly.coefficients(i)[-1]
-            if not lead.is_constant and names.issuperset(ring.names[j] for j in lead.variables):
-                leading |= dict.fromkeys(_nonzero(lead))
+    for poly, i in ((a.poly, i) for a in atoms(question) for i in a.poly.variables):
+        lead = poly.coefficients(i)[-1]
+        if poly.ring.names[i] not in names and names.issuperset(poly.ring.names[j] for j in lead.variables):
+            leading |= {atom(factor, Relation.NE): None for factor, _ in lead.factors()[1]}
     return tuple(leading)
-
-
-def _nonzero(poly: Poly) -> Iterator[Formula]:
-    return (atom(factor, Relation.NE) for factor, _ in poly.factors()[1])
 
 
 def _by_cases(formula: Formula) -> tuple[Formula, ...]:
@@ -267,13 +262,6 @@ def _needed(
     for one in supposed:
         rest = conj((known, *(n for n in kept if n != one)))
         differs = [conj((rest, a, nnf(b, negate=True))) for a, b in ((plain, formula), (formula, plain))]
-        try:
-            if all(_is_false(exists(d.free, d), options, budget) for d in differs):
-                kept.remove(one)
-        except Unable:
-            budget.check("generic")
+        if not any(can_hold(where, options, budget) for where in differs):
+            kept.remove(one)
     return tuple(kept)
-
-
-def _is_false(sentence: Formula, options: Options, budget: Budget) -> bool:
-    return outcome_for(sentence, options, budget.part(SHORT_WORK)).formula == FALSE

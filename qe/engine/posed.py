@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from qe.elimination.protocol import Outcome
 from qe.engine import run
-from qe.engine.assuming import answered_assuming, simplified
+from qe.engine.assuming import Known, answered_assuming, simplified
 from qe.exact.ring import Ring
 from qe.formula.assumed import Aim, Posed, claimed
 from qe.formula.build import convert
@@ -19,21 +18,10 @@ from qe.proof.run_log import RunLog
 from qe.proving.certificates import NOT_WANTED, derived_or_decomposed
 
 
-@dataclass(frozen=True, slots=True)
-class Known:
-    """An outcome, the question that it is for, and what was assumed; ``plainly``: by the way without assumptions."""
-
-    question: Formula
-    outcome: Outcome
-    assuming: Formula = TRUE
-    generic: tuple[Formula, ...] = ()
-    plainly: bool = True
-
-
 def answered(problem: Posed, options: Options, budget: Budget) -> Known:
     """What is found, with no certificate but one that a method made on its way. Raises ``Unable``."""
     if problem.known == TRUE and problem.aim is Aim.EQUIVALENT:
-        return Known(problem.formula, run.answered(problem.formula, options, budget))
+        return Known(problem.formula, run.answered(problem.formula, options, budget), plainly=True)
     clear = without_clashes(problem.formula)
     log = RunLog()
     log.step("renaming", problem.formula, clear)
@@ -45,7 +33,7 @@ def answered(problem: Posed, options: Options, budget: Budget) -> Known:
     made.outcome.log.entries[:0] = log.entries
     formula, ring = made.outcome.formula, Ring.of(problem.formula.free) if problem.formula.free else None
     outcome = made.outcome if ring is None else replace(made.outcome, formula=_moved(formula, ring))
-    return Known(problem.formula, outcome, made.known, made.generic, plainly=False)
+    return replace(made, question=problem.formula, outcome=outcome)
 
 
 def _moved(formula: Formula, ring: Ring) -> Formula:

@@ -7,11 +7,8 @@ agree. Rational numbers are the degree 1 case. The isolating interval and its re
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable, Iterable
 from fractions import Fraction
-from numbers import Real
-from typing import Any
 
 from flint import arb, fmpq, fmpz_poly
 
@@ -22,7 +19,7 @@ from qe.exact.algebraic_text import format_root, in_latex
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
-from qe.exact.python_number import PythonNumber, exact, exact_operand, in_floats
+from qe.exact.python_number import PythonNumber, exact, exact_operand
 
 STALLED_BITS = 8
 """An enclosure that is right to so many bits and gets no better is held up by rounding, not by the polynomial."""
@@ -199,7 +196,7 @@ class RealAlgebraic(PythonNumber):
                 return sign
             bits *= 2
 
-    def _coerce(self, other: object) -> RealAlgebraic | None:
+    def _operand(self, other: object) -> RealAlgebraic | None:
         if isinstance(other, RealAlgebraic):
             return other
         if (value := exact_operand(other)) is not None:
@@ -226,32 +223,18 @@ class RealAlgebraic(PythonNumber):
     def __hash__(self) -> int:
         return hash(self.as_fraction()) if self.is_rational else hash((self.minimal_polynomial, self.index))
 
-    def __float__(self) -> float:
-        return float(self.ball(64).mid())
-
     # --- arithmetic ------------------------------------------------------------------------
     def __neg__(self) -> RealAlgebraic:
         return _image(self, lambda p: p(fmpz_poly([0, -1])), lambda x: -x)
 
-    def __add__(self, other: object) -> Any:
-        value = self._coerce(other)
-        return in_floats(operator.add, self, other) if value is None else _combine(self, value, "+")
+    def _plus(self, other: RealAlgebraic) -> RealAlgebraic:
+        return _combine(self, other, "+")
 
-    __radd__ = __add__
+    def _minus(self, other: RealAlgebraic) -> RealAlgebraic:
+        return _combine(self, other, "-")
 
-    def __sub__(self, other: object) -> Any:
-        value = self._coerce(other)
-        return in_floats(operator.sub, self, other) if value is None else _combine(self, value, "-")
-
-    def __rsub__(self, other: object) -> Any:
-        value = self._coerce(other)
-        return in_floats(operator.sub, other, self) if value is None else value - self
-
-    def __mul__(self, other: object) -> Any:
-        value = self._coerce(other)
-        return in_floats(operator.mul, self, other) if value is None else _combine(self, value, "*")
-
-    __rmul__ = __mul__
+    def _times(self, other: RealAlgebraic) -> RealAlgebraic:
+        return _combine(self, other, "*")
 
     def inverse(self) -> RealAlgebraic:
         """1/self; ``ZeroDivisionError`` for zero."""
@@ -259,21 +242,11 @@ class RealAlgebraic(PythonNumber):
             raise ZeroDivisionError("inverse of zero")
         return _image(self, lambda p: fmpz_poly(p.coeffs()[::-1]), lambda x: 1 / x)
 
-    def __truediv__(self, other: object) -> Any:
-        value = self._coerce(other)
-        return in_floats(operator.truediv, self, other) if value is None else self * value.inverse()
-
-    def __rtruediv__(self, other: object) -> Any:
-        value = self._coerce(other)
-        return in_floats(operator.truediv, other, self) if value is None else value * self.inverse()
-
-    def __pow__(self, exponent: object) -> Any:
-        if not isinstance(exponent, int):
-            return in_floats(operator.pow, self, exponent) if isinstance(exponent, float) else NotImplemented
+    def _power(self, exponent: int) -> RealAlgebraic:
         if abs(exponent) > MAX_EXPONENT:
             raise Unable(f"powers of real algebraic numbers have exponents up to {MAX_EXPONENT} here")
         if exponent < 0:
-            return self.inverse() ** -exponent
+            return self.inverse()._power(-exponent)
         if self.is_rational or exponent < 2:
             return self if exponent == 1 else RealAlgebraic.rational(self.as_fmpq() ** exponent if exponent else 1)
         return _image(self, lambda p: power_polynomial(p, exponent), lambda x: x**exponent)
@@ -289,9 +262,6 @@ class RealAlgebraic(PythonNumber):
 
     def _repr_latex_(self) -> str:
         return f"${in_latex(self)}$"
-
-
-Real.register(RealAlgebraic)
 
 
 def _restore(coefficients: tuple[int, ...], index: int) -> RealAlgebraic:

@@ -8,11 +8,8 @@ The rational numbers are the field of degree 1.
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Iterable
 from fractions import Fraction
-from numbers import Real
-from typing import Any
 
 from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
@@ -20,7 +17,7 @@ from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots, select_root
 from qe.exact.algebraic_text import in_latex
 from qe.exact.balls import FIRST_PRECISION, precision
-from qe.exact.python_number import PythonNumber, exact_operand, in_floats
+from qe.exact.python_number import PythonNumber, exact_operand
 from qe.exact.radicals import format_number
 
 Rational = int | Fraction
@@ -157,42 +154,27 @@ class FieldElement(PythonNumber):
         return 1 if self.ball(4) > 0 else -1
 
     # --- arithmetic ------------------------------------------------------------------------
-    def _operand(self, other: object) -> fmpq_poly | None:
+    def _operand(self, other: object) -> FieldElement | None:
         if isinstance(other, FieldElement):
             if other.field is self.field or other.field == self.field:
-                return other.value
+                return other
             if other.is_rational:
-                return other.value
+                return FieldElement(self.field, other.value)
             raise InputError("arithmetic between elements of different number fields")
-        if isinstance(other, int | Fraction | fmpq):
-            return fmpq_poly([to_fmpq(other)])
-        value = exact_operand(other)
-        return None if value is None else fmpq_poly([to_fmpq(value)])
-
-    def __add__(self, other: object) -> Any:
-        value = self._operand(other)
-        return in_floats(operator.add, self, other) if value is None else FieldElement(self.field, self.value + value)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: object) -> Any:
-        value = self._operand(other)
-        return in_floats(operator.sub, self, other) if value is None else FieldElement(self.field, self.value - value)
-
-    def __rsub__(self, other: object) -> Any:
-        value = self._operand(other)
-        return in_floats(operator.sub, other, self) if value is None else FieldElement(self.field, value - self.value)
+        value = other if isinstance(other, int | Fraction | fmpq) else exact_operand(other)
+        return None if value is None else FieldElement(self.field, fmpq_poly([to_fmpq(value)]))
 
     def __neg__(self) -> FieldElement:
         return FieldElement(self.field, -self.value)
 
-    def __mul__(self, other: object) -> Any:
-        value = self._operand(other)
-        if value is None:
-            return in_floats(operator.mul, self, other)
-        return FieldElement(self.field, self.value * value % self.field.modulus)
+    def _plus(self, other: FieldElement) -> FieldElement:
+        return FieldElement(self.field, self.value + other.value)
 
-    __rmul__ = __mul__
+    def _minus(self, other: FieldElement) -> FieldElement:
+        return FieldElement(self.field, self.value - other.value)
+
+    def _times(self, other: FieldElement) -> FieldElement:
+        return FieldElement(self.field, self.value * other.value % self.field.modulus)
 
     def inverse(self) -> FieldElement:
         """1/self; ``ZeroDivisionError`` for zero."""
@@ -208,25 +190,11 @@ class FieldElement(PythonNumber):
         solution = fmpq_mat(self._products()).transpose().solve(one)
         return FieldElement(self.field, fmpq_poly([solution[i, 0] for i in range(n)]))
 
-    def __truediv__(self, other: object) -> Any:
-        value = self._operand(other)
-        if value is None:
-            return in_floats(operator.truediv, self, other)
-        return self * FieldElement(self.field, value).inverse()
-
-    def __rtruediv__(self, other: object) -> Any:
-        value = self._operand(other)
-        if value is None:
-            return in_floats(operator.truediv, other, self)
-        return FieldElement(self.field, value) * self.inverse()
-
-    def __pow__(self, exponent: object) -> Any:
-        if not isinstance(exponent, int):
-            return in_floats(operator.pow, self, exponent) if isinstance(exponent, float) else NotImplemented
+    def _power(self, exponent: int) -> FieldElement:
         base = self if exponent >= 0 else self.inverse()
         result = self.field.rational(1)
         for _ in range(abs(exponent)):
-            result = result * base
+            result = result._times(base)
         return result
 
     # --- order -----------------------------------------------------------------------------
@@ -245,10 +213,7 @@ class FieldElement(PythonNumber):
         value = self._operand(other) if comparable else None
         if value is None:
             return self.to_algebraic()._order(other)
-        return FieldElement(self.field, self.value - value).sign()
-
-    def __float__(self) -> float:
-        return float(self.ball(64).mid())
+        return self._minus(value).sign()
 
     # --- conversion ------------------------------------------------------------------------
     def to_algebraic(self) -> RealAlgebraic:
@@ -300,9 +265,6 @@ class FieldElement(PythonNumber):
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.field, self.coefficients)
-
-
-Real.register(FieldElement)
 
 
 def _quadratic(p: fmpz_poly, element: FieldElement) -> RealAlgebraic:

@@ -15,11 +15,15 @@ from collections.abc import Callable
 from decimal import ROUND_05UP, Context, Decimal
 from fractions import Fraction
 from numbers import Rational, Real
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from qe.services import SymPyForm
 
+if TYPE_CHECKING:
+    from flint import arb
+
 T = TypeVar("T")
+Operation = Callable[[Any, Any], Any]
 
 _SPECIFICATION = re.compile(r"((?:.?[<>=^])?[-+ ]?0?\d*,?)(\.\d+)?([eEfFgG%])")
 """A format for a number: fill and width, precision, kind."""
@@ -58,6 +62,28 @@ def exact_operand(value: object) -> Fraction | None:
     return result if isinstance(result, Fraction) else None
 
 
+def _comparison(operation: Callable[[float, int], bool]) -> Callable[[Any, object], bool]:
+    def holds(self: PythonNumber, other: object) -> bool:
+        sign = self._order(other)
+        return NotImplemented if sign is None else operation(sign, 0)
+
+    return holds
+
+
+def _arithmetic(operation: Operation, exactly: Operation) -> tuple[Callable[[Any, object], Any], ...]:
+    """An operator and the one that Python calls where the number is on the right; ``exactly``: of two of one kind."""
+
+    def left(self: PythonNumber, other: object) -> Any:
+        value = self._operand(other)
+        return in_floats(operation, self, other) if value is None else exactly(self, value)
+
+    def right(self: PythonNumber, other: object) -> Any:
+        value = self._operand(other)
+        return in_floats(operation, other, self) if value is None else exactly(value, self)
+
+    return left, right
+
+
 class PythonNumber(SymPyForm):
     """What Python asks of a real number, for a class that has ``compare``, ``interval`` and its like.
 
@@ -87,25 +113,44 @@ class PythonNumber(SymPyForm):
     def _order(self, other: object) -> float | None:
         """The sign of ``self - other``; not a number where there is none, None for what is no number at all."""
 
+    @abstractmethod
+    def ball(self, bits: int = FIRST_BITS) -> arb:
+        """A ball around the number with about ``bits`` bits of relative accuracy."""
+
+    @abstractmethod
+    def _operand(self, other: object) -> Self | None:
+        """What arithmetic with it takes, as a number of this kind; None for what it cannot take exactly."""
+
+    @abstractmethod
+    def _plus(self, other: Self) -> Self: ...
+
+    @abstractmethod
+    def _minus(self, other: Self) -> Self: ...
+
+    @abstractmethod
+    def _times(self, other: Self) -> Self: ...
+
+    @abstractmethod
+    def _power(self, exponent: int) -> Self: ...
+
+    @abstractmethod
+    def inverse(self) -> Self:
+        """1/self; ``ZeroDivisionError`` for zero."""
+
+    def __init_subclass__(cls) -> None:
+        Real.register(cls)
+
     # --- order -------------------------------------------------------------------------------------------
-    def __lt__(self, other: object) -> bool:
-        sign = self._order(other)
-        return NotImplemented if sign is None else sign < 0
-
-    def __le__(self, other: object) -> bool:
-        sign = self._order(other)
-        return NotImplemented if sign is None else sign <= 0
-
-    def __gt__(self, other: object) -> bool:
-        sign = self._order(other)
-        return NotImplemented if sign is None else sign > 0
-
-    def __ge__(self, other: object) -> bool:
-        sign = self._order(other)
-        return NotImplemented if sign is None else sign >= 0
+    __lt__ = _comparison(operator.lt)
+    __le__ = _comparison(operator.le)
+    __gt__ = _comparison(operator.gt)
+    __ge__ = _comparison(operator.ge)
 
     def __bool__(self) -> bool:
         return self.sign() != 0
+
+    def __float__(self) -> float:
+        return float(self.ball(64).mid())
 
     # --- rounding ----------------------------------------------------------------------------------------
     def _rounded_by(self, function: Callable[[Fraction], T]) -> T:
@@ -142,11 +187,24 @@ class PythonNumber(SymPyForm):
         return self._rounded_by(lambda value: format(_decimal(value, int(precision[1:])), layout + precision + kind))
 
     # --- arithmetic --------------------------------------------------------------------------------------
-    def __pos__(self) -> Any:
+    __add__, __radd__ = _arithmetic(operator.add, lambda a, b: a._plus(b))
+    __sub__, __rsub__ = _arithmetic(operator.sub, lambda a, b: a._minus(b))
+    __mul__, __rmul__ = _arithmetic(operator.mul, lambda a, b: a._times(b))
+    __truediv__, __rtruediv__ = _arithmetic(operator.truediv, lambda a, b: a._times(b.inverse()))
+
+    def __pow__(self, exponent: object) -> Any:
+        if isinstance(exponent, int):
+            return self._power(exponent)
+        return in_floats(operator.pow, self, exponent) if isinstance(exponent, float) else NotImplemented
+
+    @abstractmethod
+    def __neg__(self) -> Self: ...
+
+    def __pos__(self) -> Self:
         return self
 
-    def __abs__(self) -> Any:
-        return -self if self.sign() < 0 else self  # type: ignore[operator]
+    def __abs__(self) -> Self:
+        return -self if self.sign() < 0 else self
 
     def __floordiv__(self, other: Any) -> Any:
         return _floor(self / other)
@@ -160,34 +218,14 @@ class PythonNumber(SymPyForm):
     def __rmod__(self, other: Any) -> Any:
         return other - (other // self) * self
 
-    def __divmod__(self, other: Any) -> Any:
-        return self // other, self % other
-
-    def __rdivmod__(self, other: Any) -> Any:
-        return other // self, other % self
+    __divmod__, __rdivmod__, __complex__ = Real.__divmod__, Real.__rdivmod__, Real.__complex__
+    real, imag, conjugate = Real.real, Real.imag, Real.conjugate
 
     def __rpow__(self, base: object) -> Any:
         return in_floats(operator.pow, base, self) if isinstance(base, float) else NotImplemented
 
-    def __complex__(self) -> complex:
-        return complex(float(self))  # type: ignore[arg-type]
 
-    @property
-    def real(self) -> Any:
-        """The number itself."""
-        return self
-
-    @property
-    def imag(self) -> int:
-        """0."""
-        return 0
-
-    def conjugate(self) -> Any:
-        """The number itself."""
-        return self
-
-
-def in_floats(operation: Callable[[Any, Any], Any], left: object, right: object) -> Any:
+def in_floats(operation: Operation, left: object, right: object) -> Any:
     """The operation of two numbers, one of which is a float; ``NotImplemented`` for anything else."""
     other = right if isinstance(left, PythonNumber) else left
     if isinstance(other, PythonNumber) or not isinstance(other, Real) or hasattr(other, "free_symbols"):
