@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitnesses
     from qe.regions.region import Region
 
-TEXT_WORK = 10_000
+TEXT_WORK = 20_000
 """Units of work for the proof that a text of solutions says the same as the formula."""
 
 

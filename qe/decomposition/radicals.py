@@ -67,12 +67,12 @@ def quotient_text(front: Poly, inside: Poly | None, bottom: Poly, sign: int) -> 
 
 
 def _term(poly: Poly) -> str:
-    """The text of a polynomial, the first term with a plus in front."""
-    first, *others = re.split(" (?=[+-] )", format_poly(poly))
-    plus = next((k for k, other in enumerate(others) if other[0] == "+"), None)
-    if first[0] != "-" or plus is None:
-        return " ".join((first, *others))
-    return " ".join((others.pop(plus)[2:], f"- {first[1:]}", *others))
+    """The text of a polynomial; one that would begin with a minus has its terms with a plus in front."""
+    text = format_poly(poly)
+    terms = re.split(" (?=[+-] )", f"- {text[1:]}" if text[0] == "-" else f"+ {text}")
+    if text[0] == "-":
+        terms.sort(key=lambda term: term[0] == "-")
+    return " ".join(terms).removeprefix("+ ") if terms[0][0] == "+" else text
 
 
 def _bracketed(text: str, signs: str) -> str:

@@ -207,7 +207,7 @@ def told(*lines: str) -> str:
     (["all x. x > 0"], "false\ncounterexample: x = 0"),
     ([":solve x: a*x = 1"], "a /= 0 and x = 1/a"),
     ([":solve x^2 = 2"], "x = -sqrt(2) or\nx = sqrt(2)"),
-    ([":solve ex y: y^2 = x"], "0 <= x"),
+    ([":solve ex y: y^2 = x"], "x >= 0"),
     ([":instance x^3 = 8"], "x = 2"),
     ([":instance x < x"], "there is none"),
     ([":decide all x. x^2 >= 0"], "true"),

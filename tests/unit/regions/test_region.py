@@ -75,10 +75,10 @@ def test_points_of_a_plane() -> None:
 @each(
     ("x^2 = 2", None, ["x = -sqrt(2)", "x = sqrt(2)"]),
     ("x^2 + y^2 = 1 and x = y", "x y", ["x = -sqrt(2)/2 and y = x", "x = sqrt(2)/2 and y = x"]),
-    ("a*x < b", "x", ["a < 0 and b/a < x", "a = 0 and 0 < b", "0 < a and x < b/a"]),
-    ("x^2 + y^2 <= 1", ("x", "y"), ["-1 <= x <= 1 and -sqrt(-x^2 + 1) <= y <= sqrt(-x^2 + 1)"]),
-    ("y^3 = x", "y", ["y = root(1, y^3 - x, y)"]),
-    ("ex y. x = y^2", None, ["0 <= x"]),
+    ("a*x < b", "x", ["a < 0 and x > b/a", "a = 0 and b > 0", "a > 0 and x < b/a"]),
+    ("x^2 + y^2 <= 1", ("x", "y"), ["-1 <= x <= 1 and -sqrt(1 - x^2) <= y <= sqrt(1 - x^2)"]),
+    ("y^3 = x", "y", ["y = cbrt(x)"]),
+    ("ex y. x = y^2", None, ["x >= 0"]),
     ("x^5 - x = 1", None, ["x = root(1, x^5 - x - 1)"]),
     ("x < x", "x", ["false"]),
     ("ex y. x < y", "x", ["true"]),
@@ -125,7 +125,7 @@ def test_each_case_is_read_back_and_all_together_are_the_formula(formula, at) ->
 @given(formulas(names=("`a b`", "pi", "ex"), max_degree=2))
 def test_odd_names(formula) -> None:
     found = qe.solve(formula)
-    assert read_formula(str(found)).free == found.formula.free
+    assert {*read_formula(str(found)).free} == {*found.formula.free}
 
 
 @each(
