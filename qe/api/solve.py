@@ -7,6 +7,7 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
+import qe.api.eliminate as api
 from qe import arguments
 from qe.api.input import AnyFormula, read_block, together
 from qe.api.limits import limits_of, performed, posed
@@ -79,12 +80,10 @@ def _solutions(
 
 def _compared(text: str, given: Formula, known: Formula, budget: Budget) -> Answer:
     """The answer to the question whether a text says the same as a formula."""
-    from qe.api.eliminate import settled
-
     written, question, assumed = together(read(text), given, known)
     claim = implies(assumed, iff(written, question))
     try:
-        answer = settled(forall(claim.free, claim), Options(certify=True), budget.part(TEXT_WORK))
+        answer = api.settled(forall(claim.free, claim), Options(certify=True), budget.part(TEXT_WORK))
     except Unable as error:
         budget.check("compare the text")
         return Answer(Status.UNABLE, None, question=claim, reason=str(error))
@@ -143,9 +142,7 @@ def _found(given: Formula, count: int, seed: int, check: bool, inner: Limits, bu
         if check and region.guarantee is not Guarantee.CHECKED:
             raise Unable(f"the points are not proved: {region.reason}")
         return different_points(region, count, seed, budget)
-    from qe.api.eliminate import settled
-
-    answer = settled(exists(given.free, given), Options(certify=check), budget)
+    answer = api.settled(exists(given.free, given), Options(certify=check), budget)
     if answer.truth is False:
         return []
     if answer.witness is None and given.free:
