@@ -87,6 +87,15 @@ def faults_are_heard(request: pytest.FixtureRequest) -> Iterator[None]:
         yield
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Files go to workers as they are collected: small ones, those of ``tests/unit``, are the last.
+
+    pytest-xdist would begin with those of most tests; then one long file of few tests may be all that is left.
+    """
+    if hasattr(config.option, "loadscopereorder"):  # where pytest-xdist is installed
+        config.option.loadscopereorder = False
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Every property test is a deep test, too, of other examples, and of more where it names no number."""
