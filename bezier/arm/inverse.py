@@ -1,8 +1,7 @@
 """Inverse kinematics at a point: all real joint positions that put the end effector there, with a proved count.
 
-The equation of ``bezier.arm.elimination``, confirmed once per arm by substituting the angles into its forward
-kinematics, is solved at the point by exact real root isolation over the field of its coefficients; every real root is
-one solution.
+The equation of ``bezier.arm.elimination`` is solved at the point by exact real root isolation over the field of its
+coefficients; every real root is one solution, whose forward kinematics are compared with the point in floating point.
 """
 
 from __future__ import annotations
@@ -16,14 +15,12 @@ from numbers import Integral
 from typing import Any
 
 from bezier.arm.choices import BITS, AtPlace, Choice, Exact, Value, allowed, not_negative, spans
-from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Quotient, Reduction, T
-from bezier.arm.kinematics import position
-from bezier.arm.model import Arm, JointKind
-from bezier.arm.ratio import Ratio, reduced, variable
+from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Reduction, T
+from bezier.arm.model import Arm, Matrix, motion, product
+from bezier.arm.ratio import variable
 from bezier.curves.scalar import rational
 from qe.errors import InputError, InternalError
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.field import NumberField
 from qe.exact.point_values import Evaluation, multiple_roots, roots_above
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import FibreRoot, Point
@@ -32,6 +29,9 @@ Reductions = Callable[[int], Reduction]
 
 LARGEST = 10**100
 """Coordinates in mm: larger ones have no decimal that a float holds."""
+
+CLOSE = 1e-6
+"""How far, relative to the size of an arm, floating point may be off."""
 
 MOST_BITS = 4096
 """Balls are made no narrower than 2^-4096 to tell solutions from each other."""
@@ -166,10 +166,39 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
 
 
 def _listed(arm: Arm, numbers: tuple[Any, ...], solutions: list[Solution], cases: tuple[str, ...]) -> Inverse:
+    for solution in solutions if numbers else ():
+        check_kinematics(arm, solution, [(number,) for number in numbers])
     solutions.sort(key=lambda s: [v for v in s.angles if v is not None])
     names = tuple(joint.name for joint in arm.joints)
     open_ones = {name for s in solutions for name, v in zip(names, s.values, strict=True) if v is None}
     return Inverse(arm, numbers, tuple(solutions), tuple(n for n in names if n in open_ones), cases)
+
+
+def check_kinematics(arm: Arm, solution: Solution, wanted: Sequence[Sequence[Any]]) -> None:
+    """Forward kinematics in floating point: a slip of the derivation would show. Raises ``InternalError``.
+
+    ``wanted``: the rows of the pose, or what they end with. A family is left aside.
+    """
+    whole, *constants = _constants(arm)
+    size = 1 + sum(abs(row[3]) for m in _constants(arm) for row in m)
+    for joint, value, constant in zip(arm.joints, solution.values, constants, strict=True):
+        if value is None:
+            return
+        size += abs(float(value))
+        here = motion(joint, float(value) if value.pair is None else _floats(value.pair))
+        whole = product(product(whole, here), constant)
+    for row, ends in zip(whole, wanted, strict=True):
+        if any(abs(a - float(b)) > CLOSE * size for a, b in zip(row[-len(ends) :], ends, strict=True)):
+            raise InternalError("the solutions of an arm contradict its forward kinematics")
+
+
+def _floats(values: Iterable[Any]) -> tuple[float, ...]:
+    return tuple(map(float, values))
+
+
+@lru_cache(maxsize=64)
+def _constants(arm: Arm) -> tuple[Matrix, ...]:
+    return tuple(tuple(map(_floats, m)) for m in arm.chain.constants)
 
 
 def _misses(here: Point, p: Poly | None, degree: int | None, t: int) -> bool:
@@ -184,12 +213,9 @@ def _misses(here: Point, p: Poly | None, degree: int | None, t: int) -> bool:
 
 @lru_cache(maxsize=256)
 def general(arm: Arm, turn: int) -> Reduction:
-    """The reduction for all points, with angles counted from ``TURNS[turn]``, confirmed."""
+    """The reduction for all points, with angles counted from ``TURNS[turn]``."""
     ring = Ring.of(NAMES)
-    point = [variable(ring, name, arm.field) for name in "xyz"]
-    reduction = geometry_of(arm).reduce(ring, point, TURNS[turn])
-    confirm(arm, reduction, point)
-    return reduction
+    return geometry_of(arm).reduce(ring, [variable(ring, name, arm.field) for name in "xyz"], TURNS[turn])
 
 
 @lru_cache(maxsize=64)
@@ -283,86 +309,3 @@ def _family(arm: Arm, values: Evaluation, reduction: Reduction, on_axis: bool) -
     arcs = None if square is None else not_negative(values, square, t, known, last.motion)
     choices = [Choice(k) for k, free in enumerate((on_axis, turns)) if free]
     return solution_of(arm, (None, None, None), False, [*choices, Choice(2, arcs)])
-
-
-def confirm(arm: Arm, reduction: Reduction, point: Sequence[Ratio]) -> None:
-    """Put cosines and sines back into the forward kinematics, for all points at once.
-
-    Multiplied by their denominators, c² + s² - 1 of every joint and position minus point have to leave no remainder on
-    division by m² - square and then by the equation in t (pseudo-division: so they vanish at every root where the
-    leading coefficient does not). Raises ``InternalError`` otherwise.
-    """
-    field, ring = arm.field, reduction.ring
-    tops = [tuple(_top(q, field) for q in quotients) for quotients in reduction.values]
-    bottoms = [Ratio(quotients[0].bottom, 1, field) for quotients in reduction.values]
-    zeros = [c * c + s * s - d * d for (c, *rest), d in zip(tops, bottoms, strict=True) for s in rest]
-    whole = Ratio(ring.constant(1), 1, field)
-    for d in bottoms:
-        whole = whole * d
-    for coordinate, p in zip(_general_position(arm), point, strict=True):
-        total = -(whole * p)
-        for exponents, c in coordinate:
-            term = Ratio(c.convert(ring), 1, field) * Fraction(1, coordinate.bottom)
-            for k, (known, d) in enumerate(zip(tops, bottoms, strict=True)):
-                used = [top for top, e in zip(known, exponents[2 * k : 2 * k + 2], strict=False) if e]
-                term = term * (used[0] if used else d)
-            total = total + term
-        zeros.append(total)
-    for value in zeros:
-        if any(
-            leaves_remainder(part, reduction.coefficients, field) for part in _without_m(value.top, reduction, field)
-        ):
-            raise InternalError("the reduction of an arm contradicts its forward kinematics")
-
-
-def _top(q: Quotient, field: NumberField) -> Ratio:
-    return Ratio(q.top * q.scale.numerator, q.scale.denominator, field)
-
-
-class _Coordinate(list[tuple[tuple[int, ...], Poly]]):
-    """Terms in cosines and sines (exponents of c1, s1, c2, s2, ...; a length stands for a cosine), over ``bottom``."""
-
-    bottom: int = 1
-
-
-def _general_position(arm: Arm) -> list[_Coordinate]:
-    """The forward kinematics as polynomials in cosines and sines, or lengths, of the joints: of degree 1 in each."""
-    names = [f"{letter}{k}" for k in range(len(arm.joints)) for letter in "cs"]
-    ring = Ring.of(("w", *names))
-    variables = [Ratio(ring.var(name), 1, arm.field) for name in names]
-    values: dict[str, Any] = {
-        j.name: (variables[2 * k], variables[2 * k + 1]) if j.motion is JointKind.REVOLUTE else variables[2 * k]
-        for k, j in enumerate(arm.joints)
-    }
-    result = []
-    for value in position(arm, values):
-        ratio = value if isinstance(value, Ratio) else variables[0] * 0 + value
-        terms = _Coordinate(ratio.top.collected(range(1, ring.size)).items())
-        terms.bottom = ratio.bottom
-        result.append(terms)
-    return result
-
-
-def _without_m(p: Poly, reduction: Reduction, field: NumberField) -> tuple[Poly, ...]:
-    """The coefficients of 1 and m after m² was replaced."""
-    if reduction.square is None:
-        return (p,)
-    result = list(p.coefficients(p.ring.index[M]))
-    while len(result) > 2:
-        lead = result.pop()
-        result[-2] = reduced(result[-2] + lead * reduction.square, field)
-    return tuple(result)
-
-
-def leaves_remainder(p: Poly, divisor: Sequence[Poly], field: NumberField) -> bool:
-    """Whether pseudo-division by a polynomial in t (coefficients from degree 0 up) leaves a remainder."""
-    t = p.ring.index[T]
-    rest = list(p.coefficients(t))
-    lead = divisor[-1]
-    while len(rest) >= len(divisor):
-        first = rest.pop()
-        rest = [reduced(c * lead, field) for c in rest]
-        offset = len(rest) - len(divisor) + 1
-        for k, c in enumerate(divisor[:-1]):
-            rest[offset + k] = reduced(rest[offset + k] - first * c, field)
-    return any(bool(c) for c in rest)

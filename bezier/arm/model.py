@@ -134,12 +134,6 @@ def _cosine(twelfths: int, field: NumberField) -> Any:
     return Fraction(0)
 
 
-def root_in(field: NumberField, square: int) -> Any:
-    """sqrt 2, sqrt 3 or sqrt 6 in a field that ``field_of`` found, None where it is not there."""
-    result = _root(2, field) * _root(3, field) if square == 6 else _root(square, field)
-    return None if result == 0 else result
-
-
 def _root(square: int, field: NumberField) -> Any:
     """sqrt 2 or sqrt 3 in the field; zero (then unused) where the field has none."""
     theta = field.generator()

@@ -23,8 +23,8 @@ from typing import Any
 
 from bezier.arm.choices import BITS, MOST_BITS, Choice, Exact, Value
 from bezier.arm.elimination import TURNS
-from bezier.arm.inverse import Inverse, Solution, exact_number, listed, solution_of
-from bezier.arm.model import Arm, Matrix, motion, product
+from bezier.arm.inverse import Inverse, Solution, check_kinematics, exact_number, listed, solution_of
+from bezier.arm.model import Arm
 from bezier.arm.roots_of_squares import chain_of, roots_of, surds, zeros_among
 from bezier.curves.scalar import rational
 from bezier.proofs.arm_rows import ArmChain
@@ -54,7 +54,7 @@ from bezier.proofs.square_roots import (
     is_motion,
 )
 from bezier.proofs.three_joints import Positions
-from qe.errors import CertificateRejected, InputError, InternalError, Unable
+from qe.errors import CertificateRejected, InputError, Unable
 from qe.exact.nearby import rational_between
 from qe.exact.point_values import Ball, angle
 from qe.options import Budget
@@ -65,8 +65,6 @@ NEEDED = (
     "a spherical wrist, or three parallel axes, alone, with a joint that slides along them, or with two neighbouring"
     " axes that meet after one before"
 )
-CLOSE = 1e-6
-"""How far, relative to its size, floating point may be off."""
 APPARENT = 400
 """So many binary places show of most numbers that they are not 0."""
 
@@ -113,7 +111,7 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
     except OtherShape:
         raise Unable(f"inverse kinematics at a pose needs {NEEDED}; {arm.name} is none") from None
     for solution in solutions:
-        _confirm(arm, solution, tuple((*row, c) for row, c in zip(rows, numbers, strict=True)))
+        check_kinematics(arm, solution, [(*row, c) for row, c in zip(rows, numbers, strict=True)])
     result = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]
     free = {name for s in result for name, v in zip(names, s.values, strict=True) if v is None}
@@ -272,21 +270,3 @@ def _solution(arm: Arm, position: Position, multiple: bool) -> Solution:
         ends = {end: OverRoots(end) for arc in arcs or () for end in arc}
         choices.append(Choice(k, None if arcs is None else tuple((ends[low], ends[high]) for low, high in arcs)))
     return solution_of(arm, exact, multiple, choices)
-
-
-def _confirm(arm: Arm, solution: Solution, wanted: Matrix) -> None:
-    """Forward kinematics in floating point: a slip of the derivation would show."""
-    constants = [_floats(m) for m in arm.chain.constants]
-    whole = constants[0]
-    for joint, value, constant in zip(arm.joints, solution.values, constants[1:], strict=True):
-        if value is None:
-            return
-        moved = motion(joint, float(value) if value.pair is None else tuple(map(float, value.pair)))
-        whole = product(product(whole, moved), constant)
-    pairs = [pair for rows in zip(whole, wanted, strict=True) for pair in zip(*rows, strict=True)]
-    if any(abs(float(result) - float(goal)) > CLOSE * (1 + abs(float(goal))) for result, goal in pairs):
-        raise InternalError("the solutions at a pose contradict the forward kinematics")
-
-
-def _floats(m: Matrix) -> Matrix:
-    return tuple(tuple(map(float, row)) for row in m)

@@ -15,13 +15,10 @@ from hypothesis import strategies as st
 
 from bezier.arm import inverse
 from bezier.arm.command import in_words, to_json
-from bezier.arm.elimination import TURNS, Geometry
-from bezier.arm.inverse import confirm, solve
+from bezier.arm.inverse import solve
 from bezier.arm.kinematics import positions
-from bezier.arm.ratio import variable
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from qe.errors import InputError, InternalError, Unable
-from qe.exact.ring import Ring
 from tests.bezier.made import arm_text
 from tests.tables import each
 
@@ -158,17 +155,15 @@ def test_points_are_exact(point: tuple[object, ...]) -> None:
         solve(load_arm("ev3-120"), point)
 
 
-def test_a_wrong_reduction_does_not_pass() -> None:
+def test_a_wrong_reduction_does_not_pass(monkeypatch: pytest.MonkeyPatch) -> None:
     arm = load_arm("ev3-120")
-    ring = Ring.of(inverse.NAMES)
-    point = [variable(ring, name, arm.field) for name in "xyz"]
-    right = Geometry.of(arm).reduce(ring, point, TURNS[0])
-    confirm(arm, right, point)
+    right = inverse.general(arm, 0)
     swapped = replace(right, values=(right.values[1], right.values[0], right.values[2]))
-    other = Geometry.of(load_arm("ev3-112")).reduce(ring, point, TURNS[0])
-    for wrong in (swapped, other, replace(right, equation=right.equation + 1)):
+    other = inverse.general(load_arm("ev3-112"), 0)
+    for wrong in (swapped, other, replace(right, equation=right.equation.derivative(right.ring.index["t"]))):
+        monkeypatch.setattr(inverse, "general", lambda arm, turn, wrong=wrong: wrong)
         with pytest.raises(InternalError):
-            confirm(arm, wrong, point)
+            solve(arm, POINT)
 
 
 @each(112, 120)

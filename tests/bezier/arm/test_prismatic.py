@@ -12,22 +12,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bezier.arm.command import in_words, to_json
-from bezier.arm.elimination import TURNS, Geometry
 from bezier.arm.evidence import certificates
-from bezier.arm.inverse import NAMES, confirm, solve
+from bezier.arm.inverse import solve
 from bezier.arm.joint_path import joint_path
 from bezier.arm.joint_plan import in_words as plan_in_words
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.kinematics import jacobians, position, positions
 from bezier.arm.model import Arm, JointKind
-from bezier.arm.ratio import variable
 from bezier.arm.reader import read_arm
 from bezier.arm.study import study
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.certify.verify import verify
 from qe.errors import Unable
-from qe.exact.ring import Ring
 from tests.bezier.arm.test_inverse import ARMS as ARMS_THAT_TURN
 from tests.bezier.arm.test_pose import pairs_of
 from tests.tables import each
@@ -53,14 +50,6 @@ def arm_of(kinds: str, constants: tuple[str, ...] = CONSTANTS, last: str = "a = 
 
 ARMS = [arm_of(kinds, constants) for kinds in KINDS for constants in (CONSTANTS, SQUARE)]
 IDS = [f"{kinds}-{word}" for kinds in KINDS for word in ("skew", "square")]
-
-
-@pytest.mark.parametrize("arm", ARMS, ids=IDS)
-def test_the_reduction_holds_for_all_points(arm: Arm) -> None:
-    ring = Ring.of(NAMES)
-    point = [variable(ring, name, arm.field) for name in "xyz"]
-    for turn in TURNS[:2]:
-        confirm(arm, Geometry.of(arm).reduce(ring, point, turn), point)
 
 
 @pytest.mark.parametrize("arm", [*ARMS_THAT_TURN[1:], *ARMS], ids=["shoulder", "scara", "skew", *IDS])
