@@ -22,10 +22,10 @@ import numpy as np
 
 import bezier
 import qe
+from bezier.pictures.route import drawing
 from bezier.report import html
 from bezier.report.chain import pictures
 from bezier.report.html import Card, Page, Section, document
-from bezier.scenes.scene import SolidBall
 from bezier.trajectories.piecewise import Trajectory
 from qe.errors import Unable
 
@@ -234,17 +234,14 @@ def flooded(scene: Any, count: int = 200) -> bool:
     """Whether free points of a grid lead from start to goal, in floats."""
     from scipy.ndimage import label
 
-    low, high = (np.array(c, dtype=float) for c in (scene.domain.low, scene.domain.high))
+    low, high = (np.array(c, dtype=float) for c in (scene.low, scene.high))
     ticks = [np.linspace(a, b, count) for a, b in zip(low, high, strict=True)]
     grid = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1)
     free = np.ones(grid.shape[:-1], dtype=bool)
-    for body in scene.obstacles:
-        if isinstance(body, SolidBall):
-            away = np.sum((grid - np.array(body.centre, dtype=float)) ** 2, axis=-1) > float(body.radius) ** 2
-        else:
-            below, above = (np.array(c, dtype=float) for c in (body.low, body.high))
-            away = np.any((grid < below) | (grid > above), axis=-1)
-        free &= away
+    coordinates = [*np.moveaxis(grid, -1, 0), 0.0]
+    for body in scene.solids:
+        for piece in body.pieces:
+            free &= np.any([_value(c, coordinates) < 0 for c in piece], axis=0)
     parts, _ = label(free)
     at = [
         tuple(np.round((np.array(p, dtype=float) - low) / (high - low) * (count - 1)).astype(int))
@@ -253,39 +250,8 @@ def flooded(scene: Any, count: int = 200) -> bool:
     return bool(parts[at[0]] and parts[at[0]] == parts[at[1]])
 
 
-def drawing(answer: Any) -> str:
-    """Obstacles of a plane scene, and the path through them or the side of the start."""
-    scene = answer.scene
-    (x, y), (right, top) = ([float(c) for c in corner] for corner in (scene.domain.low, scene.domain.high))
-    unit = 300 / (right - x)
-
-    def at(p: Any) -> str:
-        return f"{(float(p[0]) - x) * unit:.2f},{(top - float(p[1])) * unit:.2f}"
-
-    def rectangle(a: Any, b: Any, look: str) -> str:
-        left, upper = max(float(a[0]), x), min(float(b[1]), top)
-        wide, tall = min(float(b[0]), right) - left, upper - max(float(a[1]), y)
-        place = f'x="{(left - x) * unit:.2f}" y="{(top - upper) * unit:.2f}"'
-        return f'<rect {place} width="{wide * unit:.2f}" height="{tall * unit:.2f}" {look}/>'
-
-    look = 'fill="#98a2b3"'
-    parts = [rectangle(a, b, 'fill="#fda29b" opacity="0.4"') for a, b in (answer.start_side if answer.blocked else ())]
-    for body in scene.obstacles:
-        if isinstance(body, SolidBall):
-            cx, cy = at(body.centre).split(",")
-            parts.append(f'<circle cx="{cx}" cy="{cy}" r="{float(body.radius) * unit:.2f}" {look}/>')
-        else:
-            parts.append(rectangle(body.low, body.high, look))
-    if not answer.blocked:
-        way = " ".join(map(at, answer.points))
-        parts.append(f'<polyline points="{way}" fill="none" stroke="#175cd3" stroke-width="2"/>')
-    for point, colour in ((scene.start, "#067647"), (scene.goal, "#b42318")):
-        cx, cy = at(point).split(",")
-        parts.append(f'<circle cx="{cx}" cy="{cy}" r="4" fill="{colour}"/>')
-    height = (top - y) * unit
-    frame = f'<rect width="300" height="{height:.0f}" fill="none" stroke="#667085"/>'
-    view = f'xmlns="http://www.w3.org/2000/svg" viewBox="-2 -2 304 {height + 4:.0f}" width="304"'
-    return f'<svg {view} role="img">{"".join(parts)}{frame}</svg>'
+def _value(condition: Any, at: Sequence[Any]) -> Any:
+    return sum(float(c) * at[0] ** i * at[1] ** j * at[2] ** k for (i, j, k), c in condition.terms)
 
 
 # --- the page -------------------------------------------------------------------------------------------------
@@ -311,8 +277,7 @@ def run(out: Path, count: int, note: Callable[[str], object]) -> list[Path]:
         scene, answer = scene_row(name, given)
         scenes.append(scene)
         note(f"scene {name}: {scene.ours} ({scene.seconds:.2f} s)")
-        if answer.scene.dimension == 2:
-            drawn.append((drawing(answer), f"{name}: {scene.ours}"))
+        drawn.append((drawing(answer), f"{name}: {scene.ours}"))
     out.mkdir(parents=True, exist_ok=True)
     data = {
         "chains": [asdict(row) for row in chains],

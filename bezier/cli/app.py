@@ -289,9 +289,10 @@ def chain(
 
 
 def route(
-    file: Annotated[Path, typer.Argument(metavar="SCENE.json", help="Domain and obstacles.", show_default=False)],
+    file: Annotated[Path, typer.Argument(metavar="SCENE", help="JSON or TOML.", show_default=False)],
     certificate: Evidence = None,
     check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the scene.")] = None,
+    picture: Annotated[Path | None, typer.Option("--picture", help="Write an SVG picture here.")] = None,
     json: Json = False,
     timeout: Timeout = None,
     memory: Memory = None,
@@ -303,7 +304,7 @@ def route(
     check_writable(certificate)
     if check is not None and certificate is not None:
         raise InputError("--check: expected no --certificate with it, found one")
-    work = partial(command.run, file=file, against=check, as_json=json)
+    work = partial(command.run, file=file, against=check, picture=picture, as_json=json)
     text, evidence, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
     if certificate is not None and evidence:  # none where the start or the goal itself is in an obstacle
         write_file(certificate, evidence)

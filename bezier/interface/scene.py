@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from functools import partial
 
+from bezier.interface.function import table_value
 from bezier.scenes.route import Blocked, Route, decided
-from bezier.scenes.scene import Scene, read_scene
+from bezier.scenes.scene import Scene, given_scene
 from qe import arguments
 from qe.options import Budget
 from qe.processes.execution import perform
@@ -18,10 +19,11 @@ def route(
 ) -> Route | Blocked:
     """A path from start to goal that is clear of all obstacles, or the proof that there is none.
 
-    ``scene``: a mapping or the path of a JSON file with ``domain`` (a box with ``low`` and ``high``), ``start``,
-    ``goal`` and ``obstacle``, a list of boxes and balls, in the plane or in space; lengths in one unit, numbers exact.
-    Obstacles are closed: where they touch there is no passage. Boxes are decided completely; between balls passages are
-    looked for up to a 64th (in space a sixth) of the diameter.
+    ``scene``: a mapping or the path of a JSON or TOML file with ``domain``, ``start``, ``goal``, ``obstacle`` (a list)
+    and ``margin``, the distance that is kept from obstacles, in the plane or in space; lengths in one unit, numbers
+    exact. docs/scenes.md lists the kinds. Obstacles are closed: where they touch there is no passage. The plane is
+    decided completely, and polytopes in space; between round bodies in space passages are looked for as far as
+    polytopes with 98 sides around them show them.
 
     The result is a ``Route`` with its corners ``points``, or ``Blocked`` with the open sets that separate start and
     goal; ``blocked`` says which, ``certificate`` proves it and ``check()`` verifies it again.
@@ -33,12 +35,12 @@ def route(
     >>> scene = {"domain": {"low": [0, 0], "high": [10, 10]}, "start": [1, 5], "goal": [9, 5], "obstacle": [wall]}
     >>> print(bezier.route(scene))
     free: a path of 2 segments, clear of all obstacles
-    (1, 5) (4, 15/2) (9, 5)
+    (1, 5) (7, 15/2) (9, 5)
     >>> upper = {"kind": "box", "low": [4, 5], "high": [6, 10]}
     >>> print(bezier.route({**scene, "obstacle": [wall, upper]}))
     blocked: the obstacles and the domain separate start and goal
     """
-    given = read_scene(scene, "bezier.route")
+    given = given_scene(scene, "bezier.route", table_value)
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
     return perform(partial(_decided, given), bounds)
 

@@ -1,8 +1,9 @@
-"""The cells into which the coordinates of all corners divide a domain: which are free, and which hang together.
+"""Convex cells with rational corners in the plane or in space: cut, found between obstacles, and followed.
 
-On an axis with the coordinates c_0 < ... < c_m place 2*i is the number c_i, place 2*i + 1 the open interval above it.
-Obstacles are closed, so a free cell has only free cells around it within the domain: two free cells, one of which is in
-the closure of the other, are joined by free cells that differ in one place by one.
+A decomposition cuts the domain by the sides of the obstacles, each cell only by those that go through it, until every
+cell is within an obstacle or has none inside. Obstacles are closed. Two free cells hang together where a part of a
+side, of full dimension in it, belongs to both and no flat obstacle covers it: what meets in less is no passage that is
+needed, since an open connected set stays connected without a set of codimension two.
 """
 
 from __future__ import annotations
@@ -11,131 +12,260 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
+from math import gcd, lcm
 
-import numpy as np
-from numpy.typing import NDArray
-
-from bezier.scenes.scene import Point, Scene, Solid, SolidBox
 from qe.errors import Unable
 from qe.options import Budget
 
-Place = tuple[int, ...]
-Open = tuple[Point, Point]
-"""The open box between two corners."""
+Point = tuple[Fraction, ...]
+Side = tuple[Point, Fraction]
+"""(n, c): the points p with n . p <= c."""
 
-MOST_CELLS = 20_000_000
+MOST_CELLS = 20_000
+_SURE = 1e-11
+"""A sign of a float is believed where it exceeds this share of the terms it is made of."""
+
+
+def opposite(side: Side) -> Side:
+    """The other side of the same plane."""
+    return tuple(-x for x in side[0]), -side[1]
+
+
+def primitive(side: Side) -> Side:
+    """The same with coprime whole numbers for the normal."""
+    scale = Fraction(lcm(*(x.denominator for x in side[0])), gcd(*(x.numerator for x in side[0])))
+    return tuple(x * scale for x in side[0]), side[1] * scale
 
 
 @dataclass(frozen=True, slots=True)
-class CellGrid:
-    """``free``: for each place of each axis whether the cell is outside all obstacles."""
+class Cell:
+    """A bounded convex polytope. ``through[i]``: the sides through corner i, as bits. It may be flat (a face of
+    another, a point, a segment in the plane): then two of its sides are opposite."""
 
-    axes: tuple[tuple[Fraction, ...], ...]
-    free: NDArray[np.bool_]
+    sides: tuple[Side, ...]
+    corners: tuple[Point, ...]
+    through: tuple[int, ...]
+    floats: tuple[tuple[float, ...], ...]
+    is_flat: bool = False
 
     @staticmethod
-    def of(scene: Scene, boxes: Sequence[SolidBox]) -> CellGrid:
-        """The cells of a scene with these boxes for its obstacles, start and goal among the corners. Raises ``Unable``
-        where there are too many."""
-        axes = []
-        for k, (low, high) in enumerate(zip(scene.domain.low, scene.domain.high, strict=True)):
-            corners = {c[k] for box in boxes for c in (box.low, box.high)} | {scene.start[k], scene.goal[k]}
-            axes.append(tuple(sorted({low, high} | {c for c in corners if low < c < high})))
-        shape = [2 * len(axis) - 1 for axis in axes]
-        if int(np.prod(shape, dtype=object)) > MOST_CELLS:
-            raise Unable(f"more than {MOST_CELLS} cells")
-        free = np.ones(shape, dtype=bool)
-        cells = CellGrid(tuple(axes), free)
-        for box in boxes:
-            free[tuple(cells._range(k, box) for k in range(len(axes)))] = False
-        return cells
+    def of(sides: Sequence[Side], corners: Sequence[Point], *, is_flat: bool = False) -> Cell:
+        """The hull of corners, which are all of those of the intersection of the sides."""
+        through = [sum(1 << k for k, side in enumerate(sides) if _excess(side, p) == 0) for p in corners]
+        return Cell(tuple(sides), tuple(corners), tuple(through), _rounded(corners), is_flat)
 
-    def _range(self, k: int, box: SolidBox) -> slice:
-        """The places of an axis that lie in a box."""
-        axis = self.axes[k]
-        inside = [2 * i for i, c in enumerate(axis) if box.low[k] <= c <= box.high[k]]
-        if inside:
-            return slice(inside[0], inside[-1] + 1)
-        return slice(0, 0)
+    @staticmethod
+    def box(low: Point, high: Point) -> Cell:
+        """Between two corners, which may be flat."""
+        size = len(low)
+        axes = [tuple(Fraction(i == k) for i in range(size)) for k in range(size)]
+        sides = [side for n, a, b in zip(axes, low, high, strict=True) for side in ((n, b), opposite((n, a)))]
+        corners = list(dict.fromkeys(product(*zip(low, high, strict=True))))
+        return Cell.of(sides, corners, is_flat=any(a == b for a, b in zip(low, high, strict=True)))
 
-    def place(self, point: Point) -> Place:
-        """The cell of a point that is a corner on every axis."""
-        return tuple(2 * axis.index(c) for axis, c in zip(self.axes, point, strict=True))
+    @staticmethod
+    def within(low: Point, high: Point, sides: Sequence[Side]) -> Cell | None:
+        """The part of a box on these sides; None where it has no interior."""
+        cell: Cell | None = Cell.box(low, high)
+        for side in sides:
+            cell = cell and cell.cut(side)[0]
+        return cell
 
-    def sample(self, place: Place) -> Point:
-        """A point of a cell: the number, or the middle of the interval."""
-        return tuple(
-            axis[p // 2] if p % 2 == 0 else (axis[p // 2] + axis[p // 2 + 1]) / 2
-            for axis, p in zip(self.axes, place, strict=True)
-        )
+    @property
+    def centre(self) -> Point:
+        """The mean of the corners, rounded where a shorter number is inside, too."""
+        exact = tuple(sum(c) / len(self.corners) for c in zip(*self.corners, strict=True))
+        for most in () if self.is_flat else (16, 1024, 2**20):
+            near = tuple(c.limit_denominator(most) for c in exact)
+            if all(_excess(side, near) < 0 for side in self.sides):
+                return near
+        return exact
 
-    def reached(self, start: Place, budget: Budget) -> tuple[NDArray[np.bool_], dict[Place, Place]]:
-        """The free cells that hang together with one of them, and for each the one before it on a shortest way."""
-        seen, before = np.zeros_like(self.free), dict[Place, Place]()
-        seen[start], waiting = True, deque([start])
+    def contains(self, point: Sequence[Fraction]) -> bool:
+        """Whether a point is in it, the boundary included."""
+        return all(_excess(side, point) <= 0 for side in self.sides)
+
+    def signs(self, side: Side) -> list[int]:
+        """Of n . p - c at every corner."""
+        n, c = side
+        rough, level = tuple(map(float, n)), float(c)
+        found = []
+        for point, p in zip(self.floats, self.corners, strict=True):
+            terms = [a * b for a, b in zip(rough, point, strict=True)]
+            value = sum(terms) - level
+            if abs(value) <= _SURE * (sum(map(abs, terms)) + abs(level)) or value != value:
+                exact = _excess(side, p)
+                found.append((exact > 0) - (exact < 0))
+            else:
+                found.append(1 if value > 0 else -1)
+        return found
+
+    def cut(self, side: Side, signs: Sequence[int] = ()) -> tuple[Cell | None, Cell | None]:
+        """Its parts on the side and on the other one; None for a part that is in the plane only."""
+        signs = signs or self.signs(side)
+        if 1 not in signs:
+            return self, None
+        if -1 not in signs:
+            return None, self
+        bit = 1 << len(self.sides)
+        through = [mask | bit if s == 0 else mask for mask, s in zip(self.through, signs, strict=True)]
+        corners, between = list(self.corners), []
+        values = {i: _excess(side, p) for i, p in enumerate(corners)}
+        for i, j in self._edges(signs):
+            share = values[i] / (values[i] - values[j])
+            at = tuple(a + share * (b - a) for a, b in zip(corners[i], corners[j], strict=True))
+            between.append((at, self.through[i] & self.through[j] | bit))
+        halves = []
+        for sign, new in ((-1, side), (1, opposite(side))):
+            kept = [(corners[i], through[i]) for i, s in enumerate(signs) if s in (0, sign)] + between
+            halves.append(_kept((*self.sides, new), kept, self.is_flat))
+        return halves[0], halves[1]
+
+    def _edges(self, signs: Sequence[int]) -> Iterator[tuple[int, int]]:
+        """Pairs of neighbours on different sides: no other corner lies on all the sides that both lie on."""
+        size = len(self.corners[0])
+        below, above = ([i for i, s in enumerate(signs) if s == wanted] for wanted in (-1, 1))
+        for i, j in product(below, above):
+            mask = self.through[i] & self.through[j]
+            if mask.bit_count() >= size - 1 and sum(other & mask == mask for other in self.through) == 2:
+                yield i, j
+
+    def face(self, k: int) -> Cell:
+        """The part of it in the plane of its side k."""
+        on = [i for i, mask in enumerate(self.through) if mask >> k & 1]
+        bit = 1 << len(self.sides)
+        corners, floats = tuple(self.corners[i] for i in on), tuple(self.floats[i] for i in on)
+        through = tuple(self.through[i] | bit for i in on)
+        return Cell((*self.sides, opposite(self.sides[k])), corners, through, floats, True)
+
+
+def _excess(side: Side, point: Sequence[Fraction]) -> Fraction:
+    return sum((a * b for a, b in zip(side[0], point, strict=True)), -side[1])
+
+
+def _rounded(corners: Sequence[Point]) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(map(float, p)) for p in corners)
+
+
+def _kept(sides: Sequence[Side], corners: Sequence[tuple[Point, int]], is_flat: bool) -> Cell:
+    """Without the sides that touch a full cell in less than a facet."""
+    size, points = len(corners[0][0]), tuple(p for p, _ in corners)
+    used = [k for k in range(len(sides)) if is_flat or sum(mask >> k & 1 for _, mask in corners) >= size]
+    through = tuple(sum(1 << new for new, k in enumerate(used) if mask >> k & 1) for _, mask in corners)
+    return Cell(tuple(sides[k] for k in used), points, through, _rounded(points), is_flat)
+
+
+# --- decompositions ------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class FreeCells:
+    """The ``cells`` of a domain that have no obstacle inside; ``doors[i]``: for each cell that hangs together with cell
+    i the part of a side that both have."""
+
+    cells: tuple[Cell, ...]
+    doors: tuple[dict[int, Cell], ...]
+
+    @staticmethod
+    def of(domain: Cell, obstacles: Sequence[Cell], budget: Budget) -> FreeCells:
+        """Raises ``Unable`` where there are too many."""
+        flat = [body.is_flat for body in obstacles]
+        waiting, free = [(domain, tuple(range(len(obstacles))))], list[Cell]()
         while waiting:
-            place = waiting.popleft()
+            cell, left = waiting.pop()
             budget.check("cells of the scene")
-            for other in self._around(place):
-                if self.free[other] and not seen[other]:
-                    seen[other], before[other] = True, place
+            halves = None
+            while left and halves is None:
+                halves = _divided(cell, obstacles[left[0]], flat[left[0]])
+                if halves is None:
+                    left = left[1:]
+            if halves is None:
+                free.append(cell)
+            elif halves:
+                inner, outer = halves
+                waiting += [(inner, left), (outer, left[1:] if not flat[left[0]] else left)]
+            if len(free) + len(waiting) > MOST_CELLS:
+                raise Unable(f"more than {MOST_CELLS} cells")
+        return FreeCells(tuple(free), _doors(free, [b for b, f in zip(obstacles, flat, strict=True) if f]))
+
+    def holding(self, point: Point) -> int | None:
+        """The number of a cell with this point."""
+        return next((i for i, cell in enumerate(self.cells) if cell.contains(point)), None)
+
+    def reached(self, start: int) -> dict[int, int]:
+        """The cells that hang together with one, each with the one before it."""
+        before, waiting = {start: start}, deque([start])
+        while waiting:
+            at = waiting.popleft()
+            for other in self.doors[at]:
+                if other not in before:
+                    before[other] = at
                     waiting.append(other)
-        return seen, before
+        return before
 
-    def _around(self, place: Place) -> Iterator[Place]:
-        for k, p in enumerate(place):
-            for q in (p - 1, p + 1):
-                if 0 <= q < self.free.shape[k]:
-                    yield (*place[:k], q, *place[k + 1 :])
-
-    def boxes(self, chosen: NDArray[np.bool_]) -> tuple[Open, ...]:
-        """Open boxes that hold just these cells of the domain, where these are all free cells around each of them."""
-        left_over, made = chosen.copy(), []
-        while left_over.any():
-            first = tuple(int(p) for p in np.unravel_index(int(np.argmax(left_over)), chosen.shape))
-            ranges = [[p, p] for p in first]
-            for k in range(len(ranges)):
-                for end, step in ((0, -1), (1, 1)):
-                    while 0 <= ranges[k][end] + step < chosen.shape[k]:
-                        wider = [list(r) for r in ranges]
-                        wider[k][end] += step
-                        if not chosen[tuple(slice(a, b + 1) for a, b in wider)].all():
-                            break
-                        ranges = wider
-            left_over[tuple(slice(a, b + 1) for a, b in ranges)] = False
-            made.append(self._open(ranges))
-        return tuple(made)
-
-    def _open(self, ranges: Sequence[Sequence[int]]) -> Open:
-        """Beyond the domain where a range ends with it."""
-        low, high = [], []
-        for axis, (a, b) in zip(self.axes, ranges, strict=True):
-            low.append(axis[0] - 1 if a == 0 else axis[a // 2])
-            high.append(axis[-1] + 1 if b == 2 * len(axis) - 2 else axis[b // 2 + 1])
-        return tuple(low), tuple(high)
+    def way(self, before: dict[int, int], goal: int) -> list[int]:
+        """The cells from where ``before`` begins to a goal."""
+        cells = [goal]
+        while before[cells[-1]] != cells[-1]:
+            cells.append(before[cells[-1]])
+        return cells[::-1]
 
 
-def shortened(points: Sequence[Point], obstacles: Sequence[Solid]) -> tuple[Point, ...]:
-    """A polygonal path with as few of these corners as are met by looking from each as far ahead as the way is free."""
-    kept, at = [points[0]], 0
-    while at < len(points) - 1:
-        ahead = len(points) - 1
-        while ahead > at + 1 and any(box.meets(points[at], points[ahead]) for box in obstacles):
-            ahead -= 1
-        kept.append(points[ahead])
-        at = ahead
-    return tuple(kept)
+def _divided(cell: Cell, body: Cell, flat: bool) -> tuple[Cell, Cell] | tuple[()] | None:
+    """The parts of a cell on a side of an obstacle and beyond it; none where it is in the obstacle, None where nothing
+    of the obstacle is inside the cell (where it is flat: where no side of it goes through the cell)."""
+    least = 1 if flat else 0
+    crossing = None
+    for side in body.sides:
+        signs = cell.signs(side)
+        if min(signs) >= least:
+            return None
+        if crossing is None and -1 in signs and 1 in signs:
+            crossing = side, signs
+    if any(min(body.signs(side)) >= least for side in cell.sides):
+        return None
+    if crossing is None:
+        return None if flat else ()
+    inner, outer = cell.cut(*crossing)
+    assert inner is not None and outer is not None
+    return inner, outer
 
 
-def way(before: dict[Place, Place], start: Place, goal: Place) -> list[Place]:
-    """The cells from start to goal."""
-    places = [goal]
-    while places[-1] != start:
-        places.append(before[places[-1]])
-    return places[::-1]
+def _doors(cells: Sequence[Cell], walls: Sequence[Cell]) -> tuple[dict[int, Cell], ...]:
+    """The parts of sides that two cells have in common."""
+    planes: dict[Side, tuple[list[tuple[int, int]], list[tuple[int, int]]]] = {}
+    for i, cell in enumerate(cells):
+        for k, side in enumerate(cell.sides):
+            plane = primitive(side)
+            turned = next(x for x in plane[0] if x) < 0
+            planes.setdefault(opposite(plane) if turned else plane, ([], []))[turned].append((i, k))
+    doors: tuple[dict[int, Cell], ...] = tuple({} for _ in cells)
+    for ones, others in planes.values():
+        for (i, k), (j, _) in product(ones, others):
+            door = _common(cells[i], k, cells[j])
+            if door is not None and not any(wall.contains(door.centre) for wall in walls):
+                doors[i][j] = doors[j][i] = door
+    return doors
 
 
-def segments(points: Sequence[Point]) -> Iterator[tuple[Point, Point]]:
-    """The segments of a polygonal path."""
-    return pairwise(points)
+def _common(one: Cell, k: int, other: Cell) -> Cell | None:
+    """The part of side k of a cell that another one behind it has, too; None where it is no full part of it."""
+    size = len(one.corners[0])
+    for axis in range(size):
+        (a, b), (c, d) = ((min(v), max(v)) for v in ([p[axis] for p in x.floats] for x in (one, other)))
+        if a > d + abs(d) * _SURE or c > b + abs(b) * _SURE:
+            return None
+    part: Cell | None = one.face(k)
+    for side in other.sides:
+        part = part and part.cut(side)[0]
+        if part is None:
+            return None
+    assert part is not None
+    return part if len(set(part.corners)) >= size else None
+
+
+def points_along(free: FreeCells, cells: Sequence[int], start: Point, goal: Point) -> list[Point]:
+    """Corners of a polygonal path from start to goal through the insides of cells and of the doors between them."""
+    points = [start, free.cells[cells[0]].centre]
+    for i, j in pairwise(cells):
+        points += [free.doors[i][j].centre, free.cells[j].centre]
+    return [*points, goal]

@@ -8,22 +8,37 @@ from pathlib import Path
 import qe
 from bezier.input import stored
 from bezier.scenes.route import decided
-from bezier.scenes.scene import read_scene
+from bezier.scenes.scene import load_scene
+from qe.errors import InputError
 from qe.options import Budget
 from qe.processes.channel import Channel
 
 
-def run(channel: Channel, file: Path, *, against: Path | None = None, as_json: bool = False) -> tuple[str, str, bool]:
+def run(
+    channel: Channel,
+    file: Path,
+    *,
+    against: Path | None = None,
+    picture: Path | None = None,
+    as_json: bool = False,
+) -> tuple[str, str, bool]:
     """What to print, the text of the certificate, and whether there is a way.
 
     ``against``: the file of a certificate that is checked about this scene, in place of a proof that is made; the way
     or the two sides are looked for again. Raises ``CertificateRejected`` where it is not about them.
     """
-    known = decided(read_scene(file), Budget(), proof=against is None)
+    known = decided(load_scene(file), Budget(), proof=against is None)
     data, lines = known.to_json(), [str(known)]
     if against is not None:
         known.check(qe.Certificate.from_json(stored.text(against)))
         data["checked"] = True
         lines.append("accepted")
+    if picture is not None:
+        from bezier.pictures.route import drawing
+
+        try:
+            picture.write_text(drawing(known), encoding="utf-8")
+        except OSError as error:
+            raise InputError(f"--picture {picture}: expected a writable file, found: {error.strerror}") from None
     text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
     return text, "" if known.certificate is None else known.certificate.to_json(), not known.blocked

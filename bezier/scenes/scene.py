@@ -1,174 +1,299 @@
-"""A scene: a closed box in the plane or in space, closed boxes and balls in it, a start and a goal; all rational."""
+"""A scene: a workspace in the plane or in space, closed obstacles in it, a start and a goal; all rational."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import pairwise, product
-from math import isqrt
 from pathlib import Path
+from typing import Any
 
-from qe import arguments
+from bezier.curves.scalar import dot, subtract
+from bezier.input.numbers import describe
+from bezier.input.toml_table import Table, read_text
+from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded
+from bezier.obstacles.obstacle import Constraint, Obstacle, ball, half_space, pieces_of, slab
+from bezier.obstacles.polyhedron import point, segment
+from bezier.obstacles.reader import read_obstacles
+from bezier.scenes.cells import Cell, Point, Side
+from bezier.scenes.solid import ZERO, Solid
 from qe.errors import InputError
 
-Point = tuple[Fraction, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class SolidBox:
-    """The closed box between two corners."""
-
-    low: Point
-    high: Point
-
-    def contains(self, point: Sequence[Fraction]) -> bool:
-        """Whether a point is in it, the boundary included."""
-        return all(a <= c <= b for a, c, b in zip(self.low, point, self.high, strict=True))
-
-    def meets(self, start: Point, end: Point) -> bool:
-        """Whether it has a point in common with a segment."""
-        first, last = Fraction(0), Fraction(1)
-        for low, high, a, b in zip(self.low, self.high, start, end, strict=True):
-            if a == b:
-                if not low <= a <= high:
-                    return False
-                continue
-            enters, leaves = sorted(((low - a) / (b - a), (high - a) / (b - a)))
-            first, last = max(first, enters), min(last, leaves)
-        return first <= last
-
-    def inner(self, steps: int) -> tuple[SolidBox, ...]:
-        """Boxes in it: itself."""
-        return (self,)
-
-    def outer(self, steps: int) -> tuple[SolidBox, ...]:
-        """Boxes around it: itself."""
-        return (self,)
-
-
-@dataclass(frozen=True, slots=True)
-class SolidBall:
-    """The closed ball, in the plane the disc, of positive radius around a centre."""
-
-    centre: Point
-    radius: Fraction
-
-    def contains(self, point: Sequence[Fraction]) -> bool:
-        """Whether a point is in it, the boundary included."""
-        return sum((a - b) ** 2 for a, b in zip(point, self.centre, strict=True)) <= self.radius**2
-
-    def meets(self, start: Point, end: Point) -> bool:
-        """Whether it has a point in common with a segment."""
-        along = [b - a for a, b in zip(start, end, strict=True)]
-        square = sum(d * d for d in along)
-        ahead = sum(d * (c - a) for d, c, a in zip(along, self.centre, start, strict=True))
-        t = min(max(ahead / square, Fraction(0)), Fraction(1)) if square else Fraction(0)
-        return self.contains([a + t * d for a, d in zip(start, along, strict=True)])
-
-    def inner(self, steps: int) -> tuple[SolidBox, ...]:
-        """Boxes in it, one for each of so many slices along each axis but the last."""
-        return self._sliced(steps, outer=False)
-
-    def outer(self, steps: int) -> tuple[SolidBox, ...]:
-        """Boxes that cover it, one for each of so many slices along each axis but the last."""
-        return self._sliced(steps, outer=True)
-
-    def _sliced(self, steps: int, *, outer: bool) -> tuple[SolidBox, ...]:
-        ends = [-self.radius + 2 * self.radius * Fraction(i, steps) for i in range(steps + 1)]
-        boxes = []
-        for slices in product(list(pairwise(ends)), repeat=len(self.centre) - 1):
-            far = [max(abs(a), abs(b)) for a, b in slices]
-            near = [Fraction(0) if a < 0 < b else min(abs(a), abs(b)) for a, b in slices]
-            rest = self.radius**2 - sum(d * d for d in (near if outer else far))
-            if rest < 0:
-                continue
-            scale = (steps * steps * self.radius.denominator) ** 2
-            root = Fraction(isqrt(int(rest * scale)) + outer, isqrt(scale))
-            shape = [*slices, (-root, root)]
-            low, high = (tuple(c + side[k] for c, side in zip(self.centre, shape, strict=True)) for k in (0, 1))
-            boxes.append(SolidBox(low, high))
-        return tuple(boxes)
-
-
-Solid = SolidBox | SolidBall
+KEYS = ("domain", "obstacle", "start", "goal", "margin")
+NOTES = ("name", "dim")
+"""Keys without a meaning here, which files of scenes often have."""
+_ALSO = {"disc": "ball", "polygon": "polyhedron", "half_plane": "half_space"}
+_PLANE = {
+    "ball": ("centre", "radius"),
+    "box": ("low", "high"),
+    "half_space": ("normal", "offset"),
+    "capsule": ("start", "end", "radius"),
+    "polyhedron": ("half_spaces", "vertices"),
+}
+_COMMON = ("kind", "name", "margin")
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """``obstacles`` are closed, so that those that touch leave no passage between them; lengths in one unit."""
+    """``domain``: its intersection is the workspace, but for the open ``holes``. ``obstacles`` are closed, so that
+    those that touch leave no passage between them. ``low`` and ``high``: a box around the workspace; one unit."""
 
-    domain: SolidBox
+    domain: tuple[Solid, ...]
+    holes: tuple[Solid, ...]
     obstacles: tuple[Solid, ...]
     start: Point
     goal: Point
+    low: Point
+    high: Point
 
     @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return len(self.start)
 
+    @property
+    def solids(self) -> tuple[Solid, ...]:
+        """What is in the way: obstacles and holes."""
+        return (*self.obstacles, *self.holes)
+
     def blocked_at(self, point: Point) -> str | None:
         """What a point is in the way of: an obstacle, or the end of the domain; None where it is free."""
-        if not self.domain.contains(point):
+        if not all(part.contains(point) for part in self.domain) or any(h.contains(point) for h in self.holes):
             return "outside the domain"
-        known = (k for k, box in enumerate(self.obstacles, start=1) if box.contains(point))
-        return next((f"in obstacle {k}" for k in known), None)
+        return next((f"in {body.name}" for body in self.obstacles if body.contains(point)), None)
 
 
-def read_scene(given: object, source: str = "scene") -> Scene:
-    """A scene from a mapping with ``domain`` (``low``, ``high``), ``start``, ``goal`` and ``obstacle``, a list of
-    mappings with ``kind = "box"``, ``low`` and ``high``, or ``kind = "ball"``, ``centre`` (or ``center``) and
-    ``radius``; or from the JSON file of one. Numbers are exact: integers, fractions, decimals as text.
+def read_scene(table: Table) -> Scene:
+    """A scene from a table with ``start``, ``goal``, ``domain`` (one table or a list whose intersection it is),
+    ``obstacle``, a list, and ``margin``, which is added to that of every obstacle.
 
-    Raises ``qe.InputError``, naming the entry, for anything else.
+    Kinds of obstacles are those of ``bezier.obstacles``; a box may be flat. A domain is a box (also without ``kind``),
+    ball, half_ball (the part above its centre), polyhedron, cylinder, half_space or annulus (``centre``, ``inner``,
+    ``outer``, in space ``bottom`` and ``top``), in the plane without a last coordinate; disc, polygon and half_plane
+    are names for the same. Raises ``qe.InputError``, naming the key.
     """
+    values = {("obstacle" if key == "obstacles" else key): value for key, value in table.values.items()}
+    table = replace(table, values={key: value for key, value in values.items() if key not in NOTES})
+    table.only(KEYS)
+    size = len(raw) if isinstance(raw := table.required("start", "a point"), list) else 0
+    if size not in (2, 3):
+        raise table.error("start", "a point of 2 or 3 numbers", describe(raw))
+    start, goal = (table.as_point(key, table.required(key, "a point"), size) for key in ("start", "goal"))
+    domain, holes = _domain(table, size)
+    low, high = _around(table, domain)
+    extra = table.number("margin", ZERO)
+    if extra < 0:
+        raise table.error("margin", "a number that is not negative", str(extra))
+    listed = (_solid(entry, k, size, extra, (low, high)) for k, entry in enumerate(table.tables("obstacle"), start=1))
+    return Scene(domain, holes, tuple(body for body in listed if body is not None), start, goal, low, high)
+
+
+def load_scene(file: Path) -> Scene:
+    """The scene of a file: JSON, or TOML where its name ends so. Raises ``qe.InputError``."""
+    if file.suffix.lower() == ".toml":
+        return read_scene(Table.load(file))
+    try:
+        given = json.loads(read_text(file))
+    except ValueError as error:
+        raise InputError(f"{file}: expected a JSON file, or one whose name ends in .toml, found: {error}") from None
+    if not isinstance(given, dict):
+        raise InputError(f"{file}: expected an object with domain, obstacle, start and goal, found {describe(given)}")
+    return read_scene(Table(given, str(file)))
+
+
+# --- workspaces ----------------------------------------------------------------------------------------
+def _domain(table: Table, size: int) -> tuple[tuple[Solid, ...], tuple[Solid, ...]]:
+    raw = table.required("domain", "a table with low and high, or with kind")
+    entries = table.tables("domain") if isinstance(raw, list) else (table.inner("domain"),)
+    parts, holes = list[Solid](), list[Solid]()
+    for entry in entries:
+        kind = _kind(entry, "box")
+        if kind not in ("box", "ball", "polyhedron", "half_space", "cylinder", "half_ball", "annulus"):
+            raise entry.error("kind", "the kind of a workspace: box, ball, half_ball, polyhedron, ...", describe(kind))
+        if "margin" in entry.values:
+            raise entry.error("margin", "no margin of a workspace", describe(entry.values["margin"]))
+        if kind == "annulus":
+            entry.only((*_COMMON, "centre", "inner", "outer", *(("bottom", "top") if size == 3 else ())))
+            tube = {k: v for k, v in entry.values.items() if k not in ("inner", "outer")}
+            if entry.positive("inner") >= entry.positive("outer"):
+                raise entry.error("inner", "a radius below outer", str(entry.number("inner")))
+            outer, inner = (
+                _part(
+                    replace(entry, values={**tube, "kind": "cylinder" if size == 3 else "ball", "radius": str(r)}), size
+                )
+                for r in (entry.number("outer"), entry.number("inner"))
+            )
+            parts.append(outer)
+            holes.append(_opened(inner))
+        elif kind == "half_ball":
+            whole = _part(replace(entry, values={**entry.values, "kind": "ball"}), size)
+            up = tuple(-Fraction(k == size - 1) for k in range(size))
+            parts += [whole, _half(up, -whole.corners[0][-1])]
+        else:
+            parts.append(_part(replace(entry, values={**entry.values, "kind": kind}), size))
+    return tuple(parts), tuple(holes)
+
+
+def _part(entry: Table, size: int) -> Solid:
+    if _kind(entry) == "half_space":
+        obstacle = _obstacle(entry, size, ZERO)
+        assert isinstance(obstacle.body, HalfSpaceBody)
+        return _half(obstacle.body.normal[:size], obstacle.body.offset)
+    solid = _solid(entry, 0, size, ZERO, None)
+    assert solid is not None
+    return solid
+
+
+def _half(normal: Point, offset: Fraction) -> Solid:
+    """A half-space as a part of the domain: it has no corners."""
+    side = normal, offset
+    return Solid("domain", (), (side,), ZERO, (_conditions((side,)),))
+
+
+def _opened(body: Solid) -> Solid:
+    pieces = tuple(tuple(replace(c, strict=True) for c in piece) for piece in body.pieces)
+    return replace(body, name="hole", pieces=pieces, is_open=True)
+
+
+def _around(table: Table, domain: Sequence[Solid]) -> tuple[Point, Point]:
+    """The corners of a box around the workspace."""
+    boxes = [part.low_high() for part in domain if part.corners]
+    if not boxes:
+        raise table.error("domain", "a bounded workspace", "half-spaces only")
+    low = tuple(max(c) for c in zip(*(b[0] for b in boxes), strict=True))
+    high = tuple(min(c) for c in zip(*(b[1] for b in boxes), strict=True))
+    sides = [side for part in domain if part.is_polytope for side in part.sides]
+    whole = Cell.within(low, high, sides) if all(a < b for a, b in zip(low, high, strict=True)) else None
+    if whole is None:
+        raise table.error("domain", "low < high in each coordinate, a workspace with an inside", "one without")
+    axes = list(zip(*whole.corners, strict=True))
+    return tuple(map(min, axes)), tuple(map(max, axes))
+
+
+# --- obstacles -----------------------------------------------------------------------------------------
+def _kind(entry: Table, usual: str = "") -> str:
+    raw = entry.values.get("kind", usual) if usual else entry.required("kind", "the kind of obstacle")
+    return _ALSO.get(raw, raw) if isinstance(raw, str) else describe(raw)
+
+
+def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, Point] | None) -> Solid | None:
+    """One obstacle, or a part of the domain; None for a half-space that is beyond it."""
+    margin = entry.number("margin", ZERO) + extra
+    name = str(entry.values.get("name", f"obstacle {k}"))
+    if _kind(entry) == "box" and "low" in entry.values:
+        flat = _flat_box(entry, name, size, margin)
+        if flat is not None:
+            return flat
+    obstacle = _obstacle(entry, size, extra)
+    pieces = tuple(_at_level(piece.constraints) if size == 2 else piece.constraints for piece in obstacle.pieces)
+    match obstacle.body:
+        case HalfSpaceBody(normal, offset, radius):
+            assert span is not None
+            low = tuple(c - radius - 1 for c in span[0])
+            high = tuple(c + radius + 1 for c in span[1])
+            part = Cell.within(low, high, ((normal[:size], offset),))
+            return None if part is None else Solid(name, part.corners, part.sides, radius, pieces)
+        case Cylinder(centre, wide, bottom, top, radius):
+            if bottom is None or top is None:
+                if span is None:
+                    raise entry.error("bottom", "bottom and top of a workspace", "a cylinder without end")
+                bottom = span[0][2] - radius - 1 if bottom is None else bottom
+                top = span[1][2] + radius + 1 if top is None else top
+            ends = tuple((*centre, h) for h in (bottom, top))
+            axis = (ZERO, ZERO, Fraction(1))
+            caps = (axis, top), (tuple(-x for x in axis), -bottom)
+            return Solid(name, ends, caps, radius, pieces, wide)
+        case Rounded(core, radius):
+            corners = tuple(dict.fromkeys(c[:size] for c in core.corners))
+            sides = tuple((f.normal[:size], f.offset) for f in core.facets if any(f.normal[:size]))
+            if size == 2 and sides:
+                pieces = tuple(_wide_polygon(corners, sides, radius))
+            return Solid(name, corners, sides, radius, pieces)
+    raise entry.error("kind", "a convex obstacle", "a formula")
+
+
+def _obstacle(entry: Table, size: int, extra: Fraction) -> Obstacle:
+    """The obstacle in space; of the plane, where z = 0 its section."""
+    kind = _kind(entry)
+    values = {("centre" if key == "center" else key): value for key, value in entry.values.items()}
+    values |= {"kind": kind, "margin": str(entry.number("margin", ZERO) + extra)}
+    if size == 2:
+        if kind not in _PLANE:
+            raise entry.error("kind", f"one of {', '.join(_PLANE)}", f'"{kind}"')
+        replace(entry, values=values).only((*_COMMON, *_PLANE[kind]))
+        high = str(Fraction(values["margin"]) + 1)
+        values = {key: _raised(replace(entry, values=values), key, value, high) for key, value in values.items()}
+    whole = Table({"obstacle": [values]}, entry.source, (), "", entry.names)
+    try:
+        (obstacle,) = read_obstacles(whole)
+    except InputError as error:
+        raise InputError(str(error).replace("obstacle[0].", entry.prefix)) from None
+    return obstacle
+
+
+def _raised(entry: Table, key: str, value: Any, high: str) -> Any:
+    """A value of a table of the plane as that of a prism around z = 0, or of a ball or capsule there."""
+    rows = {"vertices": 2, "half_spaces": 3}
+    if key in rows:
+        if not isinstance(value, list) or not all(isinstance(row, list) and len(row) == rows[key] for row in value):
+            raise entry.error(key, f"a list of rows of {rows[key]} numbers", describe(value))
+        if key == "vertices":
+            return [[*row, z] for row in value for z in (f"-{high}", high)]
+        return [*([a, b, 0, c] for a, b, c in value), [0, 0, 1, high], [0, 0, -1, high]]
+    if key in ("centre", "low", "high", "normal", "start", "end"):
+        entry.as_point(key, value, 2)
+        return [*value, {"low": f"-{high}", "high": high}.get(key, 0)]
+    return value
+
+
+def _flat_box(entry: Table, name: str, size: int, margin: Fraction) -> Solid | None:
+    """A box without an inside; None for others."""
+    entry.only((*_COMMON, "low", "high"))
+    low, high = (entry.as_point(key, entry.required(key, "a point"), size) for key in ("low", "high"))
+    if not all(a <= b for a, b in zip(low, high, strict=True)):
+        raise entry.error("high", "low <= high in each coordinate", f"({', '.join(map(str, high))})")
+    if all(a < b for a, b in zip(low, high, strict=True)):
+        return None
+    cell = Cell.box(low, high)
+    if not margin:
+        return Solid(name, cell.corners, cell.sides, ZERO, (_conditions(cell.sides),))
+    if len(cell.corners) > 2:
+        raise entry.error("margin", "no margin of a box without an inside", str(margin))
+    ends = [(*c, ZERO)[:3] for c in cell.corners]
+    core = point(ends[0]) if len(ends) == 1 else segment(*ends)
+    pieces = tuple(piece.constraints for piece in pieces_of(Rounded(core, margin)))
+    return Solid(name, cell.corners, (), margin, tuple(map(_at_level, pieces)) if size == 2 else pieces)
+
+
+def _wide_polygon(
+    corners: Sequence[Point], sides: Sequence[Side], margin: Fraction
+) -> Iterator[tuple[Constraint, ...]]:
+    """A polygon with margin: itself, a rectangle over each side, a disc around each corner."""
+    yield _conditions(sides)
+    for n, c in sides if margin else ():
+        a, b = (p for p in corners if dot(n, p) == c)
+        ends = [(d, Fraction(dot(d, p))) for d, p in ((subtract(a, b), a), (subtract(b, a), b))]
+        yield slab((*n, ZERO), c, margin), *_conditions(ends)
+    for p in corners if margin else ():
+        yield (ball((*p, ZERO), margin),)
+
+
+def _conditions(sides: Sequence[Side]) -> tuple[Constraint, ...]:
+    return tuple(half_space((*n, ZERO)[:3], c) for n, c in sides)
+
+
+def _at_level(piece: Sequence[Constraint]) -> tuple[Constraint, ...]:
+    """The conditions where z = 0."""
+    return tuple(replace(c, terms=tuple((e, x) for e, x in c.terms if not e[2])) for c in piece)
+
+
+def given_scene(given: object, source: str, value: Any) -> Scene:
+    """A scene as it is, of a file, or of a mapping, whose values ``value`` makes those of a table."""
     if isinstance(given, Scene):
         return given
     if isinstance(given, str | Path):
-        try:
-            given, source = json.loads(Path(given).read_text()), str(given)
-        except OSError as error:
-            raise InputError(f"{source}: {error.strerror}: {given}") from None
-        except ValueError:
-            raise InputError(f"{source}: expected a JSON file, found something else in {given}") from None
+        return load_scene(Path(given))
     if not isinstance(given, Mapping):
-        raise InputError(f"{source}: expected a mapping or a JSON file, found {arguments.shown(given)}")
-    start, goal = (_point(given.get(name), f"{source}: {name}") for name in ("start", "goal"))
-    domain = _box(given.get("domain"), f"{source}: domain")
-    listed = given.get("obstacle", given.get("obstacles", []))
-    if not isinstance(listed, Sequence) or isinstance(listed, str):
-        raise InputError(f"{source}: obstacle: expected a list, found {arguments.shown(listed)}")
-    obstacles = tuple(_obstacle(entry, f"{source}: obstacle {k}") for k, entry in enumerate(listed, start=1))
-    points = (goal, domain.low, *(box.low if isinstance(box, SolidBox) else box.centre for box in obstacles))
-    if any(len(p) != len(start) for p in points):
-        raise InputError(f"{source}: expected points of one dimension, found several")
-    return Scene(domain, obstacles, start, goal)
-
-
-def _obstacle(entry: object, where: str) -> Solid:
-    if not isinstance(entry, Mapping) or entry.get("kind") not in ("box", "ball"):
-        raise InputError(f"{where}: expected a mapping with kind box or ball, found {arguments.shown(entry)}")
-    if entry["kind"] == "box":
-        return _box(entry, where)
-    centre = _point(entry.get("centre", entry.get("center")), f"{where}: centre")
-    radius = Fraction(arguments.rational(entry.get("radius"), f"{where}: radius"))
-    if radius <= 0:
-        raise InputError(f"{where}: radius: expected a positive number, found {radius}")
-    return SolidBall(centre, radius)
-
-
-def _point(given: object, where: str) -> Point:
-    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) not in (2, 3):
-        raise InputError(f"{where}: expected 2 or 3 numbers, found {arguments.shown(given)}")
-    return tuple(arguments.rational(c, where) for c in given)
-
-
-def _box(given: object, where: str) -> SolidBox:
-    if not isinstance(given, Mapping):
-        raise InputError(f"{where}: expected a mapping with low and high, found {arguments.shown(given)}")
-    low, high = (_point(given.get(name), f"{where}: {name}") for name in ("low", "high"))
-    if len(low) != len(high) or any(a > b for a, b in zip(low, high, strict=False)):
-        raise InputError(f"{where}: expected low <= high in each coordinate")
-    return SolidBox(low, high)
+        raise InputError(f"{source}: expected a mapping or a file, found {describe(given)}")
+    return read_scene(Table(value(given, source), source))

@@ -65,6 +65,7 @@ ROWS = {
     "bezier.trajectories": 15,
     "bezier.trajectories.command": 24,
     "bezier.scenes": 15,
+    "bezier.scenes.command": 24,
     "bezier.paths": 15,
     "bezier.motion": 16,
     "bezier.arm": 17,

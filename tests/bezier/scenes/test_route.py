@@ -12,13 +12,20 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from scipy.ndimage import label
 
 import bezier
 import qe
-from bezier.scenes import cells as cell_module
-from bezier.scenes.route import decided
-from bezier.scenes.scene import SolidBall, read_scene
+from bezier.curves.scalar import dot, subtract
+from bezier.interface.function import table_value
+from bezier.scenes import route as route_module
+from bezier.scenes.barrier import barrier
+from bezier.scenes.cells import Cell, FreeCells
+from bezier.scenes.route import Blocked, Route, decided
+from bezier.scenes.scene import Scene, given_scene
+from bezier.scenes.solid import nearest
 from experiments.problem import ROOT
 from qe.options import Budget
 from tests.tables import each
@@ -30,7 +37,12 @@ SCENE: dict[str, Any] = {
     "goal": [9, 5],
     "obstacle": WALLS,
 }
+HALF = Fraction(1, 2)
 SHARED = ROOT.parent / "shared" / "corpora" / "scenes"
+
+
+def read_scene(given: Any) -> Scene:
+    return given_scene(given, "scene", table_value)
 
 
 def slit(gap: Fraction) -> dict[str, Any]:
@@ -76,28 +88,39 @@ def flooded(scene: Any, step: Fraction) -> bool:
         for k in range(scene.dimension):
             for d in (-step, step):
                 other = (*point[:k], point[k] + d, *point[k + 1 :])
-                clear = scene.domain.contains(other) and not any(b.meets(point, other) for b in scene.obstacles)
+                inside = all(part.contains(other) for part in scene.domain)
+                clear = inside and not any(b.meets(point, other) for b in scene.solids)
                 if clear and other not in seen:
                     seen.add(other)
                     waiting.append(other)
     return False
 
 
-def check(scene: Any, step: Fraction) -> bool:
+def flooded_boxes(scene: Any) -> bool:
+    """The same for boxes with whole corners and steps of a half, by floats: such a step is clear where its ends are."""
+    ticks = np.arange(0, 10.25, 0.5)
+    grid = np.stack(np.meshgrid(*[ticks] * scene.dimension, indexing="ij"), axis=-1)
+    free = np.ones(grid.shape[:-1], dtype=bool)
+    for body in scene.obstacles:
+        low, high = (np.array(c, dtype=float) for c in body.low_high())
+        free &= np.any((grid < low) | (grid > high), axis=-1)
+    parts, _ = label(free)
+    start, goal = (parts[tuple(int(2 * c) for c in p)] for p in (scene.start, scene.goal))
+    return bool(start and start == goal)
+
+
+def check(scene: Any) -> bool:
     """Whether it is free; the flood says the same, and the proof stands."""
     found = decided(scene, Budget(60))
     found.check()
-    if any(scene.blocked_at(p) for p in (scene.start, scene.goal)):
-        assert found.blocked
-    else:
-        assert found.blocked is not flooded(scene, step)
+    assert found.blocked is not flooded_boxes(scene)
     return not found.blocked
 
 
 def test_boxes_agree_with_a_flood_of_the_grid() -> None:
     rng, free = random.Random(4), 0
     for k in range(20):
-        free += check(read_scene(boxes(rng, 3 if k % 4 == 0 else 2)), Fraction(1, 2))
+        free += check(read_scene(boxes(rng, 3 if k % 4 == 0 else 2)))
     assert 2 < free < 18
 
 
@@ -105,31 +128,124 @@ def test_boxes_agree_with_a_flood_of_the_grid() -> None:
 def test_many_boxes_agree_with_a_flood_of_the_grid() -> None:
     rng = random.Random(8)
     for k in range(500):
-        check(read_scene(boxes(rng, 3 if k % 5 == 0 else 2)), Fraction(1, 2))
+        check(read_scene(boxes(rng, 3 if k % 5 == 0 else 2)))
 
 
-def discs(rng: random.Random) -> dict[str, Any]:
-    listed = [
-        {"kind": "ball", "centre": [rng.randint(1, 9), rng.randint(1, 9)], "radius": Fraction(rng.randint(2, 9), 4)}
-        for _ in range(rng.randint(4, 10))
-    ]
-    return {**SCENE, "start": ["1/4", "1/4"], "goal": ["39/4", "39/4"], "obstacle": listed}
+def mixed(rng: random.Random, kinds: str = "disc box capsule polygon half_plane") -> Scene:
+    """A random scene of the plane, start and goal at free points of half a grid; many bodies touch."""
+    listed = list[dict[str, Any]]()
+
+    def point() -> list[int]:
+        return [rng.randint(0, 10), rng.randint(0, 10)]
+
+    for _ in range(rng.randint(4, 14)):
+        kind, at = rng.choice(kinds.split()), [rng.randint(1, 9), rng.randint(1, 9)]
+        entry: dict[str, Any] = {"kind": kind}
+        if kind == "disc":
+            entry |= {"centre": at, "radius": Fraction(rng.randint(2, 9), 4)}
+        elif kind == "box":
+            entry |= {"low": at, "high": [min(10, c + rng.randint(0, 4)) for c in at]}
+        elif kind == "capsule":
+            entry |= {"start": at, "end": [at[0] + rng.randint(1, 3), rng.randint(0, 10)], "radius": Fraction(1, 4)}
+        elif kind == "polygon":
+            corners = [at, [at[0] + rng.randint(1, 4), at[1]], point(), [at[0], at[1] - rng.randint(1, 3)]]
+            entry |= {"vertices": corners, "margin": Fraction(rng.randint(0, 2), 4)}
+        else:
+            entry |= {"normal": [rng.randint(-3, 3), rng.choice([-2, 1, 3])], "offset": rng.randint(-15, 1)}
+        listed.append(entry)
+    disc, box = {"kind": "disc", "centre": [5, 5], "radius": 7}, {"low": [0, 0], "high": [10, 10]}
+    corners = [[0, 0], [10, 0], [12, 5], [10, 10], [0, 10], [-1, 5]]
+    ring = {"kind": "annulus", "centre": [5, 5], "inner": rng.randint(1, 3), "outer": 7}
+    domain = rng.choice([box, disc, [box, disc], ring, {"kind": "polygon", "vertices": corners}])
+    scene = read_scene({"domain": domain, "start": [1, 1], "goal": [9, 9], "obstacle": listed})
+    places = [(HALF * i, HALF * j) for i in range(21) for j in range(21)]
+    free = [p for p in places if scene.blocked_at(p) is None] or [scene.start, scene.goal]
+    return replace(scene, start=rng.choice(free), goal=rng.choice(free))
 
 
-def test_discs_never_contradict_a_walk_and_are_seldom_undecided() -> None:
-    rng, undecided, free = random.Random(12), 0, 0
-    for _ in range(15):
-        scene = read_scene(discs(rng))
-        try:
-            found = decided(scene, Budget(60))
-        except qe.Unable:
-            undecided += 1
-            continue
-        found.check()
-        free += not found.blocked
-        if found.blocked:
-            assert not flooded(scene, Fraction(1, 4))
-    assert undecided <= 2 and 1 < free < 14  # discs that touch are undecided
+def decide_twice(scene: Scene) -> Blocked | Route:
+    """The answer; what separates and what joins are found independently, and exactly one of them is."""
+    found = decided(scene, Budget(120))
+    if any(scene.blocked_at(p) for p in (scene.start, scene.goal)):
+        assert found.blocked
+        return found
+    joined = route_module._joined(scene, 1, Budget(120))
+    assert (joined is None) is bool(barrier(scene)) is found.blocked
+    found.check()
+    return found
+
+
+def test_the_plane_is_decided_completely() -> None:
+    rng = random.Random(12)
+    free = [decide_twice(mixed(rng, "disc" if k % 2 else "disc box capsule polygon half_plane")) for k in range(12)]
+    assert 1 < sum(isinstance(f, Route) for f in free) < 12
+
+
+@pytest.mark.deep
+def test_many_scenes_of_the_plane_are_decided_completely() -> None:
+    rng = random.Random(2)
+    for k in range(500):
+        scene = mixed(rng, "disc box" if k % 2 else "disc box capsule polygon half_plane")
+        found = decide_twice(scene)
+        if found.blocked and not any(scene.blocked_at(p) for p in (scene.start, scene.goal)):
+            assert not flooded(scene, HALF)
+
+
+@each((Fraction(0), True), (Fraction(1, 10**12), False), (Fraction(-1, 10**12), True))
+def test_discs_that_touch_are_a_wall_and_a_narrow_gap_is_none(gap: Fraction, blocked: bool) -> None:
+    """Eight discs of radius 1 around the start, one of them smaller by the gap."""
+    around = [(-2, -2), (0, -2), (2, -2), (2, 0), (2, 2), (0, 2), (-2, 2), (-2, 0)]
+    listed = [{"kind": "disc", "centre": at, "radius": 1} for at in around]
+    listed[3] = {**listed[3], "radius": 1 - gap}
+    domain = {"kind": "disc", "centre": [0, 0], "radius": 9}
+    found = bezier.route({"domain": domain, "start": [0, 0], "goal": [0, 9], "obstacle": listed})
+    assert found.blocked is blocked
+    found.check()
+
+
+@each((Fraction(0), True), (Fraction(1, 10**12), False))
+def test_a_disc_may_touch_the_rim_of_a_round_workspace(gap: Fraction, blocked: bool) -> None:
+    ring = {"kind": "annulus", "centre": [0, 0], "inner": 1, "outer": 3}
+    discs = [{"kind": "disc", "centre": [x, 0], "radius": 1 - gap} for x in (-2, 2)]
+    found = bezier.route({"domain": ring, "start": [0, 2], "goal": [0, -2], "obstacle": discs})
+    assert found.blocked is blocked
+    found.check()
+
+
+@each(
+    ("a bar across the workspace", [{"kind": "capsule", "start": [0, 5], "end": [10, 6], "radius": "1/2"}], True),
+    ("a bar that ends", [{"kind": "capsule", "start": [0, 5], "end": [9, 6], "radius": "1/2"}], False),
+    ("a margin closes it", [{"kind": "box", "low": [0, 5], "high": [9, 6], "margin": 1}], True),
+    ("a flat wall", [{"kind": "box", "low": [0, 5], "high": [10, 5]}], True),
+    ("a half-plane", [{"kind": "half_plane", "normal": [-1, 1], "offset": 0}], False),
+    ("two half-planes", [{"kind": "half_plane", "normal": n, "offset": -5} for n in ([1, -1], [-1, 1])], False),
+    ("a polygon", [{"kind": "polygon", "vertices": [[0, 4], [10, 5], [0, 6]]}], True),
+)
+def test_kinds_of_obstacles_in_the_plane(what: str, listed: list[Any], blocked: bool) -> None:
+    found = bezier.route({**SCENE, "start": [5, 1], "goal": [6, 9], "obstacle": listed})
+    assert found.blocked is blocked or what == "a half-plane"
+    found.check()
+
+
+BALL = {"kind": "ball", "centre": [0, 0, 0], "radius": 5}
+
+
+@each(
+    ({"kind": "half_ball", "centre": [0, 0, 0], "radius": 5}, [], False),
+    ({"kind": "cylinder", "centre": [0, 0], "radius": 5, "bottom": 0, "top": 3}, [], False),
+    ({"kind": "annulus", "centre": [0, 0], "inner": 1, "outer": 5, "bottom": 0, "top": 3}, [], False),
+    (BALL, [{"kind": "polyhedron", "vertices": [[0, y, z] for y in (-6, 6) for z in (-6, 6)] + [[1, 0, 0]]}], True),
+    (BALL, [{"kind": "box", "low": [0, -6, -6], "high": [0, 6, 6]}], True),
+    (BALL, [{"kind": "cylinder", "centre": [0, 0], "radius": 2}], False),
+    (BALL, [{"kind": "capsule", "start": [0, -6, 1], "end": [0, 6, 1], "radius": 1}], False),
+    (BALL, [{"kind": "half_space", "normal": [0, 0, 1], "offset": "1/2"}], False),
+    (BALL, [{"kind": "ball", "centre": [0, 0, 0], "radius": 3}], False),
+    (BALL, [{"kind": "ball", "centre": [0, 0, 0], "radius": 8}], True),
+)
+def test_workspaces_and_obstacles_in_space(domain: Any, listed: list[Any], blocked: bool) -> None:
+    found = bezier.route({"domain": domain, "start": ["-4.5", 0, 1], "goal": ["4.5", 0, 1], "obstacle": listed})
+    assert found.blocked is blocked
+    found.check()
 
 
 @each("plane10", "window", "slit", "blocked", "touching", "space10")
@@ -141,28 +257,31 @@ def test_the_scenes_that_peers_were_run_on(name: str) -> None:
     assert found.blocked is (name in ("blocked", "touching"))
 
 
-def test_slices_of_a_ball_are_inside_and_around_it() -> None:
+def test_nearest_points_and_separators_are_those_of_samples() -> None:
     rng = random.Random(1)
-    for dimension in (2, 3):
-        centre = tuple(Fraction(rng.randint(-9, 9), 7) for _ in range(dimension))
-        ball = SolidBall(centre, Fraction(rng.randint(1, 9), 5))
-        for steps in (2, 3, 8):
-            inner, outer = ball.inner(steps), ball.outer(steps)
-            for _ in range(200):
-                point = tuple(c + ball.radius * Fraction(rng.randint(-20, 20), 20) for c in centre)
-                assert ball.contains(point) or not any(box.contains(point) for box in inner)
-                assert not ball.contains(point) or any(box.contains(point) for box in outer)
+    for size in (2, 3):
+        for _ in range(40):
+            ones, others = ([tuple(Fraction(rng.randint(-9, 9)) for _ in range(size)) for _ in range(5)] for _ in "ab")
+            p, q = nearest(ones, others)
+            away = subtract(p, q)
+            assert min(dot(away, a) for a in ones) == dot(away, p)  # the planes across the ends hold one hull each
+            assert max(dot(away, b) for b in others) == dot(away, q)
+            if any(away):
+                assert dot(away, p) > dot(away, q)
+            else:  # they meet: no coordinate separates them
+                ends = [(min(c), max(c), min(d), max(d)) for c, d in zip(zip(*ones), zip(*others), strict=True)]
+                assert all(a <= d and c <= b for a, b, c, d in ends)
 
 
 def test_a_broken_search_proves_nothing_false(monkeypatch: pytest.MonkeyPatch) -> None:
     """Obstacles are dropped before the cells are made: no path through them and no false barrier is accepted."""
     rng, refused = random.Random(3), 0
-    real = cell_module.CellGrid.of
+    real = FreeCells.of
 
-    def broken(scene: Any, walls: Any) -> Any:
-        return real(scene, [w for w in walls if rng.random() < 0.6])
+    def broken(domain: Cell, walls: Any, budget: Budget) -> FreeCells:
+        return real(domain, [w for w in walls if rng.random() < 0.6], budget)
 
-    monkeypatch.setattr(cell_module.CellGrid, "of", staticmethod(broken))
+    monkeypatch.setattr(FreeCells, "of", staticmethod(broken))
     monkeypatch.setattr("bezier.scenes.route.shortened", lambda points, obstacles: (points[0], points[-1]))
     for k in range(30):
         scene = read_scene(boxes(rng, 3 if k % 4 == 0 else 2))
@@ -172,8 +291,7 @@ def test_a_broken_search_proves_nothing_false(monkeypatch: pytest.MonkeyPatch) -
             refused += 1
             continue
         found.check()
-        if not any(scene.blocked_at(p) for p in (scene.start, scene.goal)):
-            assert found.blocked is not flooded(scene, Fraction(1, 2))
+        assert found.blocked is not flooded_boxes(scene)
     assert refused > 5
 
 
@@ -186,7 +304,9 @@ def test_altered_answers_are_refused() -> None:
         replace(free, scene=barred.scene),
         replace(barred, scene=free.scene),
         replace(barred, goal_side=barred.start_side),
-        replace(barred, walls=(*barred.walls, replace(barred.walls[0], low=(Fraction(0), Fraction(0))))),
+        replace(barred, walls=barred.walls[1:]),
+        replace(barred, walls=(replace(barred.walls[0], end=(Fraction(1), Fraction(2))), *barred.walls[1:])),
+        replace(barred, around=Cell.box((Fraction(2),) * 2, (Fraction(3),) * 2)),
         replace(barred, certificate=free.certificate),
         replace(barred, certificate=None),
     ):
@@ -210,10 +330,14 @@ def test_both_doors_say_the_same(tmp_path: Path) -> None:
     (3, "mapping"),
     ("no such file.json", "no such file"),
     ({**SCENE, "start": [1]}, "start"),
-    ({**SCENE, "goal": [1, 2, 3]}, "dimension"),
+    ({**SCENE, "goal": [1, 2, 3]}, "goal"),
     ({**SCENE, "domain": {"low": [1, 1], "high": [0, 2]}}, "domain"),
     ({**SCENE, "obstacle": {"kind": "box"}}, "obstacle"),
-    ({**SCENE, "obstacle": [{"kind": "cone"}]}, "obstacle 1"),
+    ({**SCENE, "obstacle": [{"kind": "cone"}]}, "obstacle[0].kind"),
+    ({**SCENE, "obstacle": [{"kind": "ball", "centre": [1, 1], "radius": 1, "rad": 2}]}, "radius is probably meant"),
+    ({**SCENE, "stat": [1, 2]}, "start is probably meant"),
+    ({**SCENE, "domain": {"kind": "annulus", "centre": [0, 0], "inner": 2, "outer": 1}}, "inner"),
+    ({**SCENE, "domain": {"kind": "half_plane", "normal": [0, 1], "offset": 1}}, "bounded"),
     ({**SCENE, "obstacle": [{"kind": "ball", "centre": [1, 1], "radius": 0}]}, "radius"),
     ({**SCENE, "obstacle": [{"kind": "ball", "centre": "here", "radius": 1}]}, "centre"),
 )

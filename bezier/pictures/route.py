@@ -1,0 +1,87 @@
+"""A scene as a drawing: obstacles, workspace, and the path through them or the side of the start. Floating point."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from bezier.pictures.mesh import Array, hull, icosphere
+from bezier.scenes.barrier import Wall
+from bezier.scenes.route import Blocked, Route
+from bezier.scenes.scene import Scene
+from bezier.scenes.solid import Solid
+
+WIDTH = 340.0
+WAY, TRIED, WALL, SIDE, BODY, START, GOAL = "#175cd3", "#667085", "#b42318", "#fda29b", "#98a2b3", "#067647", "#b42318"
+
+
+def drawing(known: Route | Blocked) -> str:
+    """An SVG picture of the plane, or of space from above and from the front."""
+    views = ((0, 1),) if known.scene.dimension == 2 else ((0, 1), (0, 2))
+    parts, right, tall = list[str](), 0.0, 0.0
+    for i, j in views:
+        body, height = _view(known, i, j)
+        parts.append(f'<g transform="translate({right:.0f} 0)">{body}</g>')
+        right, tall = right + WIDTH + 16, max(tall, height)
+    view = f'xmlns="http://www.w3.org/2000/svg" viewBox="-4 -4 {right - 8:.0f} {tall + 8:.0f}" width="{right - 8:.0f}"'
+    return f'<svg {view} role="img">{"".join(parts)}</svg>'
+
+
+def _view(known: Route | Blocked, i: int, j: int) -> tuple[str, float]:
+    scene = known.scene
+    low, high = (np.array([float(c[i]), float(c[j])]) for c in (scene.low, scene.high))
+    unit = WIDTH / (high - low)[0]
+    height = float((high - low)[1] * unit)
+
+    def at(points: Array) -> str:
+        return " ".join(
+            f"{x:.2f},{y:.2f}" for x, y in zip(*(points - [low[0], high[1]]).T * [[unit], [-unit]], strict=True)
+        )
+
+    def shape(points: Array, look: str) -> str:
+        return f'<polygon points="{at(points)}" {look}/>'
+
+    parts = [shape(p, 'fill="#ffffff" stroke="#667085"') for p in _workspace(scene, i, j)]
+    if isinstance(known, Blocked) and scene.dimension == 2:
+        sides = (np.array(cell.floats) for cell in known.start_side)
+        parts += [shape(hull(p), f'fill="{SIDE}" opacity="0.4"') for p in sides if len(p) > 2]
+    parts += [shape(outline(body, i, j), f'fill="{BODY}" opacity="0.8"') for body in scene.solids]
+    if isinstance(known, Route):
+        way = at(_floats(known.points)[:, (i, j)])
+        parts.append(f'<polyline points="{way}" fill="none" stroke="{WAY}" stroke-width="2"/>')
+    else:
+        walls = (at(_floats([wall.start, wall.end])) for wall in known.walls if isinstance(wall, Wall))
+        parts += [f'<polyline points="{wall}" stroke="{WALL}" stroke-width="2"/>' for wall in walls]
+    for point, colour in ((scene.start, START), (scene.goal, GOAL)):
+        cx, cy = at(_floats([point])[:, (i, j)]).split(",")
+        parts.append(f'<circle cx="{cx}" cy="{cy}" r="4" fill="{colour}"/>')
+    name = f"view{i}{j}"
+    clip = f'<clipPath id="{name}"><rect x="-4" y="-4" width="{WIDTH + 8}" height="{height + 8:.0f}"/></clipPath>'
+    return f'{clip}<g clip-path="url(#{name})">{"".join(parts)}</g>', height
+
+
+def _floats(points: Sequence[Any]) -> Array:
+    return np.array([[float(c) for c in p] for p in points])
+
+
+def _workspace(scene: Scene, i: int, j: int) -> list[Array]:
+    """The box around it; the other bounded parts over it."""
+    ends = np.array([[float(c[k]) for k in (i, j)] for c in (scene.low, scene.high)])
+    (a, b), (c, d) = ends
+    box = np.array([[a, b], [c, b], [c, d], [a, d]])
+    return [box, *(outline(part, i, j) for part in scene.domain if part.corners and not part.is_polytope)]
+
+
+def outline(body: Solid, i: int, j: int) -> Array:
+    """The silhouette of a body in two coordinates."""
+    corners = _floats(body.corners)
+    wide = np.linspace(0, 2 * np.pi, 73)[:-1]
+    ring = np.stack([np.cos(wide), np.sin(wide)] + [0 * wide] * (corners.shape[1] - 2), axis=1)
+    ball = ring if corners.shape[1] == 2 else icosphere(3)[0]
+    for offsets, radius in ((ring, body.tube), (ball, body.radius)):
+        if radius:
+            corners = (corners[:, None, :] + float(radius) * offsets[None]).reshape(-1, corners.shape[1])
+    flat = corners[:, (i, j)]
+    return hull(flat) if len(np.unique(flat, axis=0)) > 2 else flat

@@ -1,0 +1,129 @@
+"""Obstacles in the plane that separate start and goal: decided completely, by where two of them meet.
+
+The union of closed convex bodies, with what is outside the workspace, separates two points exactly if a closed curve in
+it goes around one of them but not around the other, mod 2 (Alexander duality). Every closed curve in a union of convex
+bodies is, up to deformation within it, a walk from body to body through common points (nerve theorem). Whether a walk
+goes around just one of two points is the parity of its crossings with the segment between them. So it is a question
+about a graph: the bodies, their common points, and the outside, which is one node since all of it hangs together
+without crossing the segment.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from bezier.curves.scalar import subtract
+from bezier.scenes.cells import Point
+from bezier.scenes.scene import Scene
+from bezier.scenes.solid import Solid, beyond_ball, beyond_side, common_point
+
+
+@dataclass(frozen=True, slots=True)
+class Wall:
+    """A segment in obstacles and outside the workspace; ``bodies``: those that it is in, as numbers."""
+
+    start: Point
+    end: Point
+    bodies: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Meeting:
+    """Two nodes with a common point; ``outwards``: the way on from it, where the second is the outside."""
+
+    nodes: tuple[int, int]
+    point: Point
+    is_odd: bool
+    outwards: Point | None = None
+
+
+def barrier(scene: Scene) -> tuple[Wall, ...]:
+    """Segments that separate start and goal, as few bodies as can be; none where nothing separates them."""
+    meetings = [*_meetings(scene)]
+    at: dict[int, list[_Meeting]] = {}
+    for meeting in meetings:
+        for node in meeting.nodes:
+            at.setdefault(node, []).append(meeting)
+    walks = [walk for node in at if (walk := _odd_walk(node, at))]
+    return tuple(_walls(scene, min(walks, key=len))) if walks else ()
+
+
+def outside_points(scene: Scene, body: Solid) -> Iterator[tuple[Point, Point]]:
+    """Points of a body on the boundary of the workspace or beyond it, with a direction that leads away."""
+    for part in scene.domain:
+        if part.is_polytope:
+            for side in part.sides:
+                if (point := beyond_side(body, side)) is not None:
+                    yield point, side[0]
+        else:
+            yield from ((p, subtract(p, part.corners[0])) for p in beyond_ball(body, part))
+
+
+def _meetings(scene: Scene) -> Iterator[_Meeting]:
+    bodies, ends = scene.solids, (scene.start, scene.goal)
+    outside = len(bodies)
+    for i, one in enumerate(bodies):
+        for j in range(i):
+            if (point := common_point(one, bodies[j])) is not None:
+                is_odd = _crosses((one.centre, point), ends) != _crosses((point, bodies[j].centre), ends)
+                yield _Meeting((i, j), point, is_odd)
+        for point, outwards in outside_points(scene, one):
+            yield _Meeting((i, outside), point, _crosses((one.centre, point), ends), outwards)
+
+
+def _crosses(one: tuple[Point, Point], other: tuple[Point, Point]) -> bool:
+    """Whether the first segment crosses the second, which has no end on it; a point on its line counts as above."""
+    above = [_turn(*other, p) >= 0 for p in one]
+    return above[0] != above[1] and (_turn(*one, other[0]) > 0) != (_turn(*one, other[1]) > 0)
+
+
+def _turn(a: Point, b: Point, p: Point) -> Fraction:
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+
+
+def _odd_walk(node: int, at: dict[int, list[_Meeting]]) -> list[tuple[int, _Meeting]]:
+    """A shortest closed walk from a node that crosses an odd number of times: the nodes, each with the next meeting."""
+    start = node, False
+    before: dict[tuple[int, bool], tuple[tuple[int, bool], _Meeting]] = {}
+    waiting = deque([start])
+    while waiting and (node, True) not in before:
+        here = waiting.popleft()
+        for meeting in at[here[0]]:
+            a, b = meeting.nodes
+            there = (b if here[0] == a else a), here[1] != meeting.is_odd
+            if there not in before and there != start:
+                before[there] = here, meeting
+                waiting.append(there)
+    walk, place = list[tuple[int, _Meeting]](), (node, True)
+    while place in before:
+        place, meeting = before[place]
+        walk.append((place[0], meeting))
+    return walk[::-1]
+
+
+def _walls(scene: Scene, walk: list[tuple[int, _Meeting]]) -> Iterator[Wall]:
+    outside = len(scene.solids)
+    for k, (node, after) in enumerate(walk):
+        _, meeting = walk[k - 1]
+        if node != outside:
+            touched = {n for m in (meeting, after) for n in m.nodes} - {outside, node}
+            bodies = (node, *sorted(touched)) if scene.solids[node].is_open else (node,)
+            if meeting.point != after.point:
+                yield Wall(meeting.point, after.point, bodies)
+        else:
+            for passage in (meeting, after):
+                assert passage.outwards is not None
+                yield Wall(passage.point, _far(scene, passage.point, passage.outwards), passage.nodes[:1])
+
+
+def _far(scene: Scene, point: Point, outwards: Point) -> Point:
+    """A point on a ray that is outside of the box around the workspace."""
+    share = Fraction(1)
+    while True:
+        end = tuple(p + share * d for p, d in zip(point, outwards, strict=True))
+        if not all(a <= c <= b for a, c, b in zip(scene.low, end, scene.high, strict=True)):
+            return end
+        share *= 2

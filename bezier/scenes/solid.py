@@ -1,0 +1,266 @@
+"""Convex bodies of a scene: where two of them meet, what separates them, and polytopes around and within them.
+
+A body is its core, a polytope, with all points within ``radius`` of it; the core of a cylinder is its axis, widened
+horizontally. Everything is decided in rational numbers. THEOREM. Where two polytopes with margins touch in one point
+only, it is rational: it divides the segment between the nearest points of the cores in the ratio of the margins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import product
+
+from bezier.curves.enclosure import root_above
+from bezier.curves.scalar import dot, subtract
+from bezier.obstacles.obstacle import Constraint
+from bezier.scenes.cells import Cell, Point, Side, opposite, primitive
+
+ROUNDINGS = (1, 16, 1024, 2**20, 2**40)
+"""Denominators that are tried where a shorter number will do."""
+ZERO = Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """``corners``: of the core; ``sides``: half-spaces around it, all of them where it is a polytope with interior or
+    a flat one without margin. ``pieces``: the body as a union of intersections of conditions. ``is_open``: without its
+    boundary (the hole of an annulus), which its conditions say."""
+
+    name: str
+    corners: tuple[Point, ...]
+    sides: tuple[Side, ...]
+    radius: Fraction
+    pieces: tuple[tuple[Constraint, ...], ...]
+    tube: Fraction = ZERO
+    is_open: bool = False
+
+    @property
+    def is_polytope(self) -> bool:
+        """Whether the sides are all that is to say."""
+        return not self.radius and not self.tube
+
+    @property
+    def centre(self) -> Point:
+        """The mean of the corners."""
+        return tuple(sum(c) / len(self.corners) for c in zip(*self.corners, strict=True))
+
+    def contains(self, point: Point) -> bool:
+        """Whether a point belongs to it."""
+        at = (*point, ZERO)[:3]
+        return any(all(c.holds(c.value(at)) for c in piece) for piece in self.pieces)
+
+    def support(self, normal: Point, bits: int = 64) -> Fraction:
+        """The largest normal . p over it, roots rounded up in these bits behind the point."""
+        level = max(Fraction(dot(normal, c)) for c in self.corners)
+        if self.tube:
+            level += self.tube * root_above(Fraction(dot(normal[:2], normal[:2])), bits)
+        return level + self.radius * root_above(Fraction(dot(normal, normal)), bits) if self.radius else level
+
+    def low_high(self) -> tuple[Point, Point]:
+        """The corners of a box around it."""
+        axes = [tuple(Fraction(i == k) for i in range(len(self.corners[0]))) for k in range(len(self.corners[0]))]
+        low = tuple(-self.support(tuple(-x for x in n)) for n in axes)
+        return low, tuple(map(self.support, axes))
+
+    def meets(self, start: Point, end: Point) -> bool:
+        """Whether it has a point in common with a segment; of a cylinder, whether a prism around it has."""
+        if self.radius and not self.tube:
+            p, q = nearest(self.corners, (start, end))
+            away = dot(subtract(p, q), subtract(p, q))
+            return bool(away < self.radius**2 if self.is_open else away <= self.radius**2)
+        first, last = ZERO, Fraction(1)
+        for n, c in self.sides if self.is_polytope else self.around(directions(3, 2)):
+            a, b = (Fraction(dot(n, p)) - c for p in (start, end))
+            if a > 0 and b > 0:
+                return False
+            if a > 0:
+                first = max(first, a / (a - b))
+            elif b > 0:
+                last = min(last, a / (a - b))
+        return first <= last
+
+    def around(self, normals: Iterable[Point]) -> list[Side]:
+        """Half-spaces that hold it: its sides moved out, and those with some more normals."""
+        if self.is_polytope:
+            return list(self.sides)
+        own = [primitive(side)[0] for side in self.sides]
+        return [_short(n, self.support(n)) for n in dict.fromkeys((*own, *normals))]
+
+    def inside(self, normals: Sequence[Point]) -> Cell | None:
+        """A polytope in it, touching it: one around it, drawn to its centre. None where it is too thin."""
+        low, high = self.low_high()
+        whole = Cell.within(low, high, self.around(normals))
+        if whole is None or self.is_polytope:
+            return whole
+        middle = self.centre
+        for step in range(63, 0, -1):
+            share = Fraction(step, 64)
+            corners = [tuple(m + share * (c - m) for m, c in zip(middle, p, strict=True)) for p in whole.corners]
+            if all(map(self.contains, corners)):
+                sides = [(n, Fraction(dot(n, middle)) * (1 - share) + share * c) for n, c in whole.sides]
+                return Cell.of(sides, corners)
+        return None
+
+    def cell(self) -> Cell:
+        """A polytope as a cell."""
+        flat = any(opposite(side) in self.sides for side in self.sides)
+        return Cell.of(self.sides, self.corners, is_flat=flat)
+
+
+def _short(normal: Point, level: Fraction) -> Side:
+    """The half-space, moved out by at most a millionth part where its number is long."""
+    step = Fraction(max(1, abs(level).__ceil__()), 2**20)
+    return normal, level if level.denominator < 2**20 else ((level / step).__floor__() + 1) * step
+
+
+@cache
+def directions(size: int, fine: int) -> tuple[Point, ...]:
+    """Directions around: in the plane 4 * 2^fine, nearly even; in space those of the corners, edges and faces of a cube
+    (6, 14, 26), then those with entries up to 2 (98), and 3."""
+    if size == 2:
+        ring: list[Point] = [(Fraction(x), Fraction(y)) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+        for _ in range(fine):
+            ring = [p for k, a in enumerate(ring) for p in (a, between(a, ring[(k + 1) % len(ring)]))]
+        return tuple(ring)
+    largest = max(1, fine - 1)
+    every = [v for v in product(range(-largest, largest + 1), repeat=3) if any(v)]
+    wanted = [v for v in every if fine >= 2 or sum(map(abs, v)) in ((1,), (1, 3))[fine]]
+    rays = {primitive((tuple(map(Fraction, v)), ZERO))[0] for v in wanted}
+    return tuple(sorted(rays))
+
+
+def between(a: Point, b: Point) -> Point:
+    """The rational unit vector nearly in the middle of two, by the half of the angle's tangent."""
+    x, y = (float(p + q) for p, q in zip(a, b, strict=True))
+    far = (x * x + y * y) ** 0.5
+    apart = max(abs(float(p - q)) for p, q in zip(a, b, strict=True))
+    t = Fraction(y / (far + abs(x))).limit_denominator(int(16 / apart) + 16)
+    return ((1 - t * t) / (1 + t * t) * (1 if x >= 0 else -1), 2 * t / (1 + t * t))
+
+
+# --- two bodies ------------------------------------------------------------------------------------------
+def nearest(ones: Sequence[Point], others: Sequence[Point]) -> tuple[Point, Point]:
+    """Nearest points of two convex hulls, exactly: Wolfe's algorithm for the least norm in the hull of all differences
+    (Wolfe, Finding the nearest point in a polytope, 1976), which ends after finitely many steps."""
+    chosen, weights = [(0, 0)], [Fraction(1)]
+    while True:
+        differences = [subtract(ones[i], others[j]) for i, j in chosen]
+        x = _mixed(differences, weights)
+        i = min(range(len(ones)), key=lambda k: dot(x, ones[k]))
+        j = max(range(len(others)), key=lambda k: dot(x, others[k]))
+        if dot(x, subtract(ones[i], others[j])) >= dot(x, x):
+            pick = ([ones[i] for i, _ in chosen], [others[j] for _, j in chosen])
+            return _mixed(pick[0], weights), _mixed(pick[1], weights)
+        chosen, weights = [*chosen, (i, j)], [*weights, ZERO]
+        differences.append(subtract(ones[i], others[j]))
+        while True:
+            best = _least(differences)
+            if min(best) >= 0:
+                weights = best
+                break
+            step = min(w / (w - b) for w, b in zip(weights, best, strict=True) if b < 0)
+            weights = [w + step * (b - w) for w, b in zip(weights, best, strict=True)]
+            kept = [k for k, w in enumerate(weights) if w]
+            chosen, weights = [chosen[k] for k in kept], [weights[k] for k in kept]
+            differences = [differences[k] for k in kept]
+
+
+def _mixed(points: Sequence[Point], weights: Sequence[Fraction]) -> Point:
+    return tuple(sum(w * c for w, c in zip(weights, axis, strict=True)) for axis in zip(*points, strict=True))
+
+
+def _least(points: Sequence[Point]) -> list[Fraction]:
+    """Weights with sum 1 of the point of least norm in the affine hull of independent points."""
+    base, *rest = points
+    spans = [subtract(p, base) for p in rest]
+    rows = [[Fraction(dot(a, b)) for b in spans] + [-Fraction(dot(a, base))] for a in spans]
+    for k in range(len(rows)):
+        pivot = next(i for i in range(k, len(rows)) if rows[i][k])
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [c / rows[k][k] for c in rows[k]]
+        for i in range(len(rows)):
+            if i != k and rows[i][k]:
+                rows[i] = [c - rows[i][k] * d for c, d in zip(rows[i], rows[k], strict=True)]
+    shares = [row[-1] for row in rows]
+    return [1 - sum(shares, ZERO), *shares]
+
+
+def common_point(one: Solid, other: Solid) -> Point | None:
+    """A point of both (of two open bodies: None where they only touch), None where there is none."""
+    ends = one.low_high(), other.low_high()
+    if any(a > d or c > b for a, b, c, d in zip(*ends[0], *ends[1], strict=True)):
+        return None
+    p, q = nearest(one.corners, other.corners)
+    away, reach = Fraction(dot(subtract(p, q), subtract(p, q))), one.radius + other.radius
+    if away > reach**2 or (away == reach**2 and one.is_open and other.is_open):
+        return None
+    share = one.radius / reach if reach else ZERO
+    return tuple(a + share * (b - a) for a, b in zip(p, q, strict=True))
+
+
+def separators(one: Solid, other: Solid) -> tuple[Side, Side] | None:
+    """Half-spaces around two bodies, with a strip between them; without one where they touch and one is open. None
+    where none have been found."""
+    p, q = nearest(one.corners, other.corners)
+    for normal in _rounded(subtract(q, p)):
+        turned = tuple(-x for x in normal)
+        for bits in (64, 256):
+            low, high = one.support(normal, bits), -other.support(turned, bits)
+            if low < high:
+                middle = short_between(low, high)
+                return (normal, short_between(low, middle)), (turned, -short_between(middle, high))
+            if low == high and (one.is_open or other.is_open):
+                return (normal, low), (turned, -low)
+    return None
+
+
+def _rounded(normal: Point) -> Iterator[Point]:
+    """A direction in short numbers, then in longer ones, then as it is."""
+    largest = max(map(abs, normal))
+    for most in ROUNDINGS if largest else ():
+        yield tuple(Fraction(round(x / largest * most)) for x in normal)
+    if largest:
+        yield normal
+
+
+def short_between(low: Fraction, high: Fraction) -> Fraction:
+    """A short number strictly between two."""
+    middle = (low + high) / 2
+    return next((c for c in (middle.limit_denominator(m) for m in ROUNDINGS) if low < c < high), middle)
+
+
+def beyond_side(body: Solid, side: Side) -> Point | None:
+    """A point of a body in the plane of a side or behind it (of an open body: behind it); None where there is none.
+
+    Where it touches the plane the point is exact, since the length of the normal is rational then."""
+    (normal, level), square = side, Fraction(dot(side[0], side[0]))
+    corner = max(body.corners, key=lambda c: dot(normal, c))
+    missing = level - Fraction(dot(normal, corner))
+    far = missing**2 - body.radius**2 * square if missing > 0 else Fraction(-1)
+    if far > 0 or (far == 0 and body.is_open):
+        return None
+    share = max(missing, ZERO) / square
+    return tuple(c + share * n for c, n in zip(corner, normal, strict=True))
+
+
+def beyond_ball(body: Solid, ball: Solid) -> list[Point]:
+    """Points of a body on the boundary of a ball or outside, one in each part that is there: the distance from the
+    centre is largest in the directions of the corners."""
+    centre, result = ball.corners[0], []
+    for corner in body.corners:
+        away = subtract(corner, centre) if corner != centre else tuple(Fraction(k == 0) for k in range(len(centre)))
+        far = root_above(Fraction(dot(away, away)), 256)
+        share = body.radius / far
+        point = tuple(c + share * d for c, d in zip(corner, away, strict=True))
+        square = Fraction(dot(subtract(point, centre), subtract(point, centre)))
+        if square > ball.radius**2 or (square == ball.radius**2 and not body.is_open):
+            result.append(point)
+    return result
+
+
+def point_solid(point: Point) -> Solid:
+    """A point as a body without conditions."""
+    return Solid("", (point,), (), ZERO, ())
