@@ -293,18 +293,23 @@ def route(
     certificate: Evidence = None,
     check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the scene.")] = None,
     picture: Annotated[Path | None, typer.Option("--picture", help="Write an SVG picture here.")] = None,
+    shortest: Annotated[bool, typer.Option("--shortest", help="A short path, with a bound for all paths.")] = False,
+    degree: Annotated[int, typer.Option("--degree", help="Of its curves, 1 for segments.")] = 3,
+    continuity: Annotated[int, typer.Option("--continuity", help="Derivatives of it that are continuous.")] = 1,
     json: Json = False,
     timeout: Timeout = None,
     memory: Memory = None,
 ) -> int:
     """Find a path from start to goal that is clear of all obstacles, or prove that there is none (status 3)."""
     from bezier.scenes import command
+    from bezier.scenes.route import Wish
 
     check_limits(timeout, memory)
     check_writable(certificate)
     if check is not None and certificate is not None:
         raise InputError("--check: expected no --certificate with it, found one")
-    work = partial(command.run, file=file, against=check, picture=picture, as_json=json)
+    wish = Wish(degree, continuity) if shortest else None
+    work = partial(command.run, file=file, against=check, picture=picture, wish=wish, as_json=json)
     text, evidence, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
     if certificate is not None and evidence:  # none where the start or the goal itself is in an obstacle
         write_file(certificate, evidence)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from bezier.interface.function import table_value
-from bezier.scenes.route import Blocked, Route, decided
+from bezier.scenes.route import Blocked, Route, Wish, decided
 from bezier.scenes.scene import Scene, given_scene
 from qe import arguments
 from qe.options import Budget
@@ -15,7 +15,14 @@ from qe.progress import Listener, silent
 
 
 def route(
-    scene: object, *, timeout: float | None = None, memory: int | None = None, progress: Listener = silent
+    scene: object,
+    *,
+    shortest: bool = False,
+    degree: int = 3,
+    continuity: int = 1,
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Listener = silent,
 ) -> Route | Blocked:
     """A path from start to goal that is clear of all obstacles, or the proof that there is none.
 
@@ -24,6 +31,9 @@ def route(
     exact. docs/scenes.md lists the kinds. Obstacles are closed: where they touch there is no passage. The plane is
     decided completely, and polytopes in space; between round bodies in space passages are looked for as far as
     polytopes with 98 sides around them show them.
+
+    ``shortest``: a short chain of curves of this ``degree`` (1: segments), with so many continuous derivatives, and a
+    bound ``at_least`` for the length of every path, both proved.
 
     The result is a ``Route`` with its corners ``points``, or ``Blocked`` with the open sets that separate start and
     goal; ``blocked`` says which, ``certificate`` proves it and ``check()`` verifies it again.
@@ -42,8 +52,8 @@ def route(
     """
     given = given_scene(scene, "bezier.route", table_value)
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    return perform(partial(_decided, given), bounds)
+    return perform(partial(_decided, given, Wish(degree, continuity) if shortest else None), bounds)
 
 
-def _decided(given: Scene, budget: Budget) -> Route | Blocked:
-    return decided(given, budget)
+def _decided(given: Scene, wish: Wish | None, budget: Budget) -> Route | Blocked:
+    return decided(given, budget, wish=wish)

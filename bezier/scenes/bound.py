@@ -3,11 +3,11 @@
 The obstacles are taken as polytopes within them, the workspace as one around it, which only makes paths shorter.
 THEOREM. Let the convex cells C_1, ..., C_n cover what is free then, let paths go from cell to cell through the doors,
 let every door d have an affine function f_d, and start and goal numbers. Where for all doors d and e (or start and
-goal) of a cell f_e(y) - f_d(x) <= |y - x| + h for x in d, y in e, every path from start to goal has at least the
-length f_goal - f_start - n h. PROOF. Some shortest path visits each cell at most once, since cells are convex; between
-its doors the sum telescopes. Where some g with |g| <= 1 has f_e(y) - f_d(x) <= g . (y - x) + h at all pairs of corners, this
-holds for all x and y. The sentence of a cell says that there are such g for its doors; the kernel checks it by them.
-Cells and doors are those of ``FreeCells``, made again by whoever checks.
+goal) of a cell f_e(y) - f_d(x) <= |y - x| + h for x in d, y in e, every path from start to goal has at least the length
+f_goal - f_start - n h. PROOF. Some shortest path visits each cell at most once, since cells are convex; between its
+doors the sum telescopes. Where some g with |g| <= 1 has f_e(y) - f_d(x) <= g . (y - x) + h at all pairs of corners,
+this holds for all x and y. The sentence of a cell says that there are such g for its doors; the kernel checks it by
+them. That the cells cover is said in sentences, too; the doors are those of ``FreeCells``, made again by who checks.
 """
 
 from __future__ import annotations
@@ -15,22 +15,24 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import permutations
-from math import lcm
+from itertools import permutations, product
+from math import ceil, hypot, lcm
 
-from bezier.curves.scalar import dot
+from bezier.curves.enclosure import root_below
+from bezier.curves.scalar import dot, subtract
 from bezier.scenes.cells import Cell, FreeCells, Point
 from bezier.scenes.conic import Conic
 from bezier.scenes.scene import Scene
+from bezier.scenes.sentences import covering
 from bezier.scenes.solid import directions
-from qe.errors import CertificateRejected, Unable
+from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 
-DIGITS = 2**32
+DIGITS, SHORTER, MOST_ROWS = 2**32, 1 - 2.0**-26, 25_000
 Level = tuple[Point, Fraction]
 """The affine function n . x + c of a door."""
 Key = tuple[int, int]
@@ -45,31 +47,44 @@ class LengthBound:
     fine: int
     levels: tuple[tuple[Key, Level], ...]
     slack: Fraction
+    value: Fraction
+    """What no path is shorter than."""
 
     def sentences(self, budget: Budget) -> tuple[Fraction, dict[str, Formula]]:
-        """The bound, and what is to be proved for it: a sentence for each cell."""
-        free, known = relaxed(self.scene, self.fine, budget), dict(self.levels)
+        """The bound, and what is to be proved for it: a sentence for each cell; nothing for the straight line."""
+        if not self.levels:
+            away = subtract(self.scene.goal, self.scene.start)
+            return root_below(Fraction(dot(away, away)), 40), {}
+        (around, walls, free), known = relaxed(self.scene, self.fine, budget), dict(self.levels)
         rows = {f"length in cell {i}": _matrix(pairs, known, self.slack) for i, pairs in _pairs(self.scene, free)}
         ends = [_value(known[key], p) for key, p in _ends(self.scene, free)]
         quantified = {k: exists(_names(matrix), matrix) for k, matrix in rows.items()}
-        return ends[1] - ends[0] - len(free.cells) * self.slack, quantified
+        cover = dict(covering(self.scene, around, walls, free.cells))
+        return ends[1] - ends[0] - len(free.cells) * self.slack, cover | quantified
 
 
-def relaxed(scene: Scene, fine: int, budget: Budget) -> FreeCells:
-    """The cells outside of polytopes within the obstacles, in one around the workspace."""
+def relaxed(scene: Scene, fine: int, budget: Budget) -> tuple[Cell, list[Cell], FreeCells]:
+    """A polytope around the workspace, polytopes within the obstacles, the cells of the one outside of the others."""
     normals = directions(scene.dimension, fine)
-    inner = [body.cell() if body.is_polytope else body.inside(normals) for body in scene.obstacles]
+    inner = [body.cell() if body.is_polytope else body.inside(normals) for body in scene.solids]
     sides = [side for part in scene.domain for side in part.around(normals)]
     domain = Cell.within(scene.low, scene.high, sides)
     assert domain is not None
-    return FreeCells.of(domain, [cell for cell in inner if cell is not None], budget)
+    walls = [cell for cell in inner if cell is not None]
+    return domain, walls, FreeCells.of(domain, walls, budget)
 
 
 def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, list[tuple[str, Certificate]]]:
-    """A bound that floating point proposes, with the proofs of its sentences. Raises ``Unable``."""
-    free = relaxed(scene, fine, budget)
+    """A bound that floating point proposes, with the proofs of its sentences; the length of the straight line where
+    there are too many cells or nothing better was proposed."""
+    away = subtract(scene.goal, scene.start)
+    least = root_below(Fraction(dot(away, away)), 40)
+    straight = LengthBound(scene, fine, (), Fraction(0), least), list[tuple[str, Certificate]]()
+    _, _, free = relaxed(scene, fine, budget)
     size, program = scene.dimension, Conic()
     cells = list(_pairs(scene, free))
+    if sum(len(xs.corners) * len(ys.corners) for _, pairs in cells for (_, xs), (_, ys) in pairs) > MOST_ROWS:
+        return straight
     columns = {key: program.columns(size + 1) for _, pairs in cells for pair in pairs for key, _ in pair}
     slopes = {}
     for i, pairs in cells:
@@ -89,19 +104,29 @@ def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, 
         program.add_cost([(k, sign * c) for k, c in zip(columns[key], (*map(float, point), 1.0), strict=True)])
     found = program.solved()
     if found is None:
-        raise Unable("no bound for the length was found")
-    wide = max(b - a for a, b in zip(scene.low, scene.high, strict=True))
-    share, slack = 1 - Fraction(1, 2**20), wide / 2**20
+        return straight
 
-    def number(k: int) -> Fraction:
-        return Fraction(round(found[k] * float(share) * DIGITS), DIGITS)
+    def numbers(columns: Sequence[int], share: float = SHORTER) -> Point:
+        return tuple(Fraction(round(found[k] * share * DIGITS), DIGITS) for k in columns)
 
-    levels = {key: (tuple(map(number, cols[:-1])), number(cols[-1])) for key, cols in columns.items()}
-    bound, proofs = LengthBound(scene, fine, tuple(levels.items()), slack), []
+    levels: dict[Key, Level] = {key: (numbers(cols[:-1]), numbers(cols)[-1]) for key, cols in columns.items()}
+    values = {key: numbers(cols, SHORTER / max(1.0, hypot(*(found[k] for k in cols)))) for key, cols in slopes.items()}
+    missing = (
+        _value(levels[b], y) - _value(levels[a], x) - Fraction(dot(values[i, a, b], subtract(y, x)))
+        for i, pairs in cells
+        for (a, xs), (b, ys) in pairs
+        for x, y in product(xs.corners, ys.corners)
+    )
+    slack = Fraction(max(0, ceil(max(missing) * DIGITS)), DIGITS)
+    first, last = (_value(levels[key], p) for key, p in _ends(scene, free))
+    value = last - first - len(free.cells) * slack
+    if value <= least:
+        return straight
+    bound, proofs = LengthBound(scene, fine, tuple(levels.items()), slack, value), []
     for i, pairs in cells:
         matrix = _matrix(pairs, levels, slack)
-        values = [number(k) for (a, _), (b, _) in pairs for k in slopes[i, a, b]]
-        proofs.append((f"length in cell {i}", Certificate.witness(matrix, _names(matrix), values)))
+        place = [c for (a, _), (b, _) in pairs for c in values[i, a, b]]
+        proofs.append((f"length in cell {i}", Certificate.witness(matrix, _names(matrix), place)))
     return bound, proofs
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import qe
 from bezier.input import stored
-from bezier.scenes.route import decided
+from bezier.scenes.route import Wish, decided
 from bezier.scenes.scene import load_scene
 from qe.errors import InputError
 from qe.options import Budget
@@ -20,6 +20,7 @@ def run(
     *,
     against: Path | None = None,
     picture: Path | None = None,
+    wish: Wish | None = None,
     as_json: bool = False,
 ) -> tuple[str, str, bool]:
     """What to print, the text of the certificate, and whether there is a way.
@@ -27,7 +28,7 @@ def run(
     ``against``: the file of a certificate that is checked about this scene, in place of a proof that is made; the way
     or the two sides are looked for again. Raises ``CertificateRejected`` where it is not about them.
     """
-    known = decided(load_scene(file), Budget(), proof=against is None)
+    known = decided(load_scene(file), Budget(), proof=against is None, wish=wish)
     data, lines = known.to_json(), [str(known)]
     if against is not None:
         known.check(qe.Certificate.from_json(stored.text(against)))

@@ -49,7 +49,7 @@ class Conic:
         self._squares.append(terms)
 
     def solved(self) -> list[float] | None:
-        """The variables, as well as clarabel knows them; None where it has none."""
+        """The variables, as well as clarabel knows them, which may be badly; None where it says that there are none."""
         import clarabel
         from scipy import sparse
 
@@ -71,4 +71,5 @@ class Conic:
             quadratic, cost, -matrix([t for t, _ in self._rows]), right, cones, settings
         ).solve()
         values = list(map(float, answer.x))
-        return values if str(answer.status) in ("Solved", "AlmostSolved") and np.isfinite(values).all() else None
+        hopeless = "Infeasible" in str(answer.status) or not np.isfinite(values).all()
+        return None if hopeless else values

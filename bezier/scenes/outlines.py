@@ -20,7 +20,7 @@ from bezier.scenes.solid import Solid, between, common_point, directions, point_
 
 MOST_CHORDS = 4_000
 WIDER = 4096
-"""The polytopes are wider by this part of the workspace, where that closes no passage: their boundaries are free, too."""
+"""The polytopes are wider by this part of the workspace, where that closes no passage: their boundaries are free."""
 
 
 def outlines(scene: Scene, fine: int) -> tuple[Cell, tuple[Cell, ...]]:

@@ -1,76 +1,114 @@
 """Whether start and goal of a scene can be joined, with proof of either answer.
 
-FREE: a polygonal path; for each segment a sentence in one variable says that it is clear of all obstacles and in the
-workspace for all t.
+FREE: a polygonal path, or a chain of Bézier curves; for each segment or curve a sentence in one variable says that it
+is clear of all obstacles and in the workspace for all t.
 
 BLOCKED: walls, which are in obstacles or outside the workspace, and two closed sets U and V, unions of convex
 polytopes, with start in U and goal in V. THEOREM. Where every point of the workspace is in a wall, in U or in V, and
-none that is in no wall is in both, no path within what is free leads from start to goal. PROOF. A path is the image of an interval,
-which is connected; its parts in U and in V are closed in it, disjoint, together all of it, and neither is empty.
-All of this but where start and goal are is said in sentences, proved by the engine and checked by the kernel.
+none that is in no wall is in both, no path within what is free leads from start to goal. PROOF. A path is the image of
+an interval, which is connected; its parts in U and in V are closed in it, disjoint, together all of it, and neither is
+empty. All of this but where start and goal are is said in sentences, proved by the engine and checked by the kernel.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
 from itertools import pairwise
-from math import lcm
 
 import qe
-from bezier.curves.scalar import subtract
-from bezier.obstacles.obstacle import Constraint
+from bezier.curves.enclosure import root_above
+from bezier.curves.scalar import dot, subtract
 from bezier.scenes.barrier import Wall, barrier
-from bezier.scenes.cells import Cell, FreeCells, Point, Side, opposite, points_along
+from bezier.scenes.bound import LengthBound, least_length
+from bezier.scenes.cells import Cell, FreeCells, Point, points_along
 from bezier.scenes.outlines import outlines
 from bezier.scenes.scene import Scene
+from bezier.scenes.sentences import Curve, cell_of, clear, coordinates, covering, every, of_sides
+from bezier.scenes.shortest import least_chain
 from bezier.scenes.solid import Solid, directions
 from qe.certify.claims import is_about
-from qe.errors import CertificateRejected, Unable
-from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, disj, forall, neg
-from qe.formula.normal import nnf
-from qe.formula.syntax import TRUE, Formula, Relation
+from qe.errors import CertificateRejected, InputError, Unable
+from qe.formula.build import conj, disj, neg
+from qe.formula.syntax import TRUE, Formula
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 
-HELD, COVERED = "the workspace is in the polytope around it", "every point of it is in a wall, in U or in V"
-DISJOINT = "none beside the walls is in both"
-NAMES = ("x", "y", "z")
+DISJOINT = "none beside the walls is on both sides"
 PLANE_STEPS, SPACE_STEPS = (1, 2, 3), (0, 1, 2, 3)
 """How fine the polytopes around round bodies are, one after the other: see ``directions``."""
 
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """A polygonal path through free points, ``points`` its corners, with its proof."""
+    """A path through free points with its proof: Bézier ``curves`` by their control points, segments where these are
+    two. ``bound``: where a short path was asked for, what proves that none is shorter than ``at_least``."""
 
     scene: Scene
-    points: tuple[Point, ...]
+    curves: tuple[Curve, ...]
     certificate: Certificate | None
+    bound: LengthBound | None = None
 
     blocked = False
 
     @property
+    def points(self) -> tuple[Point, ...]:
+        """The ends of the curves, from start to goal."""
+        return (*(curve[0] for curve in self.curves), self.curves[-1][-1])
+
+    @property
+    def length(self) -> Fraction:
+        """That of all control polygons, rounded up: the path is not longer."""
+        legs = (subtract(b, a) for curve in self.curves for a, b in pairwise(curve))
+        return sum((root_above(Fraction(dot(leg, leg)), 40) for leg in legs), Fraction(0))
+
+    @property
+    def at_least(self) -> Fraction | None:
+        """No path from start to goal is shorter; None where no short path was asked for."""
+        return None if self.bound is None else self.bound.value
+
+    @property
     def sentences(self) -> dict[str, Formula]:
-        """What is proved of each segment."""
-        return {f"segment {k}": _clear(self.scene, a, b) for k, (a, b) in enumerate(pairwise(self.points), start=1)}
+        """What is proved of each curve, and of the length."""
+        curves = {f"curve {k}": clear(self.scene, curve) for k, curve in enumerate(self.curves, start=1)}
+        return curves if self.bound is None else curves | self.bound.sentences(Budget())[1]
 
     def check(self, certificate: Certificate | None = None) -> None:
         """Verify again, by the scene and the corners alone. Raises ``qe.CertificateRejected``."""
         if self.points[0] != self.scene.start or self.points[-1] != self.scene.goal:
             raise CertificateRejected("path", "it does not lead from start to goal")
+        if any(a[-1] != b[0] for a, b in pairwise(self.curves)):
+            raise CertificateRejected("path", "it jumps")
+        if self.bound is not None and self.bound.scene != self.scene:
+            raise CertificateRejected("length", "the bound is about another scene")
+        if self.bound is not None and self.bound.value > self.bound.sentences(Budget())[0]:
+            raise CertificateRejected("length", "the bound is larger than what is said")
         verified(certificate or self.certificate, self.sentences)
 
     def to_json(self) -> dict[str, object]:
-        """The corners as texts of exact numbers."""
-        return {"status": "free", "points": [list(map(str, p)) for p in self.points]}
+        """The corners as texts of exact numbers, control points where it is curved; lengths as floats."""
+        data: dict[str, object] = {"status": "free", "points": [list(map(str, p)) for p in self.points]}
+        if self.is_curved:
+            data["curves"] = [[list(map(str, p)) for p in curve] for curve in self.curves]
+        data["length"] = float(self.length)
+        return data if self.bound is None else data | {"no path is shorter than": float(self.at_least or 0)}
+
+    @property
+    def is_curved(self) -> bool:
+        """Whether it has more than segments."""
+        return any(len(curve) > 2 for curve in self.curves)
 
     def __str__(self) -> str:
-        shown = " ".join("(" + ", ".join(map(str, p)) + ")" for p in self.points)
-        return f"free: a path of {len(self.points) - 1} segments, clear of all obstacles\n{shown}"
+        kind = "curves" if self.is_curved else "segments"
+        lines = [f"free: a path of {len(self.curves)} {kind}, clear of all obstacles"]
+        if self.bound is None:
+            lines.append(" ".join("(" + ", ".join(map(str, p)) + ")" for p in self.points))
+        else:
+            lines.append(
+                f"length at most {float(self.length):.6g}; no path is shorter than {float(self.at_least or 0):.6g}"
+            )
+        return "\n".join(lines)
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +132,13 @@ class Blocked:
     @property
     def sentences(self) -> dict[str, Formula]:
         """What is proved of the walls and the two sides."""
-        return dict(_separate(self))
+        at = coordinates(self.scene)
+        walls = (cell_of(wall) for wall in self.walls)
+        both = conj(disj(of_sides(cell.sides, at) for cell in side) for side in (self.start_side, self.goal_side))
+        apart = every(at, disj((neg(both), *(of_sides(cell.sides, at) for cell in walls))))
+        return dict(covering(self.scene, self.around, self.walls, (*self.start_side, *self.goal_side))) | {
+            DISJOINT: apart
+        }
 
     def check(self, certificate: Certificate | None = None) -> None:
         """Verify again, by the scene, the walls and the two sides alone. Raises ``qe.CertificateRejected``."""
@@ -119,8 +163,31 @@ class Blocked:
         return f"blocked: {self.reason}"
 
 
-def decided(scene: Scene, budget: Budget, *, proof: bool = True) -> Route | Blocked:
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """A short path: the degree of its curves (1: segments) and how many derivatives are continuous."""
+
+    degree: int = 3
+    continuity: int = 1
+
+    def __post_init__(self) -> None:
+        if self.degree not in range(1, 6) or self.continuity not in range(3):
+            raise InputError(f"expected degree 1 to 5 and continuity 0 to 2, found {self.degree} and {self.continuity}")
+        if self.degree > 1 and self.degree < 2 * self.continuity:
+            needed = 2 * self.continuity
+            raise InputError(
+                f"continuity: expected degree {needed} or more with {self.continuity}, found {self.degree}"
+            )
+
+    @property
+    def joins(self) -> int:
+        """The order of continuity; segments have corners."""
+        return self.continuity if self.degree > 1 else 0
+
+
+def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | None = None) -> Route | Blocked:
     """A path with proof, or the proof that there is none; the same without a certificate where no ``proof`` is wanted.
+    With a ``wish`` the path is short, and a bound for all paths is proved, too.
 
     The plane is decided completely, and polytopes in space. Raises ``Unable`` where a limit ends the work, and where in
     space only passages that are narrower than the finest polytopes around and within round bodies show are left.
@@ -130,13 +197,34 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True) -> Route | Bloc
         if why is not None:
             return Blocked(scene, Cell.box(scene.low, scene.high), (), (), (), f"the {name} is {why}", None)
     known = (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
-    return replace(known, certificate=proved(known.sentences, budget)) if proof else known
+    known, proofs = _shortest(known, wish, budget) if wish is not None and isinstance(known, Route) else (known, [])
+    if not proof:
+        return known
+    left = {k: sentence for k, sentence in known.sentences.items() if k not in dict(proofs)}
+    return replace(known, certificate=Certificate.bundle([*proved(left, budget), *proofs]))
+
+
+def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tuple[str, Certificate]]]:
+    """A short path in place of one that is known, which stays where passages are too narrow for floating point."""
+    scene, is_plane = known.scene, known.scene.dimension == 2
+    for fine in (2, 1):
+        domain, bodies = outlines(scene, fine)
+        curves = least_chain(scene, domain, FreeCells.of(domain, bodies, budget), wish.degree, wish.joins)
+        if curves is not None:
+            break
+    if curves is not None and wish.degree == 1:
+        corners = (curves[0][0], *(curve[-1] for curve in curves))
+        curves = tuple(pairwise(shortened(corners, scene.solids)))
+    if curves is not None:
+        known = replace(known, curves=curves)
+    bound, proofs = least_length(scene, 2 if is_plane else 0, budget)
+    return replace(known, bound=bound), proofs
 
 
 def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:
     walls = barrier(scene)
     if walls:
-        cells = [wall_cell(wall) for wall in walls]
+        cells = [cell_of(wall) for wall in walls]
         result: Route | Blocked | None = _separated(scene, Cell.box(scene.low, scene.high), cells, walls, budget)
     else:
         result = next(filter(None, (_joined(scene, fine, budget) for fine in PLANE_STEPS)), None)
@@ -151,7 +239,7 @@ def _in_space(scene: Scene, budget: Budget) -> Route | Blocked:
         normals = directions(3, fine)
         known: Route | Blocked | None = _joined(scene, fine, budget)
         if known is None:
-            walls = tuple(cell for body in scene.obstacles if (cell := _within(body, normals)) is not None)
+            walls = tuple(cell for body in scene.solids if (cell := _within(body, normals)) is not None)
             sides = [side for part in scene.domain for side in part.around(normals)]
             domain = Cell.within(scene.low, scene.high, sides)
             assert domain is not None
@@ -174,8 +262,22 @@ def _joined(scene: Scene, fine: int, budget: Budget) -> Route | None:
     before = free.reached(start)
     if goal not in before:
         return None
-    points = points_along(free, free.way(before, goal), scene.start, scene.goal)
-    return Route(scene, shortened(points, scene.solids), None)
+    points = shortened(points_along(free, free.way(before, goal), scene.start, scene.goal), scene.solids)
+    return Route(scene, tuple(pairwise(_simpler(points, scene))), None)
+
+
+def _simpler(points: Sequence[Point], scene: Scene) -> list[Point]:
+    """The corners with shorter numbers, as far as the path stays clear."""
+    result = list(points)
+    for k in range(1, len(result) - 1):
+        for unit in (4, 10, 100, 1000, 10**5, 10**7):
+            near = tuple(Fraction(round(c * unit), unit) for c in result[k])
+            legs = (result[k - 1], near), (near, result[k + 1])
+            inside = all(part.contains(near) for part in scene.domain)
+            if inside and not any(body.meets(*leg) for body in scene.solids for leg in legs):
+                result[k] = near
+                break
+    return result
 
 
 def shortened(points: Sequence[Point], obstacles: Sequence[Solid]) -> tuple[Point, ...]:
@@ -188,18 +290,6 @@ def shortened(points: Sequence[Point], obstacles: Sequence[Solid]) -> tuple[Poin
         kept.append(points[ahead])
         at = ahead
     return tuple(kept)
-
-
-def wall_cell(wall: Wall) -> Cell:
-    """The segment as a flat cell."""
-    (a, b), along = (wall.start, wall.end), subtract(wall.end, wall.start)
-    across = -along[1], along[0]
-    level, first, last = (
-        sum(x * y for x, y in zip(n, p, strict=True)) for n, p in ((across, a), (along, a), (along, b))
-    )
-    line = across, Fraction(level)
-    sides = (along, Fraction(last)), opposite((along, Fraction(first))), line, opposite(line)
-    return Cell.of(sides, (a, b), is_flat=True)
 
 
 def _separated(
@@ -217,8 +307,8 @@ def _separated(
     return Blocked(scene, domain, walls, one, other, "the obstacles and the domain separate start and goal", None)
 
 
-def proved(sentences: dict[str, Formula], budget: Budget) -> Certificate:
-    """A certificate with a member for each sentence. Raises ``Unable``."""
+def proved(sentences: dict[str, Formula], budget: Budget) -> list[tuple[str, Certificate]]:
+    """A certificate for each sentence. Raises ``Unable``."""
     members = []
     for label, sentence in sentences.items():
         budget.check("proof of the route")
@@ -226,7 +316,7 @@ def proved(sentences: dict[str, Formula], budget: Budget) -> Certificate:
         if answer.truth is not True or answer.guarantee is not qe.Guarantee.CHECKED or answer.certificate is None:
             raise Unable(f"not proved: {label} ({answer.reason or answer.truth})")
         members.append((label, answer.certificate))
-    return Certificate.bundle(members)
+    return members
 
 
 def verified(certificate: Certificate | None, sentences: dict[str, Formula]) -> None:
@@ -240,79 +330,3 @@ def verified(certificate: Certificate | None, sentences: dict[str, Formula]) -> 
         verdict = qe.verify(member.certificate, formula=sentence)
         if not verdict.accepted or is_about(member.certificate, sentence) != TRUE:
             raise CertificateRejected(member.label, verdict.reason or "it does not say that the sentence is true")
-
-
-# --- sentences ---------------------------------------------------------------------------------------
-def _clear(scene: Scene, a: Point, b: Point) -> Formula:
-    """For all t in [0, 1] the point of the segment is outside every obstacle, and in the workspace."""
-    return _along(a, b, lambda at, scale: neg(_taken(scene, scene.solids, at, scale)))
-
-
-def _taken(scene: Scene, bodies: Sequence[Solid], at: Sequence[Poly], scale: int = 1) -> Formula:
-    """That a point is in one of the bodies or outside the workspace."""
-    outside = (neg(_inside(part, at, scale)) for part in scene.domain)
-    return disj((*outside, *(_inside(body, at, scale) for body in bodies)))
-
-
-def _along(a: Point, b: Point, said: Callable[[Sequence[Poly], int], Formula]) -> Formula:
-    """For all t in [0, 1] what is ``said`` of the point of a segment: its coordinates are polynomials over a number."""
-    ring = Ring.of(("t",))
-    t = ring.var("t")
-    within = conj((atom(t, Relation.GE), atom(t - 1, Relation.LE)))
-    scale = lcm(*(c.denominator for c in (*a, *b)))
-    at = [int((q - p) * scale) * t + int(p * scale) for p, q in zip(a, b, strict=True)]
-    return forall(("t",), nnf(disj((neg(within), said(at, scale)))))
-
-
-def _separate(known: Blocked) -> Iterator[tuple[str, Formula]]:
-    """The sentences about the two sides, one about each wall that is no obstacle itself, one about the workspace."""
-    scene = known.scene
-    names = NAMES[: scene.dimension]
-    ring = Ring.of(names)
-    at = [ring.var(n) for n in names]
-
-    def every(formula: Formula) -> Formula:
-        return forall(names, nnf(formula))
-
-    cells = [wall_cell(w) if isinstance(w, Wall) else w for w in known.walls]
-    u, v = (disj(_of_sides(cell.sides, at) for cell in side) for side in (known.start_side, known.goal_side))
-    walls = disj(_of_sides(cell.sides, at) for cell in cells)
-    around = _of_sides(known.around.sides, at)
-    yield HELD, every(disj((neg(conj(_inside(part, at) for part in scene.domain)), around)))
-    yield COVERED, every(disj((neg(around), walls, u, v)))
-    yield DISJOINT, every(disj((neg(u), neg(v), walls)))
-    for k, wall in enumerate(known.walls, start=1):
-        if isinstance(wall, Wall):
-            bodies = [scene.solids[i] for i in wall.bodies]
-            yield f"wall {k}", _along(wall.start, wall.end, partial(_taken, scene, bodies))
-        elif not any(body.is_polytope and body.sides == wall.sides for body in scene.obstacles):
-            inside = (_inside(body, at) for body in scene.obstacles if not body.is_polytope)
-            yield f"wall {k}", every(disj((neg(_of_sides(wall.sides, at)), *inside)))
-
-
-def _inside(body: Solid, at: Sequence[Poly], scale: int = 1) -> Formula:
-    """That the point with the coordinates ``at`` over ``scale`` is in a body."""
-    return disj(conj(_holds(c, at, scale) for c in piece) for piece in body.pieces)
-
-
-def _holds(condition: Constraint, at: Sequence[Poly], scale: int) -> Formula:
-    """A condition at a point, times the power of ``scale`` that makes its coefficients whole."""
-    whole = lcm(*(c.denominator for _, c in condition.terms))
-    total, degree = at[0] * 0, condition.degree
-    for exponents, c in condition.terms:
-        term = at[0] ** 0 * int(c * whole * scale ** (degree - sum(exponents)))
-        for power, coordinate in zip(exponents, at, strict=False):
-            term = term * coordinate**power
-        total = total + term
-    return atom(total, condition.relation)
-
-
-def _of_sides(sides: Sequence[Side], at: Sequence[Poly]) -> Formula:
-    conditions = []
-    for n, c in sides:
-        whole = lcm(c.denominator, *(x.denominator for x in n))
-        total = at[0] ** 0 * -int(c * whole)
-        for x, coordinate in zip(n, at, strict=True):
-            total = total + int(x * whole) * coordinate
-        conditions.append(atom(total, Relation.LE))
-    return conj(conditions)

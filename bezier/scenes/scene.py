@@ -276,7 +276,7 @@ def _wide_polygon(
         ends = [(d, Fraction(dot(d, p))) for d, p in ((subtract(a, b), a), (subtract(b, a), b))]
         yield slab((*n, ZERO), c, margin), *_conditions(ends)
     for p in corners if margin else ():
-        yield (ball((*p, ZERO), margin),)
+        yield _at_level((ball((*p, ZERO), margin),))
 
 
 def _conditions(sides: Sequence[Side]) -> tuple[Constraint, ...]:

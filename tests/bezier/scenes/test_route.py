@@ -9,6 +9,7 @@ import sys
 from collections import deque
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -18,15 +19,20 @@ from scipy.ndimage import label
 
 import bezier
 import qe
+from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, subtract
 from bezier.interface.function import table_value
 from bezier.scenes import route as route_module
 from bezier.scenes.barrier import barrier
 from bezier.scenes.cells import Cell, FreeCells
-from bezier.scenes.route import Blocked, Route, decided
+from bezier.scenes.conic import Conic
+from bezier.scenes.route import Blocked, Route, Wish, decided
 from bezier.scenes.scene import Scene, given_scene
+from bezier.scenes.sentences import inside
 from bezier.scenes.solid import nearest
 from experiments.problem import ROOT
+from qe.exact.ring import Ring
+from qe.formula.syntax import TRUE
 from qe.options import Budget
 from tests.tables import each
 
@@ -299,8 +305,9 @@ def test_altered_answers_are_refused() -> None:
     free, barred = bezier.route(slit(Fraction(1, 1000))), bezier.route(SCENE)
     assert isinstance(free, bezier.Route) and isinstance(barred, bezier.Blocked)
     for altered in (
-        replace(free, points=(free.points[0], free.points[-1])),
-        replace(free, points=free.points[:-1]),
+        replace(free, curves=((free.points[0], free.points[-1]),)),
+        replace(free, curves=free.curves[:-1]),
+        replace(free, curves=(free.curves[0], free.curves[-1])),
         replace(free, scene=barred.scene),
         replace(barred, scene=free.scene),
         replace(barred, goal_side=barred.start_side),
@@ -312,6 +319,86 @@ def test_altered_answers_are_refused() -> None:
     ):
         with pytest.raises(qe.CertificateRejected):
             altered.check()
+
+
+def test_formulas_of_bodies_say_what_belongs_to_them() -> None:
+    """Against the distance from the core: a polygon with margin, a capsule, a disc, a flat box, a half-plane."""
+    rng, ring = random.Random(7), Ring.of(("x", "y"))
+    for _ in range(12):
+        for body in mixed(rng).obstacles:
+            for _ in range(8):
+                point = tuple(Fraction(rng.randint(0, 80), 8) for _ in range(2))
+                p, q = nearest(body.corners, [point])
+                belongs = dot(subtract(p, q), subtract(p, q)) <= body.radius**2
+                said = inside(body, [ring.constant(int(8 * c)) for c in point], 8)
+                assert body.contains(point) is belongs is (said == TRUE)
+
+
+@each((1, 0), (2, 1), (3, 1), (4, 2))
+def test_a_short_path_is_proved_and_as_smooth_as_asked(degree: int, continuity: int) -> None:
+    scene = {**SCENE, "start": [1, 4], "goal": [9, 4], "obstacle": [WALLS[0]]}
+    found = bezier.route(scene, shortest=True, degree=degree, continuity=continuity)
+    assert isinstance(found, Route) and found.at_least is not None
+    found.check()
+    least = 2 * 10**0.5 + 2
+    assert least * 0.999 < found.at_least < least < found.length < least * 1.01
+    for one, other in pairwise(found.curves):
+        slopes = [subtract(one[-1], one[-2]), subtract(other[1], other[0])]
+        assert one[-1] == other[0] and (continuity < 1 or slopes[0] == slopes[1])
+    samples = np.array([[float(c) for c in p] for curve in found.curves for p in Bezier(curve).split()[0].points])
+    assert len(samples) and not np.any(np.all((samples > [4, 0]) & (samples < [6, 5]), axis=1))
+    assert found.bound is not None
+    for altered in (
+        replace(found, bound=replace(found.bound, value=found.bound.value * 2)),
+        replace(found, bound=replace(found.bound, slack=-found.bound.slack - 1)),
+        replace(found, bound=replace(found.bound, levels=tuple((k, (n, 2 * c)) for k, (n, c) in found.bound.levels))),
+        replace(found, curves=found.curves[1:]),
+        replace(found, curves=(tuple(reversed(found.curves[0])), *found.curves[1:])),
+    ):
+        with pytest.raises(qe.CertificateRejected):
+            altered.check()
+
+
+def test_a_broken_proposer_of_lengths_proves_nothing_false(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The solver's answer is disturbed: paths stay clear and bounds below the length, or there is none."""
+    rng, real, scene = (
+        random.Random(5),
+        Conic.solved,
+        {**SCENE, "start": [1, 4], "goal": [9, 4], "obstacle": [WALLS[0]]},
+    )
+
+    def broken(self: Conic) -> list[float] | None:
+        values = real(self)
+        return values and [v * rng.uniform(0.9, 1.1) if rng.random() < share else v for v in values]
+
+    monkeypatch.setattr(Conic, "solved", broken)
+    for share in (0.01, 0.1, 0.5, 1.0):
+        try:
+            found = decided(read_scene(scene), Budget(120), wish=Wish())
+        except qe.Unable:
+            continue
+        found.check()
+        assert isinstance(found, Route) and found.at_least is not None
+        assert found.at_least < 2 * 10**0.5 + 2 < found.length
+
+
+@each("plane10", "window")
+def test_short_paths_of_the_scenes_that_peers_were_run_on(name: str) -> None:
+    if not SHARED.is_dir():
+        pytest.skip("no folder of scenes beside the project")
+    found = bezier.route(SHARED / f"{name}.json", shortest=True)
+    assert isinstance(found, Route) and found.at_least is not None
+    assert found.length < {"plane10": 13, "window": 10.3}[name]
+    assert found.length < found.at_least * Fraction(101, 100)
+    found.check()
+
+
+def test_the_example_in_toml_is_planned_and_drawn(tmp_path: Path) -> None:
+    file, picture = ROOT / "examples" / "scenes" / "ring.toml", tmp_path / "ring.svg"
+    command = [sys.executable, "-m", "bezier", "route", str(file), "--shortest", "--picture", str(picture)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "no path is shorter than" in done.stdout
+    assert picture.read_text().count("<polygon") > 5 and "<polyline" in picture.read_text()
 
 
 def test_both_doors_say_the_same(tmp_path: Path) -> None:

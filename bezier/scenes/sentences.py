@@ -1,0 +1,118 @@
+"""What is said of scenes, as sentences for the kernel: curves are clear, cells and walls cover a workspace."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from functools import partial
+from math import comb, lcm
+
+from bezier.curves.scalar import dot, subtract
+from bezier.obstacles.obstacle import Constraint
+from bezier.scenes.barrier import Wall
+from bezier.scenes.cells import Cell, Point, Side, opposite
+from bezier.scenes.scene import Scene
+from bezier.scenes.solid import Solid
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, disj, forall, neg
+from qe.formula.normal import nnf
+from qe.formula.syntax import Formula, Relation
+
+HELD, COVERED = "the workspace is in the polytope around it", "every point of it is in a wall or in a cell"
+NAMES = ("x", "y", "z")
+Curve = tuple[Point, ...]
+"""Control points."""
+
+
+def covering(
+    scene: Scene, around: Cell, walls: Sequence[Cell | Wall], cells: Sequence[Cell]
+) -> Iterator[tuple[str, Formula]]:
+    """That the walls are in obstacles or outside the workspace, and cover with the cells a polytope around it."""
+    at = coordinates(scene)
+    covered = disj(of_sides(cell.sides, at) for cell in (*map(cell_of, walls), *cells))
+    held = of_sides(around.sides, at)
+    yield HELD, every(at, disj((neg(conj(inside(part, at) for part in scene.domain)), held)))
+    yield COVERED, every(at, disj((neg(held), covered)))
+    for k, wall in enumerate(walls, start=1):
+        if isinstance(wall, Wall):
+            bodies = [scene.solids[i] for i in wall.bodies]
+            yield f"wall {k}", along((wall.start, wall.end), partial(taken, scene, bodies))
+        elif not any(body.is_polytope and body.sides == wall.sides for body in scene.solids):
+            around_it = (inside(body, at) for body in scene.solids if not body.is_polytope)
+            yield f"wall {k}", every(at, disj((neg(of_sides(wall.sides, at)), *around_it)))
+
+
+def coordinates(scene: Scene) -> list[Poly]:
+    """The coordinates of a point as variables."""
+    names = NAMES[: scene.dimension]
+    return [Ring.of(names).var(name) for name in names]
+
+
+def every(at: Sequence[Poly], formula: Formula) -> Formula:
+    """That a formula holds for all points."""
+    return forall(NAMES[: len(at)], nnf(formula))
+
+
+def cell_of(wall: Wall | Cell) -> Cell:
+    """A wall as a cell, a segment as a flat one."""
+    if isinstance(wall, Cell):
+        return wall
+    (a, b), ahead = (wall.start, wall.end), subtract(wall.end, wall.start)
+    across = -ahead[1], ahead[0]
+    line, last = (across, Fraction(dot(across, a))), (ahead, Fraction(dot(ahead, b)))
+    sides = last, opposite((ahead, Fraction(dot(ahead, a)))), line, opposite(line)
+    return Cell.of(sides, (a, b), is_flat=True)
+
+
+def clear(scene: Scene, curve: Curve) -> Formula:
+    """For all t in [0, 1] the point of the curve is outside every obstacle, and in the workspace."""
+    return along(curve, lambda at, scale: neg(taken(scene, scene.solids, at, scale)))
+
+
+def taken(scene: Scene, bodies: Sequence[Solid], at: Sequence[Poly], scale: int = 1) -> Formula:
+    """That a point is in one of the bodies or outside the workspace."""
+    outside = (neg(inside(part, at, scale)) for part in scene.domain)
+    return disj((*outside, *(inside(body, at, scale) for body in bodies)))
+
+
+def along(curve: Curve, said: Callable[[Sequence[Poly], int], Formula]) -> Formula:
+    """For all t in [0, 1] what is ``said`` of the point of a curve: its coordinates are polynomials over a number."""
+    ring = Ring.of(("t",))
+    t = ring.var("t")
+    within = conj((atom(t, Relation.GE), atom(t - 1, Relation.LE)))
+    scale, degree = lcm(*(c.denominator for p in curve for c in p)), len(curve) - 1
+    at = [ring.constant(0)] * len(curve[0])
+    for k, point in enumerate(curve):
+        weight = t**k * (1 - t) ** (degree - k) * comb(degree, k)
+        at = [total + weight * int(c * scale) for total, c in zip(at, point, strict=True)]
+    return forall(("t",), nnf(disj((neg(within), said(at, scale)))))
+
+
+def inside(body: Solid, at: Sequence[Poly], scale: int = 1) -> Formula:
+    """That the point with the coordinates ``at`` over ``scale`` is in a body."""
+    return disj(conj(_holds(c, at, scale) for c in piece) for piece in body.pieces)
+
+
+def _holds(condition: Constraint, at: Sequence[Poly], scale: int) -> Formula:
+    """A condition at a point, times the power of ``scale`` that makes its coefficients whole."""
+    whole = lcm(*(c.denominator for _, c in condition.terms))
+    zero, degree = at[0] * 0, condition.degree
+    total = zero
+    for exponents, c in condition.terms:
+        term = at[0] ** 0 * int(c * whole * scale ** (degree - sum(exponents)))
+        for power, coordinate in zip(exponents, (*at, zero)[:3], strict=True):  # the plane is where z = 0
+            term = term * coordinate**power
+        total = total + term
+    return atom(total, condition.relation)
+
+
+def of_sides(sides: Sequence[Side], at: Sequence[Poly]) -> Formula:
+    """That a point is on all these sides."""
+    conditions = []
+    for n, c in sides:
+        whole = lcm(c.denominator, *(x.denominator for x in n))
+        total = at[0] ** 0 * -int(c * whole)
+        for x, coordinate in zip(n, at, strict=True):
+            total = total + int(x * whole) * coordinate
+        conditions.append(atom(total, Relation.LE))
+    return conj(conditions)

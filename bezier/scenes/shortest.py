@@ -1,0 +1,149 @@
+"""A short chain of Bézier curves through the free cells: floating point proposes, rounded points are proved elsewhere.
+
+The way through the cells is a shortest one over the corners and centres of the doors (Dijkstra). In each of its cells
+lies one curve, whose control points the cell holds, and so the curve; joins are as smooth as asked. Its control
+polygons are as short as can be, with a small part for the squares of second differences, which keeps the speed from
+changing suddenly.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import pairwise, product
+from math import dist
+
+from bezier.scenes.cells import Cell, FreeCells, Point, Side
+from bezier.scenes.conic import Conic
+from bezier.scenes.scene import Scene
+from bezier.scenes.sentences import Curve
+
+EVENNESS, SAMPLES = 0.005, 4
+"""The part of the squares of second differences in the cost, over the width of the workspace."""
+DIGITS, INWARDS = 2**24, 1e-6
+_Node = tuple[tuple[int, int], int]
+
+
+def least_chain(scene: Scene, domain: Cell, free: FreeCells, degree: int, continuity: int) -> tuple[Curve, ...] | None:
+    """Curves from start to goal with rational control points, each in a free cell, but for rounding errors; None where
+    the cells do not hang together, or are too narrow for floating point."""
+    cells = corridor(scene, free)
+    if cells is None:
+        return None
+    held = [free.cells[i] for i in cells]
+    proposed = _proposed(scene, set(domain.sides), held, degree, continuity)
+    return None if proposed is None else _rounded(scene, proposed, continuity)
+
+
+def corridor(scene: Scene, free: FreeCells) -> list[int] | None:
+    """The cells of a shortest way over corners and centres of doors."""
+    first, last = free.holding(scene.start), free.holding(scene.goal)
+    if first is None or last is None:
+        return None
+    samples = {
+        (min(i, j), max(i, j)): _samples(door) for i, doors in enumerate(free.doors) for j, door in doors.items()
+    }
+    start, goal = tuple(map(float, scene.start)), tuple(map(float, scene.goal))
+    # a node is a sample of a door, and the cell that is entered by it
+    best: dict[_Node, tuple[float, _Node | None]] = {((first, first), 0): (0.0, None)}
+    waiting = [(dist(start, goal), 0.0, ((first, first), 0), start)]
+    while waiting:
+        _, far, node, at = heapq.heappop(waiting)
+        (_, cell), _ = node
+        if far > best[node][0]:
+            continue
+        if cell == last and at == goal:
+            return _cells(best, node)
+        steps = [
+            (((cell, j), k), p) for j in free.doors[cell] for k, p in enumerate(samples[min(cell, j), max(cell, j)])
+        ]
+        if cell == last:
+            steps.append((((last, last), 1), goal))
+        for other, p in steps:
+            reach = far + dist(at, p)
+            if other not in best or reach < best[other][0]:
+                best[other] = reach, node
+                heapq.heappush(waiting, (reach + dist(p, goal), reach, other, p))
+    return None
+
+
+def _samples(door: Cell) -> list[tuple[float, ...]]:
+    """The centre of a door, its corners, and points between."""
+    middle = tuple(sum(c) / len(door.floats) for c in zip(*door.floats, strict=True))
+    shares = [k / SAMPLES for k in range(1, SAMPLES + 1)]
+    return [middle, *(_mixed(middle, corner, s) for corner in door.floats for s in shares)]
+
+
+def _mixed(a: Sequence[float], b: Sequence[float], share: float) -> tuple[float, ...]:
+    return tuple(x + share * (y - x) for x, y in zip(a, b, strict=True))
+
+
+def _cells(best: dict[_Node, tuple[float, _Node | None]], node: _Node) -> list[int]:
+    cells, at = list[int](), best[node][1]
+    while at is not None:
+        cells.append(at[0][1])
+        at = best[at][1]
+    return cells[::-1]
+
+
+def _proposed(
+    scene: Scene, rim: set[Side], cells: Sequence[Cell], degree: int, continuity: int
+) -> list[list[list[float]]] | None:
+    """Control points by cell, as the solver finds them, a little away from the rim of the workspace."""
+    size, program = scene.dimension, Conic()
+    columns = [[program.columns(size) for _ in range(degree + 1)] for _ in cells]
+    wide = float(max(b - a for a, b in zip(scene.low, scene.high, strict=True)))
+    for point, at in ((scene.start, columns[0][0]), (scene.goal, columns[-1][-1])):
+        for k, c in zip(at, point, strict=True):
+            program.equal([(k, 1.0)], float(c))
+    for one, other in pairwise(columns):
+        for order in range(min(continuity, degree) + 1):
+            for axis in range(size):
+                ahead = [(other[k][axis], float(s)) for k, s in enumerate(_differences(order))]
+                behind = [(one[degree - order + k][axis], -float(s)) for k, s in enumerate(_differences(order))]
+                program.equal([*ahead, *behind], 0.0)
+    for cell, points in zip(cells, columns, strict=True):
+        for side, at in product(cell.sides, points):
+            if at is not columns[0][0] and at is not columns[-1][-1]:
+                away = INWARDS * wide * max(abs(float(x)) for x in side[0]) if side in rim else 0.0
+                program.at_least([(k, -float(x)) for k, x in zip(at, side[0], strict=True)], away - float(side[1]))
+        for a, b in pairwise(points):
+            (leg,) = program.columns(1)
+            program.cone([([(leg, 1.0)], 0.0), *(([(j, 1.0), (k, -1.0)], 0.0) for j, k in zip(a, b, strict=True))])
+            program.add_cost([(leg, 1.0)])
+        share = (EVENNESS / wide) ** 0.5
+        for three in zip(points, points[1:], points[2:], strict=False):
+            for i, j, k in zip(*three, strict=True):
+                program.add_square([(i, share), (j, -2 * share), (k, share)])
+    found = program.solved()
+    return None if found is None else [[[found[k] for k in at] for at in points] for points in columns]
+
+
+def _differences(order: int) -> tuple[int, ...]:
+    return ((1,), (-1, 1), (1, -2, 1))[order]
+
+
+def _rounded(scene: Scene, proposed: list[list[list[float]]], continuity: int) -> tuple[Curve, ...]:
+    """Rational points, the first ones of each curve by those of the curve before it."""
+    unit = max(b - a for a, b in zip(scene.low, scene.high, strict=True)) / DIGITS
+    curves = list[Curve]()
+    for number, points in enumerate(proposed):
+        exact = [tuple(round(Fraction(c) / unit) * unit for c in p) for p in points]
+        if curves:
+            exact[: continuity + 1] = list(_continued(curves[-1]))[: continuity + 1]
+        else:
+            exact[0] = scene.start
+        if number == len(proposed) - 1:
+            exact[-1] = scene.goal
+        curves.append(tuple(exact))
+    return tuple(curves)
+
+
+def _continued(curve: Curve) -> Iterator[Point]:
+    """The first control points of a curve that goes on with the same derivatives."""
+    last = curve[::-1]
+    yield last[0]
+    yield tuple(2 * a - b for a, b in zip(last[0], last[1], strict=True))
+    if len(last) > 2:
+        yield tuple(4 * a - 4 * b + c for a, b, c in zip(*last[:3], strict=True))
