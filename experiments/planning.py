@@ -71,7 +71,7 @@ class PathRow:
 
 @dataclass(frozen=True, slots=True)
 class SceneRow:
-    """One scene: what is proved, and whether a flood of a grid gets through (None in space)."""
+    """One scene: what is proved, lengths of our path and of none shorter, whether a flood gets through (None in space)."""
 
     name: str
     obstacles: int
@@ -79,6 +79,8 @@ class SceneRow:
     seconds: float
     accepted: bool
     flood: bool | None
+    length: float | None
+    at_least: float | None
 
 
 def timed(work: Callable[[], T]) -> tuple[T, float]:
@@ -223,11 +225,14 @@ def scene_cases() -> Iterator[tuple[str, Any]]:
 
 def scene_row(name: str, given: Any) -> tuple[SceneRow, Any]:
     """What is proved of a scene, and the answer."""
-    answer, seconds = timed(lambda: bezier.route(given))
+    answer, seconds = timed(lambda: bezier.route(given, shortest=True))
     accepted = answer.certificate is not None and qe.verify(answer.certificate).accepted
-    ours = "blocked" if isinstance(answer, bezier.Blocked) else f"path of {len(answer.points) - 1} segments"
+    ours = "blocked" if isinstance(answer, bezier.Blocked) else f"path of {len(answer.curves)} curves"
     flood = flooded(answer.scene) if answer.scene.dimension == 2 else None
-    return SceneRow(name, len(answer.scene.obstacles), ours, seconds, accepted, flood), answer
+    lengths = (
+        (None, None) if isinstance(answer, bezier.Blocked) else (float(answer.length), float(answer.at_least or 0))
+    )
+    return SceneRow(name, len(answer.scene.obstacles), ours, seconds, accepted, flood, *lengths), answer
 
 
 def flooded(scene: Any, count: int = 200) -> bool:
@@ -329,11 +334,15 @@ def page(
             f"{row.seconds:.3f}",
             html.toned("accepted" if row.accepted else "none", row.accepted),
             "" if row.flood is None else "gets through" if row.flood else "does not",
+            "" if row.length is None else f"{row.length:.5g}",
+            "" if row.at_least is None else f"{row.at_least:.5g}",
         )
         for row in scenes
     ]
     routes = html.table(
-        ("scene", "obstacles", "proved", "s", "certificate", "flood of 200 x 200"), known, numbers=(1, 3)
+        ("scene", "obstacles", "proved", "s", "certificate", "flood of 200 x 200", "length", "none shorter than"),
+        known,
+        numbers=(1, 3, 6, 7),
     )
     sections = [
         Section("chains", "Chains", html.table(head, lines, numbers=(0, 2, 5)), short="chains"),

@@ -45,7 +45,7 @@ def route(
     >>> scene = {"domain": {"low": [0, 0], "high": [10, 10]}, "start": [1, 5], "goal": [9, 5], "obstacle": [wall]}
     >>> print(bezier.route(scene))
     free: a path of 2 segments, clear of all obstacles
-    (1, 5) (7, 15/2) (9, 5)
+    (1, 5) (8001/1000, 2501/500) (9, 5)
     >>> upper = {"kind": "box", "low": [4, 5], "high": [6, 10]}
     >>> print(bezier.route({**scene, "obstacle": [wall, upper]}))
     blocked: the obstacles and the domain separate start and goal
