@@ -71,7 +71,7 @@ class PathRow:
 
 @dataclass(frozen=True, slots=True)
 class SceneRow:
-    """One scene: what is proved, lengths of our path and of none shorter, whether a flood gets through (None in space)."""
+    """One scene: what is proved, the length and its bound, and whether a flood gets through (None in space)."""
 
     name: str
     obstacles: int

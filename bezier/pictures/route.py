@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.pictures.mesh import Array, hull, icosphere
+from bezier.pictures.mesh import Array, hull, icosphere, sampled
 from bezier.scenes.barrier import Wall
 from bezier.scenes.route import Blocked, Route
 from bezier.scenes.scene import Scene
@@ -49,7 +49,7 @@ def _view(known: Route | Blocked, i: int, j: int) -> tuple[str, float]:
         parts += [shape(hull(p), f'fill="{SIDE}" opacity="0.4"') for p in sides if len(p) > 2]
     parts += [shape(outline(body, i, j), f'fill="{BODY}" opacity="0.8"') for body in scene.solids]
     if isinstance(known, Route):
-        way = at(_floats(known.points)[:, (i, j)])
+        way = at(np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])[:, (i, j)])
         parts.append(f'<polyline points="{way}" fill="none" stroke="{WAY}" stroke-width="2"/>')
     else:
         walls = (at(_floats([wall.start, wall.end])) for wall in known.walls if isinstance(wall, Wall))

@@ -13,6 +13,7 @@ from bezier.scenes.barrier import Wall
 from bezier.scenes.cells import Cell, Point, Side, opposite
 from bezier.scenes.scene import Scene
 from bezier.scenes.solid import Solid
+from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, forall, neg
 from qe.formula.normal import nnf
@@ -27,7 +28,9 @@ Curve = tuple[Point, ...]
 def covering(
     scene: Scene, around: Cell, walls: Sequence[Cell | Wall], cells: Sequence[Cell]
 ) -> Iterator[tuple[str, Formula]]:
-    """That the walls are in obstacles or outside the workspace, and cover with the cells a polytope around it."""
+    """That the walls are in obstacles or outside the workspace, and cover with the cells a polytope around it.
+
+    Of a polytope in one body, which is convex, that is seen at its corners. Raises ``CertificateRejected``."""
     at = coordinates(scene)
     covered = disj(of_sides(cell.sides, at) for cell in (*map(cell_of, walls), *cells))
     held = of_sides(around.sides, at)
@@ -37,9 +40,20 @@ def covering(
         if isinstance(wall, Wall):
             bodies = [scene.solids[i] for i in wall.bodies]
             yield f"wall {k}", along((wall.start, wall.end), partial(taken, scene, bodies))
-        elif not any(body.is_polytope and body.sides == wall.sides for body in scene.solids):
-            around_it = (inside(body, at) for body in scene.solids if not body.is_polytope)
-            yield f"wall {k}", every(at, disj((neg(of_sides(wall.sides, at)), *around_it)))
+        elif not any(_holds_cell(scene, body, wall) for body in scene.solids):
+            raise CertificateRejected(f"wall {k}", "its corners are not in one body")
+
+
+def _holds_cell(scene: Scene, body: Solid, wall: Cell) -> bool:
+    """Whether the points of a box around the workspace that are on the sides of a wall are in a body, which is convex;
+    their corners are found again."""
+    if body.is_polytope:
+        return body.sides == wall.sides
+    low, high = (
+        tuple(map(pick, zip(*wall.corners, end, strict=True))) for pick, end in ((min, scene.low), (max, scene.high))
+    )
+    part = Cell.within(low, high, wall.sides)
+    return part is not None and all(map(body.contains, part.corners))
 
 
 def coordinates(scene: Scene) -> list[Poly]:

@@ -28,7 +28,7 @@ from bezier.scenes.cells import Cell, FreeCells
 from bezier.scenes.conic import Conic
 from bezier.scenes.route import Blocked, Route, Wish, decided
 from bezier.scenes.scene import Scene, given_scene
-from bezier.scenes.sentences import inside
+from bezier.scenes.sentences import COVERED, covering, inside
 from bezier.scenes.solid import nearest
 from experiments.problem import ROOT
 from qe.exact.ring import Ring
@@ -307,7 +307,7 @@ def test_altered_answers_are_refused() -> None:
     for altered in (
         replace(free, curves=((free.points[0], free.points[-1]),)),
         replace(free, curves=free.curves[:-1]),
-        replace(free, curves=(free.curves[0], free.curves[-1])),
+        replace(free, curves=(free.curves[0], ((Fraction(7), Fraction(7)), free.points[-1]))),  # it jumps
         replace(free, scene=barred.scene),
         replace(barred, scene=free.scene),
         replace(barred, goal_side=barred.start_side),
@@ -382,6 +382,7 @@ def test_a_broken_proposer_of_lengths_proves_nothing_false(monkeypatch: pytest.M
         assert found.at_least < 2 * 10**0.5 + 2 < found.length
 
 
+@pytest.mark.deep
 @each("plane10", "window")
 def test_short_paths_of_the_scenes_that_peers_were_run_on(name: str) -> None:
     if not SHARED.is_dir():
@@ -399,6 +400,22 @@ def test_the_example_in_toml_is_planned_and_drawn(tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0 and "no path is shorter than" in done.stdout
     assert picture.read_text().count("<polygon") > 5 and "<polyline" in picture.read_text()
+
+
+def test_a_wall_is_in_its_body_by_its_sides_and_not_by_the_corners_it_names() -> None:
+    ball = {"kind": "ball", "centre": [0, 0, 0], "radius": 9}
+    scene = {"domain": BALL, "start": ["-4.5", 0, 1], "goal": ["4.5", 0, 1], "obstacle": [{**ball, "radius": 1}]}
+    given = read_scene(scene)
+    low, high = (tuple(Fraction(s) for s in p) for p in ([-1, -9, -9], [1, 9, 9]))
+    wide, small = Cell.box(low, high), Cell.box(given.obstacles[0].corners[0], given.obstacles[0].corners[0])
+    sides = [
+        Cell.box(*ends)
+        for ends in ((tuple(Fraction(-9) for _ in "xyz"), (low[0], *high[1:])), ((high[0], *low[1:]), high))
+    ]
+    assert dict(covering(given, wide, [], sides))[COVERED] != TRUE
+    for wall in (wide, replace(wide, corners=small.corners)):
+        with pytest.raises(qe.CertificateRejected, match="corners"):
+            dict(covering(given, wide, [wall], sides))
 
 
 def test_both_doors_say_the_same(tmp_path: Path) -> None:
