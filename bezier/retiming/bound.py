@@ -1,7 +1,8 @@
 """Seconds that no motion along a path can beat, by weak duality, in rational numbers.
 
-A motion along q(s) is described by b(s) = (ds/dt)^2 >= 0, absolutely continuous, 0 at the stops; its acceleration is
-q'' b + q' b'/2, its velocity squared q'^2 b, its time T the integral of b^(-1/2).
+A motion along q(s), from rest to rest, is described by b(s) = (ds/dt)^2 >= 0, absolutely continuous between the stops;
+its acceleration is q'' b + q' b'/2, its velocity squared q'^2 b, its time T the integral of b^(-1/2). At a stop q' b
+tends to 0, also where q' does: speed^2 = q'^2 b is at most a multiple of the distance from there.
 
 THEOREM. Let lambda be a vector of functions that is linear on each interval, mu >= 0 constant and u >= 0 linear there,
 with S = (lambda . q'' - lambda' . q') / 2 + sum mu_i q_i'^2, such that u^3 <= 2 S on each interval and lambda . q'
@@ -18,7 +19,7 @@ The integral of a convex function of lambda is at most that of its chord. That u
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -112,7 +113,7 @@ def _line(start: Fraction, end: Fraction, h: Fraction) -> RationalPoly:
     return RationalPoly.of([start, (end - start) / h])
 
 
-def bound(path: Trajectory, stops: frozenset[int], bounds: Bounds, weights: Sequence[Weights]) -> Fraction:
+def bound(path: Trajectory, stops: Collection[int], bounds: Bounds, weights: Sequence[Weights]) -> Fraction:
     """The seconds of the theorem, all of it checked but that u^3 <= 2 S. Raises ``ValueError`` where it does not
     apply."""
     place, total, before = (0, ZERO), ZERO, Fraction(0)
@@ -146,7 +147,7 @@ def weights(grid: Grid, given: Proposal) -> Iterator[Weights]:
         speeds, (u, v) = tuple(short(float(x), PLACES) for x in given.speeds[k]), given.rates[k]
         slopes, bends = cut.derivatives(grid.path)
         part = Weights(cut, axes, norm, speeds, (Fraction(float(u)), Fraction(float(v))))
-        if k not in grid.stopping:
+        if cut.low or cut.piece not in grid.stops:
             part = _lowered(part, slopes, before)
         before = part.momentum(slopes, 1)
         yield _kept(part, slopes, bends)

@@ -3,14 +3,14 @@ quadratic, so that (ds/dt)^2 is linear in s."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate
 
 from bezier.input.numbers import parse
 from bezier.motion.timelaw import Law, TimeLaw
-from bezier.retiming.grid import Grid
+from bezier.retiming.grid import Grid, Stop
 from bezier.trajectories.exact import composed
 from bezier.trajectories.limits import is_below
 from bezier.trajectories.piecewise import Trajectory
@@ -55,15 +55,14 @@ def short(value: Fraction | float, bits: int = BITS) -> Fraction:
 def fastest(grid: Grid, speeds: Sequence[float]) -> tuple[Step, ...]:
     """Steps with about these ds/dt at the nodes. Times and growths are short; so at nodes inside of a piece s is only
     near the node, and the next step makes up for it. Breaks of the path are met exactly."""
-    path, steps = grid.path, list[Step]()
+    path, steps, resting = grid.path, list[Step](), set(grid.resting)
     s, v = path.breaks[0], ZERO
-    stops = set(grid.stopping)
-    for k, cut in enumerate(grid.intervals):
-        end = cut.low + cut.length
-        wanted = ZERO if k + 1 in stops else short(speeds[k + 1])
-        aim = path.breaks[cut.piece] + end
+    for cut, node in zip(grid.intervals, grid.begins.tolist(), strict=True):
+        start, wanted = (ZERO if k in resting else short(speeds[k]) for k in (node, node + 1))
+        if cut.low == 0 and cut.piece in grid.stops:
+            v = start
+        aim, inside = path.breaks[cut.piece] + cut.low + cut.length, not grid.is_last(cut)
         time = 2 * (aim - s) / (v + wanted)
-        inside = end < path.lengths[cut.piece]
         time = short(time) if inside else time
         growth = short((wanted - v) / time) if inside else (wanted - v) / time
         steps.append(Step(RationalPoly.of([s, v, growth / 2]), time))
@@ -83,18 +82,21 @@ def usual(path: Trajectory, law: Law, duration: Fraction) -> tuple[Step, ...]:
     return tuple(steps)
 
 
-def is_motion(path: Trajectory, stops: frozenset[int], steps: Sequence[Step]) -> bool:
+def is_motion(path: Trajectory, stops: Mapping[int, Stop], steps: Sequence[Step]) -> bool:
     """Whether the steps lead from one end of the path to the other, never back, at rest at its stops."""
     if not steps or any(step.duration <= 0 for step in steps):
         return False
     if any(not is_below(step.place.derivative(), step.duration, -1, ZERO) for step in steps):
         return False
-    starts = [step.state(ZERO) for step in steps]
-    ends = [step.state(step.duration) for step in steps]
-    if starts[1:] != ends[:-1] or (starts[0][0], ends[-1][0]) != (path.breaks[0], path.breaks[-1]):
-        return False
-    rests = {s for s, v in (*starts, ends[-1]) if v == 0}
-    return rests >= {path.breaks[k] for k in stops}
+    befores = [(path.breaks[0], ZERO), *(step.state(step.duration) for step in steps)]
+    afters = [*(step.state(ZERO) for step in steps), (path.breaks[-1], ZERO)]
+    resting, passed = {path.breaks[k]: stop for k, stop in stops.items()}, set[Fraction]()
+    for (s, v), (place, w) in zip(befores, afters, strict=True):
+        stop = resting.get(s)
+        if s != place or (v != w if stop is None else (stop.before and v) or (stop.after and w)):
+            return False
+        passed.add(s)
+    return passed >= set(resting)
 
 
 def timed(path: Trajectory, steps: Sequence[Step]) -> Trajectory:

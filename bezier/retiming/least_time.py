@@ -13,7 +13,7 @@ import numpy as np
 from bezier.curves.scalar import described
 from bezier.motion.timelaw import Law
 from bezier.retiming.bound import Weights, bound, weights
-from bezier.retiming.grid import Bounds, Grid, corners
+from bezier.retiming.grid import Bounds, Grid, stops_of
 from bezier.retiming.law import Step, fastest, is_motion, timed, usual
 from bezier.retiming.proposals import Proposal, proposal
 from bezier.trajectories.evidence import claims, compare, exceeding, refuted, whole
@@ -84,7 +84,7 @@ class LeastTime:
 
     @cached_property
     def _kept(self) -> list[tuple[str, list[Any], Formula]]:
-        return _keeping(self.verdict, self.steps)
+        return _stated(self.verdict, self.steps)
 
     def check(self, certificate: Certificate) -> None:
         """Whether a certificate proves just this. Raises ``CertificateRejected``."""
@@ -134,8 +134,22 @@ def least_time(
 ) -> LeastTime:
     """The fastest motion along a path from rest to rest, at most ``accuracy`` above the bound where that is within
     reach. ``law``: one with a formula, in its own least time. Raises ``InputError`` and ``Unable``."""
+    try:
+        return _least_time(path, limits, law, accuracy, tolerance, budget or Budget())
+    except OverflowError:
+        raise InputError("path: expected quantities of usual size, found one beyond 10^308") from None
+
+
+def _least_time(
+    path: Trajectory,
+    limits: Sequence[Limit],
+    law: Law | None,
+    accuracy: Fraction,
+    tolerance: Fraction,
+    budget: Budget,
+) -> LeastTime:
     bounds = Bounds.of(limits)
-    grid, given = _proposals(Grid.of(path), bounds, float(accuracy), budget or Budget())
+    grid, given = _proposals(Grid.of(path), bounds, float(accuracy), budget)
     proved = tuple(weights(grid, given))
     seconds = bound(path, grid.stops, bounds, proved)
     if seconds <= 0:
@@ -145,26 +159,22 @@ def least_time(
     def motion(slower: Fraction) -> tuple[Step, ...]:
         return fastest(grid, speeds / float(slower)) if law is None else usual(path, law, seconds * slower)
 
-    steps, verdict = _kept(path, limits, tolerance, motion, 1 + MARGIN if law is None else Fraction(1))
-    if not is_motion(path, grid.stops, steps):
-        raise Unable("the path has corners, where this law does not stop" if law else "no motion was found")
+    steps, verdict = _keeping(grid, limits, tolerance, motion, 1 + MARGIN if law is None else Fraction(1))
     return LeastTime(path, steps, verdict, proved, seconds)
 
 
 def _proposals(grid: Grid, bounds: Bounds, accuracy: float, budget: Budget) -> tuple[Grid, Proposal]:
     """The best of several grids, each finer where the gap is."""
-    best, guess = None, None
+    best = None
     for _ in range(PASSES):
         budget.check("speeds and multipliers")
-        given = proposal(grid, bounds, guess)
+        given = proposal(grid, bounds)
         gap = given.duration - given.bound
         if best is None or gap < best[1].duration - best[1].bound:
             best = grid, given
         if gap <= accuracy * given.bound:
             break
-        places = grid.places
         grid = grid.refined(_parts(given.gaps, max(0.8 * accuracy * given.bound, gap / LESS)))
-        guess = np.interp(grid.places, places, given.squares)
     assert best is not None
     return best
 
@@ -184,26 +194,26 @@ def _parts(gaps: Any, goal: float) -> list[int]:
     return [int(n) for n in counts(low)]
 
 
-def _kept(
-    path: Trajectory,
+def _keeping(
+    grid: Grid,
     limits: Sequence[Limit],
     tolerance: Fraction,
     motion: Callable[[Fraction], tuple[Step, ...]],
     slower: Fraction,
 ) -> tuple[tuple[Step, ...], Verdict]:
-    """The motion, slower by as little as is enough. Raises ``Unable`` where the path itself breaks a limit."""
+    """The motion, slower by as little as is enough. Raises ``Unable`` where it is none or never keeps the limits, and
+    ``InputError`` where the path itself breaks one."""
     for _ in range(TRIES):
         steps = motion(slower)
-        verdict = decided(timed(path, steps), limits, tolerance)
+        if not is_motion(grid.path, grid.stops, steps):
+            raise Unable("the path has corners, where this law does not stop")
+        verdict = decided(timed(grid.path, steps), limits, tolerance)
         if verdict.is_kept:
             return steps, verdict
         if verdict.factor is None:
-            worst = verdict.worst
-            what = (
-                "the path is not continuous"
-                if worst is None
-                else f"{worst.limit.words(path.names)} is {worst.value:.10g}"
-            )
+            worst, what = verdict.worst, "it jumps"
+            if worst is not None:
+                what = f"{worst.limit.words(grid.path.names)} is {worst.value:.10g}"
             raise InputError(f"path: no motion along it keeps the limits: {what}")
         slower *= verdict.factor + MARGIN
     raise Unable("no motion along the path that keeps its limits was found")
@@ -212,18 +222,15 @@ def _kept(
 # --- certificates ----------------------------------------------------------------------------------------------
 
 
-def _keeping(verdict: Verdict, steps: Sequence[Step]) -> list[tuple[str, list[Any], Formula]]:
+def _stated(verdict: Verdict, steps: Sequence[Step]) -> list[tuple[str, list[Any], Formula]]:
     """That each piece keeps the limits; the label of the first one in each step says what the step is."""
     starts, at = dict[Fraction, Step](), Fraction(0)
     for step in steps:
         starts[at] = step
         at += step.duration
-    listed = []
-    for start, (label, excesses, sentence) in zip(
-        verdict.trajectory.breaks,
-        claims(verdict.trajectory, [o.limit for o in verdict.outcomes], Fraction(1)),
-        strict=False,
-    ):
+    listed, limits = [], [o.limit for o in verdict.outcomes]
+    every = claims(verdict.trajectory, limits, Fraction(1))
+    for start, (label, excesses, sentence) in zip(verdict.trajectory.breaks, every, strict=False):
         said = f"{label}: {starts[start]}" if start in starts else label
         listed.append((said, excesses, sentence))
     return listed
@@ -243,7 +250,7 @@ def checked(path: Trajectory, limits: Sequence[Limit], certificate: Certificate)
     try:
         steps = tuple(Step.read(text) for head, _, text in labels if head.startswith("piece ") and text)
         proved = tuple(Weights.read(text) for head, _, text in labels if head == LEAST)
-        stops = corners(path)
+        stops = stops_of(path)
         if not is_motion(path, stops, steps):
             raise ValueError("steps that are no motion along this path")
         seconds = bound(path, stops, Bounds.of(limits), proved)

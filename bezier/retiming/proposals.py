@@ -104,19 +104,18 @@ class _Program:
         return x
 
 
-def proposal(grid: Grid, bounds: Bounds, guess: Any = None) -> Proposal:
-    """Speeds and multipliers. Computed for a path of length 1 that takes about 1. ``guess``: (ds/dt)^2 at the nodes,
-    from a coarser grid."""
+def proposal(grid: Grid, bounds: Bounds) -> Proposal:
+    """Speeds and multipliers. Computed for a path of length 1 that takes about 1."""
     h, first, second = grid.arrays
     span = float(h.sum())
     moved = np.abs(first).mean(-1) * h[:, None]
     unit = _usual_time(moved.sum(0), bounds)
     scaled = h / span, first * span, second * span**2
     rate = (span / unit) ** 2
-    squares = _fastest(grid, scaled, bounds, unit, np.ones(len(h) + 1) if guess is None else guess / rate)
+    squares = _fastest(grid, scaled, bounds, unit)
     axes, norm, speeds, rates = _multipliers(grid, scaled, bounds, unit, squares)
-    times = _durations(scaled[0], squares)
-    gaps, bound = _gaps(scaled, bounds, unit, squares, times, (axes, norm, speeds, rates))
+    times = _durations(grid, scaled[0], squares)
+    gaps, bound = _gaps(grid, scaled, bounds, unit, squares, times, (axes, norm, speeds, rates))
     back = unit**3 / span
     return Proposal(
         squares * rate,
@@ -130,9 +129,17 @@ def proposal(grid: Grid, bounds: Bounds, guess: Any = None) -> Proposal:
     )
 
 
-def _durations(h: Any, squares: Any) -> Any:
+def _durations(grid: Grid, h: Any, squares: Any) -> Any:
     roots = np.sqrt(squares)
-    return 2 * h / (roots[1:] + roots[:-1])
+    return 2 * h / (roots[grid.begins] + roots[grid.begins + 1])
+
+
+def _shares(grid: Grid, h: Any) -> Any:
+    """Half of the lengths of the intervals that meet at each node."""
+    result = np.zeros(grid.nodes)
+    for j in (0, 1):
+        np.add.at(result, grid.begins + j, h / 2)
+    return result
 
 
 def _usual_time(moved: Any, bounds: Bounds) -> float:
@@ -161,16 +168,15 @@ def _numbers(values: Sequence[Any]) -> Any:
     return np.array([float(x) for x in values])
 
 
-def _fastest(grid: Grid, arrays: tuple[Any, Any, Any], bounds: Bounds, unit: float, guess: Any) -> Any:
-    """(ds/dt)^2 at the nodes. What is maximised is a linear objective, the derivative of the time at ``guess``: where
-    each condition joins neighbours with different signs, the largest values at all nodes are reached together, and any
-    weights lead there (as in Pham, Pham, "TOPP-RA", IEEE T-RO 2018)."""
+def _fastest(grid: Grid, arrays: tuple[Any, Any, Any], bounds: Bounds, unit: float) -> Any:
+    """(ds/dt)^2 at the nodes. What is maximised is their sum: where each condition joins neighbours with different
+    signs, the largest values at all nodes are reached together (as in Pham, Pham, "TOPP-RA", IEEE T-RO 2018)."""
     h, first, second = arrays
-    nodes = len(h) + 1
-    weights = (np.append(h, 0.0) + np.append(0.0, h)) * np.maximum(guess, 1e-6) ** -1.5
+    nodes, begins = grid.nodes, grid.begins
+    weights = _shares(grid, h)
     program = _Program()
     every = program.variables((nodes,), -weights / weights.max())
-    pair = every[:-1, None, None], every[1:, None, None]
+    pair = begins[:, None, None], begins[:, None, None] + 1
     slope = first / (2 * h[:, None, None])
     ends = _times(second, START) - slope, _times(second, END) + slope  # acceleration: the factors of b at both ends
     if bounds.acceleration is not None:
@@ -192,9 +198,10 @@ def _fastest(grid: Grid, arrays: tuple[Any, Any, Any], bounds: Bounds, unit: flo
         program.block([(at, row) for at, row in zip(pair, rows, strict=True)], right, right.shape[-1])
     program.block([(every, 1.0)], np.full(nodes, LARGEST))
     program.block([(every, -1.0)], np.zeros(nodes))
-    program.block([(every[grid.stopping], 1.0)], np.zeros(len(grid.stopping)), -1)
+    if grid.resting:
+        program.block([(every[grid.resting], 1.0)], np.zeros(len(grid.resting)), -1)
     result = np.maximum(program.solve(), 1e-12)
-    result[grid.stopping] = 0.0
+    result[grid.resting] = 0.0
     return result
 
 
@@ -204,13 +211,8 @@ def _multipliers(
     """The dual problem; variables are scaled so that each counts in seconds."""
     h, first, second = arrays
     count, d = first.shape[:2]
-    k = np.arange(count)
-    begins = k + np.searchsorted(grid.stopping[1:], k, side="right")  # at a stop there is a multiplier for each side
-    nodes = int(begins[-1]) + 2
-    weight = np.zeros(nodes)
-    np.add.at(weight, begins, h / 2)
-    np.add.at(weight, begins + 1, h / 2)
-    usual = _durations(h, squares) / h
+    nodes, begins, weight = grid.nodes, grid.begins, _shares(grid, h)
+    usual = _durations(grid, h, squares) / h
     degree = max(4, 2 * (first.shape[-1] - 1))
     slope = first / h[:, None, None]
     ends = [_raised(_times(second, START) + slope, degree) / 2, _raised(_times(second, END) - slope, degree) / 2]
@@ -268,7 +270,13 @@ def _multipliers(
 
 
 def _gaps(
-    arrays: tuple[Any, Any, Any], bounds: Bounds, unit: float, squares: Any, times: Any, given: tuple[Any, ...]
+    grid: Grid,
+    arrays: tuple[Any, Any, Any],
+    bounds: Bounds,
+    unit: float,
+    squares: Any,
+    times: Any,
+    given: tuple[Any, ...],
 ) -> tuple[Any, float]:
     """What each interval adds to the gap between both sides, and the bound. No part is negative."""
     h, first, _ = arrays
@@ -278,5 +286,5 @@ def _gaps(
     highs = [*(bounds.velocity or [0] * first.shape[1]), bounds.velocity_norm or 0]
     cost = force + speeds @ (_numbers(highs) * unit) ** 2 * h
     value = 0.75 * h * rates.sum(1) - cost
-    impulses = [((axes + norm)[:, j] * first[:, :, -j]).sum(1) * squares[j : len(h) + j] / 2 for j in (0, 1)]
+    impulses = [((axes + norm)[:, j] * first[:, :, -j]).sum(1) * squares[grid.begins + j] / 2 for j in (0, 1)]
     return times - value - impulses[1] + impulses[0], float(value.sum())
