@@ -6,15 +6,15 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from math import lcm
 from typing import NamedTuple
 
 from qe.elimination.search.linear_forms import Direction, FormBounds, Monomial, over_monomials
+from qe.elimination.search.proposed_bounds import ProposedBounds
 from qe.exact.difference_graph import DifferenceGraph
-from qe.exact.linear_bounds import Value
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
 
@@ -38,8 +38,10 @@ class Said(NamedTuple):
 
 def said(bounds: Iterable[tuple[int, Poly, Relation]]) -> Iterator[Said]:
     """What the literals of inequalities say."""
+    last: Poly | None = None
     for literal, poly, relation in bounds:
-        form = over_monomials(poly)
+        if poly is not last:
+            last, form = poly, over_monomials(poly)
         upper = (relation in (Relation.LE, Relation.LT)) == (form.scale > 0)
         yield Said(literal, form.direction, form.bound, upper, relation.is_strict)
 
@@ -49,7 +51,7 @@ def difference(direction: Direction) -> tuple[Monomial, Monomial | None] | None:
     match direction:
         case ((x, _),):
             return x, None
-        case ((x, _), (y, c)) if c == -1:
+        case ((x, 1), (y, -1)):
             return x, y
     return None
 
@@ -128,10 +130,15 @@ class Differences:
 
 
 class Forms:
-    """Bounds of all linear forms, by the simplex method; squares are at least 0."""
+    """Bounds of all linear forms, by the exact simplex method if nothing else is asked for."""
 
-    def __init__(self, bounds: Iterable[Said], check: Callable[[], object] = lambda: None) -> None:
-        self.bounds, self.check = FormBounds(), check
+    def __init__(
+        self,
+        bounds: Iterable[Said],
+        check: Callable[[], object] = lambda: None,
+        by: FormBounds | ProposedBounds | None = None,
+    ) -> None:
+        self.bounds, self.check = FormBounds() if by is None else by, check
         self.said: dict[int, tuple[int, Said]] = {}
         self.offered: defaultdict[int, list[Said]] = defaultdict(list)
         for one in bounds:
@@ -141,7 +148,7 @@ class Forms:
         for listed in self.offered.values():
             listed.sort(key=lambda one: (one.bound, one.strict))
         self.changed = False
-        self._seen: dict[int, Value] = {}
+        self._seen: Sequence[object] = ()
 
     def tell(self, literal: int) -> list[int] | None:
         if literal not in self.said:
@@ -174,13 +181,18 @@ class Forms:
 
     def changes(self) -> list[int]:
         """The literals that hold at the present point, of those forms that have moved since the last call."""
-        implied: list[int] = []
-        for x, listed in self.offered.items():
-            value = self.bounds.values[x]
-            if self._seen.get(x) != value:
-                self._seen[x] = value
-                implied += [one.literal for one in listed if one.holds(self.bounds.side(x, one.bound))]
-        return implied
+        values, before = self.bounds.values, self._seen
+        if values == before:
+            return []
+        self._seen = list(values)  # FormBounds changes its own
+        moved = [x for x, value in enumerate(values) if x >= len(before) or value != before[x]]
+        listed = ((x, one) for x in moved for one in self.offered.get(x, ()))
+        return [one.literal for x, one in listed if one.holds(self.bounds.side(x, one.bound))]
+
+    def holds(self, literal: int) -> bool:
+        """Whether a literal holds at the present point."""
+        x, one = self.said[literal]
+        return one.holds(self.bounds.side(x, one.bound))
 
     def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:
         """The bounds of a variable, the weakest first."""

@@ -1,0 +1,142 @@
+"""Bounds of linear forms by HiGHS in floats, where exact tableaus fill: what it says is made exact, or not believed.
+
+What is overlooked here, strict bounds that touch among it, is for the exact look at a whole assignment to see.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from fractions import Fraction
+from math import inf
+
+from flint import fmpq
+
+from qe.convex.exact_basis import proportions
+from qe.convex.highs import FloatRows
+from qe.elimination.search.linear_forms import Direction, Monomial
+from qe.exact.linear_bounds import Bound, Bounds, Offered, Value, weakest
+from qe.exact.sparse_solve import solve_sparse
+
+_APART = 1e-6
+"""How far from its bound a form is looked for where that is strict, in proportion."""
+
+_TINY = 1e-9
+"""Multipliers that count as zero, and how near a bound a form lies on it."""
+
+Term = tuple[int, bool, fmpq, Value, Hashable]
+
+
+class ProposedBounds(Bounds):
+    """The same as ``FormBounds`` where no square is among the monomials: each form is a row."""
+
+    def __init__(self, seconds: float | None = None) -> None:
+        super().__init__()
+        self.seconds = seconds
+        self.monomials: dict[Monomial, int] = {}
+        self.forms: dict[Direction, int] = {}
+        self._rows: list[dict[int, int]] = []
+        self._floats: FloatRows | None = None
+        self._stuck: list[Term] = []
+
+    @property
+    def values(self) -> Sequence[float]:
+        """What the forms are at the present point."""
+        return self._program().values
+
+    def of(self, direction: Direction) -> int:
+        """The row of a form; all of them before the first bound."""
+        known = self.forms.get(direction)
+        if known is None:
+            known = self.forms[direction] = len(self._rows)
+            self._rows.append({self.monomials.setdefault(m, len(self.monomials)): c for m, c in direction})
+        return known
+
+    def conflict(self, check: Callable[[], object]) -> set[Hashable] | None:
+        """Reasons of bounds that cannot hold together; None where floats do not see any, or see what is none."""
+        check()
+        ray = self._program().contradiction()
+        self._stuck = [] if ray is None else self._exact({i: w for i, w in ray.items() if abs(w) > _TINY})
+        return {reason for *_, reason in self._stuck} or None
+
+    def weakened(self, offered: Offered) -> set[Hashable]:
+        """Reasons as weak as may be, after a conflict."""
+        return weakest(self._stuck, offered)
+
+    def side(self, x: int, bound: Fraction) -> int:
+        """The sign of x - bound at the present point, in floats."""
+        gap = self.values[x] - _float(bound)
+        return 0 if abs(gap) <= _TINY else 1 if gap > 0 else -1
+
+    def values_of_monomials(self) -> dict[Monomial, Fraction]:
+        """Where floats see all bounds kept."""
+        point = self._program().point
+        return {m: Fraction(point[j]) for m, j in self.monomials.items()}
+
+    # --- steps -------------------------------------------------------------------------------------------
+    def _program(self) -> FloatRows:
+        if self._floats is None:
+            self._floats = FloatRows(len(self.monomials), self._rows, self.seconds)
+        return self._floats
+
+    def _rebound(self, bounds: dict[int, Bound], x: int) -> None:
+        known, program = bounds.get(x), self._program()
+        number = (inf if bounds is self.upper else -inf) if known is None else _float(known[0][0])
+        if known is not None and known[0][1]:
+            number += float(int(known[0][1].p)) * _APART * max(1.0, abs(number))
+        (program.upper if bounds is self.upper else program.lower)[x] = number
+
+    def _exact(self, ray: Mapping[int, float]) -> list[Term]:
+        """Multiples of the bounds of these rows, about so large, that contradict each other; none where they do not.
+
+        THEOREM (Farkas 1902, Motzkin 1936). Multiples of forms that add up to zero, bounded above where these are
+        positive and below where they are negative, contradict the bounds if the multiples of those add up to less.
+        """
+        weights: Mapping[int, Fraction | int] = proportions(ray)
+        if not self._cancels(weights):
+            first, *support = ray or (0,)
+            columns: dict[int, dict[int, int]] = {}
+            for i in support:
+                for j, c in self._rows[i].items():
+                    columns.setdefault(j, {})[i] = c
+            right = self._rows[first]
+            solved = solve_sparse(columns.values(), [-right.get(j, 0) for j in columns])
+            weights = {first: 1, **(solved or {})}
+            if not self._cancels(weights):
+                return []
+        return self._terms(weights) or self._terms({i: -w for i, w in weights.items()})
+
+    def _cancels(self, weights: Mapping[int, Fraction | int]) -> bool:
+        """Whether these multiples of the rows, not none of them, add up to zero."""
+        sums: dict[int, Fraction | int] = {}
+        for i, w in weights.items():
+            for j, c in self._rows[i].items():
+                sums[j] = sums.get(j, 0) + w * c
+        return bool(weights) and not any(sums.values())
+
+    def _terms(self, factors: Mapping[int, Fraction | int]) -> list[Term]:
+        terms: list[Term] = []
+        total = fmpq(0), fmpq(0)
+        for i, w in factors.items():
+            if not w:
+                continue
+            known = (self.upper if w > 0 else self.lower).get(i)
+            if known is None:
+                return []
+            (a, b), reason = known
+            c = fmpq(w.numerator, w.denominator)
+            total = total[0] + c * a, total[1] + c * b
+            terms.append((i, w > 0, c, (a, b), reason))
+        return terms if total < (fmpq(0), fmpq(0)) else []
+
+
+def _float(number: Fraction | fmpq) -> float:
+    """The nearest float, infinite where there is none."""
+    try:
+        return int(number.numerator) / int(number.denominator)
+    except OverflowError:
+        return inf if number > 0 else -inf
+
+
+def suits(directions: Iterable[Direction]) -> bool:
+    """Whether floats hold the numbers in these forms, and HiGHS is there."""
+    return all(abs(c) < 1 << 40 for direction in directions for _, c in direction) and FloatRows.are_available()
