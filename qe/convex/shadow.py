@@ -15,7 +15,7 @@ from qe.convex.cone import Cone, Vector, combination, dot
 from qe.convex.polyhedron import Check, HalfSpace, Polyhedron
 from qe.exact.linear_bounds import LinearBounds
 
-_GROWTH = 10
+_GROWTH = 4
 """Rows that the elimination of a variable may add."""
 
 _UNIT, _SLACK = -1, -2
@@ -120,7 +120,10 @@ class _Rows:
             for j, c in self.rows[i].items():
                 total[j] += int(w * whole) * c
         content = gcd(*total.values()) or 1
-        return tuple(total[j] // content for j in self.kept)
+        cut = tuple(total.pop(j) // content for j in self.kept)
+        if any(w < 0 for _, w in weights) or any(total.values()) or dot(cut, point) <= 0:
+            raise ArithmeticError("no half-space that excludes the point")
+        return cut
 
     def _inside(self) -> Vector:
         """A point of the shadow, as far inside as strict bounds bring it."""
