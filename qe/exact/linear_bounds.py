@@ -14,6 +14,9 @@ from flint import fmpq
 
 Value = tuple[fmpq, fmpq]
 Bound = tuple[Value, Hashable]
+Term = tuple[int, bool, fmpq, Value, Hashable]
+"""A bound in a contradiction: variable, whether it is an upper one, coefficient (negative for lower bounds), number,
+reason."""
 Offered = Callable[[int, bool], Iterable[tuple[Fraction, bool, Hashable]]]
 """Upper or lower bounds of a variable: number, strict, reason."""
 
@@ -71,6 +74,24 @@ class Bounds:
         self.upper[x] = value, reason
         self._rebound(self.upper, x)
         return None
+
+    def contradicted(self, weights: Mapping[int, Fraction | int]) -> list[Term]:
+        """The bounds that multiples of the variables contradict which add up to zero; none where they do not.
+
+        THEOREM (Farkas 1902, Motzkin 1936). The multiples, bounded above where they are positive and below where they
+        are negative, add up to no more than those of the bounds: these must not be less than zero.
+        """
+        terms: list[Term] = []
+        total = _ZERO, _ZERO
+        for x, w in weights.items():
+            known = (self.upper if w > 0 else self.lower).get(x)
+            if known is None and w:
+                return []
+            if known is not None and w:
+                (a, b), c = known[0], fmpq(w.numerator, w.denominator)
+                total = total[0] + c * a, total[1] + c * b
+                terms.append((x, w > 0, c, *known))
+        return terms if total < (_ZERO, _ZERO) else []
 
     def _rebound(self, bounds: dict[int, Bound], x: int) -> None:
         """Do what a changed bound asks for."""
@@ -258,9 +279,8 @@ class LinearBounds(Bounds):
             self.using[z].add(y)
 
 
-def weakest(terms: Iterable[tuple[int, bool, fmpq, Value, Hashable]], offered: Offered) -> set[Hashable]:
-    """Reasons of a contradiction, as weak as those offered allow: variable, whether it is an upper bound, coefficient
-    (negative for lower bounds), bound, reason; multiples of the variables that add up to zero, of bounds to less.
+def weakest(terms: Iterable[Term], offered: Offered) -> set[Hashable]:
+    """Reasons of a contradiction, as weak as those offered allow.
 
     The sum of the bounds, each times its coefficient, is negative; it grows by what a bound moves. Bounds that can
     move only a little come first, so that in a sum of 2^k*x_k those of large k stay.

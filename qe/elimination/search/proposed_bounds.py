@@ -8,13 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from math import inf
-
-from flint import fmpq
+from typing import SupportsInt
 
 from qe.convex.exact_basis import proportions
 from qe.convex.highs import FloatRows
 from qe.elimination.search.linear_forms import Direction, Monomial
-from qe.exact.linear_bounds import Bound, Bounds, Offered, Value, weakest
+from qe.exact.linear_bounds import Bound, Bounds, Offered, Term, weakest
 from qe.exact.sparse_solve import solve_sparse
 
 _APART = 1e-6
@@ -22,8 +21,6 @@ _APART = 1e-6
 
 _TINY = 1e-9
 """Multipliers that count as zero, and how near a bound a form lies on it."""
-
-Term = tuple[int, bool, fmpq, Value, Hashable]
 
 
 class ProposedBounds(Bounds):
@@ -64,7 +61,7 @@ class ProposedBounds(Bounds):
 
     def side(self, x: int, bound: Fraction) -> int:
         """The sign of x - bound at the present point, in floats."""
-        gap = self.values[x] - _float(bound)
+        gap = self.values[x] - _float(bound.numerator, bound.denominator)
         return 0 if abs(gap) <= _TINY else 1 if gap > 0 else -1
 
     def values_of_monomials(self) -> dict[Monomial, Fraction]:
@@ -80,17 +77,13 @@ class ProposedBounds(Bounds):
 
     def _rebound(self, bounds: dict[int, Bound], x: int) -> None:
         known, program = bounds.get(x), self._program()
-        number = (inf if bounds is self.upper else -inf) if known is None else _float(known[0][0])
+        number = (inf if bounds is self.upper else -inf) if known is None else _float(known[0][0].p, known[0][0].q)
         if known is not None and known[0][1]:
             number += float(int(known[0][1].p)) * _APART * max(1.0, abs(number))
         (program.upper if bounds is self.upper else program.lower)[x] = number
 
     def _exact(self, ray: Mapping[int, float]) -> list[Term]:
-        """Multiples of the bounds of these rows, about so large, that contradict each other; none where they do not.
-
-        THEOREM (Farkas 1902, Motzkin 1936). Multiples of forms that add up to zero, bounded above where these are
-        positive and below where they are negative, contradict the bounds if the multiples of those add up to less.
-        """
+        """Multiples of the bounds of these rows, about so large, that contradict each other; none where they do not."""
         weights: Mapping[int, Fraction | int] = proportions(ray)
         if not self._cancels(weights):
             first, *support = ray or (0,)
@@ -103,7 +96,7 @@ class ProposedBounds(Bounds):
             weights = {first: 1, **(solved or {})}
             if not self._cancels(weights):
                 return []
-        return self._terms(weights) or self._terms({i: -w for i, w in weights.items()})
+        return self.contradicted(weights) or self.contradicted({i: -w for i, w in weights.items()})
 
     def _cancels(self, weights: Mapping[int, Fraction | int]) -> bool:
         """Whether these multiples of the rows, not none of them, add up to zero."""
@@ -113,28 +106,13 @@ class ProposedBounds(Bounds):
                 sums[j] = sums.get(j, 0) + w * c
         return bool(weights) and not any(sums.values())
 
-    def _terms(self, factors: Mapping[int, Fraction | int]) -> list[Term]:
-        terms: list[Term] = []
-        total = fmpq(0), fmpq(0)
-        for i, w in factors.items():
-            if not w:
-                continue
-            known = (self.upper if w > 0 else self.lower).get(i)
-            if known is None:
-                return []
-            (a, b), reason = known
-            c = fmpq(w.numerator, w.denominator)
-            total = total[0] + c * a, total[1] + c * b
-            terms.append((i, w > 0, c, (a, b), reason))
-        return terms if total < (fmpq(0), fmpq(0)) else []
 
-
-def _float(number: Fraction | fmpq) -> float:
-    """The nearest float, infinite where there is none."""
+def _float(p: SupportsInt, q: SupportsInt) -> float:
+    """The float nearest to p/q, infinite where there is none."""
     try:
-        return int(number.numerator) / int(number.denominator)
+        return int(p) / int(q)
     except OverflowError:
-        return inf if number > 0 else -inf
+        return inf if int(p) > 0 else -inf
 
 
 def suits(directions: Iterable[Direction]) -> bool:
