@@ -205,3 +205,27 @@ class FloatRows:
         _, known, ray = self._solver.getDualRay()
         (support,) = np.nonzero(ray) if known else ((),)
         return {int(i): float(ray[i]) for i in support}
+
+
+class Offers:
+    """Bounds of rows by the literals that say them: literal, row, number, whether it is an upper one and strict."""
+
+    def __init__(self, offered: Sequence[tuple[int, int, float, bool, bool]]) -> None:
+        import numpy as np
+
+        self._literals, self._rows, self._numbers, upper, strict = (np.array(c) for c in zip(*offered, strict=True))
+        self._signs = np.where(upper, -1.0, 1.0)
+        self._least = np.where(strict, _NEAR, -_NEAR)
+        self._held = np.zeros(len(self._rows), dtype=bool)
+        self._seen: Sequence[float] = ()
+
+    def changes(self, values: Sequence[float]) -> list[int]:
+        """The literals that hold where the rows have these values, and did not when this was asked last."""
+        import numpy as np
+
+        if values is self._seen:
+            return []
+        self._seen = values
+        held = (np.array(values)[self._rows] - self._numbers) * self._signs > self._least
+        new, self._held = held & ~self._held, held
+        return [int(literal) for literal in self._literals[new]]

@@ -75,7 +75,10 @@ def _guided(
     def last(model: Sequence[int]) -> list[Clause]:
         budget.spend(UNITS)
         budget.check("search", len(propagator.lemmas))
-        if not theory.at_once:
+        if theory.at_once:
+            if (reasons := forms.settle(now=True)) is not None:
+                return [[-r for r in reasons]]
+        else:
             theory.bounds.start(theories[-1].point())
         looked = theory.look(clauses.chosen(model, sign if theory.at_once else theory.bounds.sign))
         if isinstance(looked, dict):

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from fractions import Fraction
 from functools import partial
 from math import lcm
@@ -15,6 +15,7 @@ from typing import NamedTuple
 from qe.elimination.search.linear_forms import Direction, FormBounds, Monomial, over_monomials
 from qe.elimination.search.proposed_bounds import ProposedBounds
 from qe.exact.difference_graph import DifferenceGraph
+from qe.exact.linear_bounds import Value
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
 
@@ -148,7 +149,9 @@ class Forms:
         for listed in self.offered.values():
             listed.sort(key=lambda one: (one.bound, one.strict))
         self.changed = False
-        self._seen: Sequence[object] = ()
+        self._seen: list[Value] = []
+        if isinstance(self.bounds, ProposedBounds):
+            self.bounds.offer((i, x, one.bound, one.upper, one.strict) for i, (x, one) in self.said.items())
 
     def tell(self, literal: int) -> list[int] | None:
         if literal not in self.said:
@@ -159,11 +162,14 @@ class Forms:
         conflict = set_bound(x, one.bound, strict=one.strict, reason=literal)
         return None if conflict is None else _literals(conflict)
 
-    def settle(self) -> list[int] | None:
-        if not self.changed:
+    def settle(self, *, now: bool = False) -> list[int] | None:
+        if not self.changed and not now:
             return None
         self.changed = False
-        conflict = self.bounds.conflict(self.check)
+        if isinstance(self.bounds, ProposedBounds):
+            conflict = self.bounds.conflict(self.check, now=now)
+        else:
+            conflict = self.bounds.conflict(self.check)
         return None if conflict is None else _literals(self.bounds.weakened(self._offered))
 
     def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:
@@ -181,10 +187,12 @@ class Forms:
 
     def changes(self) -> list[int]:
         """The literals that hold at the present point, of those forms that have moved since the last call."""
+        if isinstance(self.bounds, ProposedBounds):
+            return self.bounds.changes()
         values, before = self.bounds.values, self._seen
         if values == before:
             return []
-        self._seen = list(values)  # FormBounds changes its own
+        self._seen = list(values)
         moved = [x for x, value in enumerate(values) if x >= len(before) or value != before[x]]
         listed = ((x, one) for x in moved for one in self.offered.get(x, ()))
         return [one.literal for x, one in listed if one.holds(self.bounds.side(x, one.bound))]

@@ -11,13 +11,16 @@ from math import inf
 from typing import SupportsInt
 
 from qe.convex.exact_basis import proportions
-from qe.convex.highs import FloatRows
+from qe.convex.highs import FloatRows, Offers
 from qe.elimination.search.linear_forms import Direction, Monomial
 from qe.exact.linear_bounds import Bound, Bounds, Offered, Term, weakest
 from qe.exact.sparse_solve import solve_sparse
 
 _APART = 1e-6
 """How far from its bound a form is looked for where that is strict, in proportion."""
+
+_PATIENCE = 256
+"""Bounds that are told before floats look at them, at most."""
 
 _TINY = 1e-9
 """Multipliers that count as zero, and how near a bound a form lies on it."""
@@ -34,11 +37,8 @@ class ProposedBounds(Bounds):
         self._rows: list[dict[int, int]] = []
         self._floats: FloatRows | None = None
         self._stuck: list[Term] = []
-
-    @property
-    def values(self) -> Sequence[float]:
-        """What the forms are at the present point."""
-        return self._program().values
+        self._patience, self._waiting = 1, 0
+        self._offered: Offers | None = None
 
     def of(self, direction: Direction) -> int:
         """The row of a form; all of them before the first bound."""
@@ -48,10 +48,22 @@ class ProposedBounds(Bounds):
             self._rows.append({self.monomials.setdefault(m, len(self.monomials)): c for m, c in direction})
         return known
 
-    def conflict(self, check: Callable[[], object]) -> set[Hashable] | None:
-        """Reasons of bounds that cannot hold together; None where floats do not see any, or see what is none."""
+    def conflict(self, check: Callable[[], object], *, now: bool = True) -> set[Hashable] | None:
+        """Reasons of bounds that cannot hold together; None where floats do not see any, or see what is none.
+
+        Otherwise than ``now`` it may wait for more bounds, for the longer the more often there was no conflict.
+        """
         check()
-        ray = self._program().contradiction()
+        program = self._program()
+        self._waiting += 1
+        if not now and self._waiting < self._patience:
+            return None
+        before, self._waiting = program.values, 0
+        ray = program.contradiction()
+        if ray is not None:
+            self._patience = max(1, self._patience // 4)
+        elif program.values is not before:
+            self._patience = min(2 * self._patience, _PATIENCE)
         self._stuck = [] if ray is None else self._exact({i: w for i, w in ray.items() if abs(w) > _TINY})
         return {reason for *_, reason in self._stuck} or None
 
@@ -61,8 +73,18 @@ class ProposedBounds(Bounds):
 
     def side(self, x: int, bound: Fraction) -> int:
         """The sign of x - bound at the present point, in floats."""
-        gap = self.values[x] - _float(bound.numerator, bound.denominator)
+        gap = self._program().values[x] - _float(bound.numerator, bound.denominator)
         return 0 if abs(gap) <= _TINY else 1 if gap > 0 else -1
+
+    def offer(self, literals: Iterable[tuple[int, int, Fraction, bool, bool]]) -> None:
+        """Literals that say of a row that it is at most (True) or at least a number, or (True) beyond it."""
+        self._offered = Offers(
+            [(i, x, _float(p.numerator, p.denominator), up, strict) for i, x, p, up, strict in literals]
+        )
+
+    def changes(self) -> list[int]:
+        """The literals offered that hold at the present point and did not when this was asked last."""
+        return [] if self._offered is None else self._offered.changes(self._program().values)
 
     def values_of_monomials(self) -> dict[Monomial, Fraction]:
         """Where floats see all bounds kept."""
