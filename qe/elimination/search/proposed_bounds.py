@@ -5,7 +5,7 @@ What is overlooked here, strict bounds that touch among it, is for the exact loo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from fractions import Fraction
 from math import inf
 from typing import SupportsInt
