@@ -19,9 +19,11 @@ if TYPE_CHECKING:
     from bezier.interface.chain import chain
     from bezier.interface.function import plan
     from bezier.interface.planned import NoPath, Planned
+    from bezier.interface.retiming import retime
     from bezier.interface.scene import route
     from bezier.interface.trajectory import certify
     from bezier.plans import Outcome
+    from bezier.retiming.least_time import LeastTime
     from bezier.scenes.route import Blocked, Route
     from bezier.trajectories.command import Certified
 
@@ -33,6 +35,8 @@ _LATER = {
     "certify": "bezier.interface.trajectory",
     "ChainPlan": "bezier.chains.plan",
     "chain": "bezier.interface.chain",
+    "LeastTime": "bezier.retiming.least_time",
+    "retime": "bezier.interface.retiming",
     "NoPath": "bezier.interface.planned",
     "Outcome": "bezier.plans",
     "Planned": "bezier.interface.planned",
@@ -60,6 +64,7 @@ __all__ = [
     "Blocked",
     "Certified",
     "ChainPlan",
+    "LeastTime",
     "NoPath",
     "Outcome",
     "Planned",
@@ -67,5 +72,6 @@ __all__ = [
     "certify",
     "chain",
     "plan",
+    "retime",
     "route",
 ]

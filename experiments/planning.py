@@ -2,7 +2,8 @@
 
 Chains: cubic, C2, in a ball, least sum of squared legs. clarabel gets all control points as variables and the joins as
 equations; it gives numbers, no proof. Paths: natural cubic splines timed by toppra for |v| <= 1, |a| <= 2; our part is
-``bezier.certify``, which says exactly where the limits are broken, and the slowing-down that repairs it. Scenes:
+``bezier.certify``, which says exactly where the limits are broken, and the slowing-down that repairs it, and
+``bezier.retime``, the least time from both sides. Scenes:
 ``bezier.route``, next to a flood of a grid of 200 points a side that proves nothing. Cases come
 from ``shared/corpora/scenes`` next to the project where it is, else from a seed.
 """
@@ -67,6 +68,9 @@ class PathRow:
     worst: str
     slower_by: float | None
     seconds: float
+    ours: float
+    at_least: float
+    our_seconds: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,11 +209,13 @@ def path_row(points: Sequence[Any], intervals: int) -> tuple[PathRow, Any] | Non
     laws = [RationalPoly.of([s[i], speed[i], force[i] / 2]) for i in range(len(times) - 1)]
     trajectory: Trajectory = composed(from_scipy(path), times, laws)
     result, seconds = timed(lambda: bezier.certify(trajectory, velocity=1, acceleration=2))
+    fastest, our_seconds = timed(lambda: bezier.retime(path, velocity=1, acceleration=2))
     worst, factor = result.verdict.worst, result.slower_by
     words = "" if worst is None else f"{worst.limit.words(trajectory.names)} {worst.value:.6g}"
     slower = None if factor is None else float(factor)
     axes, duration = len(points[0]), float(times[-1] - times[0])
-    return PathRow(axes, intervals, duration, toppra_seconds, result.kept, words, slower, seconds), result
+    ours = float(fastest.duration), float(fastest.bound), our_seconds
+    return PathRow(axes, intervals, duration, toppra_seconds, result.kept, words, slower, seconds, *ours), result
 
 
 # --- scenes ---------------------------------------------------------------------------------------------------
@@ -321,11 +327,16 @@ def page(
             html.toned("kept" if row.kept else row.worst, row.kept),
             "" if row.slower_by is None else f"{row.slower_by:.6f}",
             f"{row.seconds:.3f}",
+            f"{row.ours:.6g}",
+            f"{row.at_least:.6g}",
+            f"{row.our_seconds:.3f}",
         )
         for row in paths
     ]
     below = ("axes", "intervals", "duration", "toppra, s", "worst of |v| <= 1, |a| <= 2", "repaired by", "proof, s")
-    table = html.table(below, timings, numbers=(0, 1, 2, 3, 5, 6)) or html.note("toppra is not installed.")
+    table = html.table(
+        (*below, "ours, kept", "at least", "ours, s"), timings, numbers=(0, 1, 2, 3, 5, 6, 7, 8, 9)
+    ) or html.note("toppra is not installed.")
     known = [
         (
             row.name,

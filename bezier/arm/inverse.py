@@ -16,7 +16,7 @@ from typing import Any
 
 from bezier.arm.choices import BITS, AtPlace, Choice, Exact, Value, allowed, not_negative, spans
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Reduction, T
-from bezier.arm.model import Arm, Matrix, motion, product
+from bezier.arm.model import Arm, Matrix
 from bezier.arm.ratio import variable
 from bezier.curves.scalar import rational
 from qe.errors import InputError, InternalError
@@ -37,6 +37,8 @@ MOST_BITS = 4096
 """Balls are made no narrower than 2^-4096 to tell solutions from each other."""
 
 NAMES = ("w", "x", "y", "z", "t", "m")
+FRAME = ((0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
+"""The place of the end effector and its axes, seen from there: with 1 for a place and 0 for a direction at the end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,30 +168,36 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
 
 
 def _listed(arm: Arm, numbers: tuple[Any, ...], solutions: list[Solution], cases: tuple[str, ...]) -> Inverse:
-    for solution in solutions if numbers else ():
-        check_kinematics(arm, solution, [(number,) for number in numbers])
+    if numbers:  # a point along a curve has none here
+        check_kinematics(arm, solutions, numbers)
     solutions.sort(key=lambda s: [v for v in s.angles if v is not None])
     names = tuple(joint.name for joint in arm.joints)
     open_ones = {name for s in solutions for name, v in zip(names, s.values, strict=True) if v is None}
     return Inverse(arm, numbers, tuple(solutions), tuple(n for n in names if n in open_ones), cases)
 
 
-def check_kinematics(arm: Arm, solution: Solution, wanted: Sequence[Sequence[Any]]) -> None:
+def check_kinematics(arm: Arm, solutions: Iterable[Solution], *wanted: Sequence[Any]) -> None:
     """Forward kinematics in floating point: a slip of the derivation would show. Raises ``InternalError``.
 
-    ``wanted``: the rows of the pose, or what they end with. A family is left aside.
+    ``wanted``: where the end effector is to be, and its three axes where these are asked for. Families are left aside.
     """
-    whole, *constants = _constants(arm)
-    size = 1 + sum(abs(row[3]) for m in _constants(arm) for row in m)
-    for joint, value, constant in zip(arm.joints, solution.values, constants, strict=True):
-        if value is None:
-            return
-        size += abs(float(value))
-        here = motion(joint, float(value) if value.pair is None else _floats(value.pair))
-        whole = product(product(whole, here), constant)
-    for row, ends in zip(whole, wanted, strict=True):
-        if any(abs(a - float(b)) > CLOSE * size for a, b in zip(row[-len(ends) :], ends, strict=True)):
-            raise InternalError("the solutions of an arm contradict its forward kinematics")
+    constants, goals = _constants(arm), [(vector, _floats(goal)) for vector, goal in zip(FRAME, wanted, strict=False)]
+    longest = 1 + sum(abs(row[3]) for m in constants for row in m)
+    for solution in solutions:
+        values = [v for v in solution.values if v is not None]
+        if len(values) < len(solution.values):
+            continue
+        turns = [None if v.pair is None else _floats(v.pair) for v in values]
+        close = CLOSE * (longest + sum(map(abs, _floats(values))))
+        for (x, y, z, one), goal in goals:
+            for k in reversed(range(len(constants))):
+                x, y, z = (a * x + b * y + c * z + d * one for a, b, c, d in constants[k])
+                if k and (pair := turns[k - 1]) is not None:
+                    x, y = pair[0] * x - pair[1] * y, pair[1] * x + pair[0] * y
+                elif k:
+                    z += float(values[k - 1]) * one
+            if any(abs(a - b) > close for a, b in zip((x, y, z), goal, strict=True)):
+                raise InternalError("the solutions of an arm contradict its forward kinematics")
 
 
 def _floats(values: Iterable[Any]) -> tuple[float, ...]:

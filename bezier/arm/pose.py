@@ -110,8 +110,7 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
         solutions = [_solution(arm, position, multiple) for position, multiple in placed]
     except OtherShape:
         raise Unable(f"inverse kinematics at a pose needs {NEEDED}; {arm.name} is none") from None
-    for solution in solutions:
-        check_kinematics(arm, solution, [(*row, c) for row, c in zip(rows, numbers, strict=True)])
+    check_kinematics(arm, solutions, numbers, *zip(*rows, strict=True))
     result = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]
     free = {name for s in result for name, v in zip(names, s.values, strict=True) if v is None}

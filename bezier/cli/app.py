@@ -317,6 +317,47 @@ def route(
     return OK if is_free else UNABLE
 
 
+def retime(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .yaml, .npz", show_default=False)],
+    limits: Annotated[Path, typer.Option("--limits", help="A TOML file: velocity, acceleration, …, as for certify.")],
+    law: Annotated[Law | None, typer.Option("--law", help="A law with a formula; else the fastest motion.")] = None,
+    accuracy: Annotated[str, typer.Option("--accuracy", help="Share above the bound at which to stop.")] = "1/250",
+    out: Annotated[Path | None, typer.Option("--out", help="Write the motion here (.csv), for certify.")] = None,
+    certificate: Evidence = None,
+    check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about FILE.")] = None,
+    page: Annotated[Path | None, typer.Option("--page", help="Write a page with each quantity over time here.")] = None,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Run through the path of a trajectory in the least time that keeps all limits for all t, with seconds that no
+    motion can beat; both proved."""
+    from bezier.input.numbers import NotANumber, parse
+    from bezier.retiming import command
+
+    check_limits(timeout, memory)
+    for name in (out, certificate, page):
+        check_writable(name)
+    if check is not None and (certificate is not None or law is not None):
+        raise InputError("--check: expected no --certificate and --law with it, found one")
+    if out is not None and out.suffix.lower() != ".csv":
+        raise InputError(f"--out {out}: expected a name that ends in .csv")
+    try:
+        share = parse(accuracy)
+    except NotANumber as error:
+        raise InputError(f"--accuracy: expected a number, found {error}") from None
+    if share <= 0:
+        raise InputError(f"--accuracy: expected a number above 0, found {accuracy}")
+    work = partial(command.run, file=file, limits=limits, law=law, accuracy=share, against=check, as_json=json)
+    work = partial(work, evidence=certificate is not None, page=page is not None)
+    text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
+    for name, content in zip((out, certificate, page), files, strict=True):
+        if name is not None:
+            write_file(name, content)
+    print(text)
+    return OK
+
+
 COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
     ("plan", plan, "Plan a path, with its page and proofs.", "examples/three_balls.toml --out out"),
     ("check", check, "Verify the folder of a plan.", "out"),
@@ -325,6 +366,12 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
         "certify",
         certify,
         "Any trajectory within its limits, for all t.",
+        "examples/joints/path.csv --limits examples/joints/limits.toml",
+    ),
+    (
+        "retime",
+        retime,
+        "The least time along a path, from both sides.",
         "examples/joints/path.csv --limits examples/joints/limits.toml",
     ),
     ("chain", chain, "Curves through many via points, at best.", "examples/chains/plane.toml"),

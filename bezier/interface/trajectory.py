@@ -13,6 +13,7 @@ from bezier.input.toml_table import Table
 from bezier.interface.function import table_value
 from bezier.obstacles.reader import read_obstacles
 from bezier.trajectories.command import Certified, limits_of
+from bezier.trajectories.limits import Limit
 from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
 from bezier.trajectories.readers import load
@@ -68,8 +69,8 @@ def certify(
     """
     names = ("position", "velocity", "acceleration", "jerk", "velocity_norm", "acceleration_norm", "jerk_norm")
     values = (position, velocity, acceleration, jerk, velocity_norm, acceleration_norm, jerk_norm)
-    path = _trajectory(trajectory)
-    limits = limits_of(_table(dict(zip(names, values, strict=True))), len(path.names))
+    path = path_of(trajectory)
+    limits = limited_motion(dict(zip(names, values, strict=True)), len(path.names), SOURCE)
     bodies = None if obstacles is None else read_obstacles(_table({"obstacle": obstacles}, {"obstacle": "obstacles"}))
     largest = arguments.rational(tolerance, "tolerance")
     if largest < 0:
@@ -81,7 +82,8 @@ def certify(
         raise InputError(f"{SOURCE}: expected quantities of usual size, found one beyond 10^308") from None
 
 
-def _trajectory(given: Any) -> Trajectory:
+def path_of(given: Any) -> Trajectory:
+    """A trajectory, the one in a file, or that of an object of SciPy. Raises ``InputError``."""
     if isinstance(given, Trajectory):
         return given
     if isinstance(given, str | os.PathLike):
@@ -89,10 +91,15 @@ def _trajectory(given: Any) -> Trajectory:
     return from_scipy(given)
 
 
-def _table(values: Mapping[str, object], names: Mapping[str, str] | None = None) -> Table:
+def limited_motion(values: Mapping[str, object], axes: int, source: str) -> list[Limit]:
+    """Limits from arguments of these names. Raises ``InputError``."""
+    return limits_of(_table(values, source=source), axes)
+
+
+def _table(values: Mapping[str, object], names: Mapping[str, str] | None = None, source: str = SOURCE) -> Table:
     called = names or {}
-    read = {k: table_value(v, f"{SOURCE}: {called.get(k, k)}") for k, v in values.items() if v is not None}
-    return Table(read, SOURCE, names=called)
+    read = {k: table_value(v, f"{source}: {called.get(k, k)}") for k, v in values.items() if v is not None}
+    return Table(read, source, names=called)
 
 
 def _decided(path: Trajectory, limits: Any, bodies: Any, tolerance: Fraction, budget: Budget) -> Certified:

@@ -18,8 +18,9 @@ SAMPLES = 2000
 BAD = "#c0392b"
 
 
-def page(verdict: Verdict, lines: Sequence[str], file: str, *, clear: bool) -> Page:
-    """``lines``: what the command says; ``clear``: whether no obstacle is touched."""
+def page(verdict: Verdict, lines: Sequence[str], file: str, *, clear: bool, cards: Sequence[Card] = ()) -> Page:
+    """``lines``: what the command says; ``clear``: whether no obstacle is touched; ``cards``: more
+    for the first line."""
     good = verdict.is_kept and clear
     names = verdict.trajectory.names
     charts = [(_chart(verdict, outcome), outcome.limit.words(names)) for outcome in verdict.outcomes]
@@ -38,7 +39,7 @@ def page(verdict: Verdict, lines: Sequence[str], file: str, *, clear: bool) -> P
     table = Section("limits", "Limits", html.table(head, rows, numbers=(1, 2, 3)), short="limits")
     drawn = Section("charts", "Over time", html.figures(charts), short="charts")
     note = "Charts are samples in floating point; every verdict is exact and holds for all t."
-    cards = [Card("verdict", "kept" if good else "refuted", html.tone(good))]
+    cards = [Card("verdict", "kept" if good else "refuted", html.tone(good)), *cards]
     if not verdict.is_kept:
         slower = "no slowing down repairs it" if verdict.factor is None else f"{float(verdict.factor):.8g}"
         cards.append(Card("times as slow", slower, note="kept then, proved"))

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from math import lcm
+from math import comb, lcm
 
 import qe
+from bezier.curves import bernstein as bs
 from bezier.trajectories.limits import Limit, Outcome, Verdict, limited
 from bezier.trajectories.piecewise import Trajectory
 from qe.certify.registry import RULES
@@ -32,7 +33,7 @@ RING = Ring.of(("t",))
 T = RING.var("t")
 
 
-def _whole(p: RationalPoly, sign: int, bound: Fraction) -> Poly:
+def whole(p: RationalPoly, sign: int, bound: Fraction) -> Poly:
     """A positive multiple of sign * p - bound with whole coefficients."""
     listed = [sign * c for c in p.coefficients()] or [Fraction(0)]
     listed[0] -= bound
@@ -44,34 +45,34 @@ def _ends(length: Fraction) -> tuple[Poly, Poly]:
     return T, T * length.denominator - length.numerator
 
 
-def _sentence(length: Fraction, excesses: Sequence[Poly]) -> Formula:
+def exceeding(length: Fraction, excesses: Sequence[Poly]) -> Formula:
     """That there is a time in [0, length] at which one of these is positive."""
     low, high = _ends(length)
     inside = (atom(low, Relation.GE), atom(high, Relation.LE))
     return exists(("t",), conj((*inside, disj(atom(p, Relation.GT) for p in excesses))))
 
 
-def _claims(
+def claims(
     trajectory: Trajectory, limits: Sequence[Limit], factor: Fraction
 ) -> Iterator[tuple[str, list[Poly], Formula]]:
     """Of each piece: its label, by how much limits are exceeded, and the sentence that one is."""
     rows = [limited(trajectory.derivative(limit.order), limit) for limit in limits]
     for i, length in enumerate(trajectory.lengths):
         excesses = [
-            _whole(row[i], sign, bound * factor ** (limit.order * limit.power))
+            whole(row[i], sign, bound * factor ** (limit.order * limit.power))
             for limit, row in zip(limits, rows, strict=True)
             for sign, bound in limit.sides
         ]
         slower = "" if factor == 1 else f", {factor} times as slow"
-        yield f"piece {i + 1}{slower}", excesses, _sentence(length, excesses)
+        yield f"piece {i + 1}{slower}", excesses, exceeding(length, excesses)
 
 
 def _broken(trajectory: Trajectory, outcome: Outcome) -> tuple[str, list[Poly], Formula]:
     limit, peak = outcome.limit, outcome.peak
     polys = limited(trajectory.derivative(limit.order)[peak.piece : peak.piece + 1], limit)
-    excess = _whole(polys[0], peak.sign, outcome.bound)
+    excess = whole(polys[0], peak.sign, outcome.bound)
     label = f"{limit.words(trajectory.names)} is exceeded in piece {peak.piece + 1}"
-    return label, [excess], _sentence(trajectory.lengths[peak.piece], [excess])
+    return label, [excess], exceeding(trajectory.lengths[peak.piece], [excess])
 
 
 def members(verdict: Verdict) -> list[tuple[str, Certificate]]:
@@ -87,9 +88,9 @@ def members(verdict: Verdict) -> list[tuple[str, Certificate]]:
     if verdict.factor is not None:
         limits = [outcome.limit for outcome in verdict.outcomes]
         for (label, excesses, sentence), length in zip(
-            _claims(trajectory, limits, verdict.factor), trajectory.lengths, strict=True
+            claims(trajectory, limits, verdict.factor), trajectory.lengths, strict=True
         ):
-            listed.append((label, _refuted(sentence, excesses, length)))
+            listed.append((label, refuted(sentence, excesses, length)))
     if not listed:
         raise Unable("nothing that is proved has a certificate: the trajectory is not continuous")
     return listed
@@ -114,12 +115,16 @@ def _instance(sentence: Formula, at: Fraction) -> Certificate:
     return Certificate.step("instance", RING.names, sentence, TRUE, evidence)
 
 
-def _refuted(sentence: Formula, excesses: Sequence[Poly], length: Fraction) -> Certificate:
+def refuted(sentence: Formula, excesses: Sequence[Poly], length: Fraction) -> Certificate:
+    """That the sentence about these polynomials is false. Raises ``Unable``."""
     if sentence == FALSE:
         return Certificate.derivation(RING.names, FALSE, [], FALSE)
     lemmas, ends = Lemmas(RING), _ends(length)
     for poly in dict.fromkeys(excesses):
         if poly.is_constant:
+            continue
+        if terms := _by_bernstein(poly, length):
+            lemmas.identity(terms)
             continue
         unit, factors = poly.factors()
         if len(factors) > 1 or factors[0][1] > 1:
@@ -137,6 +142,20 @@ def _refuted(sentence: Formula, excesses: Sequence[Poly], length: Fraction) -> C
     return Certificate.step("signs", RING.names, sentence, FALSE, {"theory": theory})
 
 
+def _by_bernstein(poly: Poly, length: Fraction) -> list[tuple[int, tuple[tuple[Poly, int], ...]]]:
+    """The polynomial and the terms that make 0 with it, positive multiples of t^i (length - t)^j; none where it has a
+    positive coefficient in Bernstein form on [0, length]."""
+    powers = [Fraction(int(c.constant_value())) for c in poly.coefficients(0)]
+    form = bs.from_power([c * length**k for k, c in enumerate(powers)])
+    if any(c > 0 for c in form):
+        return []
+    (low, high), n = _ends(length), len(form) - 1
+    scaled = [-c * comb(n, k) / length**n / (-length.denominator) ** (n - k) for k, c in enumerate(form)]
+    below = lcm(*(c.denominator for c in scaled))
+    listed = [(int(c * below), [(low, k), (high, n - k)]) for k, c in enumerate(scaled) if c]
+    return [(below, ((poly, 1),)), *((c, tuple(pair for pair in pairs if pair[1])) for c, pairs in listed)]
+
+
 def check(verdict: Verdict, given: Certificate, scene: Sequence[tuple[str, Certificate]] = ()) -> None:
     """Whether a certificate proves what the verdict says of its trajectory. Raises ``CertificateRejected``.
 
@@ -144,20 +163,27 @@ def check(verdict: Verdict, given: Certificate, scene: Sequence[tuple[str, Certi
     are made anew, from the trajectory and the limits, and have to be those of the certificate.
     """
     trajectory = verdict.trajectory
-    broken = [(*_broken(trajectory, o)[::2], TRUE) for o in verdict.outcomes if not o.is_kept]
+    stated = [(*_broken(trajectory, o)[::2], TRUE) for o in verdict.outcomes if not o.is_kept]
     limits = [o.limit for o in verdict.outcomes]
-    factor = verdict.factor
-    kept = [] if factor is None else [(*c[::2], FALSE) for c in _claims(trajectory, limits, factor)]
-    claims = [(label, _payload(sentence, answer)) for label, sentence, answer in (*broken, *kept)]
-    if not (claims or scene) or given.kind != Kind.BUNDLE or not isinstance(given.payload, tuple):
+    if verdict.factor is not None:
+        stated += [(*c[::2], FALSE) for c in claims(trajectory, limits, verdict.factor)]
+    compare(given, stated, scene)
+
+
+def compare(
+    given: Certificate, stated: Sequence[tuple[str, Formula, Formula]], scene: Sequence[tuple[str, Certificate]] = ()
+) -> None:
+    """Whether a certificate has just these members, labels with sentences and answers, then those of the scene, and is
+    accepted. Raises ``CertificateRejected``."""
+    if not (stated or scene) or given.kind != Kind.BUNDLE or not isinstance(given.payload, tuple):
         raise CertificateRejected("bundle", "expected a bundle")
-    if len(given.payload) != len(claims) + len(scene):
-        raise CertificateRejected("bundle", f"expected {len(claims) + len(scene)} members about this trajectory")
-    for member, (label, proved) in zip(given.payload[len(claims) :], scene, strict=True):
+    if len(given.payload) != len(stated) + len(scene):
+        raise CertificateRejected("bundle", f"expected {len(stated) + len(scene)} members about this trajectory")
+    for member, (label, proved) in zip(given.payload[len(stated) :], scene, strict=True):
         if (member.label, member.certificate) != (label, proved):
             raise CertificateRejected(member.label, f"expected {label}")
-    for member, (label, expected) in zip(given.payload, claims, strict=False):
-        payload = member.certificate.payload
+    for member, (label, sentence, answer) in zip(given.payload, stated, strict=False):
+        payload, expected = member.certificate.payload, _payload(sentence, answer)
         if member.label != label or member.certificate.kind != Kind.DERIVATION or not isinstance(payload, dict):
             raise CertificateRejected(member.label, f"expected the derivation of: {label}")
         if any(payload.get(key) != value for key, value in expected.items()):

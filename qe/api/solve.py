@@ -7,8 +7,8 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
-import qe.api.eliminate as api
 from qe import arguments
+from qe.api.eliminate import settled
 from qe.api.input import AnyFormula, read_block, together
 from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
@@ -78,12 +78,16 @@ def _solutions(
     return replace(solutions, answer=_compared(str(solutions), given, known, budget)) if check else solutions
 
 
+def _answer(sentence: Formula, check: bool, budget: Budget) -> Answer:
+    return settled(sentence, Options(certify=check), budget)
+
+
 def _compared(text: str, given: Formula, known: Formula, budget: Budget) -> Answer:
     """The answer to the question whether a text says the same as a formula."""
     written, question, assumed = together(read(text), given, known)
     claim = implies(assumed, iff(written, question))
     try:
-        answer = api.settled(forall(claim.free, claim), Options(certify=True), budget.part(TEXT_WORK))
+        answer = _answer(forall(claim.free, claim), True, budget.part(TEXT_WORK))
     except Unable as error:
         budget.check("compare the text")
         return Answer(Status.UNABLE, None, question=claim, reason=str(error))
@@ -142,7 +146,7 @@ def _found(given: Formula, count: int, seed: int, check: bool, inner: Limits, bu
         if check and region.guarantee is not Guarantee.CHECKED:
             raise Unable(f"the points are not proved: {region.reason}")
         return different_points(region, count, seed, budget)
-    answer = api.settled(exists(given.free, given), Options(certify=check), budget)
+    answer = _answer(exists(given.free, given), check, budget)
     if answer.truth is False:
         return []
     if answer.witness is None and given.free:

@@ -24,6 +24,9 @@ _CLOSEST = 1 << 100
 _TINY = 1e-9
 """Multipliers that count as zero."""
 
+_PARTS, _NEARLY = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12), 1e-5
+"""Parts of the least of some numbers that all may be multiples of, and how nearly."""
+
 
 @dataclass(frozen=True, slots=True)
 class Refutation:
@@ -94,6 +97,9 @@ def _rounded(problem: Slackened, proposal: Proposal) -> tuple[Fraction, ...] | N
 def _refutation(problem: Slackened, proposal: Proposal) -> Refutation | None:
     """The multipliers of the rows, from those that are not zero in floats."""
     rows = problem.system.rows
+    weights = proportions({i: w for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY})
+    if weights and problem.system.refuted_by(weights):
+        return Refutation(weights)
     support = [i for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY]
     equations: dict[int, dict[int, int]] = {}
     for k, i in enumerate(support):
@@ -109,6 +115,17 @@ def _refutation(problem: Slackened, proposal: Proposal) -> Refutation | None:
     whole = lcm(*(w.denominator for w in solved.values()))
     weights = {support[k]: int(w * whole) for k, w in solved.items() if w}
     return Refutation(weights) if problem.system.refuted_by(weights) else None
+
+
+def proportions(numbers: Mapping[int, float]) -> dict[int, int]:
+    """Integers in these proportions, as far as floats tell; none where the least number is not a small part of some."""
+    least = min(map(abs, numbers.values()), default=0.0)
+    if least and all(map(isfinite, numbers.values())):
+        for part in _PARTS:
+            unit = least / part
+            if all(abs(w / unit - round(w / unit)) < _NEARLY for w in numbers.values()):
+                return {i: round(w / unit) for i, w in numbers.items()}
+    return {}
 
 
 def _vertex(problem: Slackened, proposal: Proposal) -> tuple[Fraction, ...] | None:

@@ -9,6 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from importlib.util import find_spec
+from itertools import accumulate
+from math import inf
 from typing import Any
 
 from qe.convex.linear_rows import LinearRows
@@ -16,6 +19,9 @@ from qe.convex.linear_rows import LinearRows
 _SPARSE, _MANY = 0.2, 5_000
 """Below that share of entries, and with more of them, an interior method with crossover is faster than the simplex
 method (measured: 3,000 rows of 5 entries in 1,000 variables 0.55 s for 1.4 s, 1,280 dense rows 4 s for 2 s)."""
+
+_NEAR = 1e-7
+"""How far from a bound a row is taken to keep it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,15 +88,9 @@ def highs(problem: Slackened, seconds: float | None) -> Proposal | None:
         import highspy
     except ImportError:
         return None
-    solver = highspy.Highs()
     entries = sum(len(row.terms) for row in problem.system.rows)
     sparse = entries > _MANY and entries < _SPARSE * problem.size * len(problem.system.rows)
-    options: dict[str, Any] = {"output_flag": False, "log_to_console": False, "threads": 1}
-    options |= {"solver": "ipm"} if sparse else {"presolve": "off", "simplex_strategy": 4}
-    if seconds is not None:
-        options["time_limit"] = seconds
-    for name, value in options.items():
-        solver.setOptionValue(name, value)
+    solver = _solver(seconds, {"solver": "ipm"} if sparse else {"presolve": "off", "simplex_strategy": 4})
     try:
         solver.passModel(_model(problem))
     except OverflowError:
@@ -117,29 +117,115 @@ def _contradiction(solver: Any, problem: Slackened) -> Proposal | None:
     return Proposal((), (), (), list(ray), ray=True) if known else None
 
 
+def _solver(seconds: float | None, options: Mapping[str, object]) -> Any:
+    """HiGHS without a word."""
+    import highspy
+
+    solver = highspy.Highs()
+    limit = {} if seconds is None else {"time_limit": seconds}
+    for name, value in {"output_flag": False, "log_to_console": False, "threads": 1, **limit, **options}.items():
+        solver.setOptionValue(name, value)
+    return solver
+
+
 def _model(problem: Slackened) -> Any:
     """The linear program, each row divided by a power of two so that floats hold it."""
+    rows, size = problem.system.rows, problem.size
+    terms, upper, lower = list[Mapping[int, float]](), list[float](), list[float]()
+    for i, row in enumerate(rows):
+        given = problem.terms(i)
+        unit = 1 << max(0, max(map(abs, given.values())).bit_length() - 20)
+        terms.append(given if unit == 1 else {j: c / unit for j, c in given.items()})
+        upper.append(float(problem.right(i) / unit))
+        lower.append(upper[-1] if row.is_equation else -inf)
+    return _program(size + 1, terms, lower, upper, last=float(problem.highest))
+
+
+def _program(
+    size: int, rows: Sequence[Mapping[int, float]], lower: Sequence[float], upper: Sequence[float], last: float = inf
+) -> Any:
+    """Rows between bounds, all variables free; where the ``last`` is at most a number, it is to be greatest."""
     import highspy
     import numpy as np
 
-    rows, size, infinity = problem.system.rows, problem.size, highspy.kHighsInf
-    starts, columns, values, upper, lower = [0], list[int](), list[float](), list[float](), list[float]()
-    for i, row in enumerate(rows):
-        terms = problem.terms(i)
-        unit = 1 << max(0, max(map(abs, row.terms.values())).bit_length() - 20)
-        columns += terms
-        values += terms.values() if unit == 1 else [c / unit for c in terms.values()]
-        starts.append(len(columns))
-        upper.append(float(problem.right(i) / unit))
-        lower.append(upper[-1] if row.is_equation else -infinity)
     made = highspy.HighsLp()
-    made.num_col_, made.num_row_ = size + 1, len(rows)
-    made.col_cost_ = np.array([0.0] * size + [-1.0])
-    made.col_lower_ = np.full(size + 1, -infinity)
-    made.col_upper_ = np.array([infinity] * size + [float(problem.highest)])
+    made.num_col_, made.num_row_ = size, len(rows)
+    made.col_cost_ = np.array([0.0] * (size - 1) + [-1.0 if last < inf else 0.0])
+    made.col_lower_ = np.full(size, -inf)
+    made.col_upper_ = np.array([inf] * (size - 1) + [last])
     made.row_lower_, made.row_upper_ = np.array(lower), np.array(upper)
     made.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
-    made.a_matrix_.start_ = np.array(starts)
-    made.a_matrix_.index_ = np.array(columns)
-    made.a_matrix_.value_ = np.array(values, dtype=float)
+    made.a_matrix_.start_ = np.array([0, *accumulate(map(len, rows))])
+    made.a_matrix_.index_ = np.array([j for row in rows for j in row])
+    made.a_matrix_.value_ = np.array([c for row in rows for c in row.values()], dtype=float)
     return made
+
+
+class FloatRows:
+    """Rows in floats whose bounds, ``lower`` and ``upper``, come and go: each question starts where the last one ended.
+    ``values`` of the rows at a ``point`` that kept all bounds when it was looked for."""
+
+    @staticmethod
+    def are_available() -> bool:
+        """Whether HiGHS is installed."""
+        return find_spec("highspy") is not None
+
+    def __init__(self, size: int, rows: Sequence[Mapping[int, float]], seconds: float | None) -> None:
+        import numpy as np
+
+        self.lower, self.upper = np.full(len(rows), -inf), np.full(len(rows), inf)
+        self.values: Sequence[float] = [0.0] * len(rows)
+        self.point: Sequence[float] = [0.0] * size
+        self._known = self.lower.copy(), self.upper.copy()
+        self._solver = _solver(seconds, {"presolve": "off", "solver": "simplex", "simplex_strategy": 1})
+        self._solver.passModel(_program(size, rows, self.lower.tolist(), self.upper.tolist()))
+
+    def contradiction(self) -> dict[int, float] | None:
+        """Multipliers of rows whose bounds are said to contradict each other; None where the point keeps all, now."""
+        import highspy
+        import numpy as np
+
+        values = np.array(self.values)
+        if ((self.lower - _NEAR <= values) & (values <= self.upper + _NEAR)).all():
+            return None
+        (changed,) = np.nonzero((self.lower != self._known[0]) | (self.upper != self._known[1]))
+        self._known = self.lower.copy(), self.upper.copy()
+        self._solver.changeRowsBounds(len(changed), changed.astype(np.int32), self.lower[changed], self.upper[changed])
+        self._solver.run()
+        status = self._solver.getModelStatus()
+        if status == highspy.HighsModelStatus.kUnknown:  # where it started from was of no use
+            self._solver.clearSolver()
+            self._solver.run()
+            status = self._solver.getModelStatus()
+        if status == highspy.HighsModelStatus.kOptimal:
+            solution = self._solver.getSolution()
+            self.values, self.point = list(solution.row_value), list(solution.col_value)
+        if status != highspy.HighsModelStatus.kInfeasible:
+            return None
+        _, known, ray = self._solver.getDualRay()
+        (support,) = np.nonzero(ray) if known else ((),)
+        return {int(i): float(ray[i]) for i in support}
+
+
+class Offers:
+    """Bounds of rows by the literals that say them: literal, row, number, whether it is an upper one and strict."""
+
+    def __init__(self, offered: Sequence[tuple[int, int, float, bool, bool]]) -> None:
+        import numpy as np
+
+        self._literals, self._rows, self._numbers, upper, strict = (np.array(c) for c in zip(*offered, strict=True))
+        self._signs = np.where(upper, -1.0, 1.0)
+        self._least = np.where(strict, _NEAR, -_NEAR)
+        self._held = np.zeros(len(self._rows), dtype=bool)
+        self._seen: Sequence[float] = ()
+
+    def changes(self, values: Sequence[float]) -> list[int]:
+        """The literals that hold where the rows have these values, and did not when this was asked last."""
+        import numpy as np
+
+        if values is self._seen:
+            return []
+        self._seen = values
+        held = (np.array(values)[self._rows] - self._numbers) * self._signs > self._least
+        new, self._held = held & ~self._held, held
+        return [int(literal) for literal in self._literals[new]]

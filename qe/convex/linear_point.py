@@ -11,7 +11,7 @@ from qe.convex.exact_basis import Refutation, decided
 from qe.convex.highs import Proposer, highs
 from qe.convex.linear_rows import LinearRows
 from qe.convex.system import NotConvex, atoms_of
-from qe.exact.linear_bounds import LinearBounds
+from qe.exact.linear_bounds import LinearBounds, TooMuch
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget
@@ -59,6 +59,15 @@ def linear_point(
     if not atoms or any(a.poly.total_degree > 1 or a.relation is Relation.NE for a in atoms):
         return None
     system = LinearRows.of(atoms)
+    outcome = solved(system, budget, propose)
+    if isinstance(outcome, Refutation):
+        terms = tuple((system.rows[i].sign * w, atoms[i].poly) for i, w in outcome.weights.items())
+        return LinearContradiction(terms, sum(w * system.rows[i].constant for i, w in outcome.weights.items()))
+    return dict(zip(system.names, outcome, strict=True))
+
+
+def solved(system: LinearRows, budget: Budget, propose: Proposer = highs) -> tuple[Fraction, ...] | Refutation:
+    """A point of all rows or their contradiction."""
 
     def seconds() -> float | None:
         budget.check("linear conditions")
@@ -69,19 +78,12 @@ def linear_point(
     if outcome is None:
         outcome = decided(system, seconds, propose) or _pivoted(system, budget)
     assert outcome is not None
-    if isinstance(outcome, Refutation):
-        terms = tuple((system.rows[i].sign * w, atoms[i].poly) for i, w in outcome.weights.items())
-        return LinearContradiction(terms, sum(w * system.rows[i].constant for i, w in outcome.weights.items()))
-    return dict(zip(system.names, outcome, strict=True))
-
-
-class _TooMuch(Exception):
-    """The simplex method takes too long."""
+    return outcome
 
 
 def _pivoted(system: LinearRows, budget: Budget, work: int | None = None) -> tuple[Fraction, ...] | Refutation | None:
     """What the simplex method says; None where it takes more than so much ``work``."""
-    bounds = LinearBounds()
+    bounds = LinearBounds(work)
     columns = [bounds.variable() for _ in system.names]
     factors: list[Fraction] = []
 
@@ -90,11 +92,6 @@ def _pivoted(system: LinearRows, budget: Budget, work: int | None = None) -> tup
         whole = lcm(*(c.denominator for _, c in known))
         weights = {k: int(c * whole) for k, c in known}
         return Refutation(weights if system.refuted_by(weights) else {k: -w for k, w in weights.items()})
-
-    def watch() -> None:
-        budget.check("linear conditions")
-        if work is not None and bounds.work > work:
-            raise _TooMuch
 
     for number, row in enumerate(system.rows):
         terms = {columns[j]: Fraction(c) for j, c in row.terms.items()}
@@ -110,9 +107,9 @@ def _pivoted(system: LinearRows, budget: Budget, work: int | None = None) -> tup
             (other,) = conflict - {number} or {number}
             return refutation([(number, Fraction(1)), (other, Fraction(-1))])
     try:
-        if bounds.conflict(watch) is not None:
+        if bounds.conflict(lambda: budget.check("linear conditions")) is not None:
             return refutation(bounds.contradiction())
-    except _TooMuch:
+    except TooMuch:
         return None
     values = bounds.point()
     return tuple(values[x] for x in columns)

@@ -1,4 +1,4 @@
-"""Polyhedra as rows: variables are eliminated (Fourier 1826, Motzkin 1936), rows that the others imply go, exactly."""
+"""Polyhedra as rows: a variable less (Fourier 1826, Motzkin 1936), rows that the others imply go, exactly."""
 
 from __future__ import annotations
 
@@ -49,27 +49,6 @@ class Polyhedron:
     equations: tuple[HalfSpace, ...]
     halves: tuple[HalfSpace, ...]
 
-    def shadow(self, columns: Iterable[int], check: Check) -> Polyhedron | None:
-        """The projection along these columns, without rows that others imply; None where it is empty.
-
-        THEOREM. ex x. a_i <= x <= b_j for all i, j iff a_i <= b_j for all i, j (strict where one of both is).
-        """
-        now: Polyhedron | None = self
-        open_ones = set(columns)
-        while open_ones and now is not None:
-            check()
-            solved = next(((e, j) for e in now.equations for j, c in e.normal if j in open_ones), None)
-            if solved is not None:
-                j = min((j for j, _ in solved[0].normal if j in open_ones), key=lambda j: abs(solved[0].at(j)))
-                now = now._substituted(solved[0], j)
-            else:
-                j = min(open_ones, key=now._growth)
-                grows = now._growth(j) > 0
-                now = now._combined(j)
-                now = now.irredundant(check) if grows else now
-            open_ones.discard(j)
-        return None if now is None else now.irredundant(check)
-
     def irredundant(self, check: Check) -> Polyhedron | None:
         """The same without half-spaces that follow from the others; None where it is empty.
 
@@ -108,13 +87,13 @@ class Polyhedron:
         equations = tuple(row for row in self.equations if row.normal)
         return Polyhedron(self.size, equations, tuple(kept.values()))
 
-    def _growth(self, column: int) -> int:
+    def growth(self, column: int) -> int:
         """How many half-spaces more there are without a column."""
         signs = [c for row in self.halves for c in (row.at(column),) if c]
         above = sum(c > 0 for c in signs)
         return above * (len(signs) - above) - len(signs)
 
-    def _substituted(self, equation: HalfSpace, column: int) -> Polyhedron:
+    def substituted(self, equation: HalfSpace, column: int) -> Polyhedron:
         """Without a column, by an equation that has it."""
         lead = equation.at(column)
 
@@ -127,7 +106,7 @@ class Polyhedron:
         rest = tuple(without(e) for e in self.equations if e is not equation)
         return Polyhedron(self.size, rest, tuple(map(without, self.halves)))
 
-    def _combined(self, column: int) -> Polyhedron:
+    def combined(self, column: int) -> Polyhedron:
         """Without a column: each upper bound of it with each lower one."""
         above = [(row, c) for row in self.halves if (c := row.at(column)) > 0]
         below = [(row, -c) for row in self.halves if (c := row.at(column)) < 0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from qe.convex.linear_rows import LinearRows
 from qe.convex.polyhedron import HalfSpace, Polyhedron, whole
+from qe.convex.shadow import shadow
 from qe.convex.system import NotConvex, atoms_of
 from qe.elimination.protocol import Context, Outcome
 from qe.exact.ring import Ring
@@ -43,13 +44,13 @@ class Projection:
         halves = [(HalfSpace.of(row.terms, row.constant, row.is_strict), row.is_equation) for row in system.rows]
         equations, others = (tuple(h for h, equal in halves if equal == kind) for kind in (True, False))
         bound = [j for j, name in enumerate(system.names) if name in problem.variables]
-        shadow = Polyhedron(len(system.names), equations, others).shadow(bound, check)
-        positive = FALSE if shadow is None else _formula(shadow, system.names, problem.free)
+        projected = shadow(Polyhedron(len(system.names), equations, others), bound, check)
+        positive = FALSE if projected is None else _formula(projected, system.names, problem.free)
         after = nnf(positive, negate=problem.universal)
         return Outcome(context.log.step("projection", problem.formula, after), shortest=True)
 
 
-def _formula(shadow: Polyhedron, names: tuple[str, ...], free: tuple[str, ...]) -> Formula:
+def _formula(projected: Polyhedron, names: tuple[str, ...], free: tuple[str, ...]) -> Formula:
     """The conditions; two half-spaces that touch are an equation."""
     ring = Ring.of(free)
 
@@ -58,9 +59,9 @@ def _formula(shadow: Polyhedron, names: tuple[str, ...], free: tuple[str, ...]) 
         poly = ring.from_sparse([(((ring.index[names[j]], 1),), c) for j, c in terms.items()])
         return atom(poly + constant, relation)
 
-    known = {(row.normal, row.constant) for row in shadow.halves if not row.strict}
-    parts = [made(row, Relation.EQ) for row in shadow.equations]
-    for row in shadow.halves:
+    known = {(row.normal, row.constant) for row in projected.halves if not row.strict}
+    parts = [made(row, Relation.EQ) for row in projected.equations]
+    for row in projected.halves:
         opposite = tuple((j, -c) for j, c in row.normal), -row.constant
         weak = Relation.EQ if not row.strict and opposite in known else Relation.LE
         parts.append(made(row, Relation.LT if row.strict else weak))

@@ -14,25 +14,100 @@ from flint import fmpq
 
 Value = tuple[fmpq, fmpq]
 Bound = tuple[Value, Hashable]
+Term = tuple[int, bool, fmpq, Value, Hashable]
+"""A bound in a contradiction: variable, whether it is an upper one, coefficient (negative for lower bounds), number,
+reason."""
+Offered = Callable[[int, bool], Iterable[tuple[Fraction, bool, Hashable]]]
+"""Upper or lower bounds of a variable: number, strict, reason."""
 
 _ZERO, _ONE = fmpq(0), fmpq(1)
 _GREEDY = 60
 """Pivots that look for the largest violation, before Bland's rule sees to it that the search ends."""
 
 
-class LinearBounds:
-    """Variables are numbers from 0; ``reasons`` of a conflict are those given with the bounds that contradict.
-    ``work``: how many entries pivots have computed."""
+class TooMuch(Exception):
+    """The simplex method takes more work than it was to."""
+
+
+class Bounds:
+    """The bounds of variables, as they come and go; ``reasons`` of a conflict are those given with the bounds."""
 
     def __init__(self) -> None:
+        self.lower: dict[int, Bound] = {}
+        self.upper: dict[int, Bound] = {}
+        self._changed: list[tuple[dict[int, Bound], int, Bound | None]] = []
+
+    def mark(self) -> int:
+        """The bounds as they are now, for ``back``."""
+        return len(self._changed)
+
+    def back(self, mark: int) -> None:
+        """Take back the bounds set since; all else stays."""
+        for bounds, x, before in reversed(self._changed[mark:]):
+            if before is None:
+                del bounds[x]
+            else:
+                bounds[x] = before
+            self._rebound(bounds, x)
+        del self._changed[mark:]
+
+    def at_least(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
+        """x >= bound (>); the reasons of a contradiction with an upper bound, or None."""
+        value = fmpq(bound.numerator, bound.denominator), _ONE if strict else _ZERO
+        if x in self.lower and self.lower[x][0] >= value:
+            return None
+        if x in self.upper and self.upper[x][0] < value:
+            return {reason, self.upper[x][1]}
+        self._changed.append((self.lower, x, self.lower.get(x)))
+        self.lower[x] = value, reason
+        self._rebound(self.lower, x)
+        return None
+
+    def at_most(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
+        """x <= bound (<); the reasons of a contradiction with a lower bound, or None."""
+        value = fmpq(bound.numerator, bound.denominator), -_ONE if strict else _ZERO
+        if x in self.upper and self.upper[x][0] <= value:
+            return None
+        if x in self.lower and self.lower[x][0] > value:
+            return {reason, self.lower[x][1]}
+        self._changed.append((self.upper, x, self.upper.get(x)))
+        self.upper[x] = value, reason
+        self._rebound(self.upper, x)
+        return None
+
+    def contradicted(self, weights: Mapping[int, Fraction | int]) -> list[Term]:
+        """The bounds that multiples of the variables contradict which add up to zero; none where they do not.
+
+        THEOREM (Farkas 1902, Motzkin 1936). The multiples, bounded above where they are positive and below where they
+        are negative, add up to no more than those of the bounds: these must not be less than zero.
+        """
+        terms: list[Term] = []
+        total = _ZERO, _ZERO
+        for x, w in weights.items():
+            known = (self.upper if w > 0 else self.lower).get(x)
+            if known is None and w:
+                return []
+            if known is not None and w:
+                (a, b), c = known[0], fmpq(w.numerator, w.denominator)
+                total = total[0] + c * a, total[1] + c * b
+                terms.append((x, w > 0, c, *known))
+        return terms if total < (_ZERO, _ZERO) else []
+
+    def _rebound(self, bounds: dict[int, Bound], x: int) -> None:
+        """Do what a changed bound asks for."""
+
+
+class LinearBounds(Bounds):
+    """Variables are numbers from 0. ``work``: how many entries pivots have computed; ``most``: how many they may."""
+
+    def __init__(self, most: int | None = None) -> None:
+        super().__init__()
+        self.most = most
         self.rows: dict[int, dict[int, fmpq]] = {}
         self.using: list[set[int]] = []
         self.values: list[Value] = []
-        self.lower: dict[int, Bound] = {}
-        self.upper: dict[int, Bound] = {}
         self.stuck: tuple[int, bool] | None = None
         self.work = 0
-        self._changed: list[tuple[dict[int, Bound], int, Bound | None]] = []
 
     def variable(self) -> int:
         """A new variable."""
@@ -40,7 +115,7 @@ class LinearBounds:
         self.using.append(set())
         return len(self.values) - 1
 
-    def form(self, coefficients: Mapping[int, Fraction]) -> int:
+    def form(self, coefficients: Mapping[int, Fraction | int]) -> int:
         """A new variable equal to a linear form in others."""
         row: dict[int, fmpq] = {}
         for x, c in coefficients.items():
@@ -73,53 +148,17 @@ class LinearBounds:
         if x not in self.rows:
             self._move(x, (fmpq(value.numerator, value.denominator), _ZERO))
 
-    def mark(self) -> int:
-        """The bounds as they are now, for ``back``."""
-        return len(self._changed)
-
-    def back(self, mark: int) -> None:
-        """Take back the bounds set since; rows and values stay."""
-        for bounds, x, before in reversed(self._changed[mark:]):
-            if before is None:
-                del bounds[x]
-            else:
-                bounds[x] = before
-        del self._changed[mark:]
-
-    def at_least(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
-        """x >= bound (>); the reasons of a contradiction with an upper bound, or None."""
-        value = fmpq(bound.numerator, bound.denominator), _ONE if strict else _ZERO
-        if x in self.lower and self.lower[x][0] >= value:
-            return None
-        if x in self.upper and self.upper[x][0] < value:
-            return {reason, self.upper[x][1]}
-        self._changed.append((self.lower, x, self.lower.get(x)))
-        self.lower[x] = value, reason
-        if x not in self.rows and self.values[x] < value:
-            self._move(x, value)
-        return None
-
-    def at_most(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
-        """x <= bound (<); the reasons of a contradiction with a lower bound, or None."""
-        value = fmpq(bound.numerator, bound.denominator), -_ONE if strict else _ZERO
-        if x in self.upper and self.upper[x][0] <= value:
-            return None
-        if x in self.lower and self.lower[x][0] > value:
-            return {reason, self.lower[x][1]}
-        self._changed.append((self.upper, x, self.upper.get(x)))
-        self.upper[x] = value, reason
-        if x not in self.rows and self.values[x] > value:
-            self._move(x, value)
-        return None
-
     def conflict(self, check: Callable[[], object]) -> set[Hashable] | None:
         """None where all bounds can hold together; else reasons that cannot, by Farkas's lemma on one row.
 
-        No reason can be left out of them as long as the row stands. ``check`` is called between pivots.
+        No reason can be left out of them as long as the row stands. ``check`` is called between pivots. Raises
+        ``TooMuch``.
         """
         pivots, self.stuck = 0, None
         while True:
             check()
+            if self.most is not None and self.work > self.most:
+                raise TooMuch
             broken = self._broken(greedy=pivots < _GREEDY)
             if broken is None:
                 return None
@@ -133,36 +172,13 @@ class LinearBounds:
             self._pivot(x, shortest if pivots < _GREEDY else min(open_ones), wanted)
             pivots += 1
 
-    def weakened(self, offered: Callable[[int, bool], Iterable[tuple[Fraction, bool, Hashable]]]) -> set[Hashable]:
+    def weakened(self, offered: Offered) -> set[Hashable]:
         """After a conflict on a row: reasons that contradict each other as well, each bound exchanged for the first of
         those ``offered`` (of a variable, upper ones or lower ones: bound, strict, reason) with which the row still
-        contradicts itself.
-
-        The sum of the bounds of a row, each times its coefficient, is negative; it grows by what a bound moves. Bounds
-        that can move only a little come first, so that in a sum of 2^k*x_k those of large k stay.
-        """
+        contradicts itself."""
         assert self.stuck is not None
-        terms = self._contradiction(*self.stuck)
-        total = _ZERO, _ZERO
-        moves: list[list[tuple[Value, Hashable]]] = []
-        for y, above, c in terms:
-            (a, b), reason = (self.upper if above else self.lower)[y]
-            total = total[0] + c * a, total[1] + c * b
-            one = -_ONE if above else _ONE
-            others = [
-                ((c * (fmpq(p.numerator, p.denominator) - a), c * (strict * one - b)), other)
-                for p, strict, other in offered(y, above)
-            ]
-            weaker = [] if reason is None else [move for move in others if move[0] >= (_ZERO, _ZERO)]
-            moves.append([*weaker, ((_ZERO, _ZERO), reason)])
-        reasons: set[Hashable] = set()
-        for choices in sorted(moves, key=lambda choices: choices[0][0]):
-            (p, q), reason = next(
-                ((p, q), other) for (p, q), other in choices if (total[0] + p, total[1] + q) < (_ZERO, _ZERO)
-            )
-            total = total[0] + p, total[1] + q
-            reasons.add(reason)
-        return reasons
+        known = self._contradiction(*self.stuck)
+        return weakest([(y, up, c, *(self.upper if up else self.lower)[y]) for y, up, c in known], offered)
 
     def contradiction(self) -> list[tuple[Hashable, Fraction]]:
         """After a conflict on a row: the reasons, each with the factor of the variable that it bounds; these multiples
@@ -216,6 +232,13 @@ class LinearBounds:
                 broken, most = (x, wanted, up), size
         return broken
 
+    def _rebound(self, bounds: dict[int, Bound], x: int) -> None:
+        """Move a variable without a row to a bound that it does not keep."""
+        if x in bounds and x not in self.rows:
+            bound, value = bounds[x][0], self.values[x]
+            if value < bound if bounds is self.lower else value > bound:
+                self._move(x, bound)
+
     def _move(self, x: int, value: Value) -> None:
         """Give a variable without a row this value, and the rows that use it theirs."""
         da, db = value[0] - self.values[x][0], value[1] - self.values[x][1]
@@ -254,3 +277,30 @@ class LinearBounds:
         self.rows[y] = new
         for z in new:
             self.using[z].add(y)
+
+
+def weakest(terms: Iterable[Term], offered: Offered) -> set[Hashable]:
+    """Reasons of a contradiction, as weak as those offered allow.
+
+    The sum of the bounds, each times its coefficient, is negative; it grows by what a bound moves. Bounds that can
+    move only a little come first, so that in a sum of 2^k*x_k those of large k stay.
+    """
+    total = _ZERO, _ZERO
+    moves: list[list[tuple[Value, Hashable]]] = []
+    for y, above, c, (a, b), reason in terms:
+        total = total[0] + c * a, total[1] + c * b
+        one = -_ONE if above else _ONE
+        others = [
+            ((c * (fmpq(p.numerator, p.denominator) - a), c * (strict * one - b)), other)
+            for p, strict, other in offered(y, above)
+        ]
+        weaker = [] if reason is None else [move for move in others if move[0] >= (_ZERO, _ZERO)]
+        moves.append([*weaker, ((_ZERO, _ZERO), reason)])
+    reasons: set[Hashable] = set()
+    for choices in sorted(moves, key=lambda choices: choices[0][0]):
+        (p, q), reason = next(
+            ((p, q), other) for (p, q), other in choices if (total[0] + p, total[1] + q) < (_ZERO, _ZERO)
+        )
+        total = total[0] + p, total[1] + q
+        reasons.add(reason)
+    return reasons

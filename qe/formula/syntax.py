@@ -290,7 +290,8 @@ class Quantified(FormulaNode):
         return self.body.ring
 
     def _find_free(self) -> tuple[str, ...]:
-        return tuple([name for name in self.body.free if name not in self.variables])
+        bound = set(self.variables)
+        return tuple([name for name in self.body.free if name not in bound])
 
     def _find_quantifier_free(self) -> bool:
         return False
@@ -334,4 +335,4 @@ def _together(ring: Ring | None, parts: tuple[Formula, ...]) -> tuple[str, ...]:
     names: set[str] = set()
     for part in parts:
         names.update(part.free)
-    return tuple([name for name in ring.names if name in names])
+    return tuple(sorted(names, key=ring.index.__getitem__))

@@ -104,21 +104,21 @@ def _combined_bounds(theory: Lemmas, polys: Sequence[Poly], squares: bool) -> No
     """A combination of the polynomials, with squares of monomials where these take part, that is constant."""
     first, *others = dict.fromkeys(polys)
     ring = first.ring
-    monomials = list(dict.fromkeys(e for p in (first, *others) for e, _ in p.terms() if any(e)))
-    columns = [dict(p.terms()) for p in others]
+    monomials = list(dict.fromkeys(e for p in (first, *others) for e, _ in p.sparse_terms() if e))
+    columns = [dict(p.sparse_terms()) for p in others]
     even = [e for e in monomials if is_square(e)] if squares else []
     columns += [{e: 1} for e in even]
     rows = [[Fraction(column.get(e, 0)) for column in columns] for e in monomials]
-    wanted = dict(first.terms())
+    wanted = dict(first.sparse_terms())
     solution = solve_linear(rows, [Fraction(-wanted.get(e, 0)) for e in monomials], len(columns))
     if solution is None:
         return
     weights = [Fraction(1), *solution.particular]
     scale = lcm(*(w.denominator for w in weights))
     members: list[tuple[tuple[Poly, int], ...]] = [((p, 1),) for p in (first, *others)]
-    members += [tuple((ring.gen(i), k) for i, k in enumerate(e) if k) for e in even]
+    members += [tuple((ring.gen(i), k) for i, k in e) for e in even]
     terms = [(int(w * scale), powers) for w, powers in zip(weights, members, strict=True) if w]
-    constants = [dict(p.terms()).get((0,) * ring.size, 0) for p in (first, *others)]
+    constants = [dict(p.sparse_terms()).get((), 0) for p in (first, *others)]
     total = sum((w * c for w, c in zip(weights, constants)), Fraction(0)) * scale
     theory.identity([*terms, (-int(total), ())] if total else terms)
 

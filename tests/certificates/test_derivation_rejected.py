@@ -232,13 +232,13 @@ def test_every_entry_of_the_evidence_of_a_thin_set(text: str) -> None:
     inner = made["payload"]["steps"][k]["evidence"]["steps"]
     for j, step in enumerate(inner):
         for name in ("before", "after", "evidence"):
-            for other in (None, "x", 3, [], True, ["x", "x + y"]):
+            for other in (None, 3, ["x", "x + y"]):
                 if other != step[name]:
                     place = ("payload", "steps", k, "evidence", "steps", j, name)
                     refused(verify_json(replaced(made, place, other)), k)
 
 
-@each(24, pytest.param(4, marks=pytest.mark.deep))
+@each(72, pytest.param(4, marks=pytest.mark.deep))
 def test_steps_inside_the_evidence(step: int) -> None:
     """Steps from infinity, and from what remains, may not be altered either."""
     made = data(CASES["infinity"])

@@ -217,7 +217,7 @@ EACH = [*((arm, solve_pose) for arm in POSES.values()), *((arm, solve) for arm i
 
 
 @pytest.mark.parametrize(("arm", "by"), EACH, ids=[*POSES, *POINTS])
-@settings(max_examples=5)
+@settings(max_examples=settings.default.max_examples // 5)
 @given(TANGENTS, st.sampled_from((0, 0, 0, 1, -1)))
 def test_the_joints_that_led_there_are_found(
     arm: Arm, by: Callable[..., Inverse], t: list[Fraction], aside: int

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import inspect
 import json
-import subprocess
-import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -18,6 +17,7 @@ from qe.api.settings import settings_in
 from qe.cli.app import app
 from qe.cli.options import ELSEWHERE
 from qe.cli.prompt import HELP, Session
+from tests.cli import command
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMANDS = get_command(app).commands  # type: ignore[attr-defined]
@@ -47,15 +47,14 @@ def certificate(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def run(*words: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "qe", *words], capture_output=True, text=True, timeout=120)
+run = partial(command.run, "qe")
 
 
 @pytest.mark.parametrize("door", DOORS.values(), ids=list(DOORS))
 def test_a_door_has_one_name_and_one_set_of_keywords(door: Door) -> None:
-    function, command = getattr(qe, door.name), COMMANDS[door.name]
+    function, offered = getattr(qe, door.name), COMMANDS[door.name]
     taken = inspect.signature(function).parameters
-    options = {option.name: option for option in command.params}
+    options = {option.name: option for option in offered.params}
     for name, (_, setting) in settings_in(door.settings).items():
         if door.name != "verify":
             assert taken[name].default == setting.default
@@ -65,7 +64,7 @@ def test_a_door_has_one_name_and_one_set_of_keywords(door: Door) -> None:
         assert {"check", "certificate", "json", "plain"} <= set(options) and taken["check"].default is False
     if door.name != "verify":
         assert "assuming" in taken and "assuming" in options
-    assert command.short_help == door.says and door.name in Session().commands
+    assert offered.short_help == door.says and door.name in Session().commands
     for name in door.also:
         assert callable(getattr(qe, name))
 

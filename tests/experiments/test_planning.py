@@ -38,3 +38,4 @@ def test_what_toppra_times_is_certified() -> None:
     pytest.importorskip("toppra")
     made = planning.path_row(next(planning.path_cases(1)), 100)
     assert made is not None and not made[0].kept and made[0].slower_by is not None and 1 < made[0].slower_by < 1.1
+    assert made[0].at_least <= made[0].ours <= 1.004 * made[0].at_least and made[0].ours < 1.005 * made[0].duration

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from collections.abc import Callable
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 import sympy
@@ -19,10 +16,10 @@ from qe.formula.weight import written_out
 from qe.io import surface as s
 from qe.io.sharing import named, ordered, refuse_long
 from qe.io.text import read
+from tests.cli import command
 from tests.tables import each
 
 X, Y = sympy.symbols("x y")
-QE = Path(sys.executable).with_name("qe")
 
 
 @each(
@@ -220,7 +217,7 @@ def test_one_line_that_helps(misuse: Callable[[], object], hint: str) -> None:
     (("decide", "x > 0"), 2, "a sentence expected"),
 )
 def test_the_command(arguments: tuple[str, ...], code: int, part: str) -> None:
-    run = subprocess.run([QE, *arguments], capture_output=True, text=True, timeout=120)
+    run = command.run("qe", *arguments)
     assert run.returncode == code and part in run.stdout + run.stderr, (run.stdout, run.stderr)
     assert "Traceback" not in run.stderr
 

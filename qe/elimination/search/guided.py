@@ -11,15 +11,21 @@ from __future__ import annotations
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import Any
 
+from qe.convex.linear_point import LARGE, WORK
 from qe.elimination.search.clauses import Clause, Clauses
-from qe.elimination.search.linear_theories import Differences, Forms, difference, said
+from qe.elimination.search.linear_forms import FormBounds
+from qe.elimination.search.linear_theories import Differences, Forms, Said, difference, said
 from qe.elimination.search.online import LinearTheory, Propagator
+from qe.elimination.search.proposed_bounds import ProposedBounds, suits
 from qe.elimination.search.theory import Theory
+from qe.exact.linear_bounds import TooMuch
 from qe.exact.number import Values
+from qe.exact.ring import Poly
+from qe.formula.syntax import Atom, Relation
 
 UNITS = 60
 """Units of work of one look at a whole assignment; one is that of one look at a part."""
@@ -29,18 +35,36 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
     """Values that make the formula true, or clauses each of which holds at all real points.
 
     They leave no case, if the solver did what it should; this is for the caller to see. Raises what ``theory`` does.
+    Linear bounds in many forms, or whose tableaus fill, are for HiGHS where it is installed.
     """
+    bounds = list(said(clauses.inequalities()))
+    directions = {one.direction for one in bounds}
+    linear = all(poly.total_degree == 1 for poly in clauses.polys)
+    floats = linear and suits(directions)
+    work = WORK if floats else None
+    if not floats or sum(map(len, directions)) < LARGE:
+        with suppress(TooMuch):
+            forms = Forms(bounds, lambda: theory.budget.check("search: bounds"), FormBounds(work))
+            theory.bounds.offer(clauses.polys)
+            return _guided(clauses, bounds, theory, forms, linear)
+    theory.at_once = True
+    forms = Forms(bounds, lambda: theory.budget.check("search: bounds"), ProposedBounds(theory.budget.remaining()))
+    return _guided(clauses, bounds, theory, forms, linear)
+
+
+def _guided(
+    clauses: Clauses, bounds: Sequence[Said], theory: Theory, forms: Forms, linear: bool
+) -> Values | list[Clause]:
     from pysat.solvers import Cadical195, pysolvers
 
     budget = theory.budget
     point: Values = {}
-    bounds = list(said(clauses.inequalities()))
     theories: list[LinearTheory] = []
     differences = Differences(bounds) if Differences.suit(bounds) else None
     leading: Forms | None = None  # whose point says what is preferred; among curved conditions it says too little
     if differences is None or any(difference(one.direction) is None for one in bounds):
-        theories.append(forms := Forms(bounds, lambda: budget.check("search: bounds")))
-        leading = forms if all(poly.total_degree == 1 for poly in clauses.polys) else None
+        theories.append(forms)
+        leading = forms if linear else None
     if differences is not None:
         theories.insert(0, differences)
 
@@ -51,12 +75,20 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
     def last(model: Sequence[int]) -> list[Clause]:
         budget.spend(UNITS)
         budget.check("search", len(propagator.lemmas))
-        theory.bounds.start(theories[-1].point())
-        looked = theory.look(clauses.chosen(model, theory.bounds.sign))
+        if theory.at_once:
+            if (reasons := forms.settle(now=True)) is not None:
+                return [[-r for r in reasons]]
+        else:
+            theory.bounds.start(theories[-1].point())
+        looked = theory.look(clauses.chosen(model, sign if theory.at_once else theory.bounds.sign))
         if isinstance(looked, dict):
             point.update(looked)
             return []
         return [[-clauses.literal(a) for a in reason] for reason in looked]
+
+    def sign(poly: Poly) -> int:
+        above, below = (clauses.literal(Atom(poly, relation)) for relation in (Relation.GT, Relation.LT))
+        return forms.holds(above) - forms.holds(below)
 
     def prefer() -> None:
         if leading is not None and (changed := leading.changes()):

@@ -1,20 +1,23 @@
-"""Polynomials as linear forms in their monomials, scaled so that those that differ in a constant are one form."""
+"""Polynomials as linear forms in their monomials, divided so that those that differ in a constant are one form."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from math import gcd
 
 from qe.exact.linear_bounds import LinearBounds
 from qe.exact.ring import Poly
 
-Monomial = tuple[int, ...]
-Direction = tuple[tuple[Monomial, Fraction], ...]
+Monomial = tuple[tuple[int, int], ...]
+"""Variables with their exponents, ascending; of all others the exponent is 0."""
+Direction = tuple[tuple[Monomial, int], ...]
+"""A sum of coprime multiples of monomials, the first one positive."""
 
 
 @dataclass(frozen=True, slots=True)
 class LinearForm:
-    """The polynomial is scale * (direction - bound), ``direction`` a sum of coefficients times monomials."""
+    """The polynomial is scale * (direction - bound)."""
 
     direction: Direction
     bound: Fraction
@@ -22,24 +25,24 @@ class LinearForm:
 
 
 def over_monomials(poly: Poly) -> LinearForm:
-    """The form of a polynomial that is no constant; the first monomial has the coefficient 1."""
-    terms = poly.terms()
-    scale = terms[0][1]
-    direction = tuple((m, Fraction(c, scale)) for m, c in terms if any(m))
-    constant = next((c for m, c in terms if not any(m)), 0)
-    return LinearForm(direction, Fraction(-constant, scale), scale)
+    """The form of a polynomial that is no constant."""
+    terms = sorted(poly.sparse_terms())
+    constant = 0 if terms[0][0] else terms.pop(0)[1]
+    content = gcd(*(c for _, c in terms))
+    scale = content if terms[0][1] > 0 else -content
+    return LinearForm(tuple((m, c // scale) for m, c in terms), Fraction(-constant, scale), scale)
 
 
 def is_square(monomial: Monomial) -> bool:
     """Whether all exponents are even."""
-    return not any(power % 2 for power in monomial)
+    return not any(power % 2 for _, power in monomial)
 
 
 class FormBounds(LinearBounds):
     """Bounds of linear forms in monomials: each form and each monomial is one variable, squares are at least 0."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, most: int | None = None) -> None:
+        super().__init__(most)
         self.monomials: dict[Monomial, int] = {}
         self.forms: dict[Direction, int] = {}
 

@@ -13,6 +13,7 @@ from math import lcm
 from typing import NamedTuple
 
 from qe.elimination.search.linear_forms import Direction, FormBounds, Monomial, over_monomials
+from qe.elimination.search.proposed_bounds import ProposedBounds
 from qe.exact.difference_graph import DifferenceGraph
 from qe.exact.linear_bounds import Value
 from qe.exact.ring import Poly
@@ -38,8 +39,10 @@ class Said(NamedTuple):
 
 def said(bounds: Iterable[tuple[int, Poly, Relation]]) -> Iterator[Said]:
     """What the literals of inequalities say."""
+    last: Poly | None = None
     for literal, poly, relation in bounds:
-        form = over_monomials(poly)
+        if poly is not last:
+            last, form = poly, over_monomials(poly)
         upper = (relation in (Relation.LE, Relation.LT)) == (form.scale > 0)
         yield Said(literal, form.direction, form.bound, upper, relation.is_strict)
 
@@ -49,7 +52,7 @@ def difference(direction: Direction) -> tuple[Monomial, Monomial | None] | None:
     match direction:
         case ((x, _),):
             return x, None
-        case ((x, _), (y, c)) if c == -1:
+        case ((x, 1), (y, -1)):
             return x, y
     return None
 
@@ -128,10 +131,15 @@ class Differences:
 
 
 class Forms:
-    """Bounds of all linear forms, by the simplex method; squares are at least 0."""
+    """Bounds of all linear forms, by the exact simplex method if nothing else is asked for."""
 
-    def __init__(self, bounds: Iterable[Said], check: Callable[[], object] = lambda: None) -> None:
-        self.bounds, self.check = FormBounds(), check
+    def __init__(
+        self,
+        bounds: Iterable[Said],
+        check: Callable[[], object] = lambda: None,
+        by: FormBounds | ProposedBounds | None = None,
+    ) -> None:
+        self.bounds, self.check = FormBounds() if by is None else by, check
         self.said: dict[int, tuple[int, Said]] = {}
         self.offered: defaultdict[int, list[Said]] = defaultdict(list)
         for one in bounds:
@@ -141,7 +149,9 @@ class Forms:
         for listed in self.offered.values():
             listed.sort(key=lambda one: (one.bound, one.strict))
         self.changed = False
-        self._seen: dict[int, Value] = {}
+        self._seen: list[Value] = []
+        if isinstance(self.bounds, ProposedBounds):
+            self.bounds.offer((i, x, one.bound, one.upper, one.strict) for i, (x, one) in self.said.items())
 
     def tell(self, literal: int) -> list[int] | None:
         if literal not in self.said:
@@ -152,11 +162,14 @@ class Forms:
         conflict = set_bound(x, one.bound, strict=one.strict, reason=literal)
         return None if conflict is None else _literals(conflict)
 
-    def settle(self) -> list[int] | None:
-        if not self.changed:
+    def settle(self, *, now: bool = False) -> list[int] | None:
+        if not self.changed and not now:
             return None
         self.changed = False
-        conflict = self.bounds.conflict(self.check)
+        if isinstance(self.bounds, ProposedBounds):
+            conflict = self.bounds.conflict(self.check, now=now)
+        else:
+            conflict = self.bounds.conflict(self.check)
         return None if conflict is None else _literals(self.bounds.weakened(self._offered))
 
     def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:
@@ -174,13 +187,20 @@ class Forms:
 
     def changes(self) -> list[int]:
         """The literals that hold at the present point, of those forms that have moved since the last call."""
-        implied: list[int] = []
-        for x, listed in self.offered.items():
-            value = self.bounds.values[x]
-            if self._seen.get(x) != value:
-                self._seen[x] = value
-                implied += [one.literal for one in listed if one.holds(self.bounds.side(x, one.bound))]
-        return implied
+        if isinstance(self.bounds, ProposedBounds):
+            return self.bounds.changes()
+        values, before = self.bounds.values, self._seen
+        if values == before:
+            return []
+        self._seen = list(values)
+        moved = [x for x, value in enumerate(values) if x >= len(before) or value != before[x]]
+        listed = ((x, one) for x in moved for one in self.offered.get(x, ()))
+        return [one.literal for x, one in listed if one.holds(self.bounds.side(x, one.bound))]
+
+    def holds(self, literal: int) -> bool:
+        """Whether a literal holds at the present point."""
+        x, one = self.said[literal]
+        return one.holds(self.bounds.side(x, one.bound))
 
     def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:
         """The bounds of a variable, the weakest first."""

@@ -102,7 +102,6 @@ def found_point(body: Formula, context: Context) -> Values | Refuted:
         return outcome.witness
 
     clauses, theory = Clauses(body), Theory(ring, decided, context.budget)
-    theory.bounds.offer(clauses.polys)
     lemmas = guided(clauses, theory)
     if isinstance(lemmas, dict):
         context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(refutations)})

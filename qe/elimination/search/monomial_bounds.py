@@ -80,8 +80,8 @@ class MonomialBounds:
         """Values of the variables, after ``conflict`` found none: those that they have as monomials."""
         point = dict.fromkeys(self.ring.names, Fraction(0))
         for monomial, value in self.bounds.values_of_monomials().items():
-            if sum(monomial) == 1:
-                point[self.ring.names[monomial.index(1)]] = value
+            if sum(power for _, power in monomial) == 1:
+                point[self.ring.names[monomial[0][0]]] = value
         return point
 
     def sign(self, poly: Poly) -> int:

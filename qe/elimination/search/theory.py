@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from qe.convex.exact_basis import Refutation
+from qe.convex.linear_point import solved
+from qe.convex.linear_rows import LinearRows
 from qe.elimination.search.monomial_bounds import MonomialBounds
 from qe.errors import Unable
 from qe.exact.number import Values
@@ -43,7 +46,10 @@ _GROWTH = 8
 
 
 class Theory:
-    """Asked about one conjunction after another over one ring; what was refuted or found is remembered."""
+    """Asked about one conjunction after another over one ring; what was refuted or found is remembered. ``at_once``:
+    all atoms are linear, without inequations, and so many that floats find what exact numbers then confirm."""
+
+    at_once = False
 
     def __init__(self, ring: Ring, decide: Decide, budget: Budget) -> None:
         self.ring, self.decide, self.budget = ring, decide, budget
@@ -52,6 +58,8 @@ class Theory:
 
     def look(self, atoms: Sequence[Atom]) -> Values | list[list[Atom]]:
         """Values for the variables of the atoms, or sets of them each of which cannot hold together."""
+        if self.at_once:
+            return self._rows(atoms)
         conflicts = self._linear(atoms)
         if conflicts:
             return conflicts
@@ -66,6 +74,13 @@ class Theory:
                 return [self._reason(found, point)]
             values |= found
         return values
+
+    def _rows(self, atoms: Sequence[Atom]) -> Values | list[list[Atom]]:
+        system = LinearRows.of(atoms)
+        outcome = solved(system, self.budget)
+        if isinstance(outcome, Refutation):
+            return [[atoms[i] for i in outcome.weights]]
+        return dict(zip(system.names, outcome))
 
     def _linear(self, atoms: Sequence[Atom]) -> list[list[Atom]]:
         """Sets of atoms whose linear bounds contradict each other, until none is left: from conflicts without a common

@@ -1,0 +1,75 @@
+"""``bezier.retime``: the least time along a path from Python, from both sides."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from bezier.interface.trajectory import limited_motion, path_of
+from bezier.motion.timelaw import Law
+from bezier.retiming.least_time import LeastTime, least_time
+from qe import arguments
+from qe.errors import InputError
+from qe.options import Budget
+from qe.processes.execution import perform
+from qe.processes.limits import Limits
+from qe.progress import Listener, silent
+
+SOURCE = "bezier.retime"
+
+
+def retime(
+    path: object,
+    *,
+    position: object = None,
+    velocity: object = None,
+    acceleration: object = None,
+    velocity_norm: object = None,
+    acceleration_norm: object = None,
+    law: object = None,
+    accuracy: object = "1/250",
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Listener = silent,
+) -> LeastTime:
+    """The motion from rest to rest along a path that takes the least time under limits, and a bound from below.
+
+    ``path``: what ``bezier.certify`` takes; only its places count, not its times. Where its direction jumps the motion
+    stops. The limits are those of ``bezier.certify``; one of the acceleration is needed. ``law``: ``"cubic"``,
+    ``"quintic"`` or ``"trapezoid"`` in place of the fastest motion. ``accuracy``: the share above the bound at which
+    the search stops.
+
+    The result says ``duration``, ``bound`` (no motion takes less; both exact), ``trajectory``, ``certificate``;
+    ``to_csv()`` is a file for ``bezier certify``, ``page()`` a page with charts. All limits are kept for all t.
+
+    Raises ``qe.InputError`` naming the argument, ``qe.Unable`` where none is found, ``qe.BudgetExceeded`` at a limit.
+
+    >>> import bezier
+    >>> from scipy.interpolate import CubicSpline
+    >>> spline = CubicSpline([0, 1, 2], [[0, 0], [1, 2], [3, 1]])
+    >>> fast = bezier.retime(spline, velocity=3, acceleration=4)
+    >>> fast.verdict.is_kept, fast.bound < fast.duration < fast.bound * 1.004
+    (True, True)
+    """
+    names = ("position", "velocity", "acceleration", "velocity_norm", "acceleration_norm")
+    values = (position, velocity, acceleration, velocity_norm, acceleration_norm)
+    places = path_of(path)
+    limits = limited_motion(dict(zip(names, values, strict=True)), len(places.names), SOURCE)
+    share = arguments.rational(accuracy, "accuracy")
+    if share <= 0:
+        raise InputError(f"{SOURCE}: accuracy: expected a number above 0, found {arguments.shown(accuracy)}")
+    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
+    return perform(partial(_timed, places, limits, _law(law), share), bounds)
+
+
+def _law(given: object) -> Law | None:
+    if given is None or isinstance(given, Law):
+        return given
+    if given not in [law.value for law in Law]:
+        names = ", ".join(law.value for law in Law)
+        raise InputError(f"{SOURCE}: law: expected one of {names}, found {arguments.shown(given)}")
+    return Law(given)
+
+
+def _timed(path: Any, limits: Any, law: Law | None, accuracy: Any, budget: Budget) -> LeastTime:
+    return least_time(path, limits, law=law, accuracy=accuracy, budget=budget)

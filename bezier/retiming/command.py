@@ -1,0 +1,48 @@
+"""``bezier retime``: the least time along the path in a file; or a certificate about it, checked."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import qe
+from bezier.input import stored
+from bezier.input.toml_table import Table
+from bezier.motion.timelaw import Law
+from bezier.retiming.least_time import checked, least_time
+from bezier.trajectories.command import limits_of
+from bezier.trajectories.readers import load
+from qe.processes.channel import Channel
+
+
+def run(
+    channel: Channel,
+    file: Path,
+    limits: Path,
+    *,
+    law: Law | None = None,
+    accuracy: Fraction,
+    evidence: bool = False,
+    against: Path | None = None,
+    page: bool = False,
+    as_json: bool = False,
+) -> tuple[str, str, str, str]:
+    """What to print, the motion as CSV, the certificate's text and the page where they are wanted.
+
+    ``against``: a certificate that is checked about this path, in place of a search. Raises ``InputError``, ``Unable``,
+    and ``CertificateRejected`` for that certificate.
+    """
+    path = load(file)
+    listed = limits_of(Table.load(limits), len(path.names))
+    if against is None:
+        result = least_time(path, listed, law=law, accuracy=accuracy)
+    else:
+        result = checked(path, listed, qe.Certificate.from_json(stored.text(against)))
+    data, lines = result.to_json(), result.lines
+    if against is not None:
+        data["checked"] = True
+        lines.append("accepted")
+    text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
+    proof = result.certificate.to_json() if evidence else ""
+    return text, result.to_csv(), proof, result.page(file.name) if page else ""

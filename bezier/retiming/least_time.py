@@ -1,0 +1,269 @@
+"""The least time along a path: a motion that keeps all limits for all t, and seconds that none can beat."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from bezier.curves.scalar import described
+from bezier.motion.timelaw import Law
+from bezier.retiming.bound import Weights, bound, weights
+from bezier.retiming.grid import Bounds, Grid, stops_of
+from bezier.retiming.law import Step, fastest, is_motion, timed, usual
+from bezier.retiming.proposals import Proposal, proposal
+from bezier.trajectories.evidence import claims, compare, exceeding, refuted, whole
+from bezier.trajectories.limits import Limit, Verdict, decided
+from bezier.trajectories.piecewise import Trajectory
+from bezier.trajectories.words import in_words, to_json
+from qe.errors import CertificateRejected, InputError, Unable
+from qe.formula.syntax import FALSE, Formula
+from qe.options import Budget
+from qe.proof.certificate import Certificate
+
+ACCURACY = Fraction(1, 250)
+"""The share by which the time may be above the bound."""
+PASSES, LESS, MOST = 8, 3.0, 8
+"""Grids; by how much the gap is to fall from one to the next, and into how many parts an interval is cut, at most."""
+MARGIN = Fraction(1, 1 << 20)
+"""The share by which a motion is slower than proposed."""
+TRIES = 4
+LEAST = "at least"
+"""How labels of the bound begin."""
+
+
+@dataclass(frozen=True)
+class LeastTime:
+    """``verdict``: of the path taken by ``steps``; no motion takes less than ``bound`` seconds, by ``weights``."""
+
+    path: Trajectory
+    steps: tuple[Step, ...]
+    verdict: Verdict
+    weights: tuple[Weights, ...]
+    bound: Fraction
+
+    @property
+    def duration(self) -> Fraction:
+        """Seconds."""
+        return sum((step.duration for step in self.steps), Fraction(0))
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """The path over time."""
+        return self.verdict.trajectory
+
+    @property
+    def gap(self) -> Fraction:
+        """The share by which the time is at most above the least one."""
+        return self.duration / self.bound - 1
+
+    @property
+    def lines(self) -> list[str]:
+        """The time from both sides, then a line for each limit."""
+        above = f"at most {float(self.gap) * 100:.2g} % above the least"
+        times = f"{float(self.duration):.9g} s; every motion takes at least {float(self.bound):.9g} s: {above}"
+        return [times, *in_words(self.verdict)]
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines)
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """The proof of both sides, for ``qe.verify``; ``checked`` also compares it with the path. Raises ``Unable``."""
+        members = []
+        for (label, excesses, sentence), length in zip(self._kept, self.trajectory.lengths, strict=True):
+            members.append((label, refuted(sentence, excesses, length)))
+        for part in self.weights:
+            label, excesses, sentence = _bounding(self.path, part)
+            members.append((label, refuted(sentence, excesses, part.interval.length)))
+        return Certificate.bundle(members)
+
+    @cached_property
+    def _kept(self) -> list[tuple[str, list[Any], Formula]]:
+        return _stated(self.verdict, self.steps)
+
+    def check(self, certificate: Certificate) -> None:
+        """Whether a certificate proves just this. Raises ``CertificateRejected``."""
+        _compare(self, certificate)
+
+    def page(self, title: str = "path") -> str:
+        """An HTML page with a chart of each quantity over time and its limit."""
+        from bezier.report.html import Card, document
+        from bezier.report.trajectory import page
+
+        cards = [
+            Card("seconds", f"{float(self.duration):.6g}"),
+            Card("at least", f"{float(self.bound):.6g}", note="no motion takes less, proved"),
+        ]
+        return document(page(self.verdict, self.lines, title, clear=True, cards=cards))
+
+    def to_json(self) -> dict[str, Any]:
+        """Everything, with exact numbers."""
+        data = to_json(self.verdict)
+        return {
+            **{key: data[key] for key in ("status", "kept", "limits")},
+            "duration": described(self.duration),
+            "at least": described(self.bound),
+            "gap": float(self.gap),
+            "steps": [{"s": list(map(str, s.place.coefficients())), "seconds": str(s.duration)} for s in self.steps],
+        }
+
+    def to_csv(self) -> str:
+        """Durations and exact polynomials of each axis, as ``bezier certify`` reads them."""
+        rows = self.trajectory.pieces
+        degree = max(p.degree for row in rows for p in row)
+        lines = [",".join(["duration", *(f"{n}^{k}" for n in self.trajectory.names for k in range(degree + 1))])]
+        for length, row in zip(self.trajectory.lengths, rows, strict=True):
+            padded = ([*p.coefficients(), *[Fraction(0)] * (degree - p.degree)] for p in row)
+            lines.append(",".join(map(str, (length, *(c for part in padded for c in part[: degree + 1])))))
+        return "\n".join(lines) + "\n"
+
+
+def least_time(
+    path: Trajectory,
+    limits: Sequence[Limit],
+    *,
+    law: Law | None = None,
+    accuracy: Fraction = ACCURACY,
+    tolerance: Fraction = Fraction(1, 10**9),
+    budget: Budget | None = None,
+) -> LeastTime:
+    """The fastest motion along a path from rest to rest, at most ``accuracy`` above the bound where that is within
+    reach. ``law``: one with a formula, in its own least time. Raises ``InputError`` and ``Unable``."""
+    try:
+        return _least_time(path, limits, law, accuracy, tolerance, budget or Budget())
+    except OverflowError:
+        raise InputError("path: expected quantities of usual size, found one beyond 10^308") from None
+
+
+def _least_time(
+    path: Trajectory,
+    limits: Sequence[Limit],
+    law: Law | None,
+    accuracy: Fraction,
+    tolerance: Fraction,
+    budget: Budget,
+) -> LeastTime:
+    bounds = Bounds.of(limits)
+    grid, given = _proposals(Grid.of(path), bounds, float(accuracy), budget)
+    proved = tuple(weights(grid, given))
+    seconds = bound(path, grid.stops, bounds, proved)
+    if seconds <= 0:
+        raise Unable("the proposed multipliers prove nothing")
+    speeds = np.sqrt(given.squares)
+
+    def motion(slower: Fraction) -> tuple[Step, ...]:
+        return fastest(grid, speeds / float(slower)) if law is None else usual(path, law, seconds * slower)
+
+    steps, verdict = _keeping(grid, limits, tolerance, motion, 1 + MARGIN if law is None else Fraction(1))
+    return LeastTime(path, steps, verdict, proved, seconds)
+
+
+def _proposals(grid: Grid, bounds: Bounds, accuracy: float, budget: Budget) -> tuple[Grid, Proposal]:
+    """The best of several grids, each finer where the gap is."""
+    best = None
+    for _ in range(PASSES):
+        budget.check("speeds and multipliers")
+        given = proposal(grid, bounds)
+        gap = given.duration - given.bound
+        if best is None or gap < best[1].duration - best[1].bound:
+            best = grid, given
+        if gap <= accuracy * given.bound:
+            break
+        grid = grid.refined(_parts(given.gaps, max(0.8 * accuracy * given.bound, gap / LESS)))
+    assert best is not None
+    return best
+
+
+def _parts(gaps: Any, goal: float) -> list[int]:
+    """Into how many parts each interval is cut, as few as bring the sum of the gaps to the goal: n parts leave gap / n,
+    since what each has is quadratic in its length."""
+    gaps = np.maximum(gaps, 0)
+    low, high = 1e-12 * gaps.max(), gaps.max()
+
+    def counts(each: float) -> Any:
+        return np.clip(np.ceil(np.sqrt(gaps / each)), 1, MOST)
+
+    for _ in range(50):
+        middle = (low * high) ** 0.5
+        low, high = (middle, high) if (gaps / counts(middle)).sum() <= goal else (low, middle)
+    return [int(n) for n in counts(low)]
+
+
+def _keeping(
+    grid: Grid,
+    limits: Sequence[Limit],
+    tolerance: Fraction,
+    motion: Callable[[Fraction], tuple[Step, ...]],
+    slower: Fraction,
+) -> tuple[tuple[Step, ...], Verdict]:
+    """The motion, slower by as little as is enough. Raises ``Unable`` where it is none or never keeps the limits, and
+    ``InputError`` where the path itself breaks one."""
+    for _ in range(TRIES):
+        steps = motion(slower)
+        if not is_motion(grid.path, grid.stops, steps):
+            raise Unable("the path has corners, where this law does not stop")
+        verdict = decided(timed(grid.path, steps), limits, tolerance)
+        if verdict.is_kept:
+            return steps, verdict
+        if verdict.factor is None:
+            worst, what = verdict.worst, "it jumps"
+            if worst is not None:
+                what = f"{worst.limit.words(grid.path.names)} is {worst.value:.10g}"
+            raise InputError(f"path: no motion along it keeps the limits: {what}")
+        slower *= verdict.factor + MARGIN
+    raise Unable("no motion along the path that keeps its limits was found")
+
+
+# --- certificates ----------------------------------------------------------------------------------------------
+
+
+def _stated(verdict: Verdict, steps: Sequence[Step]) -> list[tuple[str, list[Any], Formula]]:
+    """That each piece keeps the limits; the label of the first one in each step says what the step is."""
+    starts, at = dict[Fraction, Step](), Fraction(0)
+    for step in steps:
+        starts[at] = step
+        at += step.duration
+    listed, limits = [], [o.limit for o in verdict.outcomes]
+    every = claims(verdict.trajectory, limits, Fraction(1))
+    for start, (label, excesses, sentence) in zip(verdict.trajectory.breaks, every, strict=False):
+        said = f"{label}: {starts[start]}" if start in starts else label
+        listed.append((said, excesses, sentence))
+    return listed
+
+
+def _bounding(path: Trajectory, part: Weights) -> tuple[str, list[Any], Formula]:
+    """That u^3 <= 2 S on an interval, whose multipliers the label says."""
+    excess = [whole(part.excess(*part.interval.derivatives(path)), 1, Fraction(0))]
+    return f"{LEAST}: {part}", excess, exceeding(part.interval.length, excess)
+
+
+def checked(path: Trajectory, limits: Sequence[Limit], certificate: Certificate) -> LeastTime:
+    """What a certificate proves about a path, whose motion and multipliers its labels state. No optimiser takes part.
+    Raises ``CertificateRejected``."""
+    members = certificate.payload if isinstance(certificate.payload, tuple) else ()
+    labels = [member.label.partition(": ") for member in members]
+    try:
+        steps = tuple(Step.read(text) for head, _, text in labels if head.startswith("piece ") and text)
+        proved = tuple(Weights.read(text) for head, _, text in labels if head == LEAST)
+        stops = stops_of(path)
+        if not is_motion(path, stops, steps):
+            raise ValueError("steps that are no motion along this path")
+        seconds = bound(path, stops, Bounds.of(limits), proved)
+        verdict = decided(timed(path, steps), limits, Fraction(1, 10**9))
+    except (ValueError, LookupError, ZeroDivisionError) as error:
+        raise CertificateRejected("bundle", str(error)) from None
+    if verdict.breaking or seconds <= 0:
+        raise CertificateRejected("bundle", "a motion that jumps, or no bound")
+    result = LeastTime(path, steps, verdict, proved, seconds)
+    _compare(result, certificate)
+    return result
+
+
+def _compare(result: LeastTime, certificate: Certificate) -> None:
+    stated = [*result._kept, *(_bounding(result.path, part) for part in result.weights)]
+    compare(certificate, [(label, sentence, FALSE) for label, _, sentence in stated])
