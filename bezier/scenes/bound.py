@@ -102,15 +102,15 @@ def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, 
                     program.at_least(along + ends, 0.0)
     for (key, point), sign in zip(_ends(scene, free), (1.0, -1.0), strict=True):
         program.add_cost([(k, sign * c) for k, c in zip(columns[key], (*map(float, point), 1.0), strict=True)])
-    found = program.solved()
-    if found is None:
+    answer = program.solved()
+    if answer is None:
         return straight
 
     def numbers(columns: Sequence[int], share: float = SHORTER) -> Point:
-        return tuple(Fraction(round(found[k] * share * DIGITS), DIGITS) for k in columns)
+        return tuple(Fraction(round(answer[k] * share * DIGITS), DIGITS) for k in columns)
 
     levels: dict[Key, Level] = {key: (numbers(cols[:-1]), numbers(cols)[-1]) for key, cols in columns.items()}
-    values = {key: numbers(cols, SHORTER / max(1.0, hypot(*(found[k] for k in cols)))) for key, cols in slopes.items()}
+    values = {key: numbers(cols, SHORTER / max(1.0, hypot(*(answer[k] for k in cols)))) for key, cols in slopes.items()}
     missing = (
         _value(levels[b], y) - _value(levels[a], x) - Fraction(dot(values[i, a, b], subtract(y, x)))
         for i, pairs in cells

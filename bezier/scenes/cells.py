@@ -90,16 +90,16 @@ class Cell:
         """Of n . p - c at every corner."""
         n, c = side
         rough, level = tuple(map(float, n)), float(c)
-        found = []
+        result = []
         for point, p in zip(self.floats, self.corners, strict=True):
             terms = [a * b for a, b in zip(rough, point, strict=True)]
             value = sum(terms) - level
             if abs(value) <= _SURE * (sum(map(abs, terms)) + abs(level)) or value != value:
                 exact = _excess(side, p)
-                found.append((exact > 0) - (exact < 0))
+                result.append((exact > 0) - (exact < 0))
             else:
-                found.append(1 if value > 0 else -1)
-        return found
+                result.append(1 if value > 0 else -1)
+        return result
 
     def cut(self, side: Side, signs: Sequence[int] = ()) -> tuple[Cell | None, Cell | None]:
         """Its parts on the side and on the other one; None for a part that is in the plane only."""
@@ -171,18 +171,18 @@ class FreeCells:
         flat = [body.is_flat for body in obstacles]
         waiting, free = [(domain, tuple(range(len(obstacles))))], list[Cell]()
         while waiting:
-            cell, left = waiting.pop()
+            cell, ahead = waiting.pop()
             budget.check("cells of the scene")
             halves = None
-            while left and halves is None:
-                halves = _divided(cell, obstacles[left[0]], flat[left[0]])
+            while ahead and halves is None:
+                halves = _divided(cell, obstacles[ahead[0]], flat[ahead[0]])
                 if halves is None:
-                    left = left[1:]
+                    ahead = ahead[1:]
             if halves is None:
                 free.append(cell)
             elif halves:
                 inner, outer = halves
-                waiting += [(inner, left), (outer, left[1:] if not flat[left[0]] else left)]
+                waiting += [(inner, ahead), (outer, ahead[1:] if not flat[ahead[0]] else ahead)]
             if len(free) + len(waiting) > MOST_CELLS:
                 raise Unable(f"more than {MOST_CELLS} cells")
         return FreeCells(tuple(free), _doors(free, [b for b, f in zip(obstacles, flat, strict=True) if f]))

@@ -200,8 +200,8 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | No
     known, proofs = _shortest(known, wish, budget) if wish is not None and isinstance(known, Route) else (known, [])
     if not proof:
         return known
-    left = {k: sentence for k, sentence in known.sentences.items() if k not in dict(proofs)}
-    return replace(known, certificate=Certificate.bundle([*proved(left, budget), *proofs]))
+    other = {k: sentence for k, sentence in known.sentences.items() if k not in dict(proofs)}
+    return replace(known, certificate=Certificate.bundle([*proved(other, budget), *proofs]))
 
 
 def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tuple[str, Certificate]]]:

@@ -116,8 +116,8 @@ def _proposed(
         for three in zip(points, points[1:], points[2:], strict=False):
             for i, j, k in zip(*three, strict=True):
                 program.add_square([(i, share), (j, -2 * share), (k, share)])
-    found = program.solved()
-    return None if found is None else [[[found[k] for k in at] for at in points] for points in columns]
+    answer = program.solved()
+    return None if answer is None else [[[answer[k] for k in at] for at in points] for points in columns]
 
 
 def _differences(order: int) -> tuple[int, ...]:

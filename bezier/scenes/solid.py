@@ -86,8 +86,8 @@ class Solid:
         """Half-spaces that hold it: its sides moved out, and those with some more normals."""
         if self.is_polytope:
             return list(self.sides)
-        own = [primitive(side)[0] for side in self.sides]
-        return [_short(n, self.support(n)) for n in dict.fromkeys((*own, *normals))]
+        core = [primitive(side)[0] for side in self.sides]
+        return [_short(n, self.support(n)) for n in dict.fromkeys((*core, *normals))]
 
     def inside(self, normals: Sequence[Point]) -> Cell | None:
         """A polytope in it, touching it: one around it, drawn to its centre. None where it is too thin."""
