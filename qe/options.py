@@ -84,6 +84,7 @@ class Stage(Enum):
     OPEN = "open"
     MCCALLUM = "mccallum"
     ORDER = "order"
+    POSITION = "position"
     SYMMETRY = "symmetry"
     GATHERING = "gathering"
     DISTRIBUTION = "distribution"
