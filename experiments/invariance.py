@@ -18,7 +18,7 @@ from experiments.problem import Problem
 from experiments.results import Result, Status
 from experiments.runner import Job, run_one
 from experiments.solvers import OURS, solver
-from experiments.suites.corpus import classics, hard, literature
+from experiments.suites.corpus import hard, literature, tagged
 from qe.exact.ring import Ring
 from qe.formula.build import atom
 from qe.formula.normal import rename_apart, without_clashes
@@ -78,7 +78,7 @@ def from_file(path: Path) -> list[Rewriting]:
 def generated(seed: int) -> list[Rewriting]:
     """Affine changes of the project's corpus."""
     rng, found = random.Random(seed), []
-    for problem in classics():
+    for problem in tagged("classics"):
         formula = rename_apart(without_clashes(read(problem.formula, known=CONSTANTS)))
         changed = rewritten(formula, rng)
         if changed != formula:

@@ -8,7 +8,7 @@ import pytest
 
 import qe
 from experiments.invariance import rewritten
-from experiments.suites.corpus import LITERATURE, classics
+from experiments.suites.corpus import LITERATURE, tagged
 from qe.api.input import read_formula
 from qe.exact.ring import Ring
 from qe.formula.normal import rename_apart, without_clashes
@@ -102,7 +102,7 @@ def test_a_counterexample_comes_back() -> None:
     assert not holds_at(formula.body, answer.witness)
 
 
-SMALL = [p for p in classics() if len(p.formula) < 90]
+SMALL = [p for p in tagged("classics") if len(p.formula) < 90]
 
 
 @each(*range(6))
