@@ -189,6 +189,36 @@ def small(
     return OK
 
 
+@app.command(short_help="Questions rewritten in other coordinates.")
+def invariance(
+    file: Annotated[
+        Path | None,
+        typer.Argument(help="Rewritings of the literature [default: affine changes of the project's corpus]."),
+    ] = None,
+    limit: Annotated[
+        float, typer.Option("--limit", "--timeout", min=0.01, help="Seconds of processor time for each question.")
+    ] = 8.0,
+    memory: Annotated[int, typer.Option(min=1, help="MiB for each question.")] = 2048,
+    kind: Annotated[list[str] | None, typer.Option(help="Only rewritings of this kind; may be given again.")] = None,
+    only: Annotated[str, typer.Option(help="Problems whose name contains this.")] = "",
+    seed: Annotated[int, typer.Option(help="Of the affine changes.")] = 1,
+) -> int:
+    """Run questions and rewritings that mean the same: how many are lost, ratios of time and of length. Status 1 when
+    an answer is wrong."""
+    from experiments.invariance import from_file, generated, lines, measured
+
+    known = generated(seed) if file is None else from_file(file)
+    pairs = []
+    for each in measured(
+        (r for r in known if only in r.original.id and r.kind in (kind or [r.kind])), Limits(limit, memory)
+    ):
+        pairs.append(each)
+        print(each, flush=True)
+    for text in lines(pairs):
+        print(text)
+    return BUG if any(pair.after.status is Status.WRONG for pair in pairs) else OK
+
+
 @app.command(short_help="Run SMT-LIB scripts through qe smt.")
 def scripts(
     folder: Annotated[Path, typer.Argument(exists=True, file_okay=False, help="A folder of SMT-LIB scripts (*.smt2).")],

@@ -54,7 +54,8 @@ class Stage(Enum):
     ``CUBIC``: the same with roots of cubics, and the signs of cubics on intervals.
     ``CONSTRAINTS``: projection and lifting restricted by equational constraints. ``PARTIAL``: stacks are left as
     soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum's
-    or McCallum's before Lazard. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
+    or McCallum's before Lazard. ``ORDER``: the variable order is chosen, not taken as written. ``POSITION``: bound
+    variables get coordinates in which the polynomials are short. ``SYMMETRY``: variables
     are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
     atoms that some value of a variable meets, whatever the rest is, are dropped, and squares of variables that one
@@ -84,6 +85,7 @@ class Stage(Enum):
     OPEN = "open"
     MCCALLUM = "mccallum"
     ORDER = "order"
+    POSITION = "position"
     SYMMETRY = "symmetry"
     GATHERING = "gathering"
     DISTRIBUTION = "distribution"

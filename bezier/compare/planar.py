@@ -11,20 +11,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from math import gcd, lcm
 
-import qe
 from bezier.curves.enclosure import Enclosure, root_enclosure
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, scale, subtract
 from bezier.methods.control import statements as st
 from bezier.methods.control.system import coordinates
 from bezier.problem import Problem
 from qe.errors import InternalError
-from qe.formula.syntax import Formula
-from qe.processes.channel import Channel
-from qe.processes.execution import run
-from qe.processes.limits import Limits
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,15 +69,6 @@ class Plane:
 def plane_coordinates(point: str) -> tuple[str, str]:
     """The variables of a control point in the plane: ``q1u, q1v``."""
     return f"{point.lower()}u", f"{point.lower()}v"
-
-
-def region_of(condition: st.Statement, *, timeout: float | None = None) -> qe.Region:
-    """The region of a formula about Q1 in the plane. Raises ``Unable`` at the limit, which is hard."""
-    return qe.Region.from_json(run(partial(_written, condition.formula), Limits(timeout)))
-
-
-def _written(formula: Formula, channel: Channel) -> str:
-    return qe.region(formula, progress=channel.event).to_json()
 
 
 def _along(arrow: Vector) -> Vector:

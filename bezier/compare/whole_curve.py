@@ -15,7 +15,7 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.compare.planar import Plane, plane_coordinates, region_of
+from bezier.compare.planar import Plane, plane_coordinates
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly, is_zero, rational, subtract
@@ -116,7 +116,7 @@ def statement(problem: Problem, plane: Plane) -> st.Statement:
 
 def region(problem: Problem, plane: Plane, *, timeout: float | None = None) -> qe.Region:
     """The set of Q1 in the plane for which the whole curves stay in the workspace."""
-    return region_of(statement(problem, plane), timeout=timeout)
+    return qe.region(statement(problem, plane).formula, timeout=timeout)
 
 
 def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | None = None) -> bool:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from markupsafe import Markup
 
 from bezier.curves.enclosure import Enclosure
-from bezier.curves.scalar import decimal_text
+from bezier.curves.scalar import brief, decimal_text
 from bezier.motion.motion import pieces
 from bezier.plans import Outcome, Plan
 from bezier.report import html
@@ -49,9 +49,9 @@ def cards(plan: Plan) -> list[Card]:
     if plan.radius_rule is not None and plan.path is not None:
         result.append(Card("the radius forces", f"a stop at {' and '.join(plan.radius_rule.forced)}", "bad"))
     if plan.heights is not None and plan.heights.strip is not None:
-        kept = plan.heights.hold
+        kept, strip = plan.heights.hold, plan.heights.strip
         said = "kept on all curves" if kept else "not kept on all curves"
-        result.append(Card("heights for a ≤ x ≤ b", said, html.tone(kept)))
+        result.append(Card(f"heights for {brief(strip.low)} ≤ x ≤ {brief(strip.high)}", said, html.tone(kept)))
     return [*result, _computed(plan)]
 
 

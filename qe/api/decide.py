@@ -9,7 +9,7 @@ from typing import Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import answered_under
-from qe.api.input import AnyFormula, order_of, read_polynomial, together
+from qe.api.input import AnyFormula, order_of, read_polynomial
 from qe.api.limits import limits_of, posed, read_under, under
 from qe.api.settings import Decision, Search, settings_in, with_settings
 from qe.errors import InputError, Unable
@@ -20,6 +20,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.syntax import TRUE, Formula
 from qe.formula.traverse import bound_variables, ring_of
+from qe.io.substitution import over_one_ring
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer
 from qe.spelling import glued
@@ -96,7 +97,7 @@ def compared(first: AnyFormula, second: AnyFormula, given: Mapping[str, Any]) ->
     limits = limits_of(settings)
     plain: dict[str, Any] = {**settings, "assuming": None}
     one, other = (posed(formula, plain, limits) for formula in (first, second))
-    f, g, *inner = together(one.formula, other.formula, one.known, other.known)
+    f, g, *inner = over_one_ring(one.formula, other.formula, one.known, other.known)
     stated = under(iff(f, g), conj(inner), settings["assuming"], limits, others=(*f.free, *g.free))
     claim = forall(dict.fromkeys((*f.free, *g.free, *stated.known.free)), implies(stated.known, stated.formula))
     return _decided(claim, [first, second], settings, limits)

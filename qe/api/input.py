@@ -15,10 +15,11 @@ from typing import TYPE_CHECKING, Any
 from qe import arguments
 from qe.errors import DoubtfulInput, InputError
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import conj, convert
+from qe.formula.build import conj
 from qe.formula.syntax import TRUE, Constant, Exists, ForAll, Formula
-from qe.formula.traverse import has_root_atoms, ring_of
+from qe.formula.traverse import has_root_atoms
 from qe.io.names import names_in
+from qe.io.substitution import over_one_ring
 from qe.proof.answer import Answer
 from qe.spelling import KEYWORDS, QUOTED, WORD, unquoted
 
@@ -39,7 +40,7 @@ def read_formula(given: AnyFormula, format: str = "text", total_division: bool =
     ``total_division``: what text says of a division by zero (see ``qe.io.text.read``); other shapes know it already.
     """
     formula, known = read_posed(given, format, total_division)
-    return formula if known == TRUE else conj(together(known, formula))
+    return formula if known == TRUE else conj(over_one_ring(known, formula))
 
 
 def read_posed(given: AnyFormula, format: str = "text", total_division: bool = False) -> Read:
@@ -62,7 +63,7 @@ def read_posed(given: AnyFormula, format: str = "text", total_division: bool = F
         return formats.read_posed(given, chosen, total_division=total_division)
     if isinstance(given, list | tuple) and given:  # conditions that hold together
         parts, known = zip(*(read_posed(part, format, total_division) for part in given), strict=True)
-        return conj(together(*parts)), conj(together(*known))
+        return conj(over_one_ring(*parts)), conj(over_one_ring(*known))
     package = type(given).__module__.partition(".")[0]
     if package == "z3":
         from qe.io.z3_door import from_z3
@@ -167,13 +168,6 @@ def order_of(order: Any, given: AnyFormula, formula: Formula) -> tuple[str, ...]
     return tuple(name for name in names if name in known)
 
 
-def together(*parts: Formula) -> tuple[Formula, ...]:
-    """The formulas over one ring."""
-    names = dict.fromkeys(name for p in parts if (ring := ring_of(p)) is not None for name in ring.names)
-    ring = Ring.of(names)
-    return tuple(convert(p, ring) for p in parts)
-
-
 def read_posed_constraints(given: AnyFormula) -> Read:
     """One formula, or the conjunction of a list of formulas, and what is assumed."""
     return (TRUE, TRUE) if isinstance(given, list | tuple) and not given else read_posed(given)
@@ -239,20 +233,3 @@ def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
     except InputError as error:
         raise InputError(f"objective: a term expected: {error}") from None
     return Objective(graph, value, tuple(name for name in graph.free if name != value))
-
-
-__all__ = [
-    "AnyFormula",
-    "names_typed",
-    "note_doubts",
-    "order_of",
-    "read_assumptions",
-    "read_block",
-    "read_formula",
-    "read_objective",
-    "read_polynomial",
-    "read_posed",
-    "read_posed_constraints",
-    "together",
-    "warned",
-]

@@ -8,7 +8,7 @@ from functools import partial
 from importlib import import_module
 from typing import Any, TypeVar
 
-from qe.api.input import AnyFormula, Read, note_doubts, read_assumptions, read_posed, together, warned
+from qe.api.input import AnyFormula, Read, note_doubts, read_assumptions, read_posed, warned
 from qe.api.settings import Limited
 from qe.errors import InputError
 from qe.formula.assumed import Posed
@@ -17,6 +17,7 @@ from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import bound_variables, conjuncts
 from qe.formula.weight import may_block, text_may_block
 from qe.io.sharing import refuse_shared
+from qe.io.substitution import over_one_ring
 from qe.options import Budget, Options
 from qe.processes.execution import Work, perform
 from qe.processes.limits import Limits
@@ -82,7 +83,7 @@ def under(formula: Formula, inner: Formula, assuming: AnyFormula, limits: Limits
     outer = read_under(limits, partial(read_assumptions, assuming), assuming)
     refuse_shared(outer)
     note_doubts(assuming, outer)
-    formula, *known = together(formula, inner, outer)
+    formula, *known = over_one_ring(formula, inner, outer)
     both, bound = conj(known), {*bound_variables(formula)} - {*formula.free}
     if hidden := [name for name in both.free if name in bound]:
         raise InputError(f"assuming: free variables expected, {', '.join(hidden)} is bound in the formula")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, Unpack, overload
 
 from qe import arguments
 from qe.api.input import AnyFormula, names_typed, note_doubts, read_objective, read_posed_constraints, warned
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 Names = str | Iterable[Any]
 Way = Literal["auto", "convex", "elimination"]
+Kind = TypeVar("Kind")
 
 
 @overload
@@ -72,23 +73,12 @@ def minimize(
     return _best(1, objective, constraints, parameters, method, settings)
 
 
-@overload
-def maximize(
-    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Literal["convex"], **settings: Unpack[Optimisation]
-) -> Optimum: ...
-@overload
-def maximize(
-    objective: AnyFormula,
-    constraints: AnyFormula = ...,
-    *,
-    parameters: Names,
-    method: Way = ...,
-    **settings: Unpack[Optimisation],
-) -> ParametricOptimum: ...
-@overload
-def maximize(
-    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Way = ..., **settings: Unpack[Optimisation]
-) -> Optimum | GlobalOptimum: ...
+def _typed_as(model: Kind) -> Callable[[Any], Kind]:
+    """For type checkers: a function is called as another one."""
+    return lambda function: function
+
+
+@_typed_as(minimize)
 @with_settings(Optimisation)
 def maximize(
     objective: AnyFormula,

@@ -11,7 +11,6 @@ from functools import partial
 from typing import Any, TypeVar
 
 from qe import arguments
-from qe.api.input import together
 from qe.api.limits import performed, reading
 from qe.convex.optimum import exact, minimize
 from qe.decomposition.interval import Coordinate, Interval, Number, number_of
@@ -26,6 +25,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import Constant, Formula, Relation
 from qe.io import surface as s
 from qe.io.lowering import lower
+from qe.io.substitution import over_one_ring
 from qe.options import Budget, Options
 from qe.processes.execution import Work
 from qe.processes.limits import Limits
@@ -126,7 +126,7 @@ def section(region: Region, values: Mapping[Any, Coordinate], timeout: float | N
     condition = convert(region.condition, ring)
     condition = substituted(condition, {v: q for v, q in given.items() if isinstance(q, Fraction)})
     exact = {v: a for v, a in given.items() if isinstance(a, RealAlgebraic)}
-    condition = conj(together(condition, *(_equal(v, a) for v, a in exact.items())))
+    condition = conj(over_one_ring(condition, *(_equal(v, a) for v, a in exact.items())))
     return _region(region, exists(exact, condition), rest, timeout)
 
 
@@ -145,7 +145,7 @@ def distance(region: Region, point: object, timeout: float | None) -> Number:
         apart = x - ring.var(f"at {v}") if isinstance(q, RealAlgebraic) else x * q.denominator - q.numerator
         part = scale if isinstance(q, RealAlgebraic) else scale // q.denominator
         square = square + apart * apart * (part * part)
-    conditions = conj(together(region.condition, *(_equal(f"at {v}", a) for v, a in irrational.items())))
+    conditions = conj(over_one_ring(region.condition, *(_equal(f"at {v}", a) for v, a in irrational.items())))
     return _under(region, conditions, timeout, partial(_distance, square, Fraction(1, scale * scale), conditions))
 
 
@@ -249,7 +249,7 @@ def _operands(left: Region, right: object, limits: Limits) -> tuple[Formula, For
         given = reading(right, "text", limits)
         if strange := [v for v in given.free if v not in left.order]:
             raise InputError(f"a condition on {', '.join(left.order)} expected, {strange[0]} found")
-    f, g = together(left.condition, given)
+    f, g = over_one_ring(left.condition, given)
     return f, g
 
 

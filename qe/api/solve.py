@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import settled
-from qe.api.input import AnyFormula, read_block, together
+from qe.api.input import AnyFormula, read_block
 from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
 from qe.engine.run import solve as eliminated
@@ -20,6 +20,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.normal import without_clashes
 from qe.formula.syntax import TRUE, Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
+from qe.io.substitution import over_one_ring
 from qe.io.text import read
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
@@ -84,7 +85,7 @@ def _answer(sentence: Formula, check: bool, budget: Budget) -> Answer:
 
 def _compared(text: str, given: Formula, known: Formula, budget: Budget) -> Answer:
     """The answer to the question whether a text says the same as a formula."""
-    written, question, assumed = together(read(text), given, known)
+    written, question, assumed = over_one_ring(read(text), given, known)
     claim = implies(assumed, iff(written, question))
     try:
         answer = _answer(forall(claim.free, claim), True, budget.part(TEXT_WORK))
@@ -110,22 +111,6 @@ reduce = solve
 """The older name of ``solve``."""
 
 
-@with_settings(Question)
-def find_instances(formula: AnyFormula, n: int, *, seed: int = 0, **settings: Unpack[Question]) -> list[Values]:
-    """Up to ``n`` different exact solutions; fewer only where there are no more. The same for the same ``seed``.
-
-    Raises ``Unable`` (``BudgetExceeded`` at a limit) where no description is found.
-    """
-    count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
-    limits = limits_of(settings)
-    given = posed(formula, settings, limits).restricted
-    return performed(partial(_points, given, count, start, replace(limits, start=None, process=False)), given, limits)
-
-
-def _points(given: Formula, count: int, seed: int, inner: Limits, budget: Budget) -> list[Values]:
-    return different_points(described(given, None, budget, inner), count, seed, budget)
-
-
 @with_settings(ProvedQuestion)
 def find(formula: AnyFormula, n: int = 1, *, seed: int = 0, **settings: Unpack[ProvedQuestion]) -> list[Values]:
     """Up to ``n`` different exact points that satisfy the formula; fewer only where there are no more.
@@ -138,6 +123,12 @@ def find(formula: AnyFormula, n: int = 1, *, seed: int = 0, **settings: Unpack[P
     given = posed(formula, settings, limits).restricted
     work = partial(_found, given, count, start, settings["check"], replace(limits, start=None, process=False))
     return performed(work, given, limits)
+
+
+@with_settings(Question)
+def find_instances(formula: AnyFormula, n: int, *, seed: int = 0, **settings: Unpack[Question]) -> list[Values]:
+    """As ``find``, without ``check``: the older name."""
+    return find(formula, n, seed=seed, **cast(ProvedQuestion, {**settings, "check": False}))
 
 
 def _found(given: Formula, count: int, seed: int, check: bool, inner: Limits, budget: Budget) -> list[Values]:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import eliminate
-from qe.api.input import AnyFormula, read_assumptions, together
+from qe.api.input import AnyFormula, read_assumptions
 from qe.api.limits import limits_of, posed
 from qe.api.settings import Limited, ProvedQuestion, with_settings
 from qe.errors import InputError
@@ -17,6 +17,7 @@ from qe.exact.number import Assignment, ExactPoint
 from qe.formula.build import conj, exists
 from qe.formula.syntax import Formula
 from qe.io import formats
+from qe.io.substitution import over_one_ring
 from qe.proof.answer import Answer
 
 Part = TypeVar("Part")
@@ -118,7 +119,7 @@ class Solver:
         return posed(formula, self._settings, limits_of(cast(Limited, self._settings))).restricted
 
     def _answer(self, parts: Iterable[_Asserted]) -> Answer:
-        whole = conj(together(self._known, *(one.formula for one in parts)))
+        whole = conj(over_one_ring(self._known, *(one.formula for one in parts)))
         return eliminate(exists(whole.free, whole), **self._settings)
 
     def __repr__(self) -> str:

@@ -16,6 +16,7 @@ from typing import Annotated, Any
 import typer
 
 from qe import __version__, arguments
+from qe.api.doors import DOORS
 from qe.api.settings import Limited
 from qe.cli import work
 from qe.cli.options import REPORT, Json, checked, command, door
@@ -150,57 +151,29 @@ Constraints = Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_d
 Parameters = Annotated[str | None, typer.Option("--parameters", help="Variables not optimised over: a, b.")]
 
 
-@door(app, "minimize")
-def minimize(
-    objective: Objective,
-    constraints: Constraints = "true",
-    format: InputFormat = None,
-    maximize: Annotated[bool, typer.Option("--maximize", help="Find the greatest value instead.")] = False,
-    parameters: Parameters = None,
-    **settings: Any,
-) -> int:
-    """Print the exact least value of a term under CONSTRAINTS, and where it is attained."""
-    return _optimum(objective, maximize, parameters, constraints, format, settings)
+def _optimise(name: str, greatest: bool | None) -> None:
+    """The command for the least value, for the greatest one, or (None) for both."""
+
+    def optimised(
+        objective: Objective,
+        constraints: Constraints = "true",
+        format: InputFormat = None,
+        parameters: Parameters = None,
+        **settings: Any,
+    ) -> int:
+        from qe.cli import optimize as cli_optimize
+
+        if greatest is None and settings["certificate"] is not None:
+            raise InputError("--certificate: qe minimize and qe maximize write one each")
+        work = partial(cli_optimize.optimize, goal=cli_optimize.Goal(objective, greatest, parameters))
+        return answered(work, constraints, format, settings)
+
+    optimised.__doc__ = f"Print {DOORS[name].says[0].lower()}{DOORS[name].says[1:-1]}, and where it is attained."
+    door(app, name)(optimised)
 
 
-@door(app, "maximize")
-def maximize(
-    objective: Objective,
-    constraints: Constraints = "true",
-    format: InputFormat = None,
-    parameters: Parameters = None,
-    **settings: Any,
-) -> int:
-    """Print the exact greatest value of a term under CONSTRAINTS, and where it is attained."""
-    return _optimum(objective, True, parameters, constraints, format, settings)
-
-
-@door(app, "optimum")
-def optimum(
-    objective: Objective,
-    constraints: Constraints = "true",
-    format: InputFormat = None,
-    parameters: Parameters = None,
-    **settings: Any,
-) -> int:
-    """Print the exact least and greatest value of a term under CONSTRAINTS."""
-    if settings["certificate"] is not None:
-        raise InputError("--certificate: qe minimize and qe maximize write one each")
-    return _optimum(objective, None, parameters, constraints, format, settings)
-
-
-def _optimum(
-    objective: str,
-    maximize: bool | None,
-    parameters: str | None,
-    constraints: str,
-    format: Format | None,
-    settings: Mapping[str, Any],
-) -> int:
-    from qe.cli import optimize as cli_optimize
-
-    work = partial(cli_optimize.optimize, goal=cli_optimize.Goal(objective, maximize, parameters))
-    return answered(work, constraints, format, settings)
+for _name, _greatest in (("minimize", False), ("maximize", True), ("optimum", None)):
+    _optimise(_name, _greatest)
 
 
 @door(app, "verify")

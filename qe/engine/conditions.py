@@ -6,6 +6,7 @@ from collections.abc import Callable
 from math import prod
 
 from qe.formula.block import Block
+from qe.formula.features import is_short
 from qe.formula.syntax import And, Atom, Formula, Or, Relation
 from qe.formula.traverse import connected, subformulas
 from qe.options import Method, Options, Stage
@@ -49,6 +50,9 @@ intervals, 0.4 s for 0.1 s)."""
 PROJECTED = 3
 """So many variables of a polyhedron are eliminated by combining bounds; of fewer, other methods' answers are as short
 (measured: four variables and three parameters 0.02 s, and none in 25 s by substitution and shortening)."""
+
+POSITION_TERMS = 5000
+"""Terms of all atoms together up to which better coordinates are looked for."""
 
 CONVEX_PARTS = 24
 """In more variables, conditions that fall apart into some without common variables are not one convex problem."""
@@ -103,6 +107,13 @@ def many_linear_cases(problem: Block, options: Options) -> str | None:
 def definitions(problem: Block, options: Options) -> str | None:
     """An equation that is linear in a bound variable."""
     return "an equation may define a variable" if may_define(problem.formula) else None
+
+
+def curved_and_bound(problem: Block, options: Options) -> str | None:
+    """Quantifiers over polynomials that are not linear."""
+    if not problem.curved or problem.formula.is_quantifier_free or not is_short(problem.formula, POSITION_TERMS):
+        return None
+    return "polynomials that are not linear"
 
 
 def case_count(problem: Block) -> int:

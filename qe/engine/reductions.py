@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from qe.elimination.protocol import Context, Outcome
 from qe.engine.local import WORK, without_locals
 from qe.errors import Unable
 from qe.exact.number import Values
-from qe.exact.ring import Ring
+from qe.exact.ring import Ring, format_poly
 from qe.formula.block import Block
-from qe.formula.build import conj, convert
+from qe.formula.build import atom, conj, convert
 from qe.formula.features import features
-from qe.formula.syntax import TRUE, And, Exists, Formula
+from qe.formula.syntax import TRUE, And, Exists, Formula, Quantified
+from qe.formula.traverse import map_atoms, subformulas
 from qe.options import Options, Stage
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested
+from qe.rules.lift import Solve
+from qe.rules.normal_position import at_steps, coefficients, steps_to_normal_position
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import StepKind
 
@@ -62,6 +68,49 @@ class Definitions:
             return Outcome(formula, values and {v: values[v] for v in problem.variables})
 
         return Outcome(convert(ready.formula, narrow), back=back)
+
+
+class NormalPosition:
+    """The bound variables of a question in affine coordinates in which its polynomials are short."""
+
+    name = "normal position"
+
+    def suits(self, problem: Block, options: Options) -> str | None:
+        return "coordinates in which the polynomials are shorter"
+
+    def run(self, problem: Block, context: Context) -> Outcome | None:
+        current, ring, log = problem.formula, problem.formula.ring, context.log
+        if ring is None or any(step.rule == StepKind.POSITION.value for step in log.steps()):
+            return None
+        blocks = [f.variables for f in subformulas(current) if isinstance(f, Quantified)]
+        indices = [[ring.index[v] for v in names if v in ring.index] for names in blocks]
+        steps = steps_to_normal_position(problem.polynomials, indices, context.budget.check)
+        for names in blocks:
+            inside = [step for step in steps if step.variable in names]
+            block = next(f for f in subformulas(current) if isinstance(f, Quantified) and f.variables == names)
+            moved, detail = moved_by(block, inside), ", ".join(map(written, inside))
+            evidence = {"detail": detail, "proof": {"values": [(s.variable, coefficients(s)) for s in inside]}}
+            log.step(StepKind.POSITION.value, block, moved, evidence=evidence)
+            current = moved_by(current, inside)
+
+        def back(rest: Outcome) -> Outcome:
+            values = None if rest.witness is None else dict(rest.witness)
+            for step in reversed(steps):
+                if values is not None and step.variable in values:
+                    values[step.variable] = step.value(values)
+            return replace(rest, witness=values, certificate=None)
+
+        return Outcome(current, back=back) if steps else None
+
+
+def moved_by(formula: Formula, steps: Sequence[Solve]) -> Formula:
+    """The formula with the values of variables, which it binds, in their places."""
+    return map_atoms(formula, lambda a: atom(at_steps(a.poly, steps), a.relation)) if steps else formula
+
+
+def written(step: Solve) -> str:
+    """The step as an equation."""
+    return f"{step.variable} = ({format_poly(step.numerator)})/{step.denominator.constant_value()}"
 
 
 class LocalVariables:

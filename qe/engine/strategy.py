@@ -42,6 +42,7 @@ class Listed:
 
 METHODS = {
     "definitions": Listed("qe.engine.reductions", "Definitions", "substituting definitions", Stage.EQUATIONS),
+    "normal position": Listed("qe.engine.reductions", "NormalPosition", "a change of coordinates", Stage.POSITION),
     "local variables": Listed(
         "qe.engine.reductions", "LocalVariables", "eliminating local variables", Stage.MINISCOPING
     ),
@@ -191,6 +192,7 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.QUESTION, "definitions", on.definitions),
     Attempt(Scope.QUESTION, "local variables", on.many_linear_cases),
+    Attempt(Scope.QUESTION, "normal position", on.curved_and_bound),
     Attempt(Scope.ASKED, "witness", on.inner_blocks, SHORTCUT),
     Attempt(Scope.ASKED, "search", on.hopeless_cases),
     Attempt(Scope.ASKED, "search", on.many_cases, SHORTCUT),

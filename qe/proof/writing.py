@@ -31,6 +31,7 @@ RULES: Mapping[str, str] = {
     "nested blocks of one kind gathered": "A quantifier may also stand before conditions without its variables.",
     "rotation of the axes": "All polynomials are constant along a rotation: one coordinate may be zero.",
     "linear form as a variable": "Where m is not 0, m*x + n takes every value as x does.",
+    "affine coordinates": "Invertible linear forms in the variables of a block take all values as these do.",
     "linear form named": "Conditions that look at one linear form are conditions on a new variable.",
     "sphere seen along a form": "On a sphere l.v takes the values of a segment (Cauchy's inequality).",
     "mirror images of a convex set": "With a point a convex set contains the middle between it and its mirror image.",

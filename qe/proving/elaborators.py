@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from fractions import Fraction
+from math import lcm
 
 from qe.errors import CertificateRejected
 from qe.formula.build import atom, conj, disj, exists
@@ -214,6 +216,42 @@ def sheared(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [simplified(block, middle, context, claim, limits), inner]
 
 
+def positioned(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """Affine coordinates in place of the variables of a block, by one variable after the other."""
+    there: dict[str, Quotient] = {}
+    back: dict[str, Quotient] = {}
+    for entry in only(claim, "values")[0].items():
+        variable, listed = entry.row("variable", "coefficients")
+        rows = [row.row("variable or 1", "rational number") for row in listed.items()]
+        form = {name.text(): c.rational() for name, c in rows}
+        name, lead = variable.text(), form.get(variable.text(), Fraction(0))
+        if not lead:
+            raise entry.fail("expected a form in the variable")
+        value = _linear(form, {}, claim)
+        there = {v: _at(q, {claim.ring.index[name]: value}) for v, q in there.items()}
+        there.setdefault(name, value)
+        inverse = {v: -c / lead for v, c in form.items()} | {name: 1 / lead}
+        back[name] = _linear(inverse, back, claim)
+    before, after = existential(claim)
+    return [terms(before, after, there, back, context, claim, limits)]
+
+
+def _linear(form: Mapping[str, Fraction], values: Mapping[str, Quotient], claim: Claim) -> Quotient:
+    """A linear form, with "1" for the number in it, at quotients whose bottoms are numbers."""
+    ring = claim.ring
+    one = ring.constant(1)
+    parts = {v: (one, one) if v == "1" else values.get(v, (ring.var(v), one)) for v in form}
+    whole = lcm(*(c.denominator * parts[v][1].constant_value() for v, c in form.items()))
+    top = sum(
+        (
+            p * int(c * Fraction(whole, q.constant_value()))
+            for (p, q), c in zip(parts.values(), form.values(), strict=True)
+        ),
+        ring.constant(0),
+    )
+    return top, ring.constant(whole)
+
+
 def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """A block that goes into a disjunction."""
     return [simplified(claim.before, claim.after, (), claim, limits)]
@@ -270,6 +308,7 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "linear form as a variable": sheared,
     "linear form named": named,
     "mirror images of a convex set": mirrored,
+    "affine coordinates": positioned,
     "disjuncts with equations apart": distributed,
     "roots by signs": roots_by_signs,
     "rotation of the axes": turned,

@@ -57,6 +57,7 @@ REDUNDANT = "redundant part"
 ELABORATED = (
     "comprehensive Gröbner system",
     "critical values of a universal block",
+    "affine coordinates",
     "conditions on zeros that follow",
     "constant along directions",
     "degenerate truth set",

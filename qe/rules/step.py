@@ -38,6 +38,7 @@ class StepKind(Enum):
     RANGES = "ranges that exclude each other", Stage.RANGES
     GENERIC = "inequations that remove no interior", Stage.GENERIC
     BOUNDARY = "boundary apart", Stage.GENERIC
+    POSITION = "affine coordinates", Stage.POSITION
     TRANSLATION = "translation of the origin", Stage.SYMMETRY
     ROTATION = "rotation of the axes", Stage.SYMMETRY
     EXCHANGE = "two variables exchanged", Stage.EXCHANGE

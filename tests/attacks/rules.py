@@ -119,6 +119,11 @@ RULES: dict[str, Row] = {
         "ex x. x^{6|9} + a*x^3 {O} {L}",
         "ex x. x^4 {O} {L} and (all z. z {O} x^2 or a*z {R} b)",
     ),
+    "affine coordinates": row(
+        "ex x, y. (3*x - y + 1)^2 + {p}*(2*y + 3)^2 {O} a and (3*x - y + 1)*(2*y + 3) {O} {n}",
+        "all x, y. (5*x - 1)^{2|3} + (x + 2*y)^3 {R} b or (x + 2*y)^2 {O} (5*x - 1) + a",
+        "ex x. (7*x - 2)^4 + a*(7*x - 2) {O} b and (all y. (y + 3)^2*(7*x - 2) {R} b or (y + 3) {O} {n})",
+    ),
     "translation of the origin": row(
         "ex x, y. (x - y)^4 + {s}*(x - y) {O} {L}",
         "ex x, y. (x - y)^3 {O} {L} and (all z. z {O} x - y or a*z {R} b)",

@@ -102,6 +102,12 @@ CAPTURED: list[tuple[str, str, str, Any]] = [
         {"variable": "x", "form": line("x + a")},
     ),
     (
+        "affine coordinates",
+        "ex x, y. x + y = a and (ex y. x + y > 1 and y < a)",
+        "ex x, y. x = a and (ex y. x > 1 and y < a)",
+        {"values": [["x", [["x", "1"], ["y", "-1"]]]]},
+    ),
+    (
         "degree shift",
         "ex x. x^2 = a and (all x. x^2 > b)",
         "ex x. x >= 0 and x = a and (all x. x > b)",

@@ -6,13 +6,14 @@ import re
 import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
 
 from bezier.obstacles.clearance import Contact, examine
-from experiments import arm_figures, cli, measures, small, speedup
+from experiments import arm_figures, cli, invariance, measures, small, speedup
+from experiments.adapters.answer import Limits
 from experiments.arm_figures import Figure, table
 from experiments.bench_obstacles import hidden_contacts, many_pairs, sampled_contact
 from experiments.cli import main
@@ -213,6 +214,15 @@ def test_small_questions_are_the_same_at_every_call_and_answered() -> None:
         assert small.questions(name, 3) == small.questions(name, 4)[:3]
     (linear,) = small.measured(3, ["linear"])
     assert linear.count == 3 and linear.seconds > 0 and linear.slowest[1] in small.questions("linear", 3)
+
+
+def test_rewritings_are_the_same_for_a_seed_and_measured() -> None:
+    assert [r.formula for r in invariance.generated(3)] == [r.formula for r in invariance.generated(3)]
+    one = next(r for r in invariance.generated(3) if r.original.id == "circle-line")
+    pairs = list(invariance.measured([one, replace(one, formula="x <", kind="broken")], Limits(20.0, 2048)))
+    table = "\n".join(invariance.lines(pairs))
+    assert [pair.after.status for pair in pairs] == [pairs[0].before.status, Status.CRASH]
+    assert "generated: 1 rewritings, 0 lost" in table and "broken: 1 rewritings, 1 lost (circle-line)" in table
 
 
 def test_the_bounds_of_the_speedup() -> None:

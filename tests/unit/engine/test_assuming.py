@@ -9,11 +9,11 @@ import pytest
 import sympy
 
 import qe
-from qe.api.input import together
 from qe.engine import assuming
 from qe.engine.assuming import can_hold
 from qe.formula.assumed import Aim, Posed, claimed, restricted
 from qe.formula.syntax import TRUE
+from qe.io.substitution import over_one_ring
 from qe.io.text import read
 from qe.options import Budget, Options
 from tests.tables import each
@@ -45,7 +45,7 @@ def test_what_the_assumptions_say_is_not_repeated(text: str, assumed: object, sa
 
 
 def test_what_is_claimed_says_that_the_assumptions_imply_the_equivalence() -> None:
-    known, universal, other, answer = together(*map(read, ("a > 0", "all x. x > a", "a > 1", "a > 5")))
+    known, universal, other, answer = over_one_ring(*map(read, ("a > 0", "all x. x > a", "a > 1", "a > 5")))
     for question in (universal, other):
         sides = qe.equivalent(claimed(known, question, question), claimed(known, question, answer))
         assert sides == qe.equivalent(question, answer, assuming=known)

@@ -87,6 +87,14 @@ SOMEWHERE = f"not (c >= 0 and a + b + c + 1 >= 0 and ({BOTH} or {D} <= 0 and {ED
 SQUARE = "ex x, y. x^2 + a*x + y <= 0 and y > b"
 OUTSIDE = "ex x, y. x^2 + y^2 <= a and x^2 + b*x + 2*y^2 > c"
 
+POSITION = "affine coordinates"
+
+
+def values(*steps: tuple[str, dict[str, str]]) -> dict[str, Any]:
+    """Linear forms that are the values of variables, one after the other."""
+    return {"values": [[name, [[v, c] for v, c in form.items()]] for name, form in steps]}
+
+
 TRUE_STEPS: list[Step] = [
     of_theorem(BALLS, "ex x, y. x^2 + y^2 <= a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
     of_theorem(BALLS, DISCS, f"{RADII} and ({GAP} - 8*b*c <= 0 or {GAP} + 8*b*c <= 0)"),
@@ -112,6 +120,20 @@ TRUE_STEPS: list[Step] = [
         "ex x. a*x + b > c and (a*x + b)^2 < 1",
         "(ex x. a /= 0 and x > c and x^2 < 1) or (ex x. a = 0 and a*x + b > c and (a*x + b)^2 < 1)",
         {"variable": "x", "form": "a*x + b"},
+        "true",
+    ),
+    (
+        POSITION,
+        "ex x, y. (3*x - y + 1)^2 < a and (2*y - 1)^3 > b",
+        "ex x, y. x^2 < a and y^3 > b",
+        values(("x", {"x": "1/3", "y": "1/3", "1": "-1/3"}), ("y", {"y": "1/2", "1": "1/2"})),
+        "true",
+    ),
+    (
+        POSITION,
+        "all x. x + 1 > a or -x > b",
+        "all x. -x > a or x + 1 > b",
+        values(("x", {"x": "-1", "1": "-1"})),
         "true",
     ),
     *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_TAKEN),
@@ -156,6 +178,10 @@ FALSE_STEPS: list[Step] = [
     (APART, BLOCK, "(ex x. (x < 1 or x > 2) and x = a) or (ex x. (x < 1 or x > 2) and x = b)", {}, "true"),
     (APART, "all x. x = a or x = b", "(all x. x = a) or (all x. x = b)", {}, "true"),
     (APART, "ex x. x > a and x < b", "(ex x. x > a) and (ex x. x < b)", {}, "true"),
+    (POSITION, "ex x. 2*x > a and 2*x < b", "ex x. x > a and x < b", values(("x", {"x": "1"})), "true"),
+    (POSITION, "ex x. x^2 = 2", "ex x. x^2 = 1", values(("x", {"x": "2"})), "true"),
+    (POSITION, "ex x. x > a and x < 0", "ex x. 0 > a and x < 0", values(("x", {"1": "0"})), "true"),
+    (POSITION, "ex x, y. x > y and y > a", "ex x, y. x > 0 and y > b", values(("x", {"x": "1", "y": "1"})), "true"),
     (SHEAR, "ex x. x + a > b and x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a + x"}, "true"),
     (SHEAR, "ex x. a*x > b and a*x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a*x"}, "true"),
     *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_NOT_TAKEN),

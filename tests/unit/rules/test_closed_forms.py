@@ -36,7 +36,7 @@ UNIT = f"ex x. 0 <= x and x <= 1 and {FORM}"
 @each(
     (f"r >= 0 and s > 0 and ({DISCS})", "r >= 0 and s > 0 and r^2 + 2*r*s + s^2 - a^2 - b^2 >= 0"),
     (f"r >= 0 and s <= 0 and ({DISCS})", "r >= 0 and s <= 0 and r^2 - 2*r*s + s^2 - a^2 - b^2 >= 0"),
-    (DISCS, "r^2 + 2*r*s - a^2 - b^2 + s^2 >= 0 or r^2 - 2*r*s - a^2 - b^2 + s^2 >= 0"),
+    (DISCS, "r^2 - a^2 - b^2 + 2*r*s + s^2 >= 0 or r^2 - a^2 - b^2 - 2*r*s + s^2 >= 0"),
     ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
     ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "a - 2 < 0 and a + 2 > 0"),
     ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 - 9 >= 0"),

@@ -1,0 +1,248 @@
+"""Affine coordinates of bound variables in which the polynomials are short: where the origin is, which forms are axes.
+
+THEOREM. Let x be a variable of a block and x = (c*x' + l)/q, with numbers c, q /= 0 and a linear form l in the other
+variables of the block. Then x takes every real value as x' does, whatever the others are: the block has the same truth
+with (c*x' + l)/q for x, and a polynomial of degree d in x may be multiplied by |q|^d.
+
+The measure of a position is the length of all irreducible factors, terms and digits. A step is taken only where it
+becomes less, so that what is short stays as it is, and what is reached hardly depends on the coordinates in which the
+question was asked. Steps that are tried:
+
+- x = x' - c*y, or x' - c, for a number c that most conditions agree on: where the terms with x^k and x^(k-1)*y are the
+  first ones of a form in x and y, c = a_(k-1)/(k*a_k) takes the second away (Tschirnhaus 1683), or c is a root of it;
+  first x' - c for all variables at once (the centre of one quadric, of all);
+- x = p^t*x' for a prime p and several variables x at once: the number of factors p in all coefficients together, once
+  every polynomial is primitive again, is a convex function of t.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import reduce
+from math import gcd, isqrt, log2, prod
+
+from qe.exact.ring import Poly, Ring
+from qe.exact.watch import IDLE
+from qe.rules.lift import Solve
+
+_TERM = 4  # what a term adds to the measure, beside the digits of its coefficient (base 2)
+_TERMS = 1000  # terms of all factors together up to which positions are looked for
+_ROUNDS = 6  # how often all steps are tried one after the other
+_TRIED = 2  # numbers c that are tried for one variable and one direction
+_SMALL = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)
+_GAIN = 0.15
+"""The polynomials become shorter by this part at least, or those with a variable by its step: as they are given, they
+may have symmetries that new axes break (measured on 199 problems of the literature, of which 61 are changed, and on the
+same ones after x -> x + y, of which 9 in 10 are)."""
+
+Terms = Sequence[tuple[tuple[int, ...], int]]
+"""Exponents and coefficients."""
+
+
+def steps_to_normal_position(
+    polys: Sequence[Poly], blocks: Sequence[Sequence[int]], watch: Callable[[], object] = IDLE
+) -> list[Solve]:
+    """The steps, one after the other, for polynomials and the variables of each block."""
+    factors = list(dict.fromkeys(f for p in polys for f, _ in p.factors()[1]))
+    if sum(f.term_count() for f in factors) > _TERMS:
+        return []
+    steps: list[Solve] = []
+    for gain in (0.0, _GAIN):
+        position = _Position(factors.copy(), blocks, gain, watch)
+        steps = position.all_steps()
+        if not steps or position.length() <= (1 - _GAIN) * sum(map(_length, factors)):
+            break
+    return steps
+
+
+def at_steps(poly: Poly, steps: Sequence[Solve]) -> Poly:
+    """A positive multiple of the polynomial with the values of the steps' variables in their places."""
+    unit, factors = poly.factors()
+    images = (reduce(_image, steps, factor) ** power for factor, power in factors)
+    return prod(images, start=poly.ring.constant(1 if unit > 0 else -1))
+
+
+def coefficients(step: Solve) -> list[tuple[str, Fraction]]:
+    """The linear form that is the step's value, by variables, and "1" for the number in it."""
+    names, bottom = step.numerator.ring.names, step.denominator.constant_value()
+    return [(names[e.index(1)] if any(e) else "1", Fraction(c, bottom)) for e, c in step.numerator.terms()]
+
+
+def _image(poly: Poly, step: Solve) -> Poly:
+    """A primitive positive multiple of the polynomial after one step."""
+    x = poly.ring.index[step.variable]
+    if not poly.degree(x):
+        return poly
+    unit, primitive = poly.at_quotient(x, step.numerator, step.denominator).normal()
+    return primitive if unit > 0 else -primitive
+
+
+def _length(poly: Poly) -> float:
+    return sum(_TERM + log2(abs(c)) for _, c in poly.p.terms())
+
+
+@dataclass(slots=True)
+class _Position:
+    """The polynomials after the ``steps``; a new origin or axis has to ``gain`` so much for what it changes."""
+
+    polys: list[Poly]
+    blocks: Sequence[Sequence[int]]
+    gain: float
+    watch: Callable[[], object]
+    steps: list[Solve] = field(default_factory=list)
+    written: dict[Poly, Terms] = field(default_factory=dict)
+
+    @property
+    def ring(self) -> Ring:
+        return self.polys[0].ring
+
+    @property
+    def variables(self) -> tuple[int, ...]:
+        return tuple(x for block in self.blocks for x in block)
+
+    def length(self) -> float:
+        """Of all polynomials."""
+        return sum(map(_length, self.polys))
+
+    def terms(self, poly: Poly) -> Terms:
+        """The terms, written out once."""
+        return self.written.get(poly) or self.written.setdefault(poly, poly.terms())
+
+    def all_steps(self) -> list[Solve]:
+        """Steps until none helps."""
+        self.centre()
+        for _ in range(_ROUNDS):
+            before = len(self.steps)
+            for block in self.blocks:
+                for x in block:
+                    for y in (None, *(y for y in block if y != x)):
+                        self.shift(x, y)
+            for names in dict.fromkeys((*((x,) for x in self.variables), *map(tuple, self.blocks), self.variables)):
+                self.scale(names)
+            if len(self.steps) == before:
+                break
+        return self.steps
+
+    def take(self, steps: Sequence[Solve]) -> None:
+        self.steps += steps
+        self.polys = [reduce(_image, steps, p) for p in self.polys]
+
+    def centre(self) -> None:
+        """A new origin for all variables at once, as all polynomials propose together, or one of them."""
+        curved = [self.terms(p) for p in self.polys if p.total_degree > 1]
+        proposed: list[Sequence[Solve]] = []
+        for chosen in (curved, *([terms] for terms in curved)):
+            numbers = [(x, c) for x in self.variables for c in _numbers(chosen, x, None)[:1]]
+            proposed.append([self.step(x, None, c) for x, c in numbers])
+        self.take_best([steps for steps in proposed if len(steps) > 1], range(len(self.polys)))
+
+    def shift(self, x: int, y: int | None) -> None:
+        """x = x' - c*y, or x' - c, for the best number c."""
+        places = [k for k, p in enumerate(self.polys) if p.degree(x)]
+        numbers = _numbers([self.terms(self.polys[k]) for k in places], x, y)
+        self.take_best([[self.step(x, y, c)] for c in numbers], places)
+
+    def step(self, x: int, y: int | None, c: Fraction) -> Solve:
+        along = self.ring.constant(1) if y is None else self.ring.gen(y)
+        top = self.ring.gen(x) * c.denominator - along * c.numerator
+        return Solve(self.ring.names[x], top, self.ring.constant(c.denominator))
+
+    def take_best(self, proposed: Sequence[Sequence[Solve]], places: Collection[int]) -> None:
+        """Of several steps those that make the polynomials at these places shortest, if they gain enough."""
+        if not proposed:
+            return
+        best: Sequence[Solve] = ()
+        most = (1 - self.gain) * sum(_length(self.polys[k]) for k in places)
+        for steps in proposed:
+            self.watch()
+            length = sum(_length(reduce(_image, steps, self.polys[k])) for k in places)
+            if length < most:
+                best, most = steps, length
+        self.take(best)
+
+    def scale(self, names: tuple[int, ...]) -> None:
+        """The same power of a prime for these variables, each prime after the other."""
+        for prime in sorted(
+            {p for parts in self.parts(names) for content, _ in parts.values() for p in _primes(content)}
+        ):
+            t = _exponent([[(k, _order(c, prime), n) for k, (c, n) in parts.items()] for parts in self.parts(names)])
+            top, bottom = (self.ring.constant(prime ** max(sign * t, 0)) for sign in (1, -1))
+            if t:
+                self.take([Solve(self.ring.names[x], self.ring.gen(x) * top, bottom) for x in names])
+
+    def parts(self, names: tuple[int, ...]) -> list[dict[int, tuple[int, int]]]:
+        """For every polynomial, by the degree in these variables: the content, and how many terms there are."""
+        found = []
+        for poly in self.polys:
+            if any(poly.degree(x) for x in names):
+                parts: dict[int, tuple[int, int]] = {}
+                for exponents, c in self.terms(poly):
+                    degree = sum(exponents[x] for x in names)
+                    content, count = parts.get(degree, (0, 0))
+                    parts[degree] = gcd(content, c), count + 1
+                found.append(parts)
+        return found
+
+
+def _numbers(polys: Sequence[Terms], x: int, y: int | None) -> list[Fraction]:
+    """The numbers that most polynomials propose, if they are not fewer than those that want to stay."""
+    votes: Counter[Fraction] = Counter()
+    stay = 0
+    for terms in polys:
+        forms: dict[object, dict[int, int]] = {}
+        for exponents, c in terms:
+            key = list(exponents)
+            power, key[x] = key[x], 0
+            if y is not None:
+                key[x], key[y] = power + key[y], 0
+            forms.setdefault(tuple(key), {})[power] = c
+        for form in forms.values():
+            if len(form) > 1:
+                votes.update(_proposed(form))
+            elif 0 not in form:
+                stay += 1
+    stay += votes.pop(Fraction(0), 0)
+    return [c for c, n in sorted(votes.items(), key=lambda item: (-item[1], item[0])) if n >= stay][:_TRIED]
+
+
+def _proposed(form: Mapping[int, int]) -> Iterator[Fraction]:
+    """Numbers c such that x = x' - c*y makes a form in x and y, given by powers of x, shorter."""
+    k = max(form)
+    lead, second = form[k], form.get(k - 1, 0)
+    yield Fraction(second, k * lead)
+    square = second * second - 4 * lead * form.get(0, 0)
+    if k == 2 and square > 0 and isqrt(square) ** 2 == square:
+        yield from (Fraction(second + s * isqrt(square), 2 * lead) for s in (1, -1))
+
+
+def _primes(number: int) -> Iterator[int]:
+    """Small prime factors, and what is left without them, as if it were prime."""
+    for prime in filter(lambda p: number % p == 0, _SMALL):
+        yield prime
+        number //= prime ** _order(number, prime)
+    if 1 < number < 2**60:
+        yield number
+
+
+def _order(number: int, prime: int) -> int:
+    count = 0
+    while number % prime == 0:
+        number, count = number // prime, count + 1
+    return count
+
+
+def _exponent(polys: Sequence[Sequence[tuple[int, int, int]]]) -> int:
+    """The t with the least number of factors; polynomials in parts: degree, order of the prime, number of terms."""
+
+    def factors(t: int) -> int:
+        """Up to a constant: of a part without its content, less what becomes the content of the whole."""
+        return sum(sum(n * (k * t - min(o + j * t for j, o, _ in parts)) for k, _, n in parts) for parts in polys)
+
+    sign = 1 if factors(1) < factors(0) else -1
+    t = 0
+    while factors(t + sign) < factors(t):
+        t += sign
+    return t
