@@ -18,6 +18,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from bezier.methods.quadratic import formula as quadratic
+from bezier.problem import read_problem
 from experiments.adapters import qepcad
 from experiments.limits import run_limited
 from qe.io import formats
@@ -27,10 +29,14 @@ BIN = Path(sys.executable).parent
 REPEAT = 5
 QEPCAD_LIMIT, QEPCAD_MEMORY = 20.0, 4096
 
-Point = tuple[int, int, int]
-Q0: Point = (-1, 3, 3)
-R0: Point = (1, 3, 3)
-RADIUS2 = 27
+GIVEN = """\
+method = "{}"
+via = [[-1, 3, 3], [1, 3, 3]]
+start = [-4, 1, 1]
+goal = [4, 1, 1]
+radius = "sqrt(27)"
+"""
+"""The instance of formulas (8) and (7), by the method; z3 and cvc5 do not answer the latter."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,37 +59,6 @@ class Row:
         return f"{mark} {self.name:<46} asked {show(self.asked):>9}   reached {show(self.reached):>9}   {self.note}"
 
 
-def norm(names: str, right: str) -> str:
-    """x^2 + y^2 + z^2 <= right."""
-    return " + ".join(f"{n}^2" for n in names.split()) + f" <= {right}"
-
-
-def formula8() -> str:
-    """Formula (8) of the paper as printed: 9 variables, 6 of them quantified, 6 equations, 3 norms."""
-    equations = [f"p{i} = 2*({Q0[i]}) - q{i} and r{i} = 2*({R0[i]}) - q{i}" for i in range(3)]
-    norms = [norm(" ".join(f"{v}{i}" for i in range(3)), str(RADIUS2)) for v in "pqr"]
-    return "ex p0, p1, p2, r0, r1, r2. " + " and ".join(equations + norms)
-
-
-def formula8_symbolic() -> str:
-    """Formula (8) with via points u and v and radius s left as symbols."""
-    equations = [f"p{i} = 2*u{i} - q{i} and r{i} = 2*v{i} - q{i}" for i in range(3)]
-    norms = [norm(" ".join(f"{v}{i}" for i in range(3)), "s^2") for v in "pqr"]
-    return "ex p0, p1, p2, r0, r1, r2. " + " and ".join(equations + norms)
-
-
-def three_balls() -> str:
-    """The quantifier-free answer of formula (8): three balls in x, y, z."""
-    centres = [(0, 0, 0), tuple(2 * c for c in Q0), tuple(2 * c for c in R0)]
-    squares = [" + ".join(f"({n} - ({c}))^2" for n, c in zip("xyz", centre, strict=True)) for centre in centres]
-    return " and ".join(f"{square} <= {RADIUS2}" for square in squares)
-
-
-def objective() -> str:
-    """|Q1 - Q0|^2 + |R0 - Q1|^2."""
-    return " + ".join(f"({n} - ({a}))^2 + ({b} - {n})^2" for n, a, b in zip("xyz", Q0, R0, strict=True))
-
-
 def median(work: Callable[[], object]) -> float:
     """Median seconds of five runs."""
     times = []
@@ -98,15 +73,17 @@ def engine_rows() -> list[Row]:
     """Everything that runs in this process."""
     import qe
 
-    balls = three_balls()
+    system = quadratic.system(read_problem(GIVEN.format("quadratic")))
+    printed, symbolic = str(system.statement()), str(quadratic.SHAPE.symbolic())
+    balls, objective = str(system.in_free_points()), str(system.objective())
     region = qe.region(balls)
-    optimum = qe.minimize(objective(), balls, method="convex")
-    closed, one_free = f"ex x, y, z. {balls}", f"ex y, z. {balls}"
+    optimum = qe.minimize(objective, balls, method="convex")
+    closed, one_free = (f"ex {', '.join(names)}. {balls}" for names in (quadratic.FREE, quadratic.FREE[1:]))
     with_certificate = median(lambda: qe.region(balls).certificate.to_json())
     alone = median(lambda: qe.region(balls))
     return [
-        Row("(8) as printed", 0.020, median(lambda: qe.eliminate(formula8())), note=qepcad_note(formula8())),
-        Row("(8) with symbolic points", 0.060, median(lambda: qe.eliminate(formula8_symbolic()))),
+        Row("(8) as printed", 0.020, median(lambda: qe.eliminate(printed)), note=qepcad_note(printed)),
+        Row("(8) with symbolic points", 0.060, median(lambda: qe.eliminate(symbolic))),
         Row("three balls, all existential", 0.020, median(lambda: qe.eliminate(closed)), note=qepcad_note(closed)),
         Row("three balls, x free", 0.050, median(lambda: qe.eliminate(one_free)), note=qepcad_note(one_free)),
         Row("region of three balls", 0.150, alone, note=f"{len(region.cells)} cells"),
@@ -115,7 +92,7 @@ def engine_rows() -> list[Row]:
         Row(
             "optimum with certificate",
             0.050,
-            median(lambda: qe.minimize(objective(), balls, method="convex").certificate),
+            median(lambda: qe.minimize(objective, balls, method="convex").certificate),
         ),
         Row("  its verification", 0.050, median(lambda: qe.verify(optimum.certificate))),
     ]

@@ -21,21 +21,12 @@ from bezier.curves.workspace import WorkspaceKind
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.cubic.existence import sentence, trivial_witness
 from bezier.problem import Problem, read_problem
-from experiments.bench import Row, median
+from experiments.bench import GIVEN, Row, median
 from experiments.limits import Ending, run_limited
 from experiments.solvers import solver
 
 PEERS = ("ours", "yices", "z3", "cvc5")
 PEER_SECONDS, PEER_MEMORY, PEER_START_UP = 30.0, 2000, 20.0
-
-PRINTED = """\
-method = "cubic"
-via = [[-1, 3, 3], [1, 3, 3]]
-start = [-4, 1, 1]
-goal = [4, 1, 1]
-radius = "sqrt(27)"
-"""
-"""The instance that z3 and cvc5 do not answer."""
 
 TWO_ACTIVE = """\
 method = "cubic"
@@ -69,7 +60,7 @@ def spatial_hemisphere() -> Problem:
 
 def elimination_rows() -> Iterator[Row]:
     """(7) as printed, and its existence theorem."""
-    printed = str(cubic.system(read_problem(PRINTED)).statement())
+    printed = str(cubic.system(read_problem(GIVEN.format("cubic"))).statement())
     symbolic = str(cubic.shape().symbolic())
     yield Row("(7) as printed", 0.050, median(lambda: qe.eliminate(printed)))
     yield Row("(7) with symbolic points", 0.200, median(lambda: qe.eliminate(symbolic)))
@@ -127,7 +118,7 @@ def region_rows() -> Iterator[Row]:
 
 def peer_lines() -> Iterator[str]:
     """What each solver says of (7) as an existential sentence in six variables, and after how long."""
-    system = cubic.system(read_problem(PRINTED))
+    system = cubic.system(read_problem(GIVEN.format("cubic")))
     text = f"ex {', '.join(system.shape.variables)}. {system.in_free_points()}"
     task = json.dumps({"formula": text, "limit": PEER_SECONDS, "memory": PEER_MEMORY})
     for name in PEERS:

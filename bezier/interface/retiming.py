@@ -53,7 +53,7 @@ def retime(
     """
     names = ("position", "velocity", "acceleration", "velocity_norm", "acceleration_norm")
     values = (position, velocity, acceleration, velocity_norm, acceleration_norm)
-    places = path_of(path)
+    places = path_of(path, timed=False)
     limits = limited_motion(dict(zip(names, values, strict=True)), len(places.names), SOURCE)
     share = arguments.rational(accuracy, "accuracy")
     if share <= 0:

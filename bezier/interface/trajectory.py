@@ -6,13 +6,18 @@ import os
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import partial
+from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bezier.chains.plan import ChainPlan
+from bezier.curves.curve import Bezier
 from bezier.input.toml_table import Table
 from bezier.interface.function import table_value
-from bezier.obstacles.reader import read_obstacles
-from bezier.trajectories.command import Certified, limits_of
+from bezier.interface.planned import Planned
+from bezier.motion.motion import near, pieces
+from bezier.trajectories.command import Certified, limits_of, scene_of
+from bezier.trajectories.exact import by_control_points
 from bezier.trajectories.limits import Limit
 from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
@@ -49,9 +54,10 @@ def certify(
     """Whether a trajectory keeps its limits and is clear of all obstacles for all t, exactly and with proof.
 
     ``trajectory``: the path of a file in any form that ``bezier certify`` reads, a ``PPoly`` (``CubicSpline``, …) or
-    ``BSpline`` of SciPy, or a ``Trajectory``. Limits are the keys of the command's file: one number for all axes or one
-    for each, ``position`` a pair or a pair for each; in the units of the trajectory, and seconds. ``obstacles`` are
-    tables as for ``bezier.plan``. Positions may jump by ``tolerance``.
+    ``BSpline`` of SciPy, a ``Trajectory``, or what ``bezier.plan`` and ``bezier.chain`` give. Limits are the keys of
+    the command's file: one number for all axes or one for each, ``position`` a pair or a pair for each; in the units of
+    the trajectory, and seconds. ``obstacles`` are tables as for ``bezier.plan``; for two axes balls and boxes of the
+    plane. Positions may jump by ``tolerance``.
 
     The result says ``kept``, ``slower_by`` (the factor of slowing down that repairs it), ``verdict.worst`` and
     ``certificate``; ``print(result)`` a line for each limit; ``result.page()`` is a page with charts.
@@ -71,7 +77,9 @@ def certify(
     values = (position, velocity, acceleration, jerk, velocity_norm, acceleration_norm, jerk_norm)
     path = path_of(trajectory)
     limits = limited_motion(dict(zip(names, values, strict=True)), len(path.names), SOURCE)
-    bodies = None if obstacles is None else read_obstacles(_table({"obstacle": obstacles}, {"obstacle": "obstacles"}))
+    bodies = None
+    if obstacles is not None:
+        bodies, _ = scene_of(_table({"obstacle": obstacles}, {"obstacle": "obstacles"}), len(path.names))
     largest = arguments.rational(tolerance, "tolerance")
     if largest < 0:
         raise InputError(f"{SOURCE}: tolerance: expected a number of at least 0, found {arguments.shown(tolerance)}")
@@ -82,13 +90,30 @@ def certify(
         raise InputError(f"{SOURCE}: expected quantities of usual size, found one beyond 10^308") from None
 
 
-def path_of(given: Any) -> Trajectory:
-    """A trajectory, the one in a file, or that of an object of SciPy. Raises ``InputError``."""
+def path_of(given: Any, *, timed: bool = True) -> Trajectory:
+    """A trajectory, the one in a file, that of an object of SciPy, a chain, or a plan (``timed``: with the law of its
+    limits). Raises ``InputError``."""
     if isinstance(given, Trajectory):
         return given
+    if isinstance(given, Planned):
+        motion = given.motion if timed else None
+        return _joined("xyz", [(part.high - part.low, part.curve) for part in pieces(given.path, motion)])
+    if isinstance(given, ChainPlan):
+        if not given.feasible:
+            raise InputError(f"path: expected a chain, found none: {given}")
+        chain = given.chain
+        return _joined("xyz"[: chain.dimension], list(zip(chain.times, given.curves, strict=True)))
     if isinstance(given, str | os.PathLike):
         return load(Path(given))
     return from_scipy(given)
+
+
+def _joined(names: str, parts: Sequence[tuple[Fraction, Bezier]]) -> Trajectory:
+    """Curves one after the other, each with its duration; irrational coordinates become numbers next to them."""
+    rows = [tuple(tuple(near(c) for c in point) for point in curve.points) for _, curve in parts]
+    breaks = tuple(accumulate((length for length, _ in parts), initial=Fraction(0)))
+    polys = [by_control_points(row, length) for row, (length, _) in zip(rows, parts, strict=True)]
+    return Trajectory(tuple(names), breaks, tuple(polys))
 
 
 def limited_motion(values: Mapping[str, object], axes: int, source: str) -> list[Limit]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -63,6 +63,29 @@ def _pairs(table: Table, raw: object, axes: int) -> list[tuple[Fraction, Fractio
     return pairs
 
 
+def scene_of(table: Table, axes: int) -> tuple[tuple[Obstacle, ...], list[Limit]]:
+    """The obstacles, and the limits of position that the scene's ``domain`` is, a box; in the plane bodies have two
+    coordinates. Its ``start`` and ``goal`` are for ``bezier route``. Raises ``InputError``."""
+    table.only(("name", "dim", "domain", "start", "goal", "obstacle"))
+    inside: list[Limit] = []
+    if "domain" in table.values:
+        domain = table.inner("domain")
+        domain.only(("kind", "low", "high"))
+        low, high = (domain.as_point(key, domain.required(key, f"{axes} numbers"), axes) for key in ("low", "high"))
+        inside = [Limit(0, k, b, a) for k, (a, b) in enumerate(zip(low, high, strict=True))]
+    entries = table.values.get("obstacle", [])
+    if axes == 2 and isinstance(entries, list):
+        entries = [_in_space(entry) if isinstance(entry, dict) else entry for entry in entries]
+    return read_obstacles(replace(table, values={**table.values, "obstacle": entries})), inside
+
+
+def _in_space(entry: dict[str, Any]) -> dict[str, Any]:
+    """A body of the plane as one whose slice at the height 0 it is."""
+    heights = {"centre": 0, "low": -1, "high": 1}
+    flat = {k: v for k, v in entry.items() if k in heights and isinstance(v, list) and len(v) == 2}
+    return {**entry, **{key: [*value, heights[key]] for key, value in flat.items()}}
+
+
 def curves(trajectory: Trajectory) -> dict[str, Bezier]:
     """Each piece as a curve in space; a third coordinate that is missing is 0. Raises ``InputError`` for other axes."""
     if len(trajectory.names) not in (2, 3):
@@ -99,7 +122,12 @@ def certify(
     """
     trajectory = load(file, interpolation)
     listed = [] if limits is None else limits_of(Table.load(limits), len(trajectory.names))
-    obstacles = None if scene is None else read_obstacles(Table.load(scene))
+    obstacles = None
+    if scene is not None:
+        is_json = scene.suffix.lower() == ".json"
+        table = Table(stored.table(scene), str(scene)) if is_json else Table.load(scene)
+        obstacles, inside = scene_of(table, len(trajectory.names))
+        listed = [*listed, *inside]
     try:
         judged = Certified.of(trajectory, listed, obstacles, tolerance)
         data, lines = judged.to_json(), judged.lines

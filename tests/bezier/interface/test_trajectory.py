@@ -88,3 +88,41 @@ def test_a_wrong_argument_is_one_line_that_names_it(states: Path, arguments: dic
 def test_what_is_no_trajectory_is_refused(trajectory: object) -> None:
     with pytest.raises(qe.InputError):
         bezier.certify(trajectory)
+
+
+@pytest.mark.parametrize("form", ["json", "toml"])
+def test_scenes_of_the_plane_are_read_as_route_reads_them(tmp_path: Path, form: str) -> None:
+    file, scene = tmp_path / "m.csv", tmp_path / f"s.{form}"
+    walls = [{"kind": "box", "low": [4, 0], "high": [6, 5]}, {"kind": "ball", "centre": [5, 7], "radius": "1.9"}]
+    if form == "json":
+        data = {"domain": {"low": [0, 0], "high": [10, 10]}, "start": [1, 5], "goal": [9, 5], "obstacle": walls}
+        scene.write_text(json.dumps(data))
+    else:
+        box, ball = "kind = 'box'\nlow = [4, 0]\nhigh = [6, 5]", "kind = 'ball'\ncentre = [5, 7]\nradius = '1.9'"
+        scene.write_text(f"domain = {{low = [0, 0], high = [10, 10]}}\n[[obstacle]]\n{box}\n[[obstacle]]\n{ball}\n")
+    for height, status in (("5.05", True), ("5.1", False), ("5", False), ("-1", False)):
+        file.write_text(f"time,x,y\n0,3,{height}\n1,7,{height}\n")
+        command = [sys.executable, "-m", "bezier", "certify", str(file), "--scene", str(scene), "--json"]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+        assert json.loads(done.stdout)["kept"] is status, height
+        assert bezier.certify(file, obstacles=walls).clear is (status or height == "-1")
+    other = tmp_path / "three.json"
+    other.write_text(json.dumps({"domain": {"low": [0, 0, 0], "high": [1, 1, 1]}, "obstacle": walls}))
+    refused = subprocess.run([*command[:6], str(other)], capture_output=True, text=True, timeout=60, check=False)
+    assert refused.returncode == 2 and "domain.low: expected" in refused.stderr
+
+
+def test_plans_and_chains_are_trajectories_and_paths() -> None:
+    chain = bezier.chain(start=[0, 0], via=[[2, 1], [3, 3]], goal=[5, 2], radius=6)
+    assert bezier.certify(chain, velocity_norm=9).kept
+    fast = bezier.retime(chain, velocity_norm=1, acceleration_norm=2, accuracy="1/50")
+    assert fast.verdict.is_kept and fast.trajectory.names == ("x", "y") and fast.gap < Fraction(1, 50)
+    limits = {"max_speed": 2, "max_acceleration": 1.5}
+    ends = {"start": [-4, 2, 1], "via": [[-1.5, 2, 3], [1.5, 2, 3]], "goal": [4, 2, 1], "radius": 6}
+    plan = bezier.plan(**ends, limits=limits)  # type: ignore[arg-type]
+    assert bezier.certify(plan, velocity_norm=2, acceleration_norm=1.5).kept
+    quicker = bezier.retime(plan, velocity_norm=2, acceleration_norm=1.5, accuracy="1/50")
+    assert quicker.bound < quicker.duration < plan.duration * Fraction(3, 4)
+    none = bezier.chain(start=[0, 0], via=[[2, 1], [3, 3]], goal=[5, 2], radius=5)
+    with pytest.raises(qe.InputError, match="expected a chain, found none"):
+        bezier.retime(none, acceleration=1)
