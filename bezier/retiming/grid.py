@@ -40,15 +40,19 @@ class Bounds:
     acceleration_norm: Fraction | None
 
     @staticmethod
-    def of(limits: Sequence[Limit]) -> Bounds:
-        """Raises ``InputError`` for jerk, and where nothing limits the acceleration."""
+    def of(limits: Sequence[Limit], axes: int) -> Bounds:
+        """Raises ``InputError`` for jerk, for limits of some of the axes, and where nothing limits the acceleration."""
         if any(limit.order > 2 for limit in limits):
             raise InputError("retime: expected limits of velocity and acceleration, found one of jerk")
-        axes = [tuple(x.high for x in limits if (x.order, x.axis is None) == (k, False)) or None for k in (1, 2)]
+        for order in (1, 2):
+            named = [x.axis for x in limits if x.order == order and x.axis is not None]
+            if named and named != [*range(axes)]:
+                raise InputError(f"retime: expected a limit for each of {axes} axes, found those of the axes {named}")
+        each = [tuple(x.high for x in limits if x.order == k and x.axis is not None) or None for k in (1, 2)]
         norms = [next((x.high for x in limits if (x.order, x.axis) == (k, None)), None) for k in (1, 2)]
-        if axes[1] is None and norms[1] is None:
+        if each[1] is None and norms[1] is None:
             raise InputError("retime: expected a limit acceleration or acceleration_norm, found neither")
-        return Bounds(axes[0], norms[0], axes[1], norms[1])
+        return Bounds(each[0], norms[0], each[1], norms[1])
 
 
 @dataclass(frozen=True, slots=True)

@@ -148,7 +148,7 @@ def _least_time(
     tolerance: Fraction,
     budget: Budget,
 ) -> LeastTime:
-    bounds = Bounds.of(limits)
+    bounds = Bounds.of(limits, len(path.names))
     grid, given = _proposals(Grid.of(path), bounds, float(accuracy), budget)
     proved = tuple(weights(grid, given))
     seconds = bound(path, grid.stops, bounds, proved)
@@ -253,7 +253,7 @@ def checked(path: Trajectory, limits: Sequence[Limit], certificate: Certificate)
         stops = stops_of(path)
         if not is_motion(path, stops, steps):
             raise ValueError("steps that are no motion along this path")
-        seconds = bound(path, stops, Bounds.of(limits), proved)
+        seconds = bound(path, stops, Bounds.of(limits, len(path.names)), proved)
         verdict = decided(timed(path, steps), limits, Fraction(1, 10**9))
     except (ValueError, LookupError, ZeroDivisionError) as error:
         raise CertificateRejected("bundle", str(error)) from None

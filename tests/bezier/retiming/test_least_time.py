@@ -134,6 +134,8 @@ def test_arguments_that_make_no_sense_are_one_line() -> None:
         bezier.retime(3, acceleration=1)
     with pytest.raises(InputError, match="jerk"):
         least_time(line, [Limit(2, 0, F(1)), Limit(3, 0, F(1))])
+    with pytest.raises(InputError, match="each of 2 axes"):
+        least_time(path([[0, 1], [0, 2]]), [Limit(2, 1, F(1)), Limit(2, 1, F(2))])
 
 
 # --- proofs -----------------------------------------------------------------------------------------------------------
