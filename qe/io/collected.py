@@ -6,7 +6,7 @@ tree, which ``qe.io.valuation`` works out, or refuses where it is too large.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -19,19 +19,43 @@ SHORT = 16
 MOST_FACTORS = 64
 """The degree of a product."""
 _LARGE = 1 << 2048
-_ZERO = Number(0)
+ZERO = Number(0)
 
 
-def total(parts: Sequence[Term]) -> Term:
+def add(terms: Coefficients, part: Term, scale: int = 1) -> bool:
+    """Add a multiple of a part to a polynomial that is being collected; False, and nothing, where it is not short."""
+    if isinstance(part, Name):
+        name = (part.name,)
+        terms[name] = terms[name] + scale if name in terms else scale
+    elif isinstance(part, Polynomial) and len(part.terms) <= SHORT:
+        for names, value in part.terms.items():
+            value = value if scale == 1 else scale * value
+            terms[names] = terms[names] + value if names in terms else value
+    elif isinstance(part, Number) and _is_small(part.value):
+        terms[()] = terms.get((), 0) + scale * part.value
+    else:
+        return False
+    return True
+
+
+def add_multiple(terms: Coefficients, factor: Term, name: Term, scale: int) -> bool:
+    """Add ``scale * factor * name``; False, and nothing, where it is none of a name by a short number."""
+    if isinstance(factor, Number) and isinstance(name, Name) and _is_small(factor.value):
+        key = (name.name,)
+        value = factor.value if scale == 1 else -factor.value
+        terms[key] = terms[key] + value if key in terms else value
+        return True
+    return False
+
+
+def total(parts: Iterable[Term]) -> Term:
     """The sum of at least one part."""
     terms: Coefficients = {}
-    others: list[Term] = []
-    for part in parts:
-        if (added := coefficients(part)) is None:
-            others.append(part)
-            continue
-        for names, value in added.items():
-            terms[names] = terms[names] + value if names in terms else value
+    return joined(terms, [part for part in parts if not add(terms, part)])
+
+
+def joined(terms: Coefficients, others: list[Term]) -> Term:
+    """The sum of a polynomial and other parts."""
     if not others:
         return polynomial(terms)
     if terms:
@@ -43,8 +67,8 @@ def negative(part: Term) -> Term | None:
     """``-part``, if the part is short."""
     if isinstance(part, Number):
         return Number(-part.value)
-    terms = coefficients(part)
-    return None if terms is None else Polynomial({names: -value for names, value in terms.items()})
+    terms: Coefficients = {}
+    return polynomial(terms) if add(terms, part, -1) else None
 
 
 def product(parts: Sequence[Term]) -> Term | None:
@@ -88,11 +112,10 @@ def power(base: Term, exponent: Number) -> Term | None:
 
 def sides(first: Term, second: Term) -> list[Term]:
     """The sides of a comparison: of two that are short, their difference and zero."""
-    if not (isinstance(second, Number) and not second.value):
-        subtracted = negative(second)
-        if subtracted is not None and coefficients(first) is not None:
-            return [total((first, subtracted)), _ZERO]
-    return [first, second]
+    terms: Coefficients = {}
+    if second == ZERO or not (add(terms, first) and add(terms, second, -1)):
+        return [first, second]
+    return [polynomial(terms), ZERO]
 
 
 def coefficients(term: Term) -> Coefficients | None:

@@ -22,6 +22,7 @@ _WORDS = re.compile(rf"[()]|{_WORD}|;[^\n]*|\S[\s\S]*")
 """Words, brackets and comments; as the last, all that follows where none of them begins."""
 LONG = 100_000
 """Characters of a text from which on the collector waits until it is read."""
+_QUOTING = re.compile(r'[;|"]')
 _INSIDE = re.compile(r'[^()|";]+')  # what opens and closes nothing
 
 
@@ -80,10 +81,8 @@ def parse(text: str, fail: Fail, *, placed: bool = True) -> list[Expression]:
     outside: list[list[Expression]] = []
     for word in _placed_words(text, fail) if placed else _words(text, fail):
         if word == "(":
-            inner = Listing(place(word)) if placed else []
-            items.append(inner)
             outside.append(items)
-            items = inner
+            items.append(items := Listing(place(word)) if placed else [])
         elif word == ")":
             if not outside:
                 raise fail("unbalanced brackets: this ')' has no partner", place(word))
@@ -97,12 +96,14 @@ def parse(text: str, fail: Fail, *, placed: bool = True) -> list[Expression]:
 
 def _words(text: str, fail: Fail) -> list[str]:
     """The words and brackets."""
+    if not _QUOTING.search(text):  # blanks are enough to split it, unless a word is two
+        words = text.replace("(", " ( ").replace(")", " ) ").split()
+        if all(map(_TOKEN.fullmatch, set(words))):
+            return words
     words = _WORDS.findall(text)
     if words and not _TOKEN.fullmatch(words[-1]):
         raise fail("here no word begins", -1)
-    if ";" in text or "|" in text:
-        words = [simplified(word) for word in words if word[0] != ";"]
-    return words
+    return [simplified(word) for word in words if word[0] != ";"]
 
 
 def _placed_words(text: str, fail: Fail) -> Iterator[Word]:

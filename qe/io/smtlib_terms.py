@@ -19,7 +19,6 @@ MOST_STEPS = 1_000_000
 """Terms of one command, definitions written out."""
 
 _RELATIONS = {"<": Relation.LT, "<=": Relation.LE, ">": Relation.GT, ">=": Relation.GE, "=": Relation.EQ}
-_LET: list[Expression] = ["let"]
 _CONNECTIVES = frozenset(("not", "and", "or", "xor", "=>", "implies"))
 _ARITHMETIC = frozenset(("+", "-", "*", "/", "^"))
 _INFIX = frozenset((*_RELATIONS, *_CONNECTIVES, *_ARITHMETIC))
@@ -38,31 +37,33 @@ class Terms(Words):
 
     # --- terms -----------------------------------------------------------------------------
     def formula(self, expression: Expression, scope: Scope) -> s.Node:
-        return cast(s.Node, self.expect(self.meaning(expression, scope), "Bool", expression))
+        return self.expect(self.meaning(expression, scope), "Bool", expression)  # type: ignore[return-value]
 
     def real(self, expression: Expression, scope: Scope) -> s.Term:
-        return cast(s.Term, self.expect(self.meaning(expression, scope), "Real", expression))
+        return self.expect(self.meaning(expression, scope), "Real", expression)  # type: ignore[return-value]
 
     def reals(self, listing: list[Expression], scope: Scope) -> list[s.Term]:
-        """Operands: names and numbers, most of them, which are looked up at once."""
-        terms: list[Any] = []
-        for expression in listing[1:]:
-            if isinstance(expression, str):
-                term = scope.get(expression) or self.numbers.get(expression)
-                if term.__class__ not in s.TERMS:
-                    term = self.real(expression, scope)
-                terms.append(term)
-            else:
-                terms.append(term := self.meaning(expression, scope))
-                if term.__class__ not in s.TERMS:
-                    self.expect(term, "Real", expression)
-        return terms
+        """Operands."""
+        return [self.operand(expression, scope) for expression in listing[1:]]
+
+    def operand(self, expression: Expression, scope: Scope) -> s.Term:
+        """A term: names and numbers, most of them, are looked up at once."""
+        term: Any
+        if isinstance(expression, str):
+            term = scope.get(expression) or self.numbers.get(expression) or self.meaning(expression, scope)
+        else:
+            term = self.meaning(expression, scope)
+        if term.__class__ not in s.TERMS:
+            return self.real(expression, scope)
+        return term  # type: ignore[no-any-return]
 
     def meaning(self, expression: Expression, scope: Scope) -> Meaning:
-        if expression[:1] == _LET:
-            expression, scope = self.behind_lets(expression, scope)
         if isinstance(expression, str):
             return self.word(expression, scope)
+        if expression and expression[0] == "let":
+            expression, scope = self.behind_lets(expression, scope)
+            if isinstance(expression, str):
+                return self.word(expression, scope)
         self.steps += len(expression)
         if self.steps > self.pause:
             self.look()
@@ -84,7 +85,7 @@ class Terms(Words):
     def behind_lets(self, expression: Expression, scope: Scope) -> tuple[Expression, Scope]:
         """The first expression inside that is no ``let``, and its scope."""
         inner = dict(scope)
-        while not isinstance(expression, str) and expression[:1] == _LET:
+        while not isinstance(expression, str) and expression and expression[0] == "let":
             inner.update(self.bindings(expression, inner))
             expression = expression[2]
         return expression, inner
@@ -119,15 +120,35 @@ class Terms(Words):
     # --- numbers ---------------------------------------------------------------------------
     def arithmetic(self, head: str, listing: list[Expression], scope: Scope) -> Meaning:
         """A sum, product, quotient or power, from the left."""
+        if len(listing) > 2 and head in ("+", "-"):
+            return self.sum(head, listing, scope)
         operands = self.reals(listing, scope)
-        if head == "-":
-            kept = operands[: len(operands) > 1]
-            operands = [*kept, *(self.negated(part) for part in operands[len(kept) :])]
         if len(operands) == 1:
-            return operands[0]
-        if head in ("+", "-"):
-            total = collected.total(operands)
-            return self.share(total) if isinstance(total, s.Sum) else total
+            return self.negated(operands[0]) if head == "-" else operands[0]
+        return self.folded(head, operands)
+
+    def sum(self, head: str, listing: list[Expression], scope: Scope) -> Meaning:
+        """A sum or difference: multiples of names, most of them, are added up as they are read."""
+        terms: collected.Coefficients = {}
+        others: list[s.Term] = []
+        scale, usual = 1, "*" not in scope
+        for expression in listing[1:]:
+            if usual and len(expression) == 3 and expression[0] == "*" and not isinstance(expression, str):
+                self.steps += 3
+                operands = self.reals(expression, scope)
+                added = collected.add_multiple(terms, operands[0], operands[1], scale)
+                part = None if added else self.folded(expression[0], operands)
+            else:
+                part = self.operand(expression, scope)
+            if part is not None and not collected.add(terms, part, scale):
+                others.append(part if scale == 1 else self.negated(part))
+            if head == "-":
+                scale = -1
+        total = collected.joined(terms, others)
+        return self.share(total) if isinstance(total, s.Sum) else total
+
+    def folded(self, head: str, operands: list[s.Term]) -> s.Term:
+        """The product, quotient or power of at least two terms, from the left."""
         if head == "*" and (short := collected.product(operands)) is not None:
             return short
         result, at = operands[0], place(head)
@@ -228,6 +249,7 @@ class Terms(Words):
             if is_real(meaning) is boolean:
                 self.expect(meaning, "Bool" if boolean else "Real", argument)
         links: list[s.Node] = []
+        form: tuple[object, ...] = ()
         for left, right in combinations(meanings, 2) if head == "distinct" else pairwise(meanings):
             if boolean:
                 same: s.Node = s.Equivalence(cast(s.Node, left), cast(s.Node, right))
@@ -235,10 +257,17 @@ class Terms(Words):
             else:
                 sides = collected.sides(cast(s.Term, left), cast(s.Term, right))
                 links.append(s.Comparison(sides, [_RELATIONS.get(head, Relation.NE)], place(head)))
-        return self.once(links[0] if len(links) == 1 else s.Every(links))
+                if isinstance(sides[0], s.Polynomial) and sides[1] is collected.ZERO:
+                    form = (head, *sides[0].terms.items())
+        return self.once(links[0], form) if len(links) == 1 else self.once(s.Every(links))
 
     def connective(self, head: str, listing: list[Expression], scope: Scope) -> Meaning:
-        return self.once(self.joined(head, [self.formula(expression, scope) for expression in listing[1:]]))
+        parts = [self.formula(expression, scope) for expression in listing[1:]]
+        return self.once(self.joined(head, parts), (head, *map(id, parts)))
+
+    def once(self, node: s.Node, form: tuple[object, ...] = ()) -> Meaning:
+        """A formula that is shared, unless it may have bound variables."""
+        return node if self.inside else self.share(node, form)
 
     def joined(self, operator: str, parts: list[s.Node]) -> s.Node:
         match operator:

@@ -117,18 +117,17 @@ class Words:
         real = s.Name(name, at)
         return real if sort == "Real" else s.Comparison([real, s.Number(0)], [Relation.GT], at)
 
-    def share(self, meaning: Meaning) -> Meaning:
+    def share(self, meaning: Meaning, form: tuple[object, ...] = ()) -> Meaning:
         """Remember a definition, so that its value is computed once and before its uses; what was said before in the
-        same words is the same object."""
-        form = (meaning.__class__, *map(leaf, meaning[:-1] if meaning._fields[-1] == "at" else meaning))
+        same words is the same object. ``form``: what it is made of, all but its place."""
+        if self.shared and meaning is self.shared[-1]:
+            return meaning
+        if not form:
+            form = (meaning.__class__, *map(leaf, meaning[:-1] if meaning._fields[-1] == "at" else meaning))
         known = self.forms.setdefault(form, meaning)
         if known is meaning:
             self.shared.append(meaning)
         return known
-
-    def once(self, node: s.Node) -> Meaning:
-        """A formula that is shared, unless it may have bound variables."""
-        return node if self.inside else self.share(node)
 
     def expect(self, meaning: Meaning, sort: str, at: Expression) -> Meaning:
         if is_real(meaning) is not (sort == "Real"):

@@ -10,7 +10,7 @@ from qe.errors import InputError, ParseError
 from qe.exact.ring import Ring
 from qe.formula.build import atom
 from qe.formula.evaluate import holds_at
-from qe.formula.syntax import Relation
+from qe.formula.syntax import Atom, Relation
 from qe.io import smtlib
 from qe.io import surface as s
 from qe.io.lowering import lower
@@ -308,3 +308,14 @@ def test_an_unknown_symbol_between_bars_is_said_without_them() -> None:
     assert str(smtlib.read("(declare-const |x| Real)(declare-const |1| Real)(assert (> x |1| 1))")) == (
         "x - `1` > 0 and `1` - 1 > 0"
     )
+
+
+def test_linear_forms_of_many_names_are_read_without_a_value_in_flint() -> None:
+    declared = "".join(f"(declare-const x{i} Real)" for i in range(40))
+    script = f"{declared}(assert (<= (+ (* 2 x3) (- x39 (* (/ 2 3) x5)) 7) (* 4 (- x3 1))))"
+    formula = smtlib.read(script)
+    assert isinstance(formula, Atom) and "p" not in formula.poly.__dict__
+    assert str(formula) == "6*x3 + 2*x5 - 3*x39 - 33 >= 0"
+    assert smtlib.read(f"{script} ; (a comment)") == formula  # which is read by another way than blanks
+    with pytest.raises(ParseError, match="malformed number"):
+        smtlib.read(script.replace("7", "7x"))
