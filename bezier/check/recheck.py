@@ -30,13 +30,12 @@ from bezier.planner.table import method_for
 from bezier.planner.words import NONE
 from bezier.plans import Outcome, Plan, Stated
 from bezier.problem import Problem, ends_inside, to_json
-from qe.api.verify import checked as verify
+from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
 from qe.kernel.verdict import Verdict
 from qe.processes.channel import Channel
 from qe.progress import Event
 from qe.proof.certificate import Certificate
-from qe.proving.older_kinds import recent
 
 CERTIFICATE, PATH = "certificate.json", "path.json"
 T = TypeVar("T")
@@ -126,7 +125,7 @@ def _check_presence(folder: FilePath) -> None:
 def _certificate(folder: FilePath) -> Certificate:
     text = stored.text(folder / CERTIFICATE)
     try:
-        return recent(Certificate.from_json(text))
+        return Certificate.from_json(text)
     except CertificateRejected as error:
         raise CertificateRejected(f"{CERTIFICATE}: {error.step}", error.reason) from None
     except InputError as error:

@@ -54,47 +54,23 @@ def verify(
     ``decided``. Raises ``InputError`` for what is no certificate and for a limit that is not positive.
     """
     if not isinstance(certificate, Certificate):
-        return checked(certificate)  # which says what was expected
+        return kernel_verdict(certificate)  # which says what was expected
     verdict = _limited(certificate, timeout, core=core)
     if formula is None or not verdict.accepted:
         return verdict
-    from qe.proving import older_kinds
-
-    if older_kinds.is_table_of(certificate, formula):
-        return verdict
-    return of_question(older_kinds.recent(certificate), formula)
-
-
-def checked(certificate: Certificate, budget: Budget | None = None, *, core: bool = False) -> Verdict:
-    """The verdict on a certificate, which may be one of a former release (``qe.proving.older``).
-
-    With ``core``, one that needs the expert ring (``qe.certify.trusts``) is rejected.
-    """
-    from qe.kernel.verdict import Verdict
-
-    budget = budget or Budget()
-    try:
-        return kernel_verdict(recent(certificate, budget), budget, core=core)
-    except CertificateRejected as error:
-        return Verdict(False, error.step, error.reason)
-    except Unable as error:
-        return Verdict(False, "", str(error), decided=False)
+    return of_question(certificate, formula)
 
 
 def read_plainly(text: str, seconds: float) -> Verdict:
     """The verdict of the plain reader on a certificate in JSON, in a process of its own without FLINT (``qe.plain``).
 
-    It reads the text itself, or what one of a former release is converted to. Raises ``InputError`` for what is no
-    certificate.
+    Raises ``InputError`` for what is no certificate.
     """
     from qe.kernel.verdict import Verdict
 
     budget = Budget(seconds)
     try:
-        certificate = Certificate.from_json(text)
-        today = recent(certificate, budget)
-        if today is not certificate and len(set(certificate.digests or ())) == 1:
-            text = today.to_json()
+        Certificate.from_json(text)
         command = [sys.executable, "-P", "-S", "-m", "qe.plain", "--json", "--timeout", str(seconds), "-"]
         place = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}  # and no installed package
         run = partial(subprocess.run, input=text, stdout=subprocess.PIPE, env=place, encoding="utf-8")
@@ -106,15 +82,6 @@ def read_plainly(text: str, seconds: float) -> Verdict:
     if not said.endswith("}\n"):
         return Verdict(False, "", "the plain reader ended early", decided=False)
     return Verdict(**json.loads(said))
-
-
-def recent(certificate: Certificate, budget: Budget) -> Certificate:
-    """The certificate in the language of this release, if it was read."""
-    if not isinstance(certificate, Certificate) or certificate.digests is None:
-        return certificate  # what was not read is of this release
-    from qe.proving import older
-
-    return older.recent(certificate, budget)
 
 
 def of_question(certificate: Certificate, asked: Formula) -> Verdict:
@@ -204,7 +171,7 @@ def with_guarantee(region: Region, budget: Budget) -> Region:
 
 def _limited(certificate: Certificate, timeout: float | None, *, core: bool = False) -> Verdict:
     if timeout is None or (certificate.digests is None and _is_small(certificate)):
-        return checked(certificate, Budget(timeout), core=core)
+        return kernel_verdict(certificate, Budget(timeout), core=core)
     from qe.kernel.verdict import Verdict
 
     try:
@@ -214,7 +181,7 @@ def _limited(certificate: Certificate, timeout: float | None, *, core: bool = Fa
 
 
 def _checked(certificate: Certificate, core: bool, channel: Channel) -> Verdict:
-    return checked(certificate, channel.budget(), core=core)
+    return kernel_verdict(certificate, channel.budget(), core=core)
 
 
 def _is_small(certificate: Certificate) -> bool:

@@ -18,8 +18,7 @@ CORE_KINDS = frozenset({"derivation", "bundle"})
 
 
 def trusts(certificate: Certificate) -> tuple[str, ...]:
-    """The names of the axioms of which its steps are instances, and of the expert rules and kinds that it uses; of a
-    step of a former release, the axioms of its family."""
+    """The names of the axioms of which its steps are instances, and of the expert rules and kinds that it uses."""
     return tuple(dict.fromkeys((*_names(certificate), *expert_parts(certificate))))
 
 
@@ -37,13 +36,10 @@ def _expert(certificate: Certificate) -> Iterator[str]:
 
 
 def _names(certificate: Certificate) -> Iterator[str]:
-    axioms = [row for row in rows().values() if "axiom" in row.data]
-    names, families = {row.name for row in axioms}, {row.family for row in axioms}
+    names = {row.name for row in rows().values() if "axiom" in row.data}
     for node in _nodes(certificate):
         if isinstance(name := node.get("theorem"), str) and name in names:
             yield name
-        if isinstance(rule := node.get("rule"), str) and rule in families:
-            yield from (row.name for row in axioms if row.family == rule)
 
 
 def _nodes(certificate: Certificate) -> Iterator[dict[str, Json]]:

@@ -205,20 +205,19 @@ def check(
 ) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe.api.limits import under
-    from qe.api.verify import checked as verify
-    from qe.api.verify import of_question, read_plainly, recent
+    from qe.api.verify import of_question, read_plainly
     from qe.certify.claims import claim_of, is_about, parts_of
+    from qe.certify.verify import verify
     from qe.formula.assumed import claimed
     from qe.processes.limits import Limits
     from qe.proof.certificate import Certificate
-    from qe.proving.older_kinds import recent as of_today
 
     start = time.perf_counter()
     formula = None
     if asked is not None:
         stated = under(*read_question(channel, asked), assuming, Limits(seconds))
         formula = claimed(stated.known, stated.formula, stated.formula)
-    certificate = of_today(Certificate.from_json(text))
+    certificate = Certificate.from_json(text)
     budget = Budget(seconds, listener=channel.event)
     verdict = read_plainly(text, seconds) if plainly else verify(certificate, budget, core=core)
     if verdict.accepted and formula is not None:
@@ -227,7 +226,7 @@ def check(
         raise Unable(f"not decided: {verdict.reason}")
     if not verdict.accepted:
         raise CertificateRejected(verdict.step, verdict.reason)
-    took, trusts = time.perf_counter() - start, recent(certificate, Budget(seconds)).trusts
+    took, trusts = time.perf_counter() - start, certificate.trusts
     if as_json:
         claims = list(claim_of(certificate).words)
         data = {"status": "accepted", "claims": claims, "trusts": list(trusts), "seconds": round(took, 6)}
@@ -245,12 +244,11 @@ def check(
 
 def export_proof(channel: Channel, text: str, seconds: float) -> Reply:
     """``qe export-proof``: exit status 4 when the certificate is rejected, 3 where it cannot be checked or written."""
-    from qe.api.verify import checked as verify
+    from qe.certify.verify import verify
     from qe.coq.export import to_coq
     from qe.proof.certificate import Certificate
-    from qe.proving.older_kinds import recent as of_today
 
-    certificate = of_today(Certificate.from_json(text))
+    certificate = Certificate.from_json(text)
     verdict = verify(certificate, Budget(seconds, listener=channel.event))
     if not verdict.decided:
         raise Unable(f"not decided: {verdict.reason}")

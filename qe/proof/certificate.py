@@ -26,8 +26,7 @@ from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text, read_json
 from qe.services import Service, service
 
 FORMAT = "bezier-qe certificate"
-VERSION, VERSIONS = 3, (1, 2, 3)
-"""The version that is written, and those that are read (``qe.proving.older`` says what is made of the former ones)."""
+VERSION = 3
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,7 @@ class Kind:
     """What a certificate is, by the name under which files have it.
 
     DERIVATION: that a formula is equivalent to another, by steps. BUNDLE: several certificates with labels. What else
-    there is other packages bring, each with its checker (``qe.certify.kinds``), or comes from a former release.
+    is written in a file has no checker.
     """
 
     value: str
@@ -226,8 +225,9 @@ class Certificate:
         if not isinstance(whole, dict) or whole.get("format") != FORMAT:
             raise InputError(f'not a certificate: expected an object with "format": "{FORMAT}"')
         version = whole.get("version")
-        if version not in VERSIONS or isinstance(version, bool):
-            raise InputError(f"certificate version {version!r} is not one of {VERSIONS}, which are known here")
+        if version != VERSION or isinstance(version, bool):
+            former = ", written before bezier-qe 0.2, which still reads it" if repr(version) in ("1", "2") else ""
+            raise InputError(f"certificate of version {version!r}{former}; here version {VERSION} is expected")
         stated = whole.get("digest")
         if not isinstance(stated, str):
             raise CertificateRejected("digest", "expected a string")

@@ -42,14 +42,12 @@ RULES: Mapping[str, str] = {
     "ranges that exclude each other": "Conditions bound variables one after the other; within these one cannot hold.",
     "case split on factors": "A product is zero if and only if a factor is.",
     "signs by sums of squares": "A sum of squares, or of products of them with what is not negative, is not negative.",
-    "vanishing sum of squares split": "A sum of squares is zero if and only if every square is.",
     "simplification": "Both sides have the same truth for all signs of the polynomials that are possible.",
     "elimination set": "A block holds somewhere if and only if it holds at one of finitely many test points "
     "(Loos, Weispfenning 1993; Weispfenning 1997).",
     "roots by signs": "The signs of Hermite's forms, and Descartes' rule, say how the roots of a polynomial lie.",
     "infinity first": "Solutions near infinity follow from leading terms; elsewhere a leading coefficient is zero.",
     "comprehensive Gröbner system": "Signatures of trace forms count the real solutions of equations.",
-    "only asked to be no root": "Polynomials that are not identically zero have a common point where none vanishes.",
     "theorem": "An instance of a theorem that is listed as such, proved or believed by name.",
     "closed form": "An instance of a theorem that is listed as such, proved or believed by name.",
     "roots in a half-plane": "All roots have negative real parts where the determinants of Hurwitz are positive "

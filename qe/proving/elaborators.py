@@ -1,8 +1,7 @@
 """Steps of rules that are no primitives, made of steps of primitives (``qe.kernel``).
 
 Nothing here is trusted: the kernel checks what comes out. An elaborator is given a step, as its rule's evidence says,
-and says by which steps of the kernel it is made. Steps that the engine takes today go through it, and those that
-certificates of former releases have (``qe.proving.older``).
+and says by which steps of the kernel it is made.
 """
 
 from __future__ import annotations
@@ -16,12 +15,11 @@ from math import lcm
 from qe.errors import CertificateRejected
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, map_atoms, subformula
+from qe.formula.syntax import TRUE, Atom, Exists, Formula, Or, Relation
+from qe.formula.traverse import conjuncts, map_atoms
 from qe.kernel.block import block_goals, existential
 from qe.kernel.derivation import replaced
 from qe.kernel.negation import normal
-from qe.kernel.open_block import generic
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.terms import Quotient, at_terms
@@ -29,39 +27,23 @@ from qe.kernel.theorem import theorem_goals
 from qe.proof.certificate import written
 from qe.proof.entry import Json
 from qe.proving.along import constant_along
-from qe.proving.apart import alternatives, independent_parts
 from qe.proving.counted_roots import roots_counted
 from qe.proving.decomposed import counted, decomposed, roots_by_signs
 from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
 from qe.proving.linear import guarded, term
-from qe.proving.made import FRESH, Made, by_lemmas, terms, value
+from qe.proving.made import FRESH, by_lemmas, terms, value
 from qe.proving.mirrors import mirrored
 from qe.proving.ranges import by_ranges
 from qe.proving.scaling import scaled, translated
-from qe.proving.shifts import OPEN, elimination_set, shifted
+from qe.proving.shifts import shifted
 from qe.proving.thin import degenerate_truth_set
 from qe.proving.turns import turned
 from qe.rules.closed_forms import matches
 
 Elaborator = Callable[[Claim, Context, Limits], list[Json]]
 """The steps that lead from ``claim.before`` to ``claim.after``; ``CertificateRejected`` where there are none."""
-
-
-def closed_form(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """An instance of a theorem of the family that is called like the rule, and what the answer was simplified to."""
-    before, after = existential(claim)
-    if not isinstance(before, Exists):
-        raise claim.fail("a block expected")
-    steps = by_theorems(before, context, claim, limits)
-    same = next((step for step, answer in steps if answer == after), None)
-    if same is not None:
-        return [same]
-    for step, answer in by_theorems(before, context, claim, limits):
-        with suppress(CertificateRejected):
-            return [step, simplified(answer, after, context, claim, limits)]
-    raise claim.fail("not an instance of a theorem")
 
 
 def by_theorems(
@@ -166,22 +148,6 @@ def _at(quotient: Quotient, terms: Mapping[int, Quotient]) -> Quotient:
     return at_terms(top, terms), bottom * lead**even
 
 
-def redundant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A part that makes no difference, turned into a constant at its own place."""
-    at, steps = only(claim, "at", "steps")
-    place = [entry.integer() for entry in at.items()]
-    parent = subformula(claim.before, place[:-1])
-    part, constant = subformula(parent, place[-1:]), FALSE if isinstance(parent, Or) else TRUE
-    facts, _ = replaced(claim.before, place, part, constant, (), at)
-    return [written("no exception", place, part, constant, facts, {"exceptions": [steps.value]})]
-
-
-def constant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A formula that holds nowhere, or everywhere: by steps."""
-    steps = only(claim, "steps")[0]
-    return [written("no exception", (), claim.before, claim.after, (), {"exceptions": [steps.value]})]
-
-
 def witness(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """Terms in the parameters that satisfy a block."""
     equations, block = only(claim, "equations", optional=("theory",))[0], claim.block()
@@ -257,21 +223,6 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [simplified(claim.before, claim.after, (), claim, limits)]
 
 
-def only_nonzero(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A block of which nothing is asked but that polynomials are not 0: what is left says nothing of its variables."""
-    only(claim, optional=("theory",))
-    before, after = existential(claim)
-    if not isinstance(before, Exists):
-        raise claim.fail("expected a block")
-    made, conditions = Made(claim, limits, before, context), generic(before)
-    if set(before.variables) & set(conditions.free):
-        raise claim.fail("more is asked of the variables of the block than that polynomials do not vanish")
-    made.step(OPEN, before, exists(before.variables, conditions), {})
-    made.moved(made.current, conditions)
-    made.simplified(conditions, after)
-    return made.finished(after)
-
-
 NAMING = frozenset(
     (
         *("degree shift", "elimination set", "homogeneous scaling", "rotation of the axes"),
@@ -281,19 +232,12 @@ NAMING = frozenset(
 """Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
 
 _BY_RULE: Mapping[str, Elaborator] = {
-    "cubic on an interval": closed_form,
     "two variables exchanged": exchanged,
     "homogeneous scaling": scaled,
     "translation of the origin": translated,
-    "two balls": closed_form,
-    "quadric in a quadric": closed_form,
-    "roots in a half-plane": closed_form,
     "square of a variable alone": square_alone,
     "value that is taken": value_taken,
-    "redundant part": redundant,
-    "constant": constant,
     "roots counted": roots_counted,
-    "only asked to be no root": only_nonzero,
     "witness in the parameters": witness,
     "degenerate truth set": degenerate_truth_set,
     "degree shift": shifted,
@@ -302,9 +246,6 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "infinity first": infinity_first,
     "ranges that exclude each other": by_ranges,
     "sphere seen along a form": seen_along,
-    "alternatives": alternatives,
-    "independent parts": independent_parts,
-    "elimination set": elimination_set,
     "linear form as a variable": sheared,
     "linear form named": named,
     "mirror images of a convex set": mirrored,

@@ -12,7 +12,6 @@ BY_SIGNS = (
     "case split on factors",
     "boundary apart",
     "signs by sums of squares",
-    "vanishing sum of squares split",
     "Groebner basis of the equations",
     "multiple of an equation subtracted",
     "Boolean search",

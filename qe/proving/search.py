@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from qe.errors import CertificateRejected, Unable
+from qe.errors import Unable
 from qe.extras import lacking
-from qe.formula.syntax import FALSE, Atom, Exists, Formula, Relation
-from qe.formula.traverse import children
+from qe.formula.syntax import FALSE, Atom, Exists
 from qe.kernel.block import existential
 from qe.kernel.boolean import Search, Theory
 from qe.kernel.clauses import Clauses, Literal
@@ -126,40 +125,6 @@ def with_clauses(claim: Claim, limits: Limits) -> dict[str, Json]:
     assert isinstance(entry.value, list)  # it has been read
     kept = [part for k, part in enumerate(entry.value, start=given - len(refuted)) if k in needed]
     return theory_of((clauses.clause(c) for k, c in enumerate(learnt) if given + k in needed), kept)
-
-
-def former_search(claim: Claim, limits: Limits) -> dict[str, Json]:
-    """The evidence for "signs" from that for the former rule "Boolean search": ``refuted`` and ``learnt``."""
-    refuted, learnt = claim.evidence.fields("refuted", "learnt")
-    together, goal = conflicts(refuted, claim), (refuted_block(claim).body,)
-    named = Search(Theory((), (), limits, tuple(map(tuple, together))), goal)
-    meanings = [named.literal(f) for f in _numbered((*goal, *(a for atoms in together for a in atoms)))]
-    listed = []
-    for entry in learnt.items():
-        clause = [e.integer(-len(meanings)) for e in entry.items()]
-        if not all(0 < abs(number) <= len(meanings) for number in clause):
-            raise CertificateRejected(entry.path, "expected literals")
-        literals = [(number, *meanings[abs(number) - 1]) for number in clause]
-        listed.append([(i, signs if number > 0 else ANY & ~signs) for number, i, signs in literals])
-    assert isinstance(refuted.value, list)  # it has been read
-    return theory_of(listed, refuted.value)
-
-
-def _numbered(formulas: Iterable[Formula]) -> list[Formula]:
-    """The formulas to which the former rule gave numbers, in their order: p > 0, p < 0, p = 0 for a polynomial p."""
-    listed: dict[Formula, None] = {}
-
-    def visit(formula: Formula) -> None:
-        if isinstance(formula, Atom):
-            listed.update((Atom(formula.poly, r), None) for r in (Relation.GT, Relation.LT, Relation.EQ))
-        elif formula not in listed:
-            listed[formula] = None
-            for part in children(formula):
-                visit(part)
-
-    for formula in formulas:
-        visit(formula)
-    return list(listed)
 
 
 def _learnt(clauses: Sequence[Sequence[int]]) -> Iterator[list[int]]:

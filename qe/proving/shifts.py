@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from qe.elimination.cad import certificate_for
 from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import TRUE, Atom, Atomic, Exists, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts, map_atoms
-from qe.kernel.elimination_set import block_of
 from qe.kernel.open_block import generic
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.options import Options
 from qe.proof.certificate import written
-from qe.proof.entry import Json, formula_from_json, formula_to_json
+from qe.proof.entry import Json
 from qe.proving.made import Made, equal
 from qe.rules.degree_shift import lowered, values
 
@@ -71,50 +68,6 @@ def raised(made: Made, block: Exists, name: str, power: int) -> list[Json]:
     made.simplified(made.current, smaller)
     made.back(smaller, block, lowering)
     return made.steps
-
-
-def elimination_set(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A set of points for the variable of which the powers are multiples of a number; with roots of cubics, a table."""
-    variable, _, _, points, parts, exponent = only(
-        claim, "variable", "side", "quadratics", "points", "parts", optional=("exponent",)
-    )
-    assert isinstance(claim.evidence.value, dict)
-    if has_roots_of_cubics(claim.evidence.value):
-        table = certificate_for(claim.before, claim.after, Options(), limits.budget)
-        if table is None:
-            raise points.fail("no decomposition takes the place of roots of cubics")
-        return [written("cells", (), claim.before, claim.after, (), table.single_step["evidence"])]
-    evidence = {k: v for k, v in claim.evidence.value.items() if k != "exponent"}
-    power = 1 if exponent.value is None else exponent.integer(1)
-    if power == 1:
-        return [written("elimination set", (), claim.before, claim.after, context, evidence)]
-    block, name, x = claim.variable(variable)
-    made = Made(claim, limits, block)
-    lowest = lower_first(made, block, name, power)
-    listed, lists = list[Json](), list[Json]()
-    for entry, steps in zip(points.items(), parts.items(), strict=True):
-        point, guard, formula, _ = entry.fields("point", "guard", "formula", "settled")
-        assert isinstance(entry.value, dict) and isinstance(steps.value, list)
-        if point.value is not None or not steps.value:
-            listed, lists = [*listed, entry.value], [*lists, steps.value]
-            continue
-        whole = block.body if formula.value is None else formula_from_json(formula, claim.ring)
-        start = block_of(block.variables, conj((formula_from_json(guard, claim.ring), whole)), claim.ring)
-        kept = low(whole, x, power)
-        begin = block_of(block.variables, conj((formula_from_json(guard, claim.ring), kept)), claim.ring)
-        assert isinstance(start, Exists)
-        listed.append({**entry.value, "formula": None if formula.value is None else formula_to_json(kept)})
-        lists.append([*raised(Made(claim, limits, begin), start, name, power), *steps.value])
-    evidence |= {"points": listed, "parts": lists}
-    return [*made.steps, written("elimination set", (), lowest, claim.after, context, evidence)]
-
-
-def has_roots_of_cubics(evidence: dict[str, Json]) -> bool:
-    """Whether one of the points is such a root."""
-    points = evidence.get("points")
-    listed = [e.get("point") for e in points if isinstance(e, dict)] if isinstance(points, list) else []
-    coefficients = [p.get("coefficients") for p in listed if isinstance(p, dict)]
-    return any(isinstance(c, list) and len(c) == 4 for c in coefficients)
 
 
 OPEN = "inequations that remove no interior"

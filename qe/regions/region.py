@@ -34,7 +34,6 @@ from qe.processes.limits import Limits
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate, table_of
-from qe.proving.older_kinds import recent
 from qe.regions.operators import SetOperations
 from qe.regions.volume import enclose
 
@@ -302,7 +301,7 @@ class Region(SetOperations):
     @staticmethod
     def from_json(text: str) -> Region:
         """The region of a JSON text. Nothing is verified; use ``qe.verify`` on ``certificate`` for that."""
-        table = table_of(recent(Certificate.from_json(text)))
+        table = table_of(Certificate.from_json(text))
         if table is None or not table.is_decomposition:
             raise InputError("a region in JSON expected")
         return Region(table.matrix, table, table.order)

@@ -18,11 +18,11 @@ from qe.proving.primitive_names import BY_SIGNS, SIGNS
 from tests.attacks.attack import accepted_evidence, derivation, equivalence, false_claim, is_accepted
 from tests.attacks.falsity import points, truth
 from tests.attacks.near_misses import CAPTURES, OTHERS
-from tests.attacks.rules import FORMER, METHODS, PRIMITIVES, RULES, STATED
-from tests.attacks.true_steps import Answered, TrueStep, answered_with_steps, former_step, taken_alone
+from tests.attacks.rules import METHODS, PRIMITIVES, RULES, STATED
+from tests.attacks.true_steps import Answered, TrueStep, answered_with_steps, taken_alone
 
 ATTACKED = tuple(r for r in dict.fromkeys((*CHECKERS, *ELABORATORS, *BY_SIGNS)) if r not in STATED)
-"""What a step of a certificate may be called, today or in former releases."""
+"""What a step of a certificate, or of a derivation, may be called."""
 
 QUESTIONS = 60
 """So many for each on which a rule is to fire, and for each false claim, are tried at most."""
@@ -59,9 +59,6 @@ def campaign(name: str, seed: int, formulas: int, claims: int) -> Counts:
 
 def _steps(rng: random.Random, name: str, counts: Counts, *, answer: bool) -> list[TrueStep]:
     """Some true steps of a rule, by a random question; none by a method that is not a rule."""
-    if name in FORMER:
-        counts.fired += 1  # by nobody any more: as often as it is made here
-        return [former_step(rng, name)]
     rule = rng.choice(PRIMITIVES.get(name, (name,)))
     row = RULES[rule] if rule in RULES else METHODS[rule]
     question, called = row.question(rng), SIGNS if name in BY_SIGNS else name

@@ -286,23 +286,6 @@ RULES: dict[str, Row] = {
 }
 """The rules, each with questions of its own."""
 
-FORMER = {
-    "alternatives": (
-        "ex x. (x {O} a and {s}*x^2 {R} b) or (x^2 {O} {n} and {p}*x {R} {L})",
-        "(ex x. x {O} a and {s}*x^2 {R} b) or (ex x. x^2 {O} {n} and {p}*x {R} {L})",
-    ),
-    "independent parts": (
-        "ex x, y. x^2 {R} a and {p}*x {O} b and {s}*y {O} {L} and y^2 {R} {n}",
-        "(ex x. x^2 {R} a and {p}*x {O} b) and (ex y. {s}*y {O} {L} and y^2 {R} {n})",
-    ),
-    "only asked to be no root": ("ex x. a*x + {s}*b /= 0 and x /= {n}", "a /= 0 or b /= 0"),
-    "vanishing sum of squares split": (
-        "ex x, y. x^2 + (x - {p}*y)^2 = 0 and x + y {R} a",
-        "ex x, y. x = 0 and x - {p}*y = 0 and x + y {R} a",
-    ),
-}
-"""Before and after a step of a rule that nothing makes any more, filled alike; older certificates have them."""
-
 PRIMITIVES: dict[str, tuple[str, ...]] = {
     "signs": (
         *("simplification", "standard simplification", "case split on factors", "boundary apart"),

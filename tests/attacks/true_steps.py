@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -11,15 +10,12 @@ from unittest.mock import patch
 
 from qe.engine.run import answered
 from qe.exact.ring import Ring
-from qe.formula.syntax import Exists, Formula
-from qe.formula.traverse import conjuncts, disjuncts
+from qe.formula.syntax import Formula
 from qe.io.names import names_in
-from qe.io.text import read
-from qe.kernel.statements import rows
 from qe.kernel.step import Limits
 from qe.options import Budget, Options
 from qe.proof.derivation import moved, put_together
-from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json
+from qe.proof.entry import Entry, Json, formula_from_json
 from qe.proof.run_log import Choice, RunLog
 from qe.proof.step import Place, Step
 from qe.proving.elaborators import ELABORATORS
@@ -27,8 +23,6 @@ from qe.proving.nested import names_within, proved_inside
 from qe.proving.prover import Prover
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
-from tests.attacks.questions import filled
-from tests.attacks.rules import FORMER
 from tests.certificates.altered_derivations import steps
 
 SECONDS, TO_PROVE = 2.0, 10.0
@@ -99,7 +93,7 @@ def proved(
 
 @contextmanager
 def elaborated() -> Iterator[list[TrueStep]]:
-    """The steps of elaborated rules that provers take meanwhile, also inside evidence, with that of former releases."""
+    """The steps of elaborated rules that provers take meanwhile, also inside evidence, with their own."""
     taken: list[TrueStep] = []
     original = Prover._at
 
@@ -109,9 +103,9 @@ def elaborated() -> Iterator[list[TrueStep]]:
         if step.rule in ELABORATORS and len(prover.steps) == before + 1:
             made = prover.steps[-1]
             assert isinstance(made, dict)
-            evidence = former_evidence(prover, step, made)
+            evidence = own_evidence(prover, step, made)
             if evidence is not None:
-                facts = () if step.rule == "redundant part" else _facts(made, prover.ring)
+                facts = _facts(made, prover.ring)
                 taken.append(TrueStep(step.rule, prover.ring, step.before, step.after, facts, evidence))
         return changed
 
@@ -137,23 +131,13 @@ def producing() -> Iterator[set[str]]:
         yield rules
 
 
-def former_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
-    """The evidence that a step had as one of its own rule, seen from what was made of it; None where it was made
-    otherwise."""
-    proof, evidence = step.evidence.get("proof"), made["evidence"]
-    assert isinstance(evidence, dict)
-    match made["rule"]:
-        case "theorem":
-            return {} if rows()[str(evidence["theorem"])].family == step.rule else None
-        case "no exception":
-            exceptions = evidence["exceptions"]
-            assert isinstance(exceptions, list) and isinstance(proof, Mapping)
-            at = {"at": list(proof["at"])} if step.rule == "redundant part" else {}
-            return {**at, "steps": exceptions[0]}
-        case "steps":
-            facts = _facts(made, prover.ring)
-            return _proved_inside(prover, step, prover._plain(proof), facts) if isinstance(proof, Mapping) else {}
-    return evidence if (step.rule, made["rule"]) == ("constant", "cells") else None
+def own_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
+    """The evidence from which the steps of a rule were made; None where it was proved otherwise."""
+    proof = step.evidence.get("proof")
+    if made["rule"] != "steps":
+        return None
+    facts = _facts(made, prover.ring)
+    return _proved_inside(prover, step, prover._plain(proof), facts) if isinstance(proof, Mapping) else {}
 
 
 def _proved_inside(prover: Prover, step: Step, plain: Json, facts: tuple[Formula, ...]) -> Json:
@@ -165,30 +149,6 @@ def _proved_inside(prover: Prover, step: Step, plain: Json, facts: tuple[Formula
         return plain
 
     return proved_inside(read_by_it, prover.limits, prover.nested)
-
-
-def former_step(rng: random.Random, rule: str) -> TrueStep:
-    """A step of a rule that nothing makes any more."""
-    seed = rng.random()
-    before, after = (read(filled(random.Random(seed), text)) for text in FORMER[rule])
-    ring = Ring.of(dict.fromkeys((*names_in(before), *names_in(after))))
-    step = Step(rule, moved(before, ring), moved(after, ring))
-    if rule in ELABORATORS:
-        return TrueStep(rule, ring, step.before, step.after, (), _of_parts(rule, step.after))
-    found = Prover(ring, Options(), Budget(TO_PROVE)).evidence(step, ())
-    assert found is not None, step
-    return TrueStep(found[0], ring, step.before, step.after, (), found[1])
-
-
-def _of_parts(rule: str, after: Formula) -> Json:
-    """The evidence that a block falls into those after, with no steps of theirs; nothing for another rule."""
-    if rule not in ("alternatives", "independent parts"):
-        return {}
-    blocks = [f.body for f in (*conjuncts(after), *disjuncts(after)) if isinstance(f, Exists)]
-    bodies: list[Json] = [formula_to_json(body, quantified=True) for body in blocks]
-    if rule == "alternatives":
-        return {"pieces": bodies, "parts": [[] for _ in bodies]}
-    return {"pieces": [{"body": body, "together": False, "steps": []} for body in bodies]}
 
 
 def _read(listed: list[Json], ring: Ring) -> Iterator[TrueStep]:

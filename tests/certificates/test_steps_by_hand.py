@@ -63,25 +63,6 @@ def test_a_coefficient_that_conjuncts_with_the_variable_keep_from_zero() -> None
     assert not accepted(Step("linear equation solved", before, moved(after, ring), TRUE, evidence))
 
 
-@pytest.mark.parametrize(
-    ("rule", "before", "right", "wrong"),
-    [
-        (
-            "vanishing sum of squares split",
-            "ex x, y. x^2 + (x - y)^2 = 0 and x + y > a",
-            "ex x, y. x = 0 and y = 0 and x + y > a",
-            "ex x, y. x = 0 and x + y > a",
-        ),
-    ],
-)
-def test_steps_of_older_certificates(rule: str, before: str, right: str, wrong: str) -> None:
-    """By rules that nothing makes any more."""
-    given = read_formula(before)
-    assert given.ring is not None
-    assert accepted(Step(rule, given, moved(read_formula(right), given.ring)))
-    assert not accepted(Step(rule, given, moved(read_formula(wrong), given.ring)))
-
-
 def test_a_name_that_captures() -> None:
     given = read_formula("(ex x. x > a) and (ex x. x < b)")
     right = rename_apart(given)

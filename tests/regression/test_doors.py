@@ -256,7 +256,18 @@ def test_a_certificate_made_by_hand_is_rejected_not_a_crash() -> None:
     for wrong in (qe.Certificate("cells", {}), qe.Certificate("x", 5), qe.Certificate(None, (1, 2))):  # type: ignore
         assert not qe.verify(wrong).accepted
     with pytest.raises(qe.CertificateRejected):
-        qe.Certificate.from_json(json.dumps({"format": "bezier-qe certificate", "version": 1}))
+        qe.Certificate.from_json(json.dumps({"format": "bezier-qe certificate", "version": 3}))
+
+
+@each(
+    (1, "written before bezier-qe 0.2"),
+    (2, "written before bezier-qe 0.2"),
+    (4, "version 3 is expected"),
+    (True, "True"),
+)
+def test_certificates_of_former_versions_are_refused_in_one_line(version: object, said: str) -> None:
+    with pytest.raises(qe.InputError, match=said):
+        qe.Certificate.from_json(json.dumps({"format": "bezier-qe certificate", "version": version}))
 
 
 def test_letters_side_by_side_are_told_to_be_one_name() -> None:

@@ -32,34 +32,27 @@ LONG = "7" * 4000
 LONG_END = f"{LONG}3/{LONG}"
 
 
-def _text(kind: str, payload: Any) -> str:
-    whole: dict[str, Any] = {"format": "bezier-qe certificate", "version": 1, "kind": kind, "payload": payload}
+def _step(rule: str, order: list[str], before: Any, after: Any, evidence: Any) -> str:
+    """A certificate of one step, written by hand: nothing looks at it before the checker does."""
+    step = {"rule": rule, "at": [], "context": [], "before": before, "after": after, "evidence": evidence}
+    payload = {"order": order, "start": before, "steps": [step], "answer": after}
+    whole: dict[str, Any] = {"format": "bezier-qe certificate", "version": 3, "kind": "derivation", "payload": payload}
     whole["digest"] = digest(whole)
     return json.dumps(whole)
 
 
 def _witness(polynomial: str, values: list[Any], names: str = "x") -> str:
-    payload = {"order": names.split(), "matrix": ["atom", polynomial, "="], "values": values}
-    return _text("witness", payload)
+    order = names.split()
+    question = ["exists", order, ["atom", polynomial, "="]]
+    return _step("instance", order, question, True, {"order": order, "values": values})
 
 
 def _cells(rising: str) -> str:
     """A table that is right at its samples: a polynomial that rises with y in place of another one."""
     payload = cell_table("y > x^3", "x y").evidence_for("cells")["cells"]
-    return _text("cells", {**payload, "factors": [[], [rising]], "matrix": ["atom", rising, ">"], "answer": None})
-
-
-def _field(coefficients: list[str]) -> str:
-    condition = {"normal": ["1", "1"], "offset": "3"}
-    field = {"minimal_polynomial": coefficients, "interval": ["1", "2"]}
-    points = [[["1"], ["1"]]]
-    return _text("containment", {"field": field, "points": points, "condition": condition, "breaks": ["0", "1"]})
-
-
-def _power(exponent: int) -> str:
-    piece = {"constraints": [{"terms": [[[exponent, 0], "1"]], "strict": False}], "spans": [["0", "1", 0]]}
-    field = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
-    return _text("clearance", {"field": field, "points": [[["1"], ["1"]]], "pieces": [piece]})
+    matrix = ["atom", rising, ">"]
+    table = {**payload, "factors": [[], [rising]], "matrix": matrix}
+    return _step("cells", ["x", "y"], matrix, matrix, {"cells": table})
 
 
 def _many_variables(count: int) -> str:
@@ -67,15 +60,16 @@ def _many_variables(count: int) -> str:
     problem = {"variables": [f"x{i}" for i in range(count)], "minimise": [], "constraints": []}
     empty = {key: [] for key in ("faces", "point", "multipliers", "derived", "values")}
     rest = {"field": field, **empty, "value": ["0"], "attained": True, "unique": False}
-    return _text("optimum", {"problem": problem, "status": "optimal", **rest})
+    evidence = {"problem": problem, "status": "optimal", **rest}
+    return _step("multipliers", ["x0"], True, True, evidence)
 
 
 def _substitution(degree: int) -> str:
     sum_of_three = "-z - y + x - 1"
     matrix = ["and", ["atom", sum_of_three, "="], ["atom", f"x^{degree} - y", "="]]
-    answer = ["atom", "-z + y", "="]
-    payload = {"order": ["z", "y", "x"], "variables": ["x"], "matrix": matrix, "solved": [["x", sum_of_three]]}
-    return _text("substitution", {**payload, "answer": answer})
+    evidence = {"solved": [["x", sum_of_three, 1]], "theory": {"polynomials": [], "lemmas": [], "cases": []}}
+    question = ["exists", ["x"], matrix]
+    return _step("linear equation solved", ["z", "y", "x"], question, ["atom", "-z + y", "="], evidence)
 
 
 TOO_LARGE = "not decided: .* is needed"
@@ -91,9 +85,6 @@ HOSTILE = {
     ),
     "a resultant of large degree": (_cells("y^9999 - x^3 + y"), "not decided"),
     "a resultant of many steps": (_cells("x^400*y^399 + y^401 - x^3 + y"), "not decided"),
-    "a number field of large degree": (_field(["-2", *["0"] * 3000, "1"]), TOO_LARGE),
-    "a number field of long numbers": (_field([f"-{LONG}", *["1"] * 99, f"{LONG}8"]), TOO_LARGE),
-    "a large power of a curve that is a point": (_power(10**9), "rejected"),
     "many variables": (_many_variables(30_000), TOO_LARGE),
     "a power of a sum": (_substitution(9999), TOO_LARGE),
 }
@@ -118,7 +109,8 @@ def test_nesting_has_a_limit() -> None:
     deep: Any = ["atom", "x", "="]
     for _ in range(400):
         deep = ["not", deep]
-    assert not verify_json(_text("witness", {"order": ["x"], "matrix": deep, "values": ["0"]})).accepted
+    question = ["exists", ["x"], deep]
+    assert not verify_json(_step("instance", ["x"], question, True, {"order": ["x"], "values": ["0"]})).accepted
 
 
 def test_a_budget_that_is_used_up_gives_no_decision() -> None:

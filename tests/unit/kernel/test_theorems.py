@@ -20,7 +20,6 @@ from qe.kernel.negation import negation
 from qe.kernel.statements import Theorem, rows, theorem
 from qe.kernel.step import Claim, Context
 from qe.kernel.theorem import check_theorem
-from qe.proof.certificate import Kind
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.rules.closed_forms import (
     generic,
@@ -282,9 +281,3 @@ def test_an_answer_names_the_axioms_that_it_needs() -> None:
     assert qe.eliminate("ex x, y. x^2 + y^2 <= a and x*y > 1 and x < 0", check=True, without="balls").trusts == ()
     for name in ("a parabola takes a value", "a line meets a box"):
         assert "axiom" not in rows()[name].data  # proved: nothing to believe
-
-
-def test_a_step_of_a_former_release_needs_the_axioms_of_its_family() -> None:
-    step: Json = {"rule": "quadric in a quadric", "evidence": {"along": "x"}}
-    certificate = qe.Certificate(Kind.DERIVATION, {"steps": [step]})
-    assert certificate.trusts == tuple(n for n, row in rows().items() if row.family == "quadric in a quadric")

@@ -15,52 +15,14 @@ from tests.tables import each
 from tests.unit.certify.claims import NO_LEMMAS, line, step, written
 from tests.unit.proving.elaborated import Row, is_a_step_and_no_other_is, refused, rows
 
-ALTERNATIVES, PARTS, GUARD = "alternatives", "independent parts", "linear equation solved under a guard"
+GUARD = "linear equation solved under a guard"
 THIN, FAR, ZEROS = "degenerate truth set", "infinity first", "conditions on zeros that follow"
 ROOTS = "roots counted"
-
-
-def solved(body: str, variable: str, equation: str, after: str) -> dict[str, Any]:
-    """The step by which a linear equation ends a block."""
-    evidence = {"solved": [[variable, equation, 1]], "theory": NO_LEMMAS}
-    return step("linear equation solved", f"ex {variable}. {body}", after, evidence)
 
 
 def signs(before: str, after: str = "false") -> dict[str, Any]:
     return step("signs", before, after, {"theory": NO_LEMMAS})
 
-
-# The parts of a disjunction solved one by one, each by steps of its own.
-TWO = "ex x. x = a and b > 0 or x = c and x > 1"
-ONE, OTHER = "x = a and b > 0", "x = c and x > 1"
-STEPS = [solved(ONE, "x", "-a + x", "b > 0")], [solved(OTHER, "x", "-c + x", "c > 1")]
-
-
-def pieces(texts: list[str], *parts: list[Any]) -> dict[str, Any]:
-    return {"pieces": [written(text) for text in texts], "parts": list(parts)}
-
-
-# Conjuncts without a common variable of the block, solved apart and by steps of their own.
-def piece(body: str, *steps: Any, together: Any = False) -> dict[str, Any]:
-    return {"body": written(body), "together": together, "steps": list(steps)}
-
-
-def parts(*of: dict[str, Any]) -> dict[str, Any]:
-    return {"pieces": list(of)}
-
-
-X = piece("x = a and x > b", solved("x = a and x > b", "x", "-a + x", "a > b"))
-Y = piece("y = c and y^3 < b", solved("y = c and y^3 < b", "y", "-c + y", "c^3 < b"))
-BLOCK = "ex x, y. x = a and x > b and y = c and y^3 < b and a > 0"
-ANSWER = "a > 0 and a > b and c^3 < b"
-POSITIVE = "ex x, y. a > 0 and a*x = b and x > c and y > b"
-POSITIVE_ANSWER = "a > 0 and b > a*c and (ex y. y > b)"
-POSITIVE_EVIDENCE = {"solved": [["x", "a*x - b", 1]], "theory": NO_LEMMAS}
-POSITIVE_PART = "ex x. a > 0 and a*x = b and x > c", "a > 0 and b > a*c", POSITIVE_EVIDENCE
-POSITIVE_STEP = step("linear equation solved", *POSITIVE_PART)
-KNOWN = solved("c > 0 and x = a and (c > 0 or x > b)", "x", "-a + x", "c > 0 and (c > 0 or a > b)")
-NEVER = piece("x > a and x < a", signs("ex x. x > a and x < a"))
-EMPTY = "ex x, y. x > a and x < a and y > b and c > 0"
 
 # The two cases of a coefficient that may vanish.
 LINE = {"solved": [["x", line("a*x - b"), None]]}
@@ -108,30 +70,6 @@ BESIDE = "c > 0 and not x > root(1, x - a, x) and (ex y. y > root(1, y^3 - x, y)
 OTHER_ROOTS = [(one, other) for k, at in AT_ROOT.items() for one in at for other in (at if k == 1 else at[:1])]
 
 TRUE_STEPS: dict[str, list[Row]] = {
-    ALTERNATIVES: [
-        (TWO, "b > 0 or c > 1", pieces([ONE, OTHER], *STEPS)),
-        (TWO, f"b > 0 or (ex x. {OTHER})", pieces([ONE, OTHER], STEPS[0], [])),  # no step: the part stays as it is
-    ],
-    PARTS: [
-        (BLOCK, ANSWER, parts(X, Y)),
-        (BLOCK, "a > 0 and a > b and (ex y. y = c and y^3 < b)", parts(X, piece("y = c and y^3 < b"))),
-        # With a > 0 known the coefficient is positive; what was used stays as a conjunct.
-        (POSITIVE, POSITIVE_ANSWER, parts(piece("a*x = b and x > c", POSITIVE_STEP, together=True), piece("y > b"))),
-        (EMPTY, "false", parts(NEVER)),  # one part that is false is enough
-        # Only what was known is taken away again, also inside a disjunction.
-        (
-            "ex x. c > 0 and (x > a or c > 0)",
-            "c > 0",
-            parts(piece("x > a or c > 0", signs("ex x. c > 0 and (x > a or c > 0)", "c > 0"), together=True)),
-        ),
-        ("ex x. x = a and x > b", "a > b", parts(X)),
-        # c > 0 stands beside, so that of "c > 0 or a > b" nothing is left.
-        (
-            "ex x. c > 0 and x = a and (c > 0 or x > b)",
-            "c > 0",
-            parts(piece("x = a and (c > 0 or x > b)", KNOWN, together=True)),
-        ),
-    ],
     GUARD: [
         (BEFORE, CASES, LINE),
         (BEFORE.replace("c", "c^2"), CASES.replace("c", "c^2"), LINE),
@@ -175,28 +113,6 @@ TRUE_STEPS: dict[str, list[Row]] = {
 }
 
 FALSE_STEPS: dict[str, list[Row]] = {
-    ALTERNATIVES: [
-        (TWO, "b > 0", pieces([ONE, OTHER], *STEPS)),
-        (TWO, "b > 0 and c > 1", pieces([ONE, OTHER], *STEPS)),
-        (TWO, "b > 0", pieces([ONE], STEPS[0])),
-        (TWO, "b > 0 or c > 1", pieces([ONE, OTHER, "b < 0"], *STEPS, [])),
-        (TWO, "b > 0 or c > 1", pieces([ONE, OTHER], STEPS[0])),
-        (TWO, "b > 0 or c > 1", pieces([ONE, OTHER], *STEPS, [])),
-        (TWO, "b > 0 or c > 1", pieces([ONE, OTHER], STEPS[1], STEPS[0])),
-        (TWO.replace("ex", "all"), "b > 0 or c > 1", pieces([ONE, OTHER], *STEPS)),
-    ],
-    PARTS: [
-        (BLOCK, "a > b and c^3 < b", parts(X, Y)),  # what stands beside is missing
-        (BLOCK, "a > 0 and a > b", parts(X)),  # a conjunct is missing
-        (BLOCK, ANSWER, parts(X, X)),
-        (BLOCK, ANSWER, parts(X, Y, piece("y > 7"))),
-        ("ex x, y. x = a and y > x and y = c and a > 0", "a > 0", parts(piece("x = a"), piece("y > x and y = c"))),
-        (BLOCK, f"{ANSWER} and (ex y. y > 7)", parts(X, piece("y = c and y^3 < b and y > 7"))),
-        (BLOCK.replace("ex", "all"), ANSWER, parts(X, Y)),
-        (BLOCK, "false", parts(X, Y)),
-        (POSITIVE, POSITIVE_ANSWER, parts(piece("a*x = b and x > c", POSITIVE_STEP), piece("y > b"))),
-        (EMPTY, "c > 0", parts(NEVER)),
-    ],
     GUARD: [
         (BEFORE, "(a /= 0 and b > a*c) or (ex x. a = 0 and b = 0 and x > c)", LINE),
         (BEFORE, "a*b > a^2*c or (ex x. a = 0 and b = 0 and x > c and x < 0)", LINE),
@@ -273,12 +189,6 @@ def test_a_true_step_is_one_of_the_kernel_and_no_other(rule: str, before: Any, a
 @each(*rows(FALSE_STEPS))
 def test_a_false_step_is_none(rule: str, before: Any, after: Any, evidence: Any) -> None:
     assert refused(rule, before, after, evidence)
-
-
-def test_a_wrong_step_in_a_part_is_named() -> None:
-    wrong = [solved(OTHER, "x", "-c + x", "c >= 1")]
-    said = refused(ALTERNATIVES, TWO, "b > 0 or c >= 1", pieces([ONE, OTHER], STEPS[0], wrong))
-    assert said.startswith("evidence.parts[1][0]: linear equation solved")
 
 
 def test_names_of_roots_that_the_formula_has_are_others() -> None:

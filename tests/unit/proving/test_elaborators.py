@@ -4,16 +4,11 @@ from typing import Any
 
 import qe
 from tests.tables import each
-from tests.unit.certify.claims import NO_LEMMAS, line, step
+from tests.unit.certify.claims import NO_LEMMAS, line
 from tests.unit.proving.elaborated import refused
 
 Step = tuple[str, str, str, Any, str]
 """Rule, before, after, evidence, and what is given."""
-
-
-def of_theorem(rule: str, before: str, after: str, given: str = "true") -> Step:
-    """A step of a former rule, whose evidence its elaborator does not need."""
-    return rule, before, after, {"theory": NO_LEMMAS}, given
 
 
 def by(*equations: tuple[str, str]) -> dict[str, Any]:
@@ -21,14 +16,10 @@ def by(*equations: tuple[str, str]) -> dict[str, Any]:
 
 
 WITNESS, SHEAR, APART = "witness in the parameters", "linear form as a variable", "disjuncts with equations apart"
-REDUNDANT, CONSTANT = "redundant part", "constant"
 BLOCK = "ex x. (x = a or x = b) and x > c and (x < 1 or x > 2)"
 FIRST = "(ex x. x > c and (x < 1 or x > 2) and x = a) or (ex x. x > c and (x < 1 or x > 2) and x = b)"
 SECOND = "(ex x. (x = a or x = b) and x > c and x < 1) or (ex x. (x = a or x = b) and x > c and x > 2)"
 MIDDLE = ("x", "a + b - 2*x")
-SOLVED = {"solved": [["x", "-a + x", 1]], "theory": NO_LEMMAS}
-NOWHERE = [step("linear equation solved", "ex a, x. x = a and x > a", "false", SOLVED)]
-BESIDE = [step("linear equation solved", "ex a, b, x. b <= 0 and x = a and x > a", "false", SOLVED)]
 
 VALUE_TAKEN = [
     ("ex x. x = a and b > 0", "b > 0", "true"),
@@ -72,20 +63,8 @@ NO_PARABOLA = [
 ]
 FREE = {"variable": "x", "theory": NO_LEMMAS}
 TAKEN = "value that is taken"
-BALLS, PLANE, QUADRICS = "two balls", "roots in a half-plane", "quadric in a quadric"
-CUBIC, ALONE = "cubic on an interval", "square of a variable alone"
-DISCS = "ex x, y. x^2 + y^2 <= b^2 and (x - a)^2 + y^2 <= c^2"
-GAP = "4*a^2 - 4*b^2 - 4*c^2"
-RADII = "4*b^2 >= 0 and 4*c^2 >= 0"
-TWO_BALLS = "4*a >= 0 and (4*b^2 - 4*a - 4 <= 0 or (4*b^2 - 4*a - 4)^2 - 64*a <= 0)"
-ROOTS = "x^2 - y^2 + b*x + c = 0 and 2*x*y + b*y = 0"
-INTERVAL = "ex x. x >= 0 and x <= 1 and x^3 + a*x^2 + b*x + c < 0"
-BOTH = "b + 3*c >= 0 and a + 2*b + 3*c >= 0"
-EDGES = "(c > 0 or b + 3*c > 0) and (a + 2*b + 3*c > 0 or a + b + c + 1 > 0)"
-D = "a^2*b^2 - 4*b^3 - 4*a^3*c + 18*a*b*c - 27*c^2"
-SOMEWHERE = f"not (c >= 0 and a + b + c + 1 >= 0 and ({BOTH} or {D} <= 0 and {EDGES}))"
+ALONE = "square of a variable alone"
 SQUARE = "ex x, y. x^2 + a*x + y <= 0 and y > b"
-OUTSIDE = "ex x, y. x^2 + y^2 <= a and x^2 + b*x + 2*y^2 > c"
 
 POSITION = "affine coordinates"
 
@@ -96,14 +75,6 @@ def values(*steps: tuple[str, dict[str, str]]) -> dict[str, Any]:
 
 
 TRUE_STEPS: list[Step] = [
-    of_theorem(BALLS, "ex x, y. x^2 + y^2 <= a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
-    of_theorem(BALLS, DISCS, f"{RADII} and ({GAP} - 8*b*c <= 0 or {GAP} + 8*b*c <= 0)"),
-    of_theorem(BALLS, DISCS, f"{RADII} and {GAP} - 8*b*c <= 0", "b >= 0 and c > 0"),
-    of_theorem(PLANE, f"ex x, y. {ROOTS} and x >= 0", "b <= 0 or c <= 0"),
-    of_theorem(PLANE, f"all x, y. not ({ROOTS}) or x < 0", "b > 0 and c > 0"),
-    of_theorem(PLANE, f"ex x, y. {ROOTS} and x <= 0", "b >= 0 or c <= 0"),
-    of_theorem(CUBIC, INTERVAL, SOMEWHERE),
-    of_theorem(CUBIC, INTERVAL.replace("x >= 0", "x > 0"), SOMEWHERE),
     (ALONE, SQUARE, "ex y. 4*y - a^2 <= 0 and y > b", {"variable": "x"}, "true"),
     (ALONE, SQUARE.replace("<=", "<"), "ex y. 4*y - a^2 < 0 and y > b", {"variable": "x"}, "true"),
     (ALONE, SQUARE.replace("a*x", "y*x"), "ex y. 4*y - y^2 <= 0 and y > b", {"variable": "x"}, "true"),
@@ -138,32 +109,9 @@ TRUE_STEPS: list[Step] = [
     ),
     *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_TAKEN),
     *((ALONE, before, after, {"variable": "x"}, "true") for before, after in PARABOLA),
-    (CONSTANT, "x = a and x > a", "false", {"steps": NOWHERE}, "true"),
-    (CONSTANT, "x /= a or x <= a", "true", {"steps": NOWHERE}, "true"),
-    (REDUNDANT, "b > 0 or (x = a and x > a)", "b > 0", {"at": [1], "steps": BESIDE}, "true"),
 ]
 
 FALSE_STEPS: list[Step] = [
-    of_theorem(BALLS, "ex x, y. x^2 + 2*y^2 <= a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
-    of_theorem(BALLS, "ex x, y. x^2 + y^2 < a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
-    of_theorem(BALLS, "ex x, y. x^2 + y^2 <= a or (x - b)^2 + y^2 <= 1", TWO_BALLS),
-    of_theorem(BALLS, "ex x, y. c*x^2 + c*y^2 <= a and (x - b)^2 + y^2 <= 1", TWO_BALLS),
-    of_theorem(BALLS, DISCS, f"{RADII} and {GAP} - 8*b*c <= 0"),
-    of_theorem(BALLS, DISCS, f"{RADII} and {GAP} + 8*b*c <= 0"),
-    of_theorem(BALLS, DISCS, "1 < 0"),
-    of_theorem(BALLS, "ex x. x^2 = 1 and (x - b)^2 = a", "a >= 0 and (b^2 - 1 - a)^2 - 4*a <= 0"),
-    of_theorem(PLANE, f"ex x, y. {ROOTS} and x >= 0", "b <= 0 or c < 0"),
-    of_theorem(PLANE, f"ex x, y. {ROOTS} and x <= 0", "b <= 0 or c <= 0"),
-    of_theorem(PLANE, f"ex x, y. {ROOTS} and x > 0", "b < 0 or c < 0"),
-    of_theorem(PLANE, f"ex x, y. {ROOTS} and a*x >= 0", "b <= 0 or c <= 0"),
-    of_theorem(PLANE, f"ex x, y. {ROOTS.replace('+ b*y', '- b*y')} and x >= 0", "b <= 0 or c <= 0"),
-    of_theorem(QUADRICS, OUTSIDE, "true"),
-    of_theorem(QUADRICS, OUTSIDE, "a > 0", "a > 0"),
-    of_theorem(CUBIC, INTERVAL.replace("c < 0", "c <= 0"), SOMEWHERE),
-    of_theorem(CUBIC, INTERVAL.replace("x <= 1", "x <= 2"), SOMEWHERE),
-    of_theorem(CUBIC, INTERVAL, SOMEWHERE.replace("27*c^2", "26*c^2")),
-    of_theorem(CUBIC, INTERVAL, SOMEWHERE.replace(f" and {EDGES}", "")),
-    of_theorem(CUBIC, INTERVAL, SOMEWHERE.replace("not (", "(")),
     (ALONE, SQUARE.replace("<=", "<"), "ex y. 4*y - a^2 <= 0 and y > b", {"variable": "x"}, "true"),
     (ALONE, SQUARE.replace("<=", ">="), "ex y. 4*y - a^2 <= 0 and y > b", {"variable": "x"}, "true"),
     (ALONE, SQUARE, "ex y. 4*y + a^2 <= 0 and y > b", {"variable": "x"}, "true"),
@@ -186,11 +134,6 @@ FALSE_STEPS: list[Step] = [
     (SHEAR, "ex x. a*x > b and a*x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a*x"}, "true"),
     *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_NOT_TAKEN),
     *((ALONE, before, after, {"variable": "x"}, "true") for before, after in NO_PARABOLA),
-    (CONSTANT, "x = a and x > a", "true", {"steps": NOWHERE}, "true"),
-    (CONSTANT, "x /= a or x <= a", "false", {"steps": NOWHERE}, "true"),
-    (CONSTANT, "x = a and x > a", "a > 0", {"steps": NOWHERE}, "true"),
-    (REDUNDANT, "b > 0 or (x = a and x > a)", "x = a and x > a", {"at": [0], "steps": NOWHERE}, "true"),
-    (REDUNDANT, "b > 0 or (x = a and x > a)", "b > 0", {"at": [1], "steps": []}, "true"),
 ]
 
 
