@@ -13,9 +13,9 @@ from qe.kernel.quantifiers import unordered
 from qe.kernel.step import Claim
 from qe.proof.entry import Entry
 from qe.proving.made import FRESH, Made
-from qe.proving.shifts import elimination_set, lower_first, raised
+from qe.proving.shifts import lower_first, raised
 from tests.tables import each
-from tests.unit.certify.claims import RING, formula, limits, written
+from tests.unit.certify.claims import RING, formula, limits
 
 ORDER = Ring.of((*RING.names, *FRESH))
 
@@ -62,24 +62,3 @@ def test_exponents_are_divided(text: str, exponent: int, after: str) -> None:
 def test_what_the_theorem_does_not_allow(text: str, exponent: int) -> None:
     with pytest.raises(CertificateRejected):
         lowered(text, exponent)
-
-
-def point(*coefficients: str) -> dict[str, Any]:
-    where = {"coefficients": list(coefficients), "branch": 0, "shift": 0}
-    return {"point": where, "guard": True, "formula": None, "settled": []}
-
-
-@each(("a >= 0", True), ("a > 0", False), ("true", False))
-def test_an_elimination_set_of_a_former_release_with_a_power(after: str, accepted: bool) -> None:
-    """x^2 = a was solved for x^2, with what that is at least."""
-    block = convert(formula("ex x. x^2 = a"), ORDER)
-    points = {"variable": "x", "exponent": 2, "side": 1, "quadratics": [], "points": [point("-a", "1")], "parts": [[]]}
-    given = claim(block, convert(formula(after), ORDER), points)
-    steps: Any = elimination_set(given, (), limits())
-    made = claim(block, given.after, {"steps": steps})
-    if accepted:
-        RULES["steps"](made, (), limits())
-    else:
-        with pytest.raises(CertificateRejected):
-            RULES["steps"](made, (), limits())
-    assert written("true") is True
