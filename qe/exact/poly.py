@@ -94,16 +94,13 @@ class Ring:
 
     def combination(self, coefficients: Mapping[tuple[str, ...], int]) -> Poly:
         """The sum of multiples, not by zero, of products of names, each of which is sorted."""
-        return Poly(self, self.summed(coefficients))
-
-    def summed(self, coefficients: Mapping[tuple[str, ...], int]) -> fmpz_mpoly:
-        """The same in FLINT."""
         if len(self._products) > MOST_CACHED:
             self._products.clear()
         parts = [self._product(names) * c for names, c in coefficients.items()]
         while len(parts) > _FEW:  # a sum that grows by one term at a time is copied as often
             parts = [*map(add, parts[::2], parts[1::2]), *parts[len(parts) & ~1 :]]
-        return reduce(add, parts)
+        support = {self.index[name] for names in coefficients for name in names}
+        return self.element(reduce(add, parts), support)
 
     def _product(self, names: tuple[str, ...]) -> fmpz_mpoly:
         """The product of the variables with these names."""

@@ -8,11 +8,9 @@ what is not simple arithmetic is done in a ring of these alone.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
-from math import gcd
 
 from flint import fmpz_mpoly, fmpz_poly
 
@@ -49,25 +47,22 @@ class WideRing(Ring, more_than=WIDE):
 
     def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
         """The polynomial with these terms; see ``Poly.sparse_terms``."""
-        sums: dict[tuple[tuple[int, int], ...], int] = {}
+        sums: dict[tuple[str, ...], int] = {}
         for powers, c in terms:
-            sums[powers] = sums[powers] + c if powers in sums else c
-        kept = [term for term in sums.items() if term[1]]
-        return ListedPoly(self, kept) if kept else self.constant(0)
+            names = tuple(self.names[i] for i, k in powers for _ in range(k))
+            sums[names] = sums.get(names, 0) + c
+        kept = {names: c for names, c in sums.items() if c}
+        return self.combination(kept) if kept else self.constant(0)
 
     def combination(self, coefficients: Mapping[tuple[str, ...], int]) -> Poly:
-        index, terms = self.index, list[SparseTerm]()
-        for names, c in coefficients.items():
-            if len(names) == 1:
-                terms.append((((index[names[0]], 1),), c))
-            else:
-                counts = Counter(map(index.__getitem__, names)) if names else {}
-                terms.append((tuple(sorted(counts.items())), c))
-        return ListedPoly(self, terms)
+        made = super().combination(coefficients)
+        if isinstance(made, WidePoly):
+            made.__dict__["variables"] = tuple(sorted(made.support))  # nothing cancels
+        return made
 
     def hash_of(self, p: Poly) -> int:
         """The hash of a polynomial of the ring: equal for equal values."""
-        return hash((p.variables, *(p.coefficient_list() if isinstance(p, ListedPoly) else map(int, p.p.coeffs()))))
+        return hash((p.variables, *map(int, p.p.coeffs())))
 
 
 class WidePoly(Poly):
@@ -255,53 +250,6 @@ class WidePoly(Poly):
         if self.variables not in ((i,), ()):
             raise InternalError("a polynomial in one variable expected")
         return fmpz_poly([c.constant_value() for c in self.coefficients(i)])
-
-
-class ListedPoly(WidePoly):
-    """A polynomial whose terms are known, none of them zero; its value in FLINT is made when it is asked for.
-
-    Long scripts have a hundred thousand linear forms, of which many are never asked for it.
-    """
-
-    __slots__ = ()
-
-    def __init__(self, ring: Ring, terms: Iterable[SparseTerm]) -> None:
-        self.ring, self._hash = ring, None
-        # from the main variable down: the lexicographic order, highest first
-        self.__dict__["_terms"] = tuple(sorted(terms, key=lambda term: term[0][::-1], reverse=True))
-
-    @cached_property
-    def p(self) -> fmpz_mpoly:
-        names = self.ring.names
-        return self.ring.summed({tuple(names[i] for i, k in powers for _ in range(k)): c for powers, c in self._terms})
-
-    @cached_property
-    def variables(self) -> tuple[int, ...]:
-        return tuple(sorted({i for powers, _ in self._terms for i, _ in powers}))
-
-    @cached_property
-    def support(self) -> frozenset[int]:
-        return frozenset(self.variables)
-
-    @cached_property
-    def total_degree(self) -> int:
-        return max(sum(k for _, k in powers) for powers, _ in self._terms)
-
-    @cached_property
-    def _normal(self) -> tuple[int, Poly]:
-        values = self.coefficient_list()
-        unit = gcd(*values) if values[0] > 0 else -gcd(*values)
-        return unit, (self if unit == 1 else ListedPoly(self.ring, [(powers, c // unit) for powers, c in self._terms]))
-
-    def coefficient_list(self) -> list[int]:
-        """The coefficients, that of the highest term first."""
-        return [c for _, c in self._terms]
-
-    def __bool__(self) -> bool:
-        return True
-
-    def term_count(self) -> int:
-        return len(self._terms)
 
 
 @cache
