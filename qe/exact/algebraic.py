@@ -15,7 +15,7 @@ from flint import arb, fmpq, fmpz_poly
 from qe import arguments
 from qe.arguments import shown
 from qe.errors import InputError, Unable
-from qe.exact.algebraic_text import format_root, in_latex
+from qe.exact.algebraic_text import format_root
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
@@ -259,9 +259,6 @@ class RealAlgebraic(PythonNumber):
 
     def __repr__(self) -> str:
         return f"RealAlgebraic({self} ≈ {float(self):.6g})"
-
-    def _repr_latex_(self) -> str:
-        return f"${in_latex(self)}$"
 
 
 def _restore(coefficients: tuple[int, ...], index: int) -> RealAlgebraic:

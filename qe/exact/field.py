@@ -15,7 +15,6 @@ from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots, select_root
-from qe.exact.algebraic_text import in_latex
 from qe.exact.balls import FIRST_PRECISION, precision
 from qe.exact.python_number import PythonNumber, exact_operand
 from qe.exact.radicals import format_number
@@ -259,9 +258,6 @@ class FieldElement(PythonNumber):
 
     def __repr__(self) -> str:
         return f"FieldElement({self} ≈ {float(self):.6g})"
-
-    def _repr_latex_(self) -> str:
-        return f"${in_latex(self)}$"
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.field, self.coefficients)

@@ -17,6 +17,7 @@ from fractions import Fraction
 from numbers import Rational, Real
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
+from qe.exact.algebraic_text import in_latex
 from qe.services import SymPyForm
 
 if TYPE_CHECKING:
@@ -139,6 +140,9 @@ class PythonNumber(SymPyForm):
 
     def __init_subclass__(cls) -> None:
         Real.register(cls)
+
+    def _repr_latex_(self) -> str:
+        return f"${in_latex(self)}$"
 
     # --- order -------------------------------------------------------------------------------------------
     __lt__ = _comparison(operator.lt)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from flint import fmpz
+from qe.exact.digits import digits
 
 SparseTerm = tuple[tuple[tuple[int, int], ...], int]
 """((variable, exponent > 0), ...), ascending, and the coefficient."""
@@ -12,16 +12,18 @@ SparseTerm = tuple[tuple[tuple[int, int], ...], int]
 
 def sparse_text(terms: Iterable[SparseTerm], names: Sequence[str] | Mapping[int, str]) -> str:
     """Text such as ``x^2 - 2*x*y + 1``; the order of terms is ``in_order``."""
+    power = "{}^{}".format
+    return sum_text((c, [power(names[i], k) if k > 1 else names[i] for i, k in used]) for used, c in in_order(terms))
+
+
+def sum_text(terms: Iterable[tuple[int, list[str]]], times: str = "*") -> str:
+    """The sum of products, each of an integer and texts."""
     pieces: list[str] = []
-    for exponents, coefficient in in_order(terms):
-        used = ((names[i], k) for i, k in exponents)
-        powers = [name if k == 1 else f"{name}^{k}" for name, k in used]
+    for coefficient, factors in terms:
         magnitude = abs(coefficient)
-        body = "*".join(([str(fmpz(magnitude))] if magnitude != 1 or not powers else []) + powers)
-        if not pieces:
-            pieces.append(f"-{body}" if coefficient < 0 else body)
-        else:
-            pieces.append(f"{'-' if coefficient < 0 else '+'} {body}")
+        body = times.join(([digits(magnitude)] if magnitude != 1 or not factors else []) + factors)
+        sign = ("-" if coefficient < 0 else "") if not pieces else ("- " if coefficient < 0 else "+ ")
+        pieces.append(sign + body)
     return " ".join(pieces) or "0"
 
 

@@ -10,7 +10,7 @@ from typing import Protocol
 
 from qe.exact.digits import digits as digits
 from qe.exact.ring import Poly
-from qe.exact.sparse_text import in_order
+from qe.exact.sparse_text import in_order, sum_text
 from qe.formula.relation import Relation
 
 Monomial = tuple[int, tuple[tuple[str, int], ...]]
@@ -73,15 +73,10 @@ class Written(Protocol):
 
 def polynomial(parts: list[Monomial], notation: Notation) -> str:
     """Text such as ``x^2 - 2*x*y + 1``."""
-    pieces: list[str] = []
-    for coefficient, powers in parts:
-        factors = [notation.power(notation.name(n), k) if k > 1 else notation.name(n) for n, k in powers]
-        magnitude = abs(coefficient)
-        if magnitude != 1 or not factors:
-            factors.insert(0, digits(magnitude))
-        sign = ("-" if coefficient < 0 else "") if not pieces else ("- " if coefficient < 0 else "+ ")
-        pieces.append(sign + notation.times.join(factors))
-    return " ".join(pieces) or "0"
+    power, name = notation.power, notation.name
+    return sum_text(
+        ((c, [power(name(n), k) if k > 1 else name(n) for n, k in used]) for c, used in parts), notation.times
+    )
 
 
 def bracketed(part: Written, brackets: tuple[str, str], notation: Notation) -> str:

@@ -13,13 +13,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
+from qe.exact.number import simplest
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.features import is_short
 from qe.formula.syntax import Atom, Atomic, Constant, Formula, Relation
 from qe.formula.traverse import atoms, bound_variables, conjuncts, map_atoms
 from qe.rules.block_context import BlockContext, Found
-from qe.rules.lift import Assignment, Solve, Value, root, simplest, value_at
+from qe.rules.lift import Assignment, Solve, Value, root, value_at
 from qe.rules.step import StepKind
 from qe.rules.tree import Lifted, Pending
 

@@ -17,6 +17,7 @@ from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots, real_roots
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.field import NumberField
+from qe.exact.number import simplest
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
@@ -102,13 +103,6 @@ def holds_at(formula: Formula, assignment: Assignment) -> bool:
         case Not(arg):
             return not holds_at(arg, assignment)
     raise Unable("a branch that still has quantifiers or root atoms cannot be evaluated at a point")
-
-
-def simplest(value: Value) -> Value:
-    """A rational number as a Fraction, whatever its representation."""
-    if isinstance(value, RealAlgebraic) and value.is_rational:
-        return value.as_fraction()
-    return value
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 from qe.api.eliminate import eliminate
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.number import simplest
 from qe.exact.ring import Ring
 from qe.formula.syntax import TRUE
 from qe.io.text import read
-from qe.rules.lift import Solve, holds_at, perturb, root, sign_at, simplest, value_at
+from qe.rules.lift import Solve, holds_at, perturb, root, sign_at, value_at
 from tests.tables import each
 
 RING = Ring.of(("x", "y"))
