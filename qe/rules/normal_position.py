@@ -34,10 +34,9 @@ _ROUNDS = 6  # how often all steps are tried one after the other
 _TRIED = 2  # numbers c that are tried for one variable and one direction
 _SMALL = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)
 _LEAST, _GAIN = 0.1, 0.15
-"""A step makes what it changes shorter by the first part, and all of them everything by the second, or each step what it
-changes by the second: as they are given, they
-may have symmetries that new axes break (measured on 199 problems of the literature, of which 58 are changed, and on the
-same ones after x -> x + y, of which 9 in 10 are)."""
+"""Every step makes what it changes shorter by the first part, and all steps together the whole by the second; or else
+every step what it changes by the second. As they are given, polynomials may have symmetries that new axes break (of 199
+problems of the literature 58 are changed; of the same ones after x -> x + y nine in ten)."""
 
 Terms = Sequence[tuple[tuple[int, ...], int]]
 """Exponents and coefficients."""
