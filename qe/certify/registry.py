@@ -8,17 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from typing import TYPE_CHECKING
 
-from qe.expert.rules import EXPERT
 from qe.kernel.primitives import PRIMITIVES
 from qe.kernel.step import Check
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP = "bezier_qe.rules"
 
 
 @cache
 def _entry_points() -> dict[str, EntryPoint]:
+    from importlib.metadata import entry_points
+
     return {point.name: point for point in entry_points(group=GROUP)}
 
 
@@ -29,23 +33,29 @@ def brought(rule: str) -> Check | None:
     return None if point is None else point.load()
 
 
+@cache
+def _expert() -> Mapping[str, Check]:
+    """The second ring, loaded where the first has no such rule."""
+    from qe.expert.rules import EXPERT
+
+    return EXPERT
+
+
 class _Rules(Mapping[str, Check]):
     """Listed are those of ``qe``; a rule that an installed package brings is loaded when it is named."""
 
-    def __init__(self, listed: Mapping[str, Check]) -> None:
-        self._listed = listed
-
     def __getitem__(self, rule: str) -> Check:
-        check = self._listed.get(rule) or brought(rule)
+        check = PRIMITIVES.get(rule) or _expert().get(rule) or brought(rule)
         if check is None:
             raise KeyError(rule)
         return check
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._listed)
+        yield from PRIMITIVES
+        yield from _expert()
 
     def __len__(self) -> int:
-        return len(self._listed)
+        return len(PRIMITIVES) + len(_expert())
 
 
-RULES: Mapping[str, Check] = _Rules({**PRIMITIVES, **EXPERT})
+RULES: Mapping[str, Check] = _Rules()

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from qe.decomposition.formulas import Undistinguished
-from qe.elimination.cad import short_where
 from qe.elimination.protocol import Context, Outcome
 from qe.engine.redundant import is_cheap_sentence, without_redundant_parts
 from qe.engine.run import answered, outcome_for
@@ -206,6 +205,8 @@ def _read_off_cells(formula: Formula, known: Formula, question: Formula, context
     """A shorter form that is right on the cells of a decomposition on which the assumptions hold."""
     if not allows(context.options, Method.CAD) or not is_small(conj((known, formula))):
         return formula
+    from qe.elimination.cad import short_where
+
     shorter = short_where(formula, known, context.options, context.budget.part(SHORT_WORK))
     if length(shorter) >= length(formula):
         return formula

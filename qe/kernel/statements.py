@@ -13,11 +13,9 @@ and ``dense``: every condition has all variables of the block.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from itertools import product
 from typing import Any
 
@@ -66,6 +64,9 @@ def rows() -> Mapping[str, Row]:
 
 
 def _files() -> Iterator[dict[str, Any]]:
+    import tomllib
+    from importlib.resources import files
+
     for file in sorted(files("qe").joinpath("theorems").iterdir(), key=lambda f: f.name):
         if file.name.endswith(".toml"):
             yield tomllib.loads(file.read_text("utf-8"))

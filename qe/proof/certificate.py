@@ -6,7 +6,6 @@ defence, the SHA-256 digest of its content: the checker looks at the meaning of 
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -283,6 +282,8 @@ class Proof:
 
 def digest(whole: dict[str, Json]) -> str:
     """The SHA-256 digest of the canonical text of everything but the digest itself."""
+    import hashlib
+
     content = {k: v for k, v in whole.items() if k != "digest"}
     canonical = json.dumps(content, ensure_ascii=True, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(canonical.encode()).hexdigest()

@@ -21,7 +21,6 @@ from qe.proof.certificate import Certificate, Kind, Proof
 from qe.proof.derivation import put_together
 from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
-from qe.proving.linear import substitution_certificate
 
 Result = TypeVar("Result")
 
@@ -57,6 +56,8 @@ def certificate_of(
         step = made.single_step
         assert isinstance(step["evidence"], dict)
         return Proof(Certificate.step(str(step["rule"]), (), question, outcome.formula, step["evidence"]))
+    from qe.proving.linear import substitution_certificate  # with all that finds lemmas
+
     linear = substitution_certificate(question, outcome.formula)
     if linear is not None or not options.certify:
         return Proof(linear, reason="" if linear is not None else NOT_WANTED)
