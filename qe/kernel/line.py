@@ -89,8 +89,8 @@ class Sample:
 
     def sign(self, f: Poly) -> int:
         """The sign of a polynomial at the point."""
-        for level in self.rationals:
-            f = self._put(f, level)
+        for level in f.variables:
+            f = self._put(f, level) if level in self.rationals else f
         return self.point.sign(f)
 
     def sign_of(self, product: Product) -> int:
