@@ -4,21 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Container
 
+from qe.io.sharing import inside
 from qe.io.surface import (
     MAX_DEPTH,
     Apply,
     Choice,
-    Comparison,
-    Equivalence,
-    Every,
     Fail,
-    Implication,
     Meet,
-    Minus,
     Name,
-    Negation,
-    Node,
     Number,
+    Part,
     Polynomial,
     Power,
     Product,
@@ -26,8 +21,6 @@ from qe.io.surface import (
     Quantity,
     Quotient,
     Root,
-    Some,
-    Sum,
     Term,
 )
 
@@ -60,74 +53,41 @@ class Names:
         """The names, each once: free ones in order of appearance, then bound ones in order of quantification."""
         return [*self.free, *(name for name in self.bound if name not in self.free)]
 
-    def node(self, node: Node, scope: frozenset[str], depth: int) -> None:
+    def part(self, part: Part, scope: frozenset[str] = frozenset(), depth: int = 0) -> None:
+        """Collect what stands in a node or term under quantifiers that bind the names of ``scope``."""
         if depth > MAX_DEPTH:
             raise self.fail(f"nested more than {MAX_DEPTH} levels deep", -1)
-        match node:
-            case Comparison():
-                for side in node.sides:
-                    self.term(side, scope, depth + 1)
-            case Every(parts) | Some(parts):
-                for part in parts:
-                    self.node(part, scope, depth + 1)
-            case Negation(part):
-                self.node(part, scope, depth + 1)
-            case Implication(left, right) | Equivalence(left, right):
-                self.node(left, scope, depth + 1)
-                self.node(right, scope, depth + 1)
-            case Quantification(_, names, body):
-                self.bound.update(dict.fromkeys(names))
-                self.node(body, scope.union(names), depth + 1)
-            case Quantity(_, count, name, body):
-                self.bound[name] = None
-                self.special += count + 2
-                self.node(body, scope | {name}, depth + 1)
-
-    def term(self, term: Term, scope: frozenset[str], depth: int) -> None:
-        if depth > MAX_DEPTH:
-            raise self.fail(f"nested more than {MAX_DEPTH} levels deep", -1)
-        match term:
+        children = inside(part)
+        match part:
             case Name(name, at):
                 self.name(name, at, scope)
             case Polynomial(terms):
                 for name in dict.fromkeys(name for names in terms for name in names):
                     self.name(name, -1, scope)
-            case Sum(parts):
-                for part in parts:
-                    self.term(part, scope, depth + 1)
             case Product() | Quotient():
-                first, links = chain(term)
-                self.term(first, scope, depth + 1)
-                for link in links:
-                    self.special += isinstance(link, Quotient) and not isinstance(link.right, Number)
-                    self.term(link.right, scope, depth + 1)
-            case Power(base, exponent, _):
+                first, links = chain(part)
+                self.special += sum(isinstance(x, Quotient) and not isinstance(x.right, Number) for x in links)
+                children = [first, *(link.right for link in links)]
+            case Power(_, exponent, _):
                 self.special += not isinstance(exponent, Number) or exponent.value.denominator > 1
-                self.term(base, scope, depth + 1)
-                self.term(exponent, scope, depth + 1)
-            case Minus(part):
-                self.term(part, scope, depth + 1)
+            case Quantification(_, names, _):
+                self.bound.update(dict.fromkeys(names))
+                scope = scope.union(names)
+            case Quantity(_, count, name, _):
+                self.bound[name] = None
+                self.special += count + 2
+                scope |= {name}
             case Root():
-                self.root(term, scope, depth)
-            case Apply(_, arguments):
                 self.special += 1
-                for argument in arguments:
-                    self.term(argument, scope, depth + 1)
-            case Choice(condition, then, other):
+                children = [part.poly]
+            case Apply() | Choice():
                 self.special += 1
-                self.node(condition, scope, depth + 1)
-                self.term(then, scope, depth + 1)
-                if other is not None:
-                    self.term(other, scope, depth + 1)
+        for child in children:
+            self.part(child, scope, depth + 1)
+        if isinstance(part, Root) and part.variable is not None and part.variable not in scope:
+            self.free[part.variable] = None  # met in the polynomial, or refused later
 
     def name(self, name: str, at: int, scope: frozenset[str]) -> None:
         if name not in scope:
             self.meet(name, at)
             self.free[name] = None
-
-    def root(self, term: Root, scope: frozenset[str], depth: int) -> None:
-        """A root in a variable binds it, and may stand for a number of its own."""
-        self.special += 1
-        self.term(term.poly, scope, depth + 1)
-        if term.variable is not None and term.variable not in scope:  # met in the polynomial, or refused later
-            self.free[term.variable] = None

@@ -15,6 +15,7 @@ from qe.errors import InputError, NoTruthValue
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement
 from qe.formula import build
+from qe.formula.operators import Connected
 from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import atoms
 from qe.io import surface as s
@@ -26,6 +27,25 @@ from qe.io.terms import Value
 
 def _fail(message: str, _: int) -> InputError:
     return InputError(message)
+
+
+Operation = Callable[["Expression", object], "Expression"]
+
+
+def _operator(build_term: Callable[[s.Term, s.Term], s.Term]) -> tuple[Operation, Operation]:
+    """An operator of terms, and the same where the expression stands on its right."""
+
+    def operation(self: Expression, other: object) -> Expression:
+        return Expression(build_term(self.term, _term(other)))
+
+    def reflected(self: Expression, other: object) -> Expression:
+        return Expression(build_term(_term(other), self.term))
+
+    return operation, reflected
+
+
+def _comparison(relation: Relation) -> Callable[[Expression, object], Statement]:
+    return lambda self, other: _compared(self, relation, other)
 
 
 class Expression:
@@ -53,32 +73,11 @@ class Expression:
         """The polynomial that it is. Raises ``InputError`` where it is none."""
         return lower_term(self.term, _fail)
 
-    def __add__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Sum([a, b]), self, other)
-
-    def __radd__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Sum([a, b]), other, self)
-
-    def __sub__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Sum([a, s.Minus(b)]), self, other)
-
-    def __rsub__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Sum([a, s.Minus(b)]), other, self)
-
-    def __mul__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Product(a, b, -1), self, other)
-
-    def __rmul__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Product(a, b, -1), other, self)
-
-    def __truediv__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Quotient(a, b, -1), self, other)
-
-    def __rtruediv__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Quotient(a, b, -1), other, self)
-
-    def __pow__(self, other: object) -> Expression:
-        return _joined(lambda a, b: s.Power(a, b, -1), self, other)
+    __add__, __radd__ = _operator(lambda a, b: s.Sum([a, b]))
+    __sub__, __rsub__ = _operator(lambda a, b: s.Sum([a, s.Minus(b)]))
+    __mul__, __rmul__ = _operator(lambda a, b: s.Product(a, b, -1))
+    __truediv__, __rtruediv__ = _operator(lambda a, b: s.Quotient(a, b, -1))
+    __pow__ = _operator(lambda a, b: s.Power(a, b, -1))[0]
 
     def __neg__(self) -> Expression:
         return Expression(s.Minus(self.term))
@@ -89,17 +88,8 @@ class Expression:
     def __abs__(self) -> Expression:
         return Expression(s.Apply("abs", [self.term], -1))
 
-    def __lt__(self, other: object) -> Statement:
-        return _compared(self, Relation.LT, other)
-
-    def __le__(self, other: object) -> Statement:
-        return _compared(self, Relation.LE, other)
-
-    def __gt__(self, other: object) -> Statement:
-        return _compared(self, Relation.GT, other)
-
-    def __ge__(self, other: object) -> Statement:
-        return _compared(self, Relation.GE, other)
+    __lt__, __le__ = _comparison(Relation.LT), _comparison(Relation.LE)
+    __gt__, __ge__ = _comparison(Relation.GT), _comparison(Relation.GE)
 
     def equals(self, other: object) -> Statement:
         """The equation ``self = other``."""
@@ -126,7 +116,7 @@ class Expression:
         return term_to_sympy(self.term)
 
 
-class Statement:
+class Statement(Connected):
     """A formula that Python's operators connect: ``f & g``, ``f | g``, ``~f``, ``f >> g`` (implication)."""
 
     __slots__ = ("formula",)
@@ -148,33 +138,6 @@ class Statement:
     def substitute(self, values: Mapping[Any, object]) -> Statement:
         """The statement with numbers or terms in the place of free variables, all at once."""
         return Statement(substituted(self.formula, values))
-
-    def __and__(self, other: object) -> Statement:
-        return _connected("and", self, other)
-
-    def __rand__(self, other: object) -> Statement:
-        return _connected("and", other, self)
-
-    def __or__(self, other: object) -> Statement:
-        return _connected("or", self, other)
-
-    def __ror__(self, other: object) -> Statement:
-        return _connected("or", other, self)
-
-    def __xor__(self, other: object) -> Statement:
-        return _connected("xor", self, other)
-
-    def __rxor__(self, other: object) -> Statement:
-        return _connected("xor", other, self)
-
-    def __rshift__(self, other: object) -> Statement:
-        return _connected("implies", self, other)
-
-    def __rrshift__(self, other: object) -> Statement:
-        return _connected("implies", other, self)
-
-    def __invert__(self) -> Statement:
-        return Statement(build.neg(self.formula))
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, bool):
@@ -274,16 +237,8 @@ def connected(way: str, *parts: object) -> Formula | Statement:
     return Statement(made) if any(isinstance(part, Statement) for part in parts) else made
 
 
-def _connected(way: str, left: object, right: object) -> Statement:
-    return Statement(_JOINS[way](*over_one_ring(_formula(left), _formula(right))))
-
-
-def _joined(build_term: Callable[[s.Term, s.Term], s.Term], left: object, right: object) -> Expression:
-    return Expression(build_term(_term(left), _term(right)))
-
-
-def _compared(left: object, relation: Relation, right: object) -> Statement:
-    return Statement(lower(s.Comparison([_term(left), _term(right)], [relation], -1), _fail))
+def _compared(left: Expression, relation: Relation, right: object) -> Statement:
+    return Statement(lower(s.Comparison([left.term, _term(right)], [relation], -1), _fail))
 
 
 def graph_of(name: str, given: object) -> Formula:

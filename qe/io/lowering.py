@@ -76,7 +76,7 @@ def lower(
     refuse_long(parts)
     collected = Names(fail, meet)
     if not shared:
-        collected.node(node, frozenset(), 0)
+        collected.part(node)
     elif len(parts) > 1:
         contained = set(map(id, parts))
         shared = [part for part in shared if id(part) in contained]
@@ -113,7 +113,7 @@ def _lowered(
 def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None) -> Value:
     """The polynomial over Q that ``term`` means, in the ring of its names."""
     collected = Names(fail, meet)
-    collected.term(term, frozenset(), 0)
+    collected.part(term)
     names = collected.all()
     try:
         value = Lowering(Ring.of(names), fail, [], None).values.term(term)

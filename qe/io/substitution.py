@@ -74,7 +74,7 @@ def _put(formula: Formula, i: int, top: Poly, bottom: Poly) -> Formula:
 
 def _names(term: s.Term) -> list[str]:
     collected = Names(_fail, lambda name, at: None)
-    collected.term(term, frozenset(), 0)
+    collected.part(term)
     return collected.all()
 
 

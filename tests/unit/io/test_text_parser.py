@@ -190,7 +190,7 @@ def fail(message: str, at: int) -> InputError:
 def collected(text: str) -> tuple[list[str], list[str], list[str], int, list[tuple[str, int]]]:
     met: list[tuple[str, int]] = []
     names = Names(fail, lambda name, at: met.append((name, at)))
-    names.node(TextParser(text).whole(), frozenset(), 0)
+    names.part(TextParser(text).whole())
     return list(names.free), list(names.bound), names.all(), names.special, met
 
 
@@ -239,9 +239,9 @@ def deep_term(depth: int) -> s.Node:
 @each(nested, deep_term)
 def test_depth_is_bounded(made: object) -> None:
     names = Names(fail, lambda name, at: None)
-    names.node(made(s.MAX_DEPTH - 1), frozenset(), 0)  # type: ignore[operator]
+    names.part(made(s.MAX_DEPTH - 1))  # type: ignore[operator]
     with pytest.raises(InputError, match="nested more than 120 levels"):
-        names.node(made(s.MAX_DEPTH), frozenset(), 0)  # type: ignore[operator]
+        names.part(made(s.MAX_DEPTH))  # type: ignore[operator]
 
 
 @each(
@@ -260,7 +260,7 @@ def test_every_kind_of_term_counts_a_level(step: object) -> None:
     for _ in range(s.MAX_DEPTH + 1):
         term = step(term)  # type: ignore[operator]
     with pytest.raises(InputError, match="nested"):
-        Names(fail, lambda name, at: None).term(term, frozenset(), 0)
+        Names(fail, lambda name, at: None).part(term)
 
 
 def test_long_chains_are_no_depth() -> None:
@@ -273,7 +273,7 @@ def test_long_chains_are_no_depth() -> None:
     first, found = chain(term)
     assert first == s.Name("x", 0) and [id(link) for link in found] == [id(link) for link in links]
     names = Names(fail, lambda name, at: None)
-    names.term(term, frozenset(), 0)
+    names.part(term)
     assert names.all() == ["x", "y0", "y1", "y2"] and names.special == 2500
 
 
