@@ -219,6 +219,23 @@ def invariance(
     return BUG if any(pair.after.status is Status.WRONG for pair in pairs) else OK
 
 
+@app.command(short_help="Time of all over that of the arithmetic.")
+def overhead(
+    only: Annotated[list[str] | None, typer.Option(help="Problems whose name or set contains this.")] = None,
+    suites: Annotated[list[str] | None, typer.Option("--suite", help="A suite; default: literature.")] = None,
+    repeat: Annotated[int, typer.Option(help="Repetitions; the median counts.", min=1)] = 3,
+) -> None:
+    """Count and time FLINT's operations during problems; print the time of all over theirs.
+
+    By default four problems of the literature in which lifting takes most of the time.
+    """
+    from experiments.overhead import PROBLEMS, measured
+
+    for part in only or PROBLEMS:
+        for problem in [p for name in suites or ["literature"] for p in _problems(name, part)]:
+            print(measured(problem, repeat), flush=True)
+
+
 @app.command(short_help="Run SMT-LIB scripts through qe smt.")
 def scripts(
     folder: Annotated[Path, typer.Argument(exists=True, file_okay=False, help="A folder of SMT-LIB scripts (*.smt2).")],

@@ -9,7 +9,7 @@ from __future__ import annotations
 import copyreg
 import pickle
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from typing import cast
@@ -87,6 +87,7 @@ class Lifter:
     _relevant: dict[tuple[int, int], tuple[int, ...]] = field(default_factory=dict)
     _interned: dict[Node, Node] = field(default_factory=dict)
     _alive: list[Node] = field(default_factory=list)
+    _leaves_of: dict[int, dict[str, Cell]] = field(default_factory=dict)
 
     def run(self, point: Point, node: Node) -> Cell:
         """The root cell, decomposed as far as needed."""
@@ -116,7 +117,7 @@ class Lifter:
         """The factors that a stack decomposes by: all of the level, or the ones mentioned on the last level."""
         if level < len(self.plan.levels) - 1 or not self._leaves(level):
             return tuple(range(len(self.plan.levels[level])))
-        return tuple(sorted(mentioned(node, level)))
+        return self._mentioned(node, level)
 
     def _stack_over(self, point: Point, used: tuple[int, ...], dimension: int) -> SampledStack:
         """The stack over a cell, by the sections of the level's constraint alone if it has one."""
@@ -149,9 +150,10 @@ class Lifter:
         stop = quantifier == "E"
         truth = not stop if quantifier else None
         ordered = bool(quantifier) or self.anytime
-        positions = _visiting_order(size, level >= self.plan.sectors_from) if ordered else list(range(size))
+        last = level == len(self.plan.levels) - 1
+        positions = _visiting_order(size, level >= self.plan.sectors_from) if ordered else range(size)
         try:
-            cells_in = self._bisected if self.plan.bisects(level) else self._cells
+            cells_in = self._leaf_cells if last else self._bisected if self.plan.bisects(level) else self._cells
             for position, cell in cells_in(point, node, used, stack, positions, dimension):
                 cells[position] = cell
                 if (quantifier and cell.truth is stop and self.plan.partial) or self._ended:
@@ -167,8 +169,35 @@ class Lifter:
             self._collect_lacking(point, level, stack.nullified)
         return Cell(signs, truth, Stack(used, stack.sectors, stack.sections, complete))
 
+    def _leaf_cells(
+        self,
+        point: Point,
+        node: Node,
+        used: tuple[int, ...],
+        stack: SampledStack,
+        positions: Sequence[int],
+        dimension: int,
+    ) -> Iterator[tuple[int, Cell]]:
+        """As ``_cells`` on the last level: one cell for all places where the signs decide the same node."""
+        met = self._leaves_of.setdefault(id(node), {})
+        for position in positions:
+            text = stack.texts[position]
+            cell = met.get(text)
+            if cell is None:
+                child = self._specialised(node, point.depth, used, text)
+                cell = self._known(point.depth, stack, position, child)
+                assert cell is not None
+                met[text] = cell
+            yield position, cell
+
     def _cells(
-        self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, positions: list[int], dimension: int
+        self,
+        point: Point,
+        node: Node,
+        used: tuple[int, ...],
+        stack: SampledStack,
+        positions: Sequence[int],
+        dimension: int,
     ) -> Iterator[tuple[int, Cell]]:
         """The cells at these positions of a stack, one after the other."""
         helpers = self.budget.helpers
@@ -184,7 +213,13 @@ class Lifter:
             yield position, known
 
     def _bisected(
-        self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, positions: list[int], dimension: int
+        self,
+        point: Point,
+        node: Node,
+        used: tuple[int, ...],
+        stack: SampledStack,
+        positions: Sequence[int],
+        dimension: int,
     ) -> Iterator[tuple[int, Cell]]:
         """As ``_cells`` for all positions, by bisection: what follows from the direction is not decomposed."""
         low, high = -1, len(positions)
@@ -217,7 +252,13 @@ class Lifter:
         return count >= SPREAD_WIDTH * helpers.width or level == SPREAD_LEVELS - 1
 
     def _spread(
-        self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, positions: list[int], dimension: int
+        self,
+        point: Point,
+        node: Node,
+        used: tuple[int, ...],
+        stack: SampledStack,
+        positions: Sequence[int],
+        dimension: int,
     ) -> Iterator[tuple[int, Cell]]:
         """As ``_cells``, by the helpers of the budget. What they do beyond the last cell that is taken is lost."""
         helpers = self.budget.helpers
@@ -252,12 +293,17 @@ class Lifter:
             if any(f.level == level and f not in factors for f, _ in derivative.factors()[1]):
                 self.lacking[derivative] = None
 
-    def _specialised(self, node: Node, level: int, used: tuple[int, ...], text: str) -> Node:
-        """``specialise`` by the signs in ``text``; equal nodes are one object, and equal questions are asked once."""
+    def _mentioned(self, node: Node, level: int) -> tuple[int, ...]:
+        """The factors of the level that a node still depends on."""
         relevant = self._relevant.get((id(node), level))
         if relevant is None:
             self._alive.append(node)  # ids stay unique while the node lives
             relevant = self._relevant[id(node), level] = tuple(sorted(mentioned(node, level)))
+        return relevant
+
+    def _specialised(self, node: Node, level: int, used: tuple[int, ...], text: str) -> Node:
+        """``specialise`` by the signs in ``text``; equal nodes are one object, and equal questions are asked once."""
+        relevant = self._mentioned(node, level)
         # the used factors are either the relevant ones or all of the level, so that j is the place of factor j
         spoken = text if len(relevant) == len(used) else "".join([text[j] for j in relevant])
         key = (id(node), level, spoken)
@@ -315,11 +361,12 @@ def _plan(written: bytes) -> Plan:
     return plan
 
 
-def _visiting_order(size: int, sectors_only: bool) -> list[int]:
+@lru_cache(maxsize=256)
+def _visiting_order(size: int, sectors_only: bool) -> Sequence[int]:
     """Sectors first (rational samples are cheap), middle ones first, then sections likewise."""
     middle = size // 2
     positions = range(0, size, 2) if sectors_only else range(size)
-    return sorted(positions, key=lambda p: (p % 2, abs(p - middle)))
+    return tuple(sorted(positions, key=lambda p: (p % 2, abs(p - middle))))
 
 
 def sector_levels(matrix: Formula, quantifiers: tuple[str, ...]) -> int:

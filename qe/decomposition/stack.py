@@ -14,7 +14,7 @@ from math import prod
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
-from qe.proof.cells import CHARACTER_OF
+from qe.proof.cells import CHARACTER_OF, SIGN_OF
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ class SampledStack:
     restricted: bool
 
     @property
-    def sectors(self) -> tuple[Fraction, ...]:
+    def sectors(self) -> Sequence[Fraction]:
         """A rational sample of every sector."""
         return self.isolation.samples
 
@@ -44,8 +44,8 @@ class SampledStack:
 def stack_over(point: Point, factors: Sequence[Poly], used: tuple[int, ...], *, lazard: bool) -> SampledStack:
     """The stack of the used factors of a level over the point."""
     found = isolate_over(point, tuple(factors[j] for j in used), lazard=lazard)
-    sections = tuple(tuple(sorted(used[j] for j in s.members)) for s in found.sections)
-    return SampledStack(found, found.sign_texts(), sections, tuple(used[j] for j in found.nullified), {}, False)
+    sections = tuple(tuple([used[j] for j in s.members]) for s in found.sections)
+    return SampledStack(found, found.texts, sections, tuple(used[j] for j in found.nullified), {}, False)
 
 
 def restricted_stack(
@@ -80,8 +80,7 @@ def _common_stack(
     for sector, section in enumerate(fine.sections):
         if min(section.members) < len(own):
             for place, j in enumerate(others, start=len(own)):
-                # a factor without a root on the section has the same sign on it as in the sector below
-                found[j].append(0 if place in section.members else fine.signs[place][sector])
+                found[j].append(SIGN_OF[fine.texts[2 * sector + 1][place]])
     return found
 
 

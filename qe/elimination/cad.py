@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from qe.decomposition.decompose import Decomposed, Tactics, decompose
 from qe.decomposition.follows import follows
@@ -64,19 +66,19 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
         if truth is (proof.quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
     log.work("cad", question.prenex.figures | _figures(first, time.perf_counter() - start))
-    certificate = Certificate.cells(proof, answer, formula) if follows(answer, proof) else None
-    log.step("cells", formula, answer, evidence=kept(formula, certificate, options))
+    make = partial(Certificate.cells, proof, answer, formula) if follows(answer, proof) else None
+    log.step("cells", formula, answer, evidence=kept(formula, make, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = formula.ring
-    return Outcome(answer if ring is None else convert(answer, ring), values, certificate)
+    return Outcome(answer if ring is None else convert(answer, ring), values, make=make)
 
 
-def kept(formula: Formula, certificate: Certificate | None, options: Options) -> dict[str, object]:
+def kept(formula: Formula, make: Callable[[], Certificate] | None, options: Options) -> dict[str, object]:
     """The evidence of a step by a table of a formula: tables are large, and made again where it is wanted later."""
-    if certificate is None:
+    if make is None:
         return {}
     again = OnDemand(Repeated(decomposed, formula, options))
-    return {"proof": {"certificate": certificate} if options.certify else again}
+    return {"proof": {"certificate": make()} if options.certify else again}
 
 
 def certificate_for(formula: Formula, answer: Formula, options: Options, budget: Budget) -> Certificate | None:

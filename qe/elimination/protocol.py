@@ -28,7 +28,8 @@ class Outcome:
     """``formula`` is equivalent to the problem over R; it may keep quantifiers that a method could not remove.
 
     ``witness``: exact values for the block's variables that make a true existential sentence true, or a false universal
-    one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one.
+    one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one;
+    ``make``: what makes it where one is asked for, since tables are large.
     ``order``: that of the free variables in which the formula was read off, where that matters to who goes on.
     ``back``: where a method reduces the problem to another question, which is ``formula`` then: the outcome for the
     problem from the one for that question. ``shortest``: no part of the formula can be left out.
@@ -47,6 +48,7 @@ class Outcome:
     log: RunLog = field(default_factory=RunLog)
     back: Callable[[Outcome], Outcome] | None = None
     shortest: bool = False
+    make: Callable[[], Certificate] | None = None
 
     def nested(self, question: Formula) -> Nested:
         """How the answer to the question was derived, as evidence of a step to another."""

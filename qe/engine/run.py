@@ -90,7 +90,8 @@ class _Run:
         if problem is not None and outcome.witness is not None:
             values = {v: outcome.witness.get(v, Fraction(0)) for v in problem.variables}
             outcome = replace(outcome, witness=values)
-        if outcome.certificate is not None or outcome.shortest or isinstance(outcome.formula, Constant):
+        made = outcome.certificate is not None or outcome.make is not None
+        if made or outcome.shortest or isinstance(outcome.formula, Constant):
             return outcome
         return replace(outcome, formula=shortened(outcome.formula, self.context(), Start(question, mark), self.short))
 

@@ -52,7 +52,7 @@ def read_off_cells(formula: Formula, context: Context, start: Start | None) -> F
     outcome = decomposed(formula, context.options, context.budget.part(work), RunLog())
     if length(outcome.formula) >= length(formula):
         return formula
-    evidence = kept(formula, outcome.certificate, context.options)
+    evidence = kept(formula, outcome.make, context.options)
     return context.log.step("shorter", formula, outcome.formula, evidence=evidence)
 
 

@@ -8,10 +8,12 @@ factor over Q, or by a greatest common divisor over the tower), never by toleran
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from operator import attrgetter
 from types import MappingProxyType
+from typing import TypeAlias, overload
 
 from flint import arb, fmpq, fmpz_poly
 
@@ -25,53 +27,140 @@ from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point, common_fibre
 from qe.exact.univariate import from_univariate
 
-_CHARACTER = {1: ord("+"), -1: ord("-"), 0: ord("0")}
+_CHARACTER = {1: "+", -1: "-", 0: "0"}
+_FLIPPED = {"+": "-", "-": "+", "0": "0"}
+
+
+Root: TypeAlias = tuple[fmpq | RealAlgebraic | FibreRoot, fmpq, fmpq, bool]
+"""A value between two rational numbers, and whether its multiplicity is known to be even."""
 
 
 @dataclass(slots=True)
 class Section:
-    """A root: its value and the indices of the polynomials that vanish there."""
+    """A root: its value and the indices of the polynomials that vanish there. ``low`` and ``high``: rational ends of an
+    enclosure to ``bits``."""
 
     value: fmpq | RealAlgebraic | FibreRoot
     members: list[int]
+    low: fmpq
+    high: fmpq
     bits: int = FIRST_PRECISION
     even: tuple[int, ...] = ()
-    """The integer polynomials of which it is a root of even multiplicity."""
+    """The polynomials of which it is a root of even multiplicity, where that is known (``Over.simple``)."""
+    is_shared: bool = False
+    """Whether stacks over other points have the value, too: their refinements of it must not depend on each other."""
+
+    def own(self) -> fmpq | RealAlgebraic | FibreRoot:
+        """The value, with enclosures that only this stack and what stands over it refine."""
+        if self.is_shared and isinstance(self.value, RealAlgebraic):
+            self.value, self.is_shared = self.value.copy(), False
+        return self.value
 
     def ball(self, bits: int | None = None) -> arb:
         """An enclosure of the value, to ``bits`` or to as many as it was isolated with."""
-        value = self.value
+        value = self.own()
         return arb(value) if isinstance(value, fmpq) else value.ball(bits or self.bits)
+
+    def refine(self, bits: int) -> None:
+        """Enclose the value to so many bits."""
+        value, self.bits = self.own(), bits
+        if not isinstance(value, fmpq):
+            x = value.ball(bits)
+            self.low, self.high = lower_end(x), upper_end(x)
 
 
 @dataclass(frozen=True, slots=True)
+class Over:
+    """A polynomial over a point: its shape there, and its roots, ``is_shared`` with other points.
+
+    ``simple``: the sign below all roots where the multiplicities of the roots are known to be odd but for those of
+    ``Section.even``, else None: then the sign is asked for in every sector.
+    """
+
+    shape: Shape
+    roots: tuple[Root, ...]
+    simple: int | None
+    is_shared: bool = False
+
+    def sections(self, j: int) -> list[Section]:
+        """The roots as sections that are those of polynomial ``j`` alone."""
+        first, shared = FIRST_PRECISION, self.is_shared
+        return [
+            Section(value, [j], low, high, first, (j,) if even else (), shared) for value, low, high, even in self.roots
+        ]
+
+
+class Samples(Sequence[Fraction]):
+    """A rational number in every sector between and around sections with these ends, made when somebody looks: of most
+    stacks of a last level nobody does."""
+
+    __slots__ = ("_ends", "_values")
+
+    def __init__(self, ends: list[tuple[fmpq, fmpq]]) -> None:
+        self._ends = ends
+        self._values: tuple[Fraction, ...] | None = None if ends else (Fraction(0),)
+
+    @property
+    def values(self) -> tuple[Fraction, ...]:
+        """The numbers, ascending."""
+        if self._values is None:
+            first, last = self._ends[0][0], self._ends[-1][1]
+            between = (simplest_between(a[1], b[0]) for a, b in itertools.pairwise(self._ends))
+            below, above = Fraction(0), Fraction(0)
+            if first <= 0:
+                below = Fraction(int(first.ceil()) - 1)
+            if last >= 0:
+                above = Fraction(int(last.floor()) + 1)
+            self._values = (below, *(Fraction(int(q.p), int(q.q)) for q in between), above)
+        return self._values
+
+    def __len__(self) -> int:
+        return len(self._ends) + 1
+
+    @overload
+    def __getitem__(self, k: int) -> Fraction: ...
+
+    @overload
+    def __getitem__(self, k: slice) -> tuple[Fraction, ...]: ...
+
+    def __getitem__(self, k: int | slice) -> Fraction | tuple[Fraction, ...]:
+        return self.values[k]
+
+    def __eq__(self, other: object) -> bool:
+        return self.values == (other.values if isinstance(other, Samples) else other)
+
+    def __hash__(self) -> int:
+        return hash(self.values)
+
+    def __reduce__(self) -> tuple[type[tuple[Fraction, ...]], tuple[tuple[Fraction, ...]]]:
+        return tuple, (self.values,)
+
+
 class Isolation:
     """A stack over a point: m sections, and m+1 rational sector samples between and around them.
 
-    Its cells have positions from below: sector k is 2*k, section k is 2*k+1. ``signs[j][s]`` is the sign of polynomial
-    j at sector sample s; ``nullified``: the polynomials that are zero on the whole line (sign 0 throughout).
+    Its cells have positions from below: sector k is 2*k, section k is 2*k+1. ``samples``: those of the sectors.
+    ``texts``: the signs of the polynomials on every cell of the stack from below, one character of ``+-0`` each;
+    ``nullified``: the polynomials that are zero on the whole line (sign 0 throughout).
     """
 
-    point: Point
-    polys: tuple[Poly, ...]
-    sections: tuple[Section, ...]
-    sectors: tuple[fmpq, ...]
-    signs: tuple[tuple[int, ...], ...]
-    nullified: tuple[int, ...] = field(default=())
-    shapes: Mapping[Poly, Shape] = field(default_factory=dict, compare=False, repr=False)  # over the point
+    __slots__ = ("nullified", "point", "polys", "samples", "sections", "shapes", "texts")
 
-    @property
-    def samples(self) -> tuple[Fraction, ...]:
-        """The sector samples as fractions."""
-        return tuple(Fraction(int(q.p), int(q.q)) for q in self.sectors)
+    def __init__(self, point: Point, polys: tuple[Poly, ...], over: Sequence[Over], sections: list[Section]) -> None:
+        self.point, self.polys, self.sections = point, polys, tuple(sections)
+        self.nullified = tuple(j for j, each in enumerate(over) if each.shape is None)
+        self.shapes: Mapping[Poly, Over] = dict(zip(polys, over, strict=True))  # over the point
+        self.samples = Samples([(section.low, section.high) for section in sections])
+        self.texts = self._texts(over)
 
     def sample(self, position: int) -> Point:
         """The sample point of a cell."""
         half = position // 2
         if not position % 2:
-            return self.point.extend(self.sectors[half])
+            value = self.samples[half]
+            return self.point.extend(fmpq(value.numerator, value.denominator))
         section = self.sections[half]
-        return self.point.extend(section.value, tuple(self.polys[j] for j in section.members))
+        return self.point.extend(section.own(), tuple(self.polys[j] for j in section.members))
 
     def place_of(self, q: Fraction) -> tuple[int, bool]:
         """How many sections lie below a rational number, and whether the next one is that number."""
@@ -85,31 +174,44 @@ class Isolation:
 
     def sign_maps(self) -> list[dict[Poly, int]]:
         """The signs of the polynomials on every cell, from below."""
-        return [self._signs(text) for text in self.sign_texts()]
+        return [self._signs(text) for text in self.texts]
 
     def signs_at(self, position: int) -> dict[Poly, int]:
         """The signs of the polynomials on one cell."""
-        return self._signs(self.sign_texts()[position])
+        return self._signs(self.texts[position])
 
     def _signs(self, text: str) -> dict[Poly, int]:
         return dict(zip(self.polys, map({"+": 1, "-": -1, "0": 0}.__getitem__, text), strict=True))
 
-    def sign_texts(self) -> list[str]:
-        """The signs of the polynomials on every cell of the stack from below, one character of ``+-0`` each."""
-        current = bytearray(_CHARACTER[row[0]] for row in self.signs)
-        texts = [current.decode()]
+    def _texts(self, over: Sequence[Over]) -> list[str]:
+        """A polynomial changes its sign at roots of odd multiplicity, and only there; see ``Over.simple``."""
+
+        def in_sector(j: int, sector: int) -> str:
+            shape = over[j].shape
+            if not isinstance(shape, Fibre):
+                return "0"
+            sample = self.samples[sector]
+            return _CHARACTER[shape.value_sign(fmpq(sample.numerator, sample.denominator))]
+
+        current = [in_sector(j, 0) if o.simple is None else _CHARACTER[o.simple] for j, o in enumerate(over)]
+        texts = ["".join(current)]
         for sector, section in enumerate(self.sections, start=1):
-            for j in section.members:
-                current[j] = _CHARACTER[0]
-            texts.append(current.decode())
+            above = []
             for j in section.members:  # only their signs change
-                current[j] = _CHARACTER[self.signs[j][sector]]
-            texts.append(current.decode())
+                if over[j].simple is None:
+                    above.append(in_sector(j, sector))
+                else:
+                    above.append(current[j] if j in section.even else _FLIPPED[current[j]])
+                current[j] = "0"
+            texts.append("".join(current))
+            for j, character in zip(section.members, above, strict=True):
+                current[j] = character
+            texts.append("".join(current))
         return texts
 
 
 def isolate_over(
-    point: Point, polys: tuple[Poly, ...], *, lazard: bool = False, known: Mapping[Poly, Shape] = MappingProxyType({})
+    point: Point, polys: tuple[Poly, ...], *, lazard: bool = False, known: Mapping[Poly, Over] = MappingProxyType({})
 ) -> Isolation:
     """The stack of ``polys`` (in variables up to ``point.depth``) over the point.
 
@@ -117,93 +219,105 @@ def isolate_over(
     evaluation (McCallum, Parusiński, Păunescu 2019); its sign is 0 all the same. ``known``: the ``shapes`` of another
     stack over the point, whose roots are not looked for again.
     """
-    var = point.depth
-    shapes: list[Shape] = []
-    nullified: list[int] = []
-    sections: dict[tuple[object, int], Section] = {}
-    loose: list[Section] = []
-    for j, f in enumerate(polys):
-        shape = known[f] if f in known else _specialise(point, f, var)
-        shapes.append(shape)
-        if shape is None:
-            nullified.append(j)
-            if lazard:
-                residual = lazard_evaluation(point, f)
-                _collect(point, var, j, _specialise(point, residual, var), sections, loose)
-        else:
-            _collect(point, var, j, shape, sections, loose)
-    ordered = _separate(point, [*sections.values(), *loose], polys, shapes)
-    sectors = _sector_samples(ordered)
-    changes: list[list[int]] = [[0] for _ in polys]  # the sectors that begin at one of its roots, and the first
-    for sector, section in enumerate(ordered, start=1):
-        for j in section.members:
-            changes[j].append(-sector if j in section.even else sector)
-    signs = tuple(_signs(shape, sectors, own) for shape, own in zip(shapes, changes, strict=True))
-    given = dict(zip(polys, shapes, strict=True))
-    return Isolation(point, polys, tuple(ordered), tuple(sectors), signs, tuple(nullified), given)
+    over = [known.get(f) or _over(point, f) for f in polys]
+    sections: list[Section] = []
+    for j, each in enumerate(over):
+        source = _over(point, lazard_evaluation(point, polys[j])) if each.shape is None and lazard else each
+        sections += source.sections(j)
+    return Isolation(point, polys, over, _separate(point, sections, polys, over))
 
 
-def _specialise(point: Point, f: Poly, var: int) -> Shape:
-    """f over the point: integer univariate, a fibre with algebraic coefficients, or None if nullified."""
-    univariate = point.univariate(f, var)
-    if univariate is not None:
-        return univariate or None
-    g = point.reduce(f)
-    fibre = Fibre(point, var, g.coefficients(var), f)
-    with precision(EXACT_FROM + 16):
-        certain = any(not point.enclose(c, EXACT_FROM).contains(0) for c in fibre.coefficients)
-    return fibre if certain or fibre.strip() else None
+def _over(point: Point, f: Poly) -> Over:
+    """f over the point. Where it is one variable with rational coordinates the result is kept at the lowest point on
+    which it depends: it stands over all others above that."""
+    var, place = point.depth, point.supporting(f)
+    key = (f, var)
+    kept: Over | None = None if place is point else place.memory.get(key)
+    if kept is None:
+        univariate = place.univariate(f, var)
+        if univariate is None:
+            return _of_fibre(point, f, var)
+        kept = _of_integers(univariate, is_shared=place is not point)
+        if place is not point:
+            place.memory[key] = kept
+    return kept
 
 
-def _collect(
-    point: Point,
-    var: int,
-    j: int,
-    shape: Shape,
-    sections: dict[tuple[object, int], Section],
-    loose: list[Section],
-) -> None:
-    if shape is None:
-        return
-    if isinstance(shape, Fibre):
-        loose += [Section(FibreRoot(shape, i), [j]) for i in range(len(shape.roots()))]
-        return
+_NULLIFIED = Over(None, (), None)
+
+
+def _of_integers(shape: fmpz_poly, *, is_shared: bool) -> Over:
+    if not shape:
+        return _NULLIFIED
+    roots: list[Root] = []
+    odd = 0
     for q, multiplicity in irreducible_factors(shape):
-        values = [fmpq(-q[0], q[1])] if q.degree() == 1 else irreducible_roots(q)
-        for index, value in enumerate(values):
-            section = sections.setdefault((tuple(q.coeffs()), index), Section(value, []))
-            section.members.append(j)
-            if multiplicity % 2 == 0:
-                section.even = (*section.even, j)
+        even, before = multiplicity % 2 == 0, len(roots)
+        if q.degree() == 1:
+            value = fmpq(-q[0], q[1])
+            roots.append((value, value, value, even))
+        else:
+            roots += [(root, *_ends(root), even) for root in irreducible_roots(q)]
+        odd += 0 if even else len(roots) - before
+    return Over(shape, tuple(roots), 1 if (shape.leading_coefficient() > 0) == (odd % 2 == 0) else -1, is_shared)
 
 
-def _separate(point: Point, sections: list[Section], polys: Sequence[Poly], shapes: Sequence[Shape]) -> list[Section]:
+def _ends(value: RealAlgebraic | FibreRoot) -> tuple[fmpq, fmpq]:
+    x = value.ball()
+    return lower_end(x), upper_end(x)
+
+
+def _of_fibre(point: Point, f: Poly, var: int) -> Over:
+    fibre = Fibre(point, var, point.reduce(f).coefficients(var), f)
+    certain = fibre.coefficients[-1].is_constant
+    if not certain:
+        with precision(EXACT_FROM + 16):
+            certain = any(not point.enclose(c, EXACT_FROM).contains(0) for c in fibre.coefficients)
+    if not certain and not fibre.strip():
+        return _NULLIFIED
+    values = [FibreRoot(fibre, i) for i in range(len(fibre.roots()))]
+    roots = [(value, *_ends(value), False) for value in values]
+    top = fibre.top_of_simple
+    return Over(fibre, tuple(roots), None if top is None else top * (-1) ** len(roots))
+
+
+def _separate(point: Point, sections: list[Section], polys: Sequence[Poly], over: Sequence[Over]) -> list[Section]:
     """Sort, refining until neighbours are certainly apart, or merging where they are provably equal."""
-    if len(sections) < 2:
-        return sections
     apart: set[tuple[int, int]] = set()  # pairs proved different: only refine
-    balls: dict[int, arb] = {}
-    moved: Iterable[Section] = sections
     while True:
-        with precision(max(s.bits for s in sections) + 16):
-            balls |= {id(s): s.ball() for s in moved}
-        sections.sort(key=lambda s: balls[id(s)].mid())
-        clash = next(((a, b) for a, b in itertools.pairwise(sections) if not balls[id(a)] < balls[id(b)]), None)
+        sections.sort(key=attrgetter("low"))
+        clash = next(((a, b) for a, b in itertools.pairwise(sections) if not a.high < b.low), None)
         if clash is None:
             return sections
-        a, b = moved = clash
+        a, b = clash
         key = (id(a), id(b)) if id(a) < id(b) else (id(b), id(a))
-        if min(a.bits, b.bits) >= EXACT_FROM and key not in apart:
-            i, j = a.members[0], b.members[0]
-            left, right = Side(a.ball, polys[i], shapes[i]), Side(b.ball, polys[j], shapes[j])
-            equal = seen_to_be_equal(point, left, right)
-            if equal or (equal is None and _equal(point, a, b)):
+        if key not in apart:
+            equal = _same_number(a.value, b.value)
+            if equal is None and min(a.bits, b.bits) >= EXACT_FROM:
+                i, j = a.members[0], b.members[0]
+                left, right = Side(a.ball, polys[i], over[i].shape), Side(b.ball, polys[j], over[j].shape)
+                equal = seen_to_be_equal(point, left, right)
+                equal = _equal(point, a, b) if equal is None else equal
+            if equal:
                 kept, lost = (a, b) if _weight(a) <= _weight(b) else (b, a)
                 sections.remove(lost)
                 kept.members, kept.even = sorted({*a.members, *b.members}), (*a.even, *b.even)
                 continue
-            apart.add(key)
-        a.bits = b.bits = 2 * max(a.bits, b.bits)
+            if equal is not None:
+                apart.add(key)
+        bits = 2 * max(a.bits, b.bits)
+        with precision(bits + 16):
+            a.refine(bits)
+            b.refine(bits)
+
+
+def _same_number(a: fmpq | RealAlgebraic | FibreRoot, b: fmpq | RealAlgebraic | FibreRoot) -> bool | None:
+    """Whether two numbers are the same; None where one of them is a root of a fibre."""
+    if isinstance(a, FibreRoot) or isinstance(b, FibreRoot):
+        return None
+    if isinstance(a, fmpq) or isinstance(b, fmpq):
+        return bool(a == b) if isinstance(a, fmpq) and isinstance(b, fmpq) else False
+    return a.index == b.index and bool(a.poly == b.poly)
 
 
 def _weight(s: Section) -> int:
@@ -217,8 +331,6 @@ def _weight(s: Section) -> int:
 
 def _equal(point: Point, a: Section, b: Section) -> bool:
     """Whether two sections over the point are the same number."""
-    if not isinstance(a.value, FibreRoot) and not isinstance(b.value, FibreRoot):
-        return False  # roots of different irreducible integer polynomials, or different roots of one
     left, right = _as_fibre_root(point, a.value), _as_fibre_root(point, b.value)
     if left.fibre is right.fibre:
         return left.index == right.index
@@ -290,39 +402,6 @@ def _as_fibre_root(point: Point, value: fmpq | RealAlgebraic | FibreRoot) -> Fib
     fibre = Fibre(point, point.depth, f.coefficients(point.depth))
     fibre.exact = True
     return FibreRoot(fibre, number.index)
-
-
-def _sector_samples(sections: list[Section]) -> list[fmpq]:
-    if not sections:
-        return [fmpq(0)]
-    ends = [
-        (s.value, s.value) if isinstance(s.value, fmpq) else (lower_end(x := s.ball()), upper_end(x)) for s in sections
-    ]
-    first, last = ends[0][0], ends[-1][1]
-    samples = [fmpq(0) if first > 0 else fmpq(first.ceil() - 1)]
-    samples += [simplest_between(a[1], b[0]) for a, b in itertools.pairwise(ends)]
-    samples.append(fmpq(0) if last < 0 else fmpq(last.floor() + 1))
-    return samples
-
-
-def _signs(shape: Shape, sectors: list[fmpq], changes: list[int]) -> tuple[int, ...]:
-    """The signs of a polynomial at the sector samples: an integer polynomial changes its sign at roots of odd
-    multiplicity (``changes``: minus the sector above a root of even one); of others one evaluation between two roots.
-    """
-    if shape is None:
-        return (0,) * len(sectors)
-    signs: list[int] = []
-    sign = 1
-    if isinstance(shape, fmpz_poly):
-        odd = sum(change > 0 for change in changes)
-        sign = 1 if (shape.leading_coefficient() > 0) == (odd % 2 == 0) else -1
-    for first, end in itertools.pairwise((*changes, len(sectors))):
-        if isinstance(shape, fmpz_poly):
-            sign = -sign if first > 0 else sign
-        else:
-            sign = shape.value_sign(sectors[first])
-        signs += [sign] * (abs(end) - abs(first))
-    return tuple(signs)
 
 
 def root_between(point: Point, f: Poly, lo: Fraction, hi: Fraction) -> fmpq | RealAlgebraic | FibreRoot:

@@ -40,6 +40,7 @@ class Point:
         "_vanishing",
         "algebraic",
         "depth",
+        "memory",
         "parent",
         "ring",
         "value",
@@ -68,6 +69,7 @@ class Point:
         self._reduced: dict[Poly, Poly] = {}
         self._tower: Tower | None = None
         self._balls: dict[tuple[int, int], arb] = {}
+        self.memory: dict[tuple[Poly, int], Any] = {}  # what stands over this point in lines over longer ones
         self._given: dict[int, Fraction] | None = None  # where all rational coordinates are substituted at once
 
     @staticmethod
@@ -92,6 +94,11 @@ class Point:
             assert point.parent is not None
             point = point.parent
         return point
+
+    def supporting(self, f: Poly) -> Point:
+        """The shortest of the points below and this on which it depends what f, in one variable more, is over it."""
+        below = [i for i in f.variables if i < self.depth]
+        return self if self._given is not None else self.ancestor(below[-1] + 1 if below else 0)
 
     def coordinate(self, i: int) -> fmpq | RealAlgebraic | FibreRoot:
         """The stored value of variable i."""
@@ -262,7 +269,20 @@ class Fibre:
     ``origin``: the polynomial of all variables that this is over the point, where it is one.
     """
 
-    __slots__ = ("_bits", "_most", "_roots", "_values", "coefficients", "exact", "origin", "point", "source", "var")
+    __slots__ = (
+        "_bits",
+        "_divided",
+        "_most",
+        "_roots",
+        "_top",
+        "_values",
+        "coefficients",
+        "exact",
+        "origin",
+        "point",
+        "source",
+        "var",
+    )
 
     def __init__(self, point: Point, var: int, coefficients: tuple[Poly, ...], origin: Poly | None = None) -> None:
         self.point, self.var, self.coefficients, self.origin = point, var, coefficients, origin
@@ -271,6 +291,8 @@ class Fibre:
         self._roots: list[arb] | None = None
         self._bits = 0
         self._values: dict[int, arb_poly] = {}
+        self._divided = False  # whether ``coefficients`` are those of a proper divisor
+        self._top: int | None = None
         self._most: int | None = None  # the number of distinct complex roots is at most this, if less than the degree
 
     def value_sign(self, q: fmpq) -> int:
@@ -284,6 +306,12 @@ class Fibre:
             if sign is not None:
                 return sign
             bits *= 2
+
+    @property
+    def top_of_simple(self) -> int | None:
+        """The sign above all roots, once these are isolated and all of them, the complex ones too, are simple."""
+        simple = self._most is None and not self._divided and self._roots is not None
+        return self._top if simple else None
 
     def vanishes_at(self, q: fmpq) -> bool:
         """Whether a rational number is a root, exactly."""
@@ -333,6 +361,7 @@ class Fibre:
             self._values[bits] = arb_poly(c)
         if c[-1].contains(0):
             return None
+        self._top = 1 if c[-1] > 0 else -1
         if len(c) <= 2:
             return [] if len(c) == 1 else [-c[0] / c[1]]
         if len(c) == 3:
@@ -346,7 +375,7 @@ class Fibre:
         if len(self.coefficients) == 3:
             c0, c1, c2 = self.coefficients
             if self.point.vanishes(c1 * c1 - 4 * (c2 * c0)):
-                self.coefficients = (c1, 2 * c2)
+                self.coefficients, self._divided = (c1, 2 * c2), True
         if len(self.coefficients) <= 3:
             return
         degree = len(self.coefficients) - 1
@@ -357,7 +386,7 @@ class Fibre:
             self._most = most
 
     def _make_squarefree(self) -> None:
-        self._most = None
+        self._most, self._divided = None, True
         self.coefficients = squarefree_coefficients(self.coefficients, self.point.vanishes, self.point.watch)
 
     def element(self) -> fmpq_mpoly:

@@ -151,7 +151,7 @@ def line_over(sample: Sample, stack: Stack, constraint: frozenset[int], fail: Fa
     the sections are theirs alone. ``evaluates``: a factor that is zero there has the roots of its Lazard evaluation.
     """
     _check_shape(stack, len(sample.lists.lists[sample.depth]), fail)
-    at, first = values(stack.sectors), [i for i in stack.used if i in constraint]
+    at, first = values(tuple(stack.sectors)), [i for i in stack.used if i in constraint]
     branches = {i: _branch(i, sample, stack, at, fail, evaluates) for i in first}
     if not first or any(b.zero for b in branches.values()):
         branches |= {i: _branch(i, sample, stack, at, fail, evaluates) for i in stack.used if i not in branches}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import math
 import os
 import pickle
@@ -38,6 +39,7 @@ def serve() -> None:
         for name in pickle.load(questions):
             with contextlib.suppress(ImportError):
                 import_module(name)
+        gc.freeze()  # what is loaded stays: no collection looks at it again
         _send(home, ("ready", None))
         while True:
             work, deadline, memory, general = pickle.load(questions)

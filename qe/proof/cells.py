@@ -11,6 +11,7 @@ one real root over the cell's sample between those two numbers.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -36,7 +37,7 @@ class Stack:
     """
 
     used: tuple[int, ...]
-    sectors: tuple[Fraction, ...]
+    sectors: Sequence[Fraction]
     sections: tuple[tuple[int, ...], ...]
     cells: tuple[Cell, ...]
 

@@ -25,6 +25,8 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
     inner = frozenset(bound_variables(body))
     if not is_short(body, _TERMS) or inner & set(body.free) or all(a.poly.total_degree < 2 for a in atoms(body)):
         return None
+    if len(variables) == 1 and not inner and not _are_monomials(variables[0], body):
+        return None
     weights = homogeneous_weights(body, frozenset(variables) | inner)
     known = context.facts.extended(conjuncts(body))
     ring = next(atoms(body)).poly.ring
@@ -49,3 +51,9 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
         "values": values,
     }
     return Found(StepKind.SCALING, f"{name} in {sorted(signs)}", Any(nodes), proof)
+
+
+def _are_monomials(name: str, body: Formula) -> bool:
+    """Whether every polynomial is a power of the variable times what is free of it."""
+    polys = [a.poly for a in atoms(body)]
+    return all(not any(p.coefficients(p.ring.index[name])[:-1]) for p in polys)

@@ -20,6 +20,8 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
     Lift: x = 0.
     """
     inner = frozenset(bound_variables(body))
+    if len(variables) == 1 and not inner:
+        return None  # which occurs
     if not is_short(body, _TERMS) or inner & set(body.free):
         return None
     direction, ring, polys = constant_direction(body, frozenset(variables) | inner), body.ring, polynomials(body)

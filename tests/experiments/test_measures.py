@@ -12,16 +12,18 @@ from pathlib import Path
 import pytest
 
 from bezier.obstacles.clearance import Contact, examine
-from experiments import arm_figures, cli, invariance, measures, small, speedup
+from experiments import arm_figures, cli, invariance, measures, overhead, small, speedup
 from experiments.adapters.answer import Limits
 from experiments.arm_figures import Figure, table
 from experiments.bench_obstacles import hidden_contacts, many_pairs, sampled_contact
 from experiments.cli import main
 from experiments.figures import Picture, pictures
 from experiments.page import html
+from experiments.problem import Problem
 from experiments.results import Appender, Comparison, Log, Status
 from experiments.speedup import Speedup, measured
 from experiments.tables import page
+from qe.exact.ring import Poly
 from tests.experiments.test_results import result
 from tests.tables import each
 
@@ -223,6 +225,14 @@ def test_rewritings_are_the_same_for_a_seed_and_measured() -> None:
     table = "\n".join(invariance.lines(pairs))
     assert [pair.after.status for pair in pairs] == [pairs[0].before.status, Status.CRASH]
     assert "generated: 1 rewritings, 0 lost" in table and "broken: 1 rewritings, 1 lost (circle-line)" in table
+
+
+def test_core_operations_are_counted_and_never_take_longer_than_all() -> None:
+    problem = Problem("here", "circle", "ex y. x^2 + y^2 = 1 and x*y^3 > a and y < x")
+    found = overhead.measured(problem, repeat=1)
+    assert found.ratio > 1 and f"all/core {found.ratio:5.1f}" in str(found)
+    assert found.core["evaluations"][0] > found.core["factorisations"][0] > 0
+    assert not hasattr(Poly.resultant, "__closure__") or Poly.resultant.__closure__ is None  # nothing is left watched
 
 
 def test_the_bounds_of_the_speedup() -> None:

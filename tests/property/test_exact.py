@@ -18,6 +18,7 @@ from qe.exact.isolate import simplest_between
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
 from qe.kernel.arithmetic.sturm import count_real_roots
+from qe.proof.cells import SIGN_OF
 from tests.strategies import integers
 from tests.strategies import rationals as any_rationals
 from tests.tables import each
@@ -120,7 +121,7 @@ def test_stacks_over_algebraic_points(a: RealAlgebraic, f_terms: dict, g_terms: 
     assume(all(p.degree(1) for p in polys))
     point = Point.of(ring, [a])
     found = isolate_over(point, tuple(polys))
-    samples = [RealAlgebraic.rational(q) for q in found.sectors]
+    samples = [RealAlgebraic.rational(q) for q in found.samples]
     for k, section in enumerate(found.sections):
         above = point.extend(section.value)
         number = above.number(1)
@@ -129,8 +130,8 @@ def test_stacks_over_algebraic_points(a: RealAlgebraic, f_terms: dict, g_terms: 
         for j, p in enumerate(polys):
             assert (above.sign(p) == 0) == (j in section.members or j in found.nullified)
     for j, p in enumerate(polys):
-        for k, q in enumerate(found.sectors):
-            assert point.extend(q).sign(p) == found.signs[j][k]
+        for k, q in enumerate(found.samples):
+            assert point.extend(RealAlgebraic.rational(q)).sign(p) == SIGN_OF[found.texts[2 * k][j]]
 
 
 SMALL = st.integers(-9, 9)

@@ -110,7 +110,7 @@ def test_roots_closer_than_floating_point_resolution_are_separated() -> None:
     second = (x - big) ** 2 * big**20 - 3
     found = isolate_over(Point(ring), (first, second))
     assert [s.members for s in found.sections] == [[1], [0], [0], [1]]
-    assert found.sectors == tuple(sorted(set(found.sectors)))
+    assert found.samples == tuple(sorted(set(found.samples)))
 
 
 BOUND = 20.0

@@ -121,7 +121,7 @@ def test_sector_samples_between_roots_that_were_found_to_more_bits_than_asked() 
         first, second = tiny * y - 1, 2**bits * tiny * y - 2**bits - 1
         found = isolate_over(point, (first, second))
         assert sorted(s.members[0] for s in found.sections) == [0, 1]
-        assert all(a < b for a, b in pairwise(found.sectors))
+        assert all(a < b for a, b in pairwise(found.samples))
 
 
 def test_a_factor_of_a_norm_was_looked_for_at_the_precision_of_a_float() -> None:
@@ -172,7 +172,7 @@ def test_a_root_over_an_algebraic_point_is_compared_with_rationals_exactly(whole
 def test_stacks_of_close_roots_have_samples_between_them_and_pass_the_checker(f: Poly, g: Poly) -> None:
     found = isolate_over(Point(LINE), (f, g))
     numbers = [Point(LINE).extend(s.value).number(0) for s in found.sections]
-    samples = [Fraction(int(q.p), int(q.q)) for q in found.sectors]
+    samples = list(found.samples)
     for low, number, high in zip(samples, numbers, samples[1:], strict=False):
         assert low < number < high
     for a, b in pairwise(numbers):

@@ -111,7 +111,7 @@ class OpenCells:
             return
         self.budget.check("open cells")
         isolation, run = self._stacks.get(path) or (isolate_over(point, self.levels[point.depth]), range(0))
-        texts = isolation.sign_texts()
+        texts = isolation.texts
         for k, value in enumerate(isolation.samples):
             here = possible and k in run
             yield from self._cells(isolation.sample(2 * k), (*path, k), (*signs, texts[2 * k]), (*values, value), here)

@@ -12,6 +12,7 @@ from qe.exact.from_projection import discriminant, have_common_root, most_distin
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.options import Budget
+from qe.proof.cells import SIGN_OF
 
 RING = Ring.of(("a", "b", "c", "x"))
 A, B, C, X = (RING.gen(i) for i in range(4))
@@ -142,4 +143,29 @@ def test_a_stack_by_the_shapes_of_another_one(tower: tuple[Poly, ...], which: li
     core = isolate_over(point, (g,))
     found, fresh = isolate_over(point, (g, f), known=core.shapes), isolate_over(point, (g, f))
     assert found.shapes[g] is core.shapes[g] is not fresh.shapes[g]
-    assert found.sign_texts() == fresh.sign_texts() and shape_of(found) == shape_of(fresh)
+    assert found.texts == fresh.texts and shape_of(found) == shape_of(fresh)
+
+
+def test_roots_kept_for_points_above_are_those_of_every_point_and_refined_apart() -> None:
+    """What does not look at the last coordinate is isolated once; a stack that refines it changes no other stack."""
+    ring = Ring.of(("a", "b", "x"))
+    a, b, x = (ring.gen(i) for i in range(3))
+    below = isolate_over(Point(ring), (a - 3,)).sample(1)
+    polys = (x**3 - a * x + 1, (x - a) ** 2 * (x**2 - a), (x**2 - 3) * 10**40 - b)
+    first, second = (isolate_over(below, (b - k,)).sample(1) for k in (1, 2))
+    stacks = [isolate_over(point, polys) for point in (first, second, first)]
+    assert len({id(point.supporting(polys[0])) for point in (first, second)}) == 1
+    for stack, k in zip(stacks, (1, 2, 1), strict=True):
+        alone = isolate_over(isolate_over(isolate_over(Point(ring), (a - 3,)).sample(1), (b - k,)).sample(1), polys)
+        assert stack.texts == alone.texts and stack.samples == alone.samples
+        assert max(section.bits for section in stack.sections) > 64  # x^2 = 3 and a root next to it
+    values = [section.value for stack in stacks for section in stack.sections if section.bits > 64]
+    assert len({id(value) for value in values}) == len(values)
+
+
+def test_signs_over_an_algebraic_point_by_simple_roots_and_by_evaluation() -> None:
+    point = over((A**2 - 2, B**2 - A - 3, C**2 - B - 5), [1, 1, 1])
+    polys = (A * X**2 - B, (X - C) ** 2 * (A - X), (X - A) ** 3, -X - B, X**2 + C, X**4 - A * X - B)
+    found = isolate_over(point, polys)
+    for position, text in enumerate(found.texts):
+        assert [SIGN_OF[c] for c in text] == [found.sample(position).sign(p) for p in polys]
