@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from experiments import formulas
 from experiments.problem import Problem
-from experiments.suites import paper
+from experiments.suites import families, paper
 
 SEED = 7
 DEGREES = (4, 8, 12, 16, 24, 32)
@@ -20,7 +20,8 @@ HEIGHTS = (1, 2, 3, 4, 5)
 
 def problems() -> list[Problem]:
     """All scaling families."""
-    return [*_degrees(), *_via_points(), *_balls(2), *_balls(3), *_coefficients(), *_towers()]
+    curves = [*_degrees(), *_via_points(), *_balls(2), *_balls(3), *_coefficients(), *_towers()]
+    return [*curves, *families.problems()]
 
 
 def _degrees() -> Iterator[Problem]:

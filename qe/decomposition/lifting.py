@@ -179,15 +179,15 @@ class Lifter:
         dimension: int,
     ) -> Iterator[tuple[int, Cell]]:
         """As ``_cells`` on the last level: one cell for all places where the signs decide the same node."""
-        met = self._leaves_of.setdefault(id(node), {})
+        leaves = self._leaves_of.setdefault(id(node), {})
         for position in positions:
             text = stack.texts[position]
-            cell = met.get(text)
+            cell = leaves.get(text)
             if cell is None:
                 child = self._specialised(node, point.depth, used, text)
                 cell = self._known(point.depth, stack, position, child)
                 assert cell is not None
-                met[text] = cell
+                leaves[text] = cell
             yield position, cell
 
     def _cells(

@@ -2,7 +2,9 @@
 point that a few hundred trials find. A point counts only where exact arithmetic confirms it; none found says nothing.
 
 Trials go down the total violation, the sum over conjuncts and the least over disjuncts of how far an atom is from
-holding, one variable at a time (coordinate search: Hooke, Jeeves 1961), from points drawn between the bounds.
+holding, one variable at a time (coordinate search: Hooke, Jeeves 1961), from points drawn between the bounds. Where
+several curved conditions pull in different directions, as in packings, all variables go at once: to the border of one
+violated condition after the other, as its slope says, and beyond (relaxation: Agmon 1954; Motzkin, Schoenberg 1954).
 """
 
 from __future__ import annotations
@@ -10,6 +12,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, witness_of
@@ -23,6 +26,9 @@ from qe.options import Budget, Options
 
 STARTS, ROUNDS = 8, 12
 """Points to start from, and sweeps over the variables from each."""
+
+CURVED_FROM, RELAXED, SWEEPS_OF_ALL = 3, (1.3, 1.7), 60
+"""Curved conditions from which on all variables go at once, how far across the border, and how often from a point."""
 
 TERMS_OF_A_CELL = 20
 """Terms of a formula that are tried at all values of one variable in about the time of a cell."""
@@ -68,15 +74,70 @@ def find(body: Formula, budget: Budget) -> dict[str, Fraction] | None:
     rng, places = random.Random(0), [ring.index[name] for name in body.free]
     box = bounds(body, len(ring.names))
     units = 1 + sum(poly.term_count() for poly in polynomials(body)) // TERMS_OF_A_CELL
+    conditions = _conditions(body)
+    for k in range(SWEEPS_OF_ALL if conditions else 0):
+        point = [_drawn(rng, *limits) for limits in box]
+        if _relaxed(conditions, point, RELAXED[k % 2], budget, units) and (known := _confirmed(body, point)):
+            return known
     for _ in range(STARTS):
         point = [_drawn(rng, *limits) for limits in box]
-        if _descended(measure, point, places, box, budget, units) > 0:
-            continue
-        for rounded in _rounded(point):
-            named = dict(zip(ring.names, rounded, strict=True))
-            if holds_at(body, named):
-                return {name: named[name] for name in body.free}
+        if _descended(measure, point, places, box, budget, units) <= 0 and (known := _confirmed(body, point)):
+            return known
     return None
+
+
+def _confirmed(body: Formula, point: Sequence[float]) -> dict[str, Fraction] | None:
+    """A rational point close by at which the body holds."""
+    assert body.ring is not None
+    for rounded in _rounded(point):
+        named = dict(zip(body.ring.names, rounded, strict=True))
+        if holds_at(body, named):
+            return {name: named[name] for name in body.free}
+    return None
+
+
+Terms = list[tuple[float, Sequence[tuple[int, int]]]]
+"""A polynomial that is to be positive, in floating point: coefficients with the variables and their powers."""
+
+Condition = tuple[Terms, list[tuple[int, Terms]]]
+
+
+def _conditions(body: Formula) -> list[Condition]:
+    """The atoms of a conjunction of inequalities of which ``CURVED_FROM`` are curved, each with its slope by variables;
+    [] for others."""
+    atoms = [part for part in conjuncts(body) if isinstance(part, Atom) and part.relation is not Relation.NE]
+    if len(atoms) < len(conjuncts(body)) or sum(a.poly.total_degree > 1 for a in atoms) < CURVED_FROM:
+        return []
+    try:
+        return [
+            (_terms(a.poly, a.relation), [(i, _terms(a.poly.derivative(i), a.relation)) for i in a.poly.variables])
+            for a in atoms
+        ]
+    except OverflowError:
+        return []
+
+
+def _relaxed(conditions: list[Condition], point: list[float], far: float, budget: Budget, units: int) -> bool:
+    """Whether the point meets all conditions in floating point, once it was moved along the slopes of those that it did
+    not meet, ``far`` times as long as they say that the border is away."""
+    with suppress(OverflowError):
+        for sweep in range(SWEEPS_OF_ALL):
+            if not sweep % 10:
+                budget.spend(units)
+                budget.check("samples")
+            holds = True
+            for terms, slopes in conditions:
+                values = [c * math.prod([point[i] ** k for i, k in powers]) for c, powers in terms]
+                short = 1e-6 * sum(map(abs, values)) - sum(values)
+                if short > 0:
+                    holds = False
+                    slope = [(i, sum([c * math.prod([point[j] ** k for j, k in p]) for c, p in t])) for i, t in slopes]
+                    steep = sum([d * d for _, d in slope])
+                    for i, d in slope:
+                        point[i] += far * short * d / steep if steep > 0 else 0.0
+            if holds:
+                return True
+    return False
 
 
 def violation(body: Formula) -> Violation | None:
@@ -94,11 +155,16 @@ def violation(body: Formula) -> Violation | None:
     return None
 
 
+def _terms(poly: Poly, relation: Relation) -> Terms:
+    """What is positive where the atom holds. Raises ``OverflowError``."""
+    sign = 1.0 if relation in (Relation.GT, Relation.GE) else -1.0
+    return [(sign * float(c), powers) for powers, c in poly.sparse_terms()]
+
+
 def _of_atom(poly: Poly, relation: Relation) -> Violation:
     """Relative to the sum of the absolute values of its terms; a little beyond the border is asked for."""
-    sign = 1.0 if relation in (Relation.GT, Relation.GE) else -1.0
     try:
-        terms = [(sign * float(c), powers) for powers, c in poly.sparse_terms()]
+        terms = _terms(poly, relation)
     except OverflowError:
         return lambda at: math.inf
 

@@ -71,7 +71,7 @@ class RealAlgebraic(PythonNumber):
         return inside[0]
 
     def copy(self) -> RealAlgebraic:
-        """The same number, with an enclosure of its own to refine."""
+        """The same number, with another enclosure to refine."""
         other = RealAlgebraic(self.poly, self.index, (self._lo, self._hi))
         other._ball, other._bits = self._ball, self._bits
         return other

@@ -50,7 +50,7 @@ class Section:
     is_shared: bool = False
     """Whether stacks over other points have the value, too: their refinements of it must not depend on each other."""
 
-    def own(self) -> fmpq | RealAlgebraic | FibreRoot:
+    def unshared(self) -> fmpq | RealAlgebraic | FibreRoot:
         """The value, with enclosures that only this stack and what stands over it refine."""
         if self.is_shared and isinstance(self.value, RealAlgebraic):
             self.value, self.is_shared = self.value.copy(), False
@@ -58,12 +58,12 @@ class Section:
 
     def ball(self, bits: int | None = None) -> arb:
         """An enclosure of the value, to ``bits`` or to as many as it was isolated with."""
-        value = self.own()
+        value = self.unshared()
         return arb(value) if isinstance(value, fmpq) else value.ball(bits or self.bits)
 
     def refine(self, bits: int) -> None:
         """Enclose the value to so many bits."""
-        value, self.bits = self.own(), bits
+        value, self.bits = self.unshared(), bits
         if not isinstance(value, fmpq):
             x = value.ball(bits)
             self.low, self.high = lower_end(x), upper_end(x)
@@ -160,7 +160,7 @@ class Isolation:
             value = self.samples[half]
             return self.point.extend(fmpq(value.numerator, value.denominator))
         section = self.sections[half]
-        return self.point.extend(section.own(), tuple(self.polys[j] for j in section.members))
+        return self.point.extend(section.unshared(), tuple(self.polys[j] for j in section.members))
 
     def place_of(self, q: Fraction) -> tuple[int, bool]:
         """How many sections lie below a rational number, and whether the next one is that number."""

@@ -24,6 +24,7 @@ from experiments.compare import Verdict, compare
 from experiments.scripts import known_answers
 from experiments.solvers import ENGINES, NAMES, OURS
 from experiments.suites import SUITES, corpus, paper, scaling, suite
+from experiments.suites import families as growing
 from experiments.sweep.atlas import atlas, boundary
 from experiments.sweep.cluster import sweep
 from experiments.sweep.grid import Method, Task, grid, values
@@ -91,6 +92,7 @@ def test_sizes_grow_along_a_family():
         "balls-3d",
         "bits",
         "tower",
+        *(problem.set.removeprefix("scaling/") for problem in growing.problems()),
     }
     for found in families.values():
         sizes = [p.size for p in found]
