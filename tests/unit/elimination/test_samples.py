@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import qe
 import qe.elimination.samples as samples
+from experiments.suites.families import packing
 from qe.api.input import read_formula
 from qe.elimination.protocol import Context
 from qe.formula.block import Block
@@ -27,7 +28,7 @@ OPEN = "ex a, b, c, d. a*b > c^2 + 1 and c*d > 3 and a + b < 5 and (d^2 < a*b or
 NONE = "ex a, b, c, d. a*b > 1 and a > 0 and b < 0 and c*d > a"
 
 
-@each(THREAD, OPEN)
+@each(THREAD, OPEN, packing(3, "0"), packing(5, "0"))
 def test_a_point_of_an_open_set_is_found(text: str) -> None:
     answer = qe.eliminate(text, check=True, process=False)
     assert answer.truth and answer.witness is not None and not answer.unchecked_steps
@@ -39,6 +40,12 @@ def test_a_point_of_an_open_set_is_found(text: str) -> None:
 def test_where_there_is_none_nothing_is_said() -> None:
     assert samples.find(Block.of(read_formula(NONE)).positive, Budget()) is None  # type: ignore[union-attr]
     assert qe.decide(NONE, process=False) is False
+
+
+def test_relaxation_beyond_floating_point_says_nothing() -> None:
+    parts = [f"x^{9 + k}*y > z^{k} + 10^30*x" for k in range(4)]
+    body = Block.of(read_formula(f"ex x, y, z. {' and '.join(parts)} and y < 0 and x > 10^40")).positive  # type: ignore[union-attr]
+    assert samples.find(body, Budget()) is None
 
 
 @each("ex x. x^2 = 2", "ex x, y. x > 0 and y = x^2", "ex x. x > a")
