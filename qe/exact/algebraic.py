@@ -70,12 +70,6 @@ class RealAlgebraic(PythonNumber):
             raise InputError(f"{len(inside)} roots of the polynomial in [{shown(lo)}, {shown(hi)}], one expected")
         return inside[0]
 
-    def copy(self) -> RealAlgebraic:
-        """The same number, with another enclosure to refine."""
-        other = RealAlgebraic(self.poly, self.index, (self._lo, self._hi))
-        other._ball, other._bits = self._ball, self._bits
-        return other
-
     # --- access ----------------------------------------------------------------------------
     @staticmethod
     def by_index(coefficients: Iterable[int], index: int) -> RealAlgebraic:

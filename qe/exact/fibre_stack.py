@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from operator import attrgetter
@@ -53,7 +54,7 @@ class Section:
     def unshared(self) -> fmpq | RealAlgebraic | FibreRoot:
         """The value, with enclosures that only this stack and what stands over it refine."""
         if self.is_shared and isinstance(self.value, RealAlgebraic):
-            self.value, self.is_shared = self.value.copy(), False
+            self.value, self.is_shared = copy(self.value), False
         return self.value
 
     def ball(self, bits: int | None = None) -> arb:

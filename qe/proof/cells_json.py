@@ -23,17 +23,11 @@ def cells_to_json(table: CellTable) -> Json:
         "projection": table.projection.value,
         "factors": [[poly_to_text(f) for f in level] for level in table.factors],
         "constraints": [list(level) for level in table.constraints],
-        "root": _cell_to_json(table.root, {}),
+        "root": _cell_to_json(table.root),
     }
 
 
-def _cell_to_json(cell: Cell, leaves: dict[tuple[str, bool | None], Json]) -> Json:
-    """``leaves``: those that are written already; most cells of a table are leaves with few different signs."""
-    if cell.stack is None and cell.reach is None:
-        key = cell.signs, cell.truth
-        if key not in leaves:
-            leaves[key] = {"signs": cell.signs, "truth": cell.truth}
-        return leaves[key]
+def _cell_to_json(cell: Cell) -> Json:
     out: dict[str, Json] = {"signs": cell.signs, "truth": cell.truth}
     if cell.reach is not None:
         out |= {"reach": list(cell.reach), "own": None if cell.own is None else list(cell.own)}
@@ -51,7 +45,7 @@ def _cell_to_json(cell: Cell, leaves: dict[tuple[str, bool | None], Json]) -> Js
             "used": list(stack.used),
             "sectors": [str(s) for s in stack.sectors],
             "sections": sections,
-            "cells": [_cell_to_json(c, leaves) for c in stack.cells],
+            "cells": [_cell_to_json(c) for c in stack.cells],
         }
     return out
 
