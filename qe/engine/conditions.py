@@ -110,9 +110,11 @@ def definitions(problem: Block, options: Options) -> str | None:
 
 
 def curved_and_bound(problem: Block, options: Options) -> str | None:
-    """Quantifiers over polynomials that are not linear."""
+    """Quantifiers over polynomials that are not linear, in more than one variable."""
     if not problem.curved or problem.formula.is_quantifier_free or not is_short(problem.formula, POSITION_TERMS):
         return None
+    if len(problem.variables) == 1 and problem.is_flat and not problem.free:
+        return None  # the numbers of one line are isolated as quickly where they are
     return "polynomials that are not linear"
 
 
