@@ -79,6 +79,8 @@ def never(problem: Block, options: Options) -> str | None:
 
 def inner_blocks(problem: Block, options: Options) -> str | None:
     """Quantifiers inside a universal block."""
+    if options.method is not Method.AUTO:
+        return None
     return "blocks inside a universal one" if problem.universal and not problem.is_flat else None
 
 

@@ -192,8 +192,8 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.QUESTION, "definitions", on.definitions),
     Attempt(Scope.QUESTION, "local variables", on.many_linear_cases),
+    Attempt(Scope.QUESTION, "witness", on.inner_blocks, SHORTCUT),
     Attempt(Scope.QUESTION, "normal position", on.curved_and_bound),
-    Attempt(Scope.ASKED, "witness", on.inner_blocks, SHORTCUT),
     Attempt(Scope.ASKED, "search", on.hopeless_cases),
     Attempt(Scope.ASKED, "search", on.many_cases, SHORTCUT),
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
@@ -223,6 +223,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.INNER, "vs", on.always, FIRST, complete),
     Attempt(Scope.INNER, "critical, convex universal", on.curved_with_parameters, SHORTCUT, complete_and_small),
     Attempt(Scope.INNER, "critical", on.never),
+    Attempt(Scope.ASKED, "witness", on.never),
     Attempt(Scope.BLOCK, "cgs", on.never),
     Attempt(Scope.INNER, "cgs", on.never),
     Attempt(Scope.BLOCK, "coverings", on.never, shorten=True),

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import random
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from qe.formula.syntax import Formula
 from qe.io.text import read
-from qe.options import Method, Options
+from qe.options import Method, Options, Stage
 
 PARTS = {
     "n": ("(-2)", "(-1)", "0", "1", "2", "3"),
@@ -37,10 +38,11 @@ PARTS = {
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """Templates of the questions, and the method that is to answer them."""
+    """Templates of the questions, the method that is to answer them, and what it is to do without."""
 
     templates: tuple[str, ...]
     method: Method = Method.AUTO
+    without: frozenset[Stage] = frozenset()
 
     def question(self, rng: random.Random) -> Formula:
         """A random question. Not every one makes the rule fire."""
@@ -50,7 +52,7 @@ class Row:
     @property
     def options(self) -> Options:
         """How it is to be answered: with whatever evidence there is."""
-        return Options(method=self.method, certify=True)
+        return Options(method=self.method, certify=True, without=self.without)
 
 
 def filled(rng: random.Random, template: str) -> str:
@@ -72,5 +74,5 @@ def with_other_letters(rng: random.Random, text: str) -> str:
     return re.sub(r"\b[a-z]\b", lambda found: other[found[0]], text)
 
 
-def row(*templates: str, method: Method = Method.AUTO) -> Row:
-    return Row(templates, method)
+def row(*templates: str, method: Method = Method.AUTO, without: Collection[Stage] = ()) -> Row:
+    return Row(templates, method, frozenset(without))

@@ -159,7 +159,7 @@ def test_versions() -> None:
     assert '"version":3' in qe.eliminate("ex x. x^2 = 2").certificate.to_json()  # type: ignore[union-attr]
     assert '"version":3' in Certificate.bundle([("one", made)]).to_json()
     assert verify(Certificate.from_json(Certificate.bundle([("one", made)]).to_json())).accepted
-    with pytest.raises(qe.InputError, match="certificate version 4"):
+    with pytest.raises(qe.InputError, match="certificate of version 4"):
         Certificate.from_json(made.to_json().replace('"version":3', '"version":4'))
 
 

@@ -259,6 +259,7 @@ def asked(formula: Formula, method: str, seconds: float) -> tuple[qe.Answer, flo
     start = time.process_time()
     answer = qe.eliminate(formula, method=method, timeout=seconds, process=False)
     plan = [str(choice).split(" for ")[0] for choice in answer.stats.get("plan", ())]
+    plan = [choice for choice in plan if not choice.startswith("the answer was decided")]
     return answer, time.process_time() - start, plan
 
 
