@@ -7,6 +7,7 @@ import os
 import sys
 import time
 from dataclasses import asdict
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -211,6 +212,16 @@ def test_what_a_program_says_and_returns():
     assert (done.ending, done.code, done.err) == (Ending.FINISHED, 7, "oops\n")
     assert done.out == "HÉLLO" * 100000 + "\n"
     assert 0 < done.wall < 10 and done.peak > 1
+
+
+def test_a_program_imports_what_is_in_its_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two engines were compared that were one: the path of the command that compared them went first."""
+    (tmp_path / "experiments").mkdir()
+    (tmp_path / "experiments" / "__main__.py").write_text("print('of the folder')")
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2]))
+    monkeypatch.setenv("PYTHONSAFEPATH", "1")
+    command = [sys.executable, "-m", "experiments"]
+    assert run_limited(command, "", seconds=10, memory=500, folder=tmp_path).out == "of the folder\n"
 
 
 def test_a_busy_loop_is_stopped_within_a_second_of_the_limit():
