@@ -54,8 +54,8 @@ def run_limited(
 
     ``seconds`` of processor time count from its first output, and for a silent program after ``start_up`` seconds;
     ``memory`` is in MiB. Both are those of all processes of the group together. Where there is no /proc only the
-    address space and the clock on the wall are limited. A program started in a ``folder`` imports what is there, whatever
-    this process imports from.
+    address space and the clock on the wall are limited. A program started in a ``folder`` imports what is there,
+    whatever this process imports from.
     """
     environment = os.environ if folder is None else {**os.environ, "PYTHONPATH": str(folder)}
     with tempfile.TemporaryFile() as source, tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
