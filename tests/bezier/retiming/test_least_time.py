@@ -19,7 +19,7 @@ from bezier.cli import main
 from bezier.motion.timelaw import Law
 from bezier.retiming.bound import bound, weights
 from bezier.retiming.grid import Bounds, Grid, stops_of
-from bezier.retiming.law import is_motion, usual
+from bezier.retiming.law import Step, is_motion, usual
 from bezier.retiming.least_time import checked, least_time
 from bezier.retiming.proposals import proposal
 from bezier.trajectories.limits import Limit
@@ -174,6 +174,13 @@ def test_a_motion_of_another_path_or_without_rest_is_none() -> None:
     assert not is_motion(line, stops, steps[1:]) and not is_motion(line, stops, ())
     assert not is_motion(line, stops, (replace(steps[0], duration=steps[0].duration / 2), *steps[1:]))
     assert not is_motion(corner, stops_of(corner), usual(corner, Law.CUBIC, F(5)))
+    even = (Step(RationalPoly.of([0, 1]), F(1)), Step(RationalPoly.of([1, 1]), F(1)))
+    assert not is_motion(corner, stops_of(corner), even)  # round the corner without a rest
+    rest = Step(RationalPoly.of([0, 0, 3, -2]), F(1))
+    assert is_motion(corner, stops_of(corner), (rest, replace(rest, place=rest.place + RationalPoly.of([1]))))
+    halves = (Step(RationalPoly.of([0, 0, 1]), F(1, 2)), Step(RationalPoly.of([F(1, 4), 2, F(-4, 3)]), F(3, 4)))
+    assert [halves[0].state(F(1, 2))[0], *halves[1].state(F(3, 4))] == [F(1, 4), 1, 0]
+    assert not is_motion(line, stops, halves)  # the speed jumps from 1 to 2
 
 
 @pytest.fixture(scope="module")
