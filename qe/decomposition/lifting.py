@@ -65,6 +65,22 @@ class Plan:
         return not self.quantifiers[level] and bool(self.quantifiers[level + 1])
 
 
+@dataclass(frozen=True, slots=True)
+class _StackOver:
+    """A stack whose cells are asked for. ``node``: what is left of the matrix over the sample ``point``; ``dimension``:
+    how many of its coordinates are sectors; ``used``: the factors of the stack."""
+
+    point: Point
+    node: Node
+    dimension: int
+    used: tuple[int, ...]
+    stack: SampledStack
+
+    def dimension_at(self, position: int) -> int:
+        """How many coordinates of the sample at a position are sectors."""
+        return self.dimension + (position % 2 == 0)
+
+
 @dataclass(slots=True)
 class Lifter:
     """One lifting run.
@@ -105,7 +121,7 @@ class Lifter:
         self.cells += count
         self.budget.spend(count)
         self.budget.check("lift", self.cells)
-        return self._stack(point, node, signs, dimension, used, stack)
+        return self._stack(_StackOver(point, node, dimension, used, stack), signs)
 
     def _leaves(self, level: int) -> bool:
         """Whether cells with ``level`` coordinates are left as they are when their truth is known."""
@@ -140,10 +156,8 @@ class Lifter:
             operator.check_nullified(level, dimension, is_needed=not last or dimension > 0)
         return stack
 
-    def _stack(
-        self, point: Point, node: Node, signs: str, dimension: int, used: tuple[int, ...], stack: SampledStack
-    ) -> Cell:
-        level = point.depth
+    def _stack(self, over: _StackOver, signs: str) -> Cell:
+        level, stack = over.point.depth, over.stack
         quantifier = self.plan.quantifiers[level]
         size = len(stack.texts)
         cells: list[Cell | None] = [None] * size
@@ -154,7 +168,7 @@ class Lifter:
         positions = _visiting_order(size, level >= self.plan.sectors_from) if ordered else range(size)
         try:
             cells_in = self._leaf_cells if last else self._bisected if self.plan.bisects(level) else self._cells
-            for position, cell in cells_in(point, node, used, stack, positions, dimension):
+            for position, cell in cells_in(over, positions):
                 cells[position] = cell
                 if (quantifier and cell.truth is stop and self.plan.partial) or self._ended:
                     break
@@ -166,80 +180,57 @@ class Lifter:
             truth = stop
         complete = tuple(Cell(stack.texts[p], None) if c is None else c for p, c in enumerate(cells))
         if stack.nullified and level in self.plan.thom_levels and _ambiguous(complete):
-            self._collect_lacking(point, level, stack.nullified)
-        return Cell(signs, truth, Stack(used, stack.sectors, stack.sections, complete))
+            self._collect_lacking(over.point, level, stack.nullified)
+        return Cell(signs, truth, Stack(over.used, stack.sectors, stack.sections, complete))
 
-    def _leaf_cells(
-        self,
-        point: Point,
-        node: Node,
-        used: tuple[int, ...],
-        stack: SampledStack,
-        positions: Sequence[int],
-        dimension: int,
-    ) -> Iterator[tuple[int, Cell]]:
+    def _leaf_cells(self, over: _StackOver, positions: Sequence[int]) -> Iterator[tuple[int, Cell]]:
         """As ``_cells`` on the last level: one cell for all places where the signs decide the same node."""
-        leaves = self._leaves_of.setdefault(id(node), {})
+        leaves, texts = self._leaves_of.setdefault(id(over.node), {}), over.stack.texts
         for position in positions:
-            text = stack.texts[position]
-            cell = leaves.get(text)
+            cell = leaves.get(texts[position])
             if cell is None:
-                child = self._specialised(node, point.depth, used, text)
-                cell = self._known(point.depth, stack, position, child)
+                cell = self._known(over, position, self._child(over, position))
                 assert cell is not None
-                leaves[text] = cell
+                leaves[texts[position]] = cell
             yield position, cell
 
-    def _cells(
-        self,
-        point: Point,
-        node: Node,
-        used: tuple[int, ...],
-        stack: SampledStack,
-        positions: Sequence[int],
-        dimension: int,
-    ) -> Iterator[tuple[int, Cell]]:
+    def _cells(self, over: _StackOver, positions: Sequence[int]) -> Iterator[tuple[int, Cell]]:
         """The cells at these positions of a stack, one after the other."""
-        helpers = self.budget.helpers
+        helpers, stack = self.budget.helpers, over.stack
         for place, position in enumerate(positions):
-            if helpers is not None and self._spreads(point.depth, len(positions) - place, helpers):
-                yield from self._spread(point, node, used, stack, positions[place:], dimension)
+            if helpers is not None and self._spreads(over.point.depth, len(positions) - place, helpers):
+                yield from self._spread(over, positions[place:])
                 return
-            child = self._specialised(node, point.depth, used, stack.texts[position])
-            known = self._known(point.depth, stack, position, child)
+            child = self._child(over, position)
+            known = self._known(over, position, child)
             if known is None:
-                below = stack.sample(position)
-                known = self.cell(below, child, stack.texts[position], dimension + (position % 2 == 0))
+                known = self.cell(stack.sample(position), child, stack.texts[position], over.dimension_at(position))
             yield position, known
 
-    def _bisected(
-        self,
-        point: Point,
-        node: Node,
-        used: tuple[int, ...],
-        stack: SampledStack,
-        positions: Sequence[int],
-        dimension: int,
-    ) -> Iterator[tuple[int, Cell]]:
+    def _bisected(self, over: _StackOver, positions: Sequence[int]) -> Iterator[tuple[int, Cell]]:
         """As ``_cells`` for all positions, by bisection: what follows from the direction is not decomposed."""
         low, high = -1, len(positions)
         while high - low > 1:
             middle = (low + high) // 2
             if middle % 2 and high - low > 2:  # rational samples are cheap
                 middle += 1 if middle + 1 < high else -1
-            ((_, cell),) = self._cells(point, node, used, stack, [middle], dimension)
+            ((_, cell),) = self._cells(over, [middle])
             yield middle, cell
             rises = (cell.truth is True) == (self.plan.direction > 0)
             known = range(middle + 1, high) if rises else range(low + 1, middle)
             low, high = (low, middle) if rises else (middle, high)
             for position in known:
-                yield position, Cell(stack.texts[position], cell.truth)
+                yield position, Cell(over.stack.texts[position], cell.truth)
 
-    def _known(self, level: int, stack: SampledStack, position: int, child: Node) -> Cell | None:
-        """The cell at a position where it is not decomposed any further; ``child``: what is left of the matrix."""
-        off_constraint = stack.restricted and position % 2 == 0
-        if isinstance(child, bool) and (off_constraint or self._leaves(level + 1)):
-            return Cell(stack.texts[position], child)
+    def _child(self, over: _StackOver, position: int) -> Node:
+        """What is left of the matrix at a position of the stack."""
+        return self._specialised(over.node, over.point.depth, over.used, over.stack.texts[position])
+
+    def _known(self, over: _StackOver, position: int, child: Node) -> Cell | None:
+        """The cell at a position where it is not decomposed any further."""
+        off_constraint = over.stack.restricted and position % 2 == 0
+        if isinstance(child, bool) and (off_constraint or self._leaves(over.point.depth + 1)):
+            return Cell(over.stack.texts[position], child)
         if off_constraint:
             raise InternalError("the matrix is undecided off an equational constraint")
         return None
@@ -251,15 +242,7 @@ class Lifter:
             return False
         return count >= SPREAD_WIDTH * helpers.width or level == SPREAD_LEVELS - 1
 
-    def _spread(
-        self,
-        point: Point,
-        node: Node,
-        used: tuple[int, ...],
-        stack: SampledStack,
-        positions: Sequence[int],
-        dimension: int,
-    ) -> Iterator[tuple[int, Cell]]:
+    def _spread(self, over: _StackOver, positions: Sequence[int]) -> Iterator[tuple[int, Cell]]:
         """As ``_cells``, by the helpers of the budget. What they do beyond the last cell that is taken is lost."""
         helpers = self.budget.helpers
         assert helpers is not None
@@ -268,12 +251,11 @@ class Lifter:
 
         def calls() -> Iterator[Call[Lifted]]:
             for position in positions:
-                text = stack.texts[position]
-                child = self._specialised(node, point.depth, used, text)
-                known = self._known(point.depth, stack, position, child)
+                text, child = over.stack.texts[position], self._child(over, position)
+                known = self._known(over, position, child)
                 waiting.append((position, known))
                 if known is None:
-                    sample, inner = stack.sample(position), dimension + (position % 2 == 0)
+                    sample, inner = over.stack.sample(position), over.dimension_at(position)
                     yield partial(lifted, plan, sample, child, text, inner, self.budget.remaining(), self.budget.left())
 
         for found in helpers.results(calls(), lambda: self.budget.check("lift", self.cells)):
