@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from enum import Enum
+from fractions import Fraction
 from functools import partial
 from json import dumps
 from pathlib import Path
@@ -29,6 +30,9 @@ ArmName = Annotated[
 ]
 RouteFile = Annotated[Path, typer.Argument(metavar="PATH.toml", help="[[curve]] tables.", show_default=False)]
 Out = Annotated[Path, typer.Option("--out", help="Folder for the report and all other files.")]
+TimedPath = Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .yaml, .npz", show_default=False)]
+Against = Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the file.")]
+Charts = Annotated[Path | None, typer.Option("--page", help="Write a page with each quantity over time here.")]
 Evidence = Annotated[Path | None, typer.Option("--certificate", help="Write the certificates here.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 NoPlots = Annotated[bool, typer.Option("--no-plots", help="No pictures.")]
@@ -217,8 +221,21 @@ class Interpolation(Enum):
     QUINTIC = "quintic"
 
 
+def _number(text: str, option: str, *, above: bool = False) -> Fraction:
+    """The exact number of an option, at least 0 or above it. Raises ``InputError``."""
+    from bezier.input.numbers import NotANumber, parse
+
+    try:
+        value = parse(text)
+    except NotANumber as error:
+        raise InputError(f"{option}: expected a number, found {error}") from None
+    if value < 0 or (above and not value):
+        raise InputError(f"{option}: expected a number {'above 0' if above else 'of at least 0'}, found {text}")
+    return value
+
+
 def certify(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .yaml, .npz", show_default=False)],
+    file: TimedPath,
     limits: Annotated[Path | None, typer.Option("--limits", help="A TOML file, such as velocity = 1.")] = None,
     scene: Annotated[Path | None, typer.Option("--scene", help="A file with [[obstacle]] tables.")] = None,
     interpolation: Annotated[
@@ -226,27 +243,21 @@ def certify(
     ] = None,
     tolerance: Annotated[str, typer.Option("--tolerance", help="Largest jump that counts as continuous.")] = "1e-9",
     certificate: Evidence = None,
-    check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about FILE.")] = None,
-    page: Annotated[Path | None, typer.Option("--page", help="Write a page with each quantity over time here.")] = None,
+    check: Against = None,
+    page: Charts = None,
     json: Json = False,
     timeout: Timeout = None,
     memory: Memory = None,
 ) -> int:
     """Prove for all t that a trajectory keeps its limits and is clear of a scene, or say exactly where it is not, and
     how much slower it has to be."""
-    from bezier.input.numbers import NotANumber, parse
     from bezier.trajectories import command
 
     check_limits(timeout, memory)
     check_writable(certificate)
     if limits is None and (certificate is not None or check is not None) and scene is None:
         raise InputError("--certificate and --check: expected --limits or --scene, found neither")
-    try:
-        largest = parse(tolerance)
-    except NotANumber as error:
-        raise InputError(f"--tolerance: expected a number, found {error}") from None
-    if largest < 0:
-        raise InputError(f"--tolerance: expected a number of at least 0, found {tolerance}")
+    largest = _number(tolerance, "--tolerance")
     kind = None if interpolation is None else interpolation.value
     work = partial(command.certify, file=file, limits=limits, scene=scene, interpolation=kind, tolerance=largest)
     work = partial(work, evidence=certificate, against=check, page=page, as_json=json)
@@ -260,7 +271,7 @@ def certify(
 def chain(
     file: Annotated[Path, typer.Argument(metavar="CHAIN.toml", help="Points and conditions.", show_default=False)],
     certificate: Evidence = None,
-    check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the chain.")] = None,
+    check: Against = None,
     page: Annotated[Path | None, typer.Option("--page", help="Write a page with pictures here.")] = None,
     region: Annotated[str | None, typer.Option("--region", help="Where a point may be: start, via[0], C2.1, …")] = None,
     json: Json = False,
@@ -291,7 +302,7 @@ def chain(
 def route(
     file: Annotated[Path, typer.Argument(metavar="SCENE", help="JSON or TOML.", show_default=False)],
     certificate: Evidence = None,
-    check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the scene.")] = None,
+    check: Against = None,
     picture: Annotated[Path | None, typer.Option("--picture", help="Write an SVG picture here.")] = None,
     shortest: Annotated[bool, typer.Option("--shortest", help="A short path, with a bound for all paths.")] = False,
     degree: Annotated[int, typer.Option("--degree", help="Of its curves, 1 for segments.")] = 3,
@@ -318,21 +329,20 @@ def route(
 
 
 def retime(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .yaml, .npz", show_default=False)],
+    file: TimedPath,
     limits: Annotated[Path, typer.Option("--limits", help="A TOML file: velocity, acceleration, …, as for certify.")],
     law: Annotated[Law | None, typer.Option("--law", help="A law with a formula; else the fastest motion.")] = None,
     accuracy: Annotated[str, typer.Option("--accuracy", help="Share above the bound at which to stop.")] = "1/250",
     out: Annotated[Path | None, typer.Option("--out", help="Write the motion here (.csv), for certify.")] = None,
     certificate: Evidence = None,
-    check: Annotated[Path | None, typer.Option("--check", help="Verify this certificate about FILE.")] = None,
-    page: Annotated[Path | None, typer.Option("--page", help="Write a page with each quantity over time here.")] = None,
+    check: Against = None,
+    page: Charts = None,
     json: Json = False,
     timeout: Timeout = None,
     memory: Memory = None,
 ) -> int:
     """Run through the path of a trajectory in the least time that keeps all limits for all t, with seconds that no
     motion can beat; both proved."""
-    from bezier.input.numbers import NotANumber, parse
     from bezier.retiming import command
 
     check_limits(timeout, memory)
@@ -342,12 +352,7 @@ def retime(
         raise InputError("--check: expected no --certificate and --law with it, found one")
     if out is not None and out.suffix.lower() != ".csv":
         raise InputError(f"--out {out}: expected a name that ends in .csv")
-    try:
-        share = parse(accuracy)
-    except NotANumber as error:
-        raise InputError(f"--accuracy: expected a number, found {error}") from None
-    if share <= 0:
-        raise InputError(f"--accuracy: expected a number above 0, found {accuracy}")
+    share = _number(accuracy, "--accuracy", above=True)
     work = partial(command.run, file=file, limits=limits, law=law, accuracy=share, against=check, as_json=json)
     work = partial(work, evidence=certificate is not None, page=page is not None)
     text, *files = limited(work, timeout=timeout, memory=memory, plain=json)

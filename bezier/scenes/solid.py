@@ -12,11 +12,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import product
+from typing import cast
 
 from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, subtract
 from bezier.obstacles.obstacle import Constraint
 from bezier.scenes.cells import Cell, Point, Side, opposite, primitive
+from qe.exact.quadratic_form import solve_linear
 
 ROUNDINGS = (1, 16, 1024, 2**20, 2**40)
 """Denominators that are tried where a shorter number will do."""
@@ -176,15 +178,10 @@ def _least(points: Sequence[Point]) -> list[Fraction]:
     """Weights with sum 1 of the point of least norm in the affine hull of independent points."""
     base, *rest = points
     spans = [subtract(p, base) for p in rest]
-    rows = [[Fraction(dot(a, b)) for b in spans] + [-Fraction(dot(a, base))] for a in spans]
-    for k in range(len(rows)):
-        pivot = next(i for i in range(k, len(rows)) if rows[i][k])
-        rows[k], rows[pivot] = rows[pivot], rows[k]
-        rows[k] = [c / rows[k][k] for c in rows[k]]
-        for i in range(len(rows)):
-            if i != k and rows[i][k]:
-                rows[i] = [c - rows[i][k] * d for c, d in zip(rows[i], rows[k], strict=True)]
-    shares = [row[-1] for row in rows]
+    rows, right = [[Fraction(dot(a, b)) for b in spans] for a in spans], [-Fraction(dot(a, base)) for a in spans]
+    solution = solve_linear(rows, right, len(spans))
+    assert solution is not None
+    shares = cast(tuple[Fraction, ...], solution.particular)
     return [1 - sum(shares, ZERO), *shares]
 
 
