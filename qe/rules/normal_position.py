@@ -175,17 +175,17 @@ class _Position:
 
     def scale(self, names: tuple[int, ...]) -> None:
         """The same power of a prime for these variables, each prime after the other."""
-        for prime in sorted(
-            {p for parts in self.parts(names) for content, _ in parts.values() for p in _primes(content)}
-        ):
-            t = _exponent([[(k, _order(c, prime), n) for k, (c, n) in parts.items()] for parts in self.parts(names)])
-            top, bottom = (self.ring.constant(prime ** max(sign * t, 0)) for sign in (1, -1))
+        parts = self.parts(names)
+        for prime in sorted({p for degrees in parts for content, _ in degrees.values() for p in _primes(content)}):
+            t = _exponent([[(k, _order(c, prime), n) for k, (c, n) in degrees.items()] for degrees in parts])
             if t:
+                top, bottom = (self.ring.constant(prime ** max(sign * t, 0)) for sign in (1, -1))
                 self.take([Solve(self.ring.names[x], self.ring.gen(x) * top, bottom) for x in names])
+                parts = self.parts(names)
 
     def parts(self, names: tuple[int, ...]) -> list[dict[int, tuple[int, int]]]:
         """For every polynomial, by the degree in these variables: the content, and how many terms there are."""
-        found = []
+        listed = []
         for poly in self.polys:
             if any(poly.degree(x) for x in names):
                 parts: dict[int, tuple[int, int]] = {}
@@ -193,8 +193,8 @@ class _Position:
                     degree = sum(exponents[x] for x in names)
                     content, count = parts.get(degree, (0, 0))
                     parts[degree] = gcd(content, c), count + 1
-                found.append(parts)
-        return found
+                listed.append(parts)
+        return listed
 
 
 def _numbers(polys: Sequence[Terms], x: int, y: int | None) -> list[Fraction]:
