@@ -321,6 +321,18 @@ def test_altered_answers_are_refused() -> None:
             altered.check()
 
 
+def test_every_digit_of_a_stored_certificate_counts() -> None:
+    """One altered digit of the digest was accepted: each member was looked at, and not the whole."""
+    known = bezier.route(SCENE)
+    assert known.certificate is not None
+    text = known.certificate.to_json()
+    places = [k for k, c in enumerate(text) if c.isdigit()]
+    for k in {*random.Random(1).sample(places, 12), places[-1]}:
+        altered = text[:k] + str((int(text[k]) + 1) % 10) + text[k + 1 :]
+        with pytest.raises((qe.CertificateRejected, qe.InputError)):
+            known.check(qe.Certificate.from_json(altered))
+
+
 def test_formulas_of_bodies_say_what_belongs_to_them() -> None:
     """Against the distance from the core: a polygon with margin, a capsule, a disc, a flat box, a half-plane."""
     rng, ring = random.Random(7), Ring.of(("x", "y"))
