@@ -77,4 +77,4 @@ def first(
         return None, found
     finally:
         for worker in running.values():
-            worker.end()
+            worker.kill()  # the thread that reads from it ends it

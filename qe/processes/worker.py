@@ -100,11 +100,15 @@ class Worker:
         else:
             self.end()
 
-    def end(self) -> None:
-        """The process is gone, whatever it was doing."""
+    def kill(self) -> None:
+        """The process is gone, whatever it was doing; who waits for its outcome gets None."""
         if self.owner == os.getpid():
             self.process.kill()
             self.process.wait()
+
+    def end(self) -> None:
+        """The process and its pipes are gone."""
+        self.kill()
         for pipe in (self.process.stdin, self.process.stdout):
             assert pipe is not None
             with contextlib.suppress(OSError):  # what was not sent

@@ -217,6 +217,7 @@ def test_what_a_program_says_and_returns():
 def test_a_program_imports_what_is_in_its_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two engines were compared that were one: the path of the command that compared them went first."""
     (tmp_path / "experiments").mkdir()
+    (tmp_path / "experiments" / "__init__.py").touch()  # a folder without it comes after any package of the path
     (tmp_path / "experiments" / "__main__.py").write_text("print('of the folder')")
     monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2]))
     monkeypatch.setenv("PYTHONSAFEPATH", "1")
