@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from bezier.curves.curve import Bezier
-from bezier.curves.enclosure import Enclosure, bounds, root_above, root_below
+from bezier.curves.enclosure import Enclosure, bounds, root_above
 from bezier.curves.scalar import dot, exactly, subtract
 from bezier.obstacles.polyhedron import Point, Polytope
 from qe.errors import Unable
@@ -183,10 +183,3 @@ def _rational(curve: Bezier) -> tuple[Bezier, Fraction]:
     ends = [[bounds(c, BITS) for c in p] for p in curve.points]
     off = max(high - low for p in ends for low, high in p)
     return Bezier(tuple(tuple((low + high) / 2 for low, high in p) for p in ends)), 2 * off
-
-
-def distance_at(curve: Bezier, body: Body, t: Fraction) -> float:
-    """The distance of one point of the curve from the body, rounded; for pictures."""
-    at: Point = tuple((low + high) / 2 for low, high in (bounds(c, BITS) for c in curve.point(t)))
-    away = subtract(at, body.nearest(at))
-    return max(float(root_below(Fraction(dot(away, away)), BITS)) - float(body.radius), 0.0)

@@ -4,7 +4,6 @@ height profiles of Method 1. Each is a row of panels in a file, and every panel 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from fractions import Fraction
 from functools import partial
 from pathlib import Path as FilePath
 from typing import Any
@@ -13,18 +12,18 @@ import numpy as np
 
 from bezier.curves.curve import Bezier
 from bezier.input.task import Axis, Task
-from bezier.obstacles.bodies import distance_at
 from bezier.obstacles.clearance import Contact
 from bezier.obstacles.survey import Finding
 from bezier.paths.path import Path
+from bezier.pictures.distance import signed_distances
 from bezier.pictures.mesh import Array, sampled
 from bezier.pictures.obstacles import COLOURS as OBSTACLES
 from bezier.pictures.obstacles import ObstaclePicture
 from bezier.pictures.picture import COLOURS, GRID, INK, PALE, SHADE, Chart, numbers
 from bezier.pictures.plot import new_figure, svg_text
 
-STEPS, COUNT = 40, 241
-"""Steps per curve for distances, and samples of a curve."""
+COUNT = 241
+"""Samples of a curve."""
 
 Panels = Mapping[str, Callable[[Any], None]]
 """What draws on axes, by what it shows in words."""
@@ -79,10 +78,9 @@ def _clearances(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture]
         start, obstacle = names.index(finding.name), finding.obstacle
         colour = colours.get(obstacle.name, OBSTACLES[0])
         if obstacle.body is not None:
-            times = [Fraction(k, STEPS) for k in range(STEPS + 1)]
-            values = [distance_at(finding.curve, obstacle.body, t) for t in times]
+            values = np.maximum(signed_distances(sampled(finding.curve.points, COUNT), obstacle.body), 0)
             label = None if obstacle.name in seen else obstacle.name
-            axis.plot([start + float(t) for t in times], values, color=colour, linewidth=1.8, label=label)
+            axis.plot(start + np.linspace(0, 1, COUNT), values, color=colour, linewidth=1.8, label=label)
             seen.add(obstacle.name)
         if isinstance(finding.outcome, Contact):
             axis.plot(start + float(finding.outcome.t[0]), 0, "x", color=colour, markersize=9)

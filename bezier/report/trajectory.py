@@ -1,44 +1,83 @@
-"""The page of ``bezier certify``: each limited quantity over time against its limit, with the place of its peak."""
+"""The page of ``bezier certify``: each quantity over time against its limit, with the place of its worst value."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from bezier.obstacles.survey import Finding
+from bezier.pictures.distance import signed_distances
+from bezier.pictures.mesh import Array
 from bezier.pictures.picture import GRID, INK, PALE
 from bezier.pictures.plot import new_figure, svg_text
 from bezier.report import html
 from bezier.report.html import Card, Page, Section
 from bezier.trajectories.limits import Outcome, Verdict, limited
+from bezier.trajectories.piecewise import Trajectory
 
 SAMPLES = 2000
 """In a chart, at least; two more in each piece. They decide nothing."""
 BAD = "#c0392b"
 
 
-def page(verdict: Verdict, lines: Sequence[str], file: str, *, clear: bool, cards: Sequence[Card] = ()) -> Page:
-    """``lines``: what the command says; ``clear``: whether no obstacle is touched; ``cards``: more
-    for the first line."""
-    good = verdict.is_kept and clear
-    names = verdict.trajectory.names
-    charts = [(_chart(verdict, outcome), outcome.limit.words(names)) for outcome in verdict.outcomes]
-    rows = [
-        (
-            outcome.limit.words(names),
-            f"{float(outcome.limit.high):.10g}",
-            f"{outcome.value:.10g}",
-            f"{float(outcome.time(verdict.trajectory)):.10g}",
-            html.toned("kept" if outcome.is_kept else "EXCEEDED", outcome.is_kept),
-        )
-        for outcome in verdict.outcomes
-    ]
+@dataclass(frozen=True)
+class Quantity:
+    """Samples of what is limited, its bounds, and its worst value (time, value); ``prefix``: how exact that is."""
+
+    words: str
+    times: Array
+    values: Array
+    bounds: tuple[float | None, float | None]
+    worst: tuple[float, float]
+    is_kept: bool
+    prefix: str = ""
+
+    @property
+    def row(self) -> tuple[html.Text, ...]:
+        """Its line in the table."""
+        low, high = ("" if bound is None else f"{bound:.10g}" for bound in self.bounds)
+        limit = f"at least {low}" if not high else high if not low or low == f"-{high}" else f"{low} to {high}"
+        time, value = (f"{self.prefix}{number:.10g}" for number in self.worst)
+        return self.words, limit, value, time, html.toned("kept" if self.is_kept else "EXCEEDED", self.is_kept)
+
+    @property
+    def chart(self) -> str:
+        """Its drawing."""
+        figure = new_figure(5.8, 3.2)
+        axis = figure.add_axes((0.13, 0.17, 0.84, 0.72))
+        axis.plot(self.times, self.values, color=INK, linewidth=1.3)
+        for bound, side in zip(self.bounds, (-1, 1), strict=True):
+            if bound is not None:
+                axis.axhline(bound, color=PALE, linewidth=1, linestyle="--")
+                beyond = side * self.values > side * bound
+                axis.plot(self.times[beyond], self.values[beyond], ".", color=BAD, markersize=3)
+        axis.plot(*self.worst, "o", color=INK if self.is_kept else BAD, markersize=6, fillstyle="none")
+        axis.set_title(self.words, fontsize=10, color=INK)
+        axis.set_xlabel("t")
+        axis.grid(color=GRID, linewidth=0.6)
+        return svg_text(figure)
+
+
+def page(
+    verdict: Verdict,
+    lines: Sequence[str],
+    file: str,
+    findings: Sequence[Finding] = (),
+    cards: Sequence[Card] = (),
+) -> Page:
+    """``lines``: what the command says; ``findings``: of each piece and each obstacle; ``cards``: more for the first
+    line."""
+    quantities = [_limited(verdict.trajectory, outcome) for outcome in verdict.outcomes]
+    quantities += _clearances(verdict.trajectory, findings)
+    good = verdict.is_kept and all(finding.is_clear for finding in findings)
     head = ("quantity", "limit", "worst value", "at t", "for all t")
     said = Section("verdict", "What is proved", html.bullets(lines), short="verdict")
-    table = Section("limits", "Limits", html.table(head, rows, numbers=(1, 2, 3)), short="limits")
-    drawn = Section("charts", "Over time", html.figures(charts), short="charts")
-    note = "Charts are samples in floating point; every verdict is exact and holds for all t."
+    table = Section("limits", "Limits", html.table(head, [q.row for q in quantities], numbers=(1, 2, 3)), short="limits")
+    drawn = Section("charts", "Over time", html.figures([(q.chart, q.words) for q in quantities]), short="charts")
+    note = "Charts and values after ≈ are samples in floating point; every verdict is exact and holds for all t."
     cards = [Card("verdict", "kept" if good else "refuted", html.tone(good)), *cards]
     if not verdict.is_kept:
         slower = "no slowing down repairs it" if verdict.factor is None else f"{float(verdict.factor):.8g}"
@@ -46,31 +85,48 @@ def page(verdict: Verdict, lines: Sequence[str], file: str, *, clear: bool, card
     return Page(title=f"Trajectory {file}", lead=lines[-1], sections=(said, table, drawn), footer=note, cards=cards)
 
 
-def _chart(verdict: Verdict, outcome: Outcome) -> str:
-    trajectory, limit = verdict.trajectory, outcome.limit
-    polys = limited(trajectory.derivative(limit.order), limit)
-    count = SAMPLES // len(polys) + 2
-    times, values = list[Any](), list[Any]()
-    for p, start, length in zip(polys, trajectory.breaks, trajectory.lengths, strict=False):
+def _limited(trajectory: Trajectory, outcome: Outcome) -> Quantity:
+    limit = outcome.limit
+    times, values = _samples(trajectory, [[p] for p in limited(trajectory.derivative(limit.order), limit)])
+    y, low = values[:, 0], -limit.high if limit.low is None else limit.low
+    return Quantity(
+        limit.words(trajectory.names),
+        times,
+        np.sqrt(np.maximum(y, 0)) if limit.axis is None else y,
+        (None if limit.axis is None else float(low), float(limit.high)),
+        (float(outcome.time(trajectory)), outcome.value),
+        outcome.is_kept,
+    )
+
+
+def _clearances(trajectory: Trajectory, findings: Sequence[Finding]) -> Iterator[Quantity]:
+    """The distance from each obstacle that is a body, negative inside, against its margin."""
+    if not findings:
+        return
+    times, values = _samples(trajectory, trajectory.pieces)
+    points = np.pad(values, ((0, 0), (0, 3 - values.shape[1])))
+    for obstacle in {f.obstacle.name: f.obstacle for f in findings}.values():
+        if obstacle.body is None:
+            continue
+        margin = float(obstacle.margin)
+        distances = signed_distances(points, obstacle.body) + margin
+        nearest = int(distances.argmin())
+        yield Quantity(
+            f"distance from {obstacle.name}",
+            times,
+            distances,
+            (margin, None),
+            (float(times[nearest]), float(distances[nearest])),
+            all(f.is_clear for f in findings if f.obstacle is obstacle),
+            "≈ ",
+        )
+
+
+def _samples(trajectory: Trajectory, rows: Sequence[Sequence[Any]]) -> tuple[Array, Array]:
+    """Times (n,), and the values of the polynomials of each piece there, (n, axes)."""
+    count, times, values = SAMPLES // len(rows) + 2, [], []
+    for row, start, length in zip(rows, trajectory.breaks, trajectory.lengths, strict=False):
         local = np.linspace(0, float(length), count)
         times.append(float(start) + local)
-        values.append(np.polynomial.polynomial.polyval(local, p.floats() or [0.0]))
-    t, y = np.concatenate(times), np.concatenate(values)
-    y = np.sqrt(np.maximum(y, 0)) if limit.axis is None else y
-    figure = new_figure(5.8, 3.2)
-    axis = figure.add_axes((0.13, 0.17, 0.84, 0.72))
-    axis.plot(t, y, color=INK, linewidth=1.3)
-    high = float(limit.high)
-    low = None if limit.axis is None else -high if limit.low is None else float(limit.low)
-    for bound in (high, low):
-        if bound is not None:
-            axis.axhline(bound, color=PALE, linewidth=1, linestyle="--")
-    sign = 1 if limit.axis is None else outcome.peak.sign
-    beyond = sign * y > sign * (high if sign > 0 or low is None else low)
-    axis.plot(t[beyond], y[beyond], ".", color=BAD, markersize=3)
-    colour = INK if outcome.is_kept else BAD
-    axis.plot([float(outcome.time(trajectory))], [outcome.value], "o", color=colour, markersize=6, fillstyle="none")
-    axis.set_title(limit.words(trajectory.names), fontsize=10, color=INK)
-    axis.set_xlabel("t")
-    axis.grid(color=GRID, linewidth=0.6)
-    return svg_text(figure)
+        values.append(np.stack([np.polynomial.polynomial.polyval(local, p.floats() or [0.0]) for p in row], axis=1))
+    return np.concatenate(times), np.concatenate(values)

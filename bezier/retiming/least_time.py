@@ -99,7 +99,7 @@ class LeastTime:
             Card("seconds", f"{float(self.duration):.6g}"),
             Card("at least", f"{float(self.bound):.6g}", note="no motion takes less, proved"),
         ]
-        return document(page(self.verdict, self.lines, title, clear=True, cards=cards))
+        return document(page(self.verdict, self.lines, title, cards=cards))
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""

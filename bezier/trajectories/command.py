@@ -16,6 +16,7 @@ from bezier.input import stored
 from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
+from bezier.obstacles.clearance import Contact
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.trajectories.evidence import check, members
@@ -81,7 +82,7 @@ def scene_of(table: Table, axes: int) -> tuple[tuple[Obstacle, ...], list[Limit]
 
 def _in_space(entry: dict[str, Any]) -> dict[str, Any]:
     """A body of the plane as one whose slice at the height 0 it is."""
-    heights = {"centre": 0, "low": -1, "high": 1}
+    heights = {"centre": 0, "low": -(10**6), "high": 10**6}
     flat = {k: v for k, v in entry.items() if k in heights and isinstance(v, list) and len(v) == 2}
     return {**entry, **{key: [*value, heights[key]] for key, value in flat.items()}}
 
@@ -187,7 +188,12 @@ class Certified:
     def lines(self) -> list[str]:
         """A line for each limit, each contact, and what follows."""
         lines, contacts = in_words(self.verdict), survey.contacts(self.findings or ())
-        lines += [survey.in_words(f) for f in contacts]
+        spans = zip(self.verdict.trajectory.breaks, self.verdict.trajectory.lengths, strict=False)
+        times = dict(zip(dict.fromkeys(f.name for f in self.findings or ()), spans, strict=False))
+        for f in contacts:
+            start, length = times[f.name]
+            time = start + length * sum(f.outcome.t) / 2 if isinstance(f.outcome, Contact) else start
+            lines.append(f"{survey.in_words(f)}, at the time {float(time):.10g}")
         if self.findings and not contacts:
             lines.append(f"clear of all obstacles for all t: {len(self.findings)} pairs of pieces and obstacles")
         return lines
@@ -210,11 +216,11 @@ class Certified:
         return survey.certificates(self.findings or ())
 
     def page(self, title: str = "trajectory") -> str:
-        """An HTML page with a chart of each quantity over time and its limit."""
+        """An HTML page with a chart of each quantity, and of the distance from each obstacle, over time."""
         from bezier.report.html import document
         from bezier.report.trajectory import page
 
-        return document(page(self.verdict, self.lines, title, clear=self.clear))
+        return document(page(self.verdict, self.lines, title, self.findings or ()))
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import dist, hypot
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -13,11 +14,13 @@ from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, subtract
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
-from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded, distance_at, distance_enclosure
+from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded, distance_enclosure
 from bezier.obstacles.clearance import Clear, examine
 from bezier.obstacles.obstacle import Obstacle, ObstacleKind, Piece, from_body, half_space, pieces_of
 from bezier.obstacles.polyhedron import from_corners, from_half_spaces, point
 from bezier.obstacles.reader import read_obstacles, via_over
+from bezier.pictures.distance import signed_distances
+from bezier.pictures.mesh import sampled
 from bezier.problem import from_json, read_problem, to_json
 from qe.errors import InputError
 from qe.exact.field import NumberField
@@ -171,11 +174,18 @@ def test_no_sample_is_nearer_than_the_enclosure_says(body, points):
     if not isinstance(examine(curve, obstacle(body)), Clear):
         return
     found = distance_enclosure(curve, body, COARSE)
-    nearest = min(distance_at(curve, body, t) for t in GRID)
+    nearest = signed_distances(sampled(curve.points, 257), body).min()
     assert float(found.low) <= nearest * (1 + 1e-9)
     assert found.high - found.low <= COARSE * found.high
     raised = distance_enclosure(curve.elevate(curve.degree + 1), body, COARSE)
     assert raised.low <= found.high and found.low <= raised.high
+
+
+@settings(max_examples=25, deadline=None)
+@given(bodies, control_points(4, 9))
+def test_distances_of_pictures_are_negative_just_inside(body, points):
+    for exact, distance in zip(points, signed_distances(np.array(points, dtype=float), body), strict=True):
+        assert obstacle(body).contains(exact) == (distance <= 0) or abs(distance) < 1e-9
 
 
 def test_a_survey_says_what_was_found():

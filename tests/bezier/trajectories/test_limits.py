@@ -242,8 +242,8 @@ def test_the_command_proves_checks_and_rejects(tmp_path: Path, capsys: pytest.Ca
     assert "velocity of y: EXCEEDED, worst 2 at t = 1" in said and "2 = 2 times as slow" in said and "clear of" in said
     page = tmp_path / "page.html"
     assert main([*words, "--check", str(proof), "--page", str(page)]) == 0
-    assert page.read_text().count("<figure>") == 2 and "EXCEEDED" in page.read_text()
-    assert "accepted" in capsys.readouterr().out
+    assert page.read_text().count("<figure>") == 3 and "EXCEEDED" in page.read_text()
+    assert "accepted" in capsys.readouterr().out and "distance from ball 1" in page.read_text()
     limits.write_text("velocity = [1, 1.5]\n")
     assert main([*words, "--check", str(proof)]) == 4
     huge = tmp_path / "huge.csv"
