@@ -110,7 +110,8 @@ class MotionChain:
     def __init__(self, constants: Sequence[Sequence[Sequence[object]]], turning: Sequence[bool]) -> None:
         with precision(BITS + 16):
             self._base, *self._constants = (
-                arb_mat([*([_ball(v) for v in row] for row in m), [arb(0), arb(0), arb(0), arb(1)]]) for m in constants
+                arb_mat([*([ball_of(v) for v in row] for row in m), [arb(0), arb(0), arb(0), arb(1)]])
+                for m in constants
             )
         self._turning = tuple(turning)
 
@@ -119,7 +120,7 @@ class MotionChain:
         with precision(BITS + 16):
             turn = [[self._base[k, i] for k in range(3)] for i in range(3)]  # the inverse: a rotation is orthogonal
             width = max(map(len, curve))
-            vectors = [[_ball(c[k]) if k < len(c) else arb(0) for c in curve] for k in range(width)]
+            vectors = [[ball_of(c[k]) if k < len(c) else arb(0) for c in curve] for k in range(width)]
             vectors[0] = [c - self._base[i, 3] for i, c in enumerate(vectors[0])]
             seen = [[sum((a * b for a, b in zip(row, v, strict=True)), arb(0)) for v in vectors] for row in turn]
             first = [_derived(c) for c in seen]
@@ -156,7 +157,7 @@ class MotionChain:
     def solve(self, track: Track, s: Fraction, start: Sequence[float]) -> list[float] | None:
         """Newton's method from ``start``: joint values near a solution, in floating point, or None."""
         with precision(BITS):
-            target = track.at(_ball(s))
+            target = track.at(ball_of(s))
             q = [arb(v) for v in start]
             for _ in range(NEWTON_STEPS):
                 matrix, tip, _, _ = self._jacobian([v.mid() for v in q])
@@ -177,7 +178,7 @@ class MotionChain:
             return self._tested(track, low, high, centre)
 
     def _tested(self, track: Track, low: Fraction, high: Fraction, centre: list[float]) -> ProvedPiece | None:
-        middle, sigma = _ball((low + high) / 2), arb(0, 1) * _ball((high - low) / 2)
+        middle, sigma = ball_of((low + high) / 2), arb(0, 1) * ball_of((high - low) / 2)
         q, first, turns = [arb(0), *map(arb, centre[1:])], arb(centre[0]), self._turning[0]
         matrix, tip, _, _ = self._jacobian(q)
         inverse = _inverse(matrix)
@@ -258,7 +259,8 @@ def _derived(coefficients: Sequence[arb]) -> list[arb]:
     return [k * c for k, c in enumerate(coefficients)][1:]
 
 
-def _ball(value: Any) -> arb:
+def ball_of(value: Any) -> arb:
+    """A rational number or an element of a field as a ball."""
     if isinstance(value, FieldElement):
         return value.ball(BITS)
     number = Fraction(value)

@@ -238,6 +238,13 @@ def certify(
     file: TimedPath,
     limits: Annotated[Path | None, typer.Option("--limits", help="A TOML file, such as velocity = 1.")] = None,
     scene: Annotated[Path | None, typer.Option("--scene", help="A file with [[obstacle]] tables.")] = None,
+    robot: Annotated[
+        str | None, typer.Option("--robot", metavar="ARM", help="The axes are its joints, whose limits hold, too.")
+    ] = None,
+    along: Annotated[Path | None, typer.Option("--along", help="A Cartesian path: [[curve]] tables, or timed.")] = None,
+    within: Annotated[
+        str | None, typer.Option("--within", metavar="MM", help="Largest distance of the end point from it.")
+    ] = None,
     interpolation: Annotated[
         Interpolation | None, typer.Option("--interpolation", help="Of states; default: the highest they allow.")
     ] = None,
@@ -249,18 +256,26 @@ def certify(
     timeout: Timeout = None,
     memory: Memory = None,
 ) -> int:
-    """Prove for all t that a trajectory keeps its limits and is clear of a scene, or say exactly where it is not, and
-    how much slower it has to be."""
+    """Prove for all t that a trajectory keeps its limits, is clear of a scene and stays near a path, or say exactly
+    where it does not, and how much slower it has to be."""
     from bezier.trajectories import command
 
     check_limits(timeout, memory)
     check_writable(certificate)
-    if limits is None and (certificate is not None or check is not None) and scene is None:
-        raise InputError("--certificate and --check: expected --limits or --scene, found neither")
+    if not any((limits, scene, robot, along)) and (certificate is not None or check is not None):
+        raise InputError("--certificate and --check: expected --limits, --scene, --robot or --along, found none")
+    if (along is None) != (within is None):
+        raise InputError("--along and --within: expected both, found one of them")
     largest = _number(tolerance, "--tolerance")
     kind = None if interpolation is None else interpolation.value
     work = partial(command.certify, file=file, limits=limits, scene=scene, interpolation=kind, tolerance=largest)
     work = partial(work, evidence=certificate, against=check, page=page, as_json=json)
+    if along is not None and within is not None:
+        work = partial(work, along=along, within=_number(within, "--within", above=True))
+    if robot is not None:
+        from bezier.arm.reader import load_arm
+
+        work = partial(work, robot=load_arm(robot))
     text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
     if certificate is not None:
         write_file(certificate, evidence)

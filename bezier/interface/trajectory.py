@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bezier.arm.robot import Robot
 from bezier.chains.plan import ChainPlan
 from bezier.curves.curve import Bezier
 from bezier.input.toml_table import Table
 from bezier.interface.function import table_value
 from bezier.interface.planned import Planned
 from bezier.motion.motion import near, pieces
+from bezier.trajectories.along import load_path
 from bezier.trajectories.command import Certified, limits_of, scene_of
 from bezier.trajectories.exact import by_control_points
 from bezier.trajectories.limits import Limit
@@ -46,6 +48,9 @@ def certify(
     acceleration_norm: object = None,
     jerk_norm: object = None,
     obstacles: Sequence[Mapping[str, object]] | None = None,
+    robot: object = None,
+    along: object = None,
+    within: object = None,
     tolerance: object = "1e-9",
     timeout: float | None = None,
     memory: int | None = None,
@@ -58,6 +63,10 @@ def certify(
     the command's file: one number for all axes or one for each, ``position`` a pair or a pair for each; in the units of
     the trajectory, and seconds. ``obstacles`` are tables as for ``bezier.plan``; for two axes balls and boxes of the
     plane. Positions may jump by ``tolerance``.
+
+    ``robot``: the name or file of an arm, or a ``Robot``: then the axes are its joints, whose limits have to hold, too.
+    ``along`` and ``within``: the distance (mm) of the point, or of the robot's end point, from a Cartesian path at the
+    same time: what ``trajectory`` may be, or the TOML file of a path, each of whose curves takes the same time.
 
     The result says ``kept``, ``slower_by`` (the factor of slowing down that repairs it), ``verdict.worst`` and
     ``certificate``; ``print(result)`` a line for each limit; ``result.page()`` is a page with charts.
@@ -83,11 +92,26 @@ def certify(
     largest = arguments.rational(tolerance, "tolerance")
     if largest < 0:
         raise InputError(f"{SOURCE}: tolerance: expected a number of at least 0, found {arguments.shown(tolerance)}")
+    if (along is None) != (within is None):
+        raise InputError(f"{SOURCE}: along and within: expected both, found one of them")
+    near = None
+    if along is not None:
+        is_file = isinstance(along, str | os.PathLike)
+        near = load_path(Path(along), path) if is_file else path_of(along)  # type: ignore[arg-type]
+    far = Fraction(0) if within is None else arguments.rational(within, "within")
+    if within is not None and far <= 0:
+        raise InputError(f"{SOURCE}: within: expected a number above 0, found {arguments.shown(within)}")
+    arm = None if robot is None else (robot if isinstance(robot, Robot) else Robot.load(robot)).arm  # type: ignore[arg-type]
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
+    work = partial(Certified.of, path, limits, bodies, largest, arm, near, far)
     try:
-        return perform(partial(_decided, path, limits, bodies, largest), bounds)
+        return perform(partial(_within, work), bounds)
     except OverflowError:
         raise InputError(f"{SOURCE}: expected quantities of usual size, found one beyond 10^308") from None
+
+
+def _within(work: Callable[[], Certified], budget: Budget) -> Certified:
+    return work()
 
 
 def path_of(given: Any, *, timed: bool = True) -> Trajectory:
@@ -125,7 +149,3 @@ def _table(values: Mapping[str, object], names: Mapping[str, str] | None = None,
     called = names or {}
     read = {k: table_value(v, f"{source}: {called.get(k, k)}") for k, v in values.items() if v is not None}
     return Table(read, source, names=called)
-
-
-def _decided(path: Trajectory, limits: Any, bodies: Any, tolerance: Fraction, budget: Budget) -> Certified:
-    return Certified.of(path, limits, bodies, tolerance)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from bezier.pictures.picture import GRID, INK, PALE
 from bezier.pictures.plot import new_figure, svg_text
 from bezier.report import html
 from bezier.report.html import Card, Page, Section
+from bezier.trajectories.along import WORDS, Along
 from bezier.trajectories.limits import Outcome, Verdict, limited
 from bezier.trajectories.piecewise import Trajectory
 
@@ -67,15 +68,22 @@ def page(
     file: str,
     findings: Sequence[Finding] = (),
     cards: Sequence[Card] = (),
+    along: Along | None = None,
 ) -> Page:
     """``lines``: what the command says; ``findings``: of each piece and each obstacle; ``cards``: more for the first
     line."""
     quantities = [_limited(verdict.trajectory, outcome) for outcome in verdict.outcomes]
     quantities += _clearances(verdict.trajectory, findings)
-    good = verdict.is_kept and all(finding.is_clear for finding in findings)
+    if along is not None:
+        distance = _limited(along.verdict.trajectory, along.verdict.outcomes[0])
+        quantities.append(replace(distance, words=WORDS, bounds=(None, float(along.within))))
+    good = all(quantity.is_kept for quantity in quantities) and not verdict.breaking
+    good = good and all(finding.is_clear for finding in findings)
     head = ("quantity", "limit", "worst value", "at t", "for all t")
     said = Section("verdict", "What is proved", html.bullets(lines), short="verdict")
-    table = Section("limits", "Limits", html.table(head, [q.row for q in quantities], numbers=(1, 2, 3)), short="limits")
+    table = Section(
+        "limits", "Limits", html.table(head, [q.row for q in quantities], numbers=(1, 2, 3)), short="limits"
+    )
     drawn = Section("charts", "Over time", html.figures([(q.chart, q.words) for q in quantities]), short="charts")
     note = "Charts and values after ≈ are samples in floating point; every verdict is exact and holds for all t."
     cards = [Card("verdict", "kept" if good else "refuted", html.tone(good)), *cards]

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import qe
+from bezier.arm.model import Arm
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.input import stored
@@ -19,7 +20,8 @@ from bezier.obstacles import survey
 from bezier.obstacles.clearance import Contact
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
-from bezier.trajectories.evidence import check, members
+from bezier.trajectories.along import Along, arm_limits, load_path
+from bezier.trajectories.evidence import compare, members, stated
 from bezier.trajectories.limits import Limit, Verdict, decided, from_values
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.readers import load
@@ -111,6 +113,9 @@ def certify(
     interpolation: str | None,
     tolerance: Fraction,
     *,
+    robot: Arm | None = None,
+    along: Path | None = None,
+    within: Fraction = Fraction(0),
     evidence: Path | None = None,
     against: Path | None = None,
     page: Path | None = None,
@@ -119,7 +124,7 @@ def certify(
     """What to print, and the certificate's text where ``evidence`` is wanted.
 
     ``page``: a file for the page with a chart of each quantity. ``against``: a certificate that is checked. Raises
-    ``InputError``, and ``CertificateRejected`` for that certificate.
+    ``InputError``, ``Unable``, and ``CertificateRejected`` for that certificate.
     """
     trajectory = load(file, interpolation)
     listed = [] if limits is None else limits_of(Table.load(limits), len(trajectory.names))
@@ -129,8 +134,9 @@ def certify(
         table = Table(stored.table(scene), str(scene)) if is_json else Table.load(scene)
         obstacles, inside = scene_of(table, len(trajectory.names))
         listed = [*listed, *inside]
+    path = None if along is None else load_path(along, trajectory)
     try:
-        judged = Certified.of(trajectory, listed, obstacles, tolerance)
+        judged = Certified.of(trajectory, listed, obstacles, tolerance, robot, path, within)
         data, lines = judged.to_json(), judged.lines
     except OverflowError:
         raise InputError(f"{file}: expected quantities of usual size, found one beyond 10^308") from None
@@ -152,26 +158,39 @@ def _write_page(file: Path, page: str) -> None:
 
 @dataclass(frozen=True)
 class Certified:
-    """What is decided about a trajectory: its limits (``verdict``), and each obstacle against each piece
-    (``findings``; None where no obstacles were asked about)."""
+    """What is decided about a trajectory: its limits (``verdict``), each obstacle against each piece (``findings``;
+    None where no obstacles were asked about), and its distance from a path (``along``)."""
 
     verdict: Verdict
     findings: tuple[survey.Finding, ...] | None
+    along: Along | None = None
 
     @staticmethod
     def of(
-        trajectory: Trajectory, limits: Sequence[Limit], obstacles: Sequence[Obstacle] | None, tolerance: Fraction
+        trajectory: Trajectory,
+        limits: Sequence[Limit],
+        obstacles: Sequence[Obstacle] | None,
+        tolerance: Fraction,
+        robot: Arm | None = None,
+        path: Trajectory | None = None,
+        within: Fraction = Fraction(0),
     ) -> Certified:
-        """Everything decided, exactly. Raises ``InputError``, and ``OverflowError`` for numbers beyond floats."""
+        """Everything decided, exactly; with a ``robot`` also the limits of its joints. Raises ``InputError`` and
+        ``Unable``, and ``OverflowError`` for numbers beyond floats."""
+        if robot is not None:
+            limits = [*limits, *arm_limits(robot, trajectory)]
+            if obstacles:
+                raise InputError("obstacles: expected a trajectory of a point, found one of the joints of a robot")
         verdict = decided(trajectory, limits, tolerance)
-        if not obstacles:
-            return Certified(verdict, None if obstacles is None else ())
-        return Certified(verdict, survey.survey(curves(trajectory), obstacles, distances=False))
+        findings: tuple[survey.Finding, ...] | None = None if obstacles is None else ()
+        if obstacles:
+            findings = survey.survey(curves(trajectory), obstacles, distances=False)
+        return Certified(verdict, findings, None if path is None else Along.of(trajectory, path, within, robot))
 
     @property
     def kept(self) -> bool:
-        """Whether all limits hold, and the trajectory is clear of all obstacles, for all t."""
-        return self.verdict.is_kept and self.clear
+        """Whether all limits hold, and the trajectory is clear of all obstacles and near the path, for all t."""
+        return self.verdict.is_kept and self.clear and (self.along is None or self.along.is_kept)
 
     @property
     def clear(self) -> bool:
@@ -196,36 +215,39 @@ class Certified:
             lines.append(f"{survey.in_words(f)}, at the time {float(time):.10g}")
         if self.findings and not contacts:
             lines.append(f"clear of all obstacles for all t: {len(self.findings)} pairs of pieces and obstacles")
-        return lines
+        return lines if self.along is None else [*lines, self.along.line]
 
     def __str__(self) -> str:
         return "\n".join(self.lines)
 
     @property
     def certificate(self) -> qe.Certificate:
-        """The proof of all that is said of limits and obstacles; ``qe.verify`` checks it. Raises ``qe.Unable`` where
-        there is none: for what is not continuous."""
-        verdict = self.verdict
-        return qe.Certificate.bundle([*(members(verdict) if verdict.outcomes else ()), *self._scene()])
+        """The proof of all that is said of limits, obstacles and a path; ``qe.verify`` checks it. Raises ``qe.Unable``
+        where there is none: for what is not continuous."""
+        verdict, near = self.verdict, () if self.along is None else self.along.members()
+        return qe.Certificate.bundle([*(members(verdict) if verdict.outcomes else ()), *near, *self._scene()])
 
     def check(self, certificate: qe.Certificate) -> None:
         """Whether a certificate proves just this. Raises ``CertificateRejected``."""
-        check(self.verdict, certificate, self._scene())
+        near = [] if self.along is None else self.along.stated()
+        compare(certificate, [*(stated(self.verdict) if self.verdict.outcomes else ()), *near], self._scene())
 
     def _scene(self) -> list[tuple[str, qe.Certificate]]:
         return survey.certificates(self.findings or ())
 
     def page(self, title: str = "trajectory") -> str:
-        """An HTML page with a chart of each quantity, and of the distance from each obstacle, over time."""
+        """An HTML page with a chart of each quantity, and of each distance, over time."""
         from bezier.report.html import document
         from bezier.report.trajectory import page
 
-        return document(page(self.verdict, self.lines, title, self.findings or ()))
+        return document(page(self.verdict, self.lines, title, self.findings or (), along=self.along))
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""
         data = to_json(self.verdict)
         if self.findings is not None:
             data["scene"] = [survey.to_json(f) for f in self.findings]
+        if self.along is not None:
+            data["along"] = self.along.to_json()
         data["kept"] = self.kept
         return data

@@ -156,25 +156,22 @@ def _by_bernstein(poly: Poly, length: Fraction) -> list[tuple[int, tuple[tuple[P
     return [(below, ((poly, 1),)), *((c, tuple(pair for pair in pairs if pair[1])) for c, pairs in listed)]
 
 
-def check(verdict: Verdict, given: Certificate, scene: Sequence[tuple[str, Certificate]] = ()) -> None:
-    """Whether a certificate proves what the verdict says of its trajectory. Raises ``CertificateRejected``.
-
-    ``scene``: what is proved about obstacles, which has to stand behind the limits as it is. The sentences
-    are made anew, from the trajectory and the limits, and have to be those of the certificate.
-    """
-    trajectory = verdict.trajectory
-    stated = [(*_broken(trajectory, o)[::2], TRUE) for o in verdict.outcomes if not o.is_kept]
-    limits = [o.limit for o in verdict.outcomes]
-    if verdict.factor is not None:
-        stated += [(*c[::2], FALSE) for c in claims(trajectory, limits, verdict.factor)]
-    compare(given, stated, scene)
+Stated = tuple[str, Formula, Formula]
+"""A label, a sentence, and its truth."""
 
 
-def compare(
-    given: Certificate, stated: Sequence[tuple[str, Formula, Formula]], scene: Sequence[tuple[str, Certificate]] = ()
-) -> None:
-    """Whether a certificate has just these members, labels with sentences and answers, then those of the scene, and is
-    accepted. Raises ``CertificateRejected``."""
+def stated(verdict: Verdict) -> list[Stated]:
+    """What a certificate has to say about a trajectory: the sentences, made anew from it and its limits."""
+    listed: list[Stated] = [(*_broken(verdict.trajectory, o)[::2], TRUE) for o in verdict.outcomes if not o.is_kept]
+    if verdict.factor is None:
+        return listed
+    every = claims(verdict.trajectory, [o.limit for o in verdict.outcomes], verdict.factor)
+    return [*listed, *((label, sentence, FALSE) for label, _, sentence in every)]
+
+
+def compare(given: Certificate, stated: Sequence[Stated], scene: Sequence[tuple[str, Certificate]] = ()) -> None:
+    """Whether a certificate has just these members, labels with sentences and answers, then those of the scene as they
+    are, and is accepted. Raises ``CertificateRejected``."""
     if not (stated or scene) or given.kind != Kind.BUNDLE or not isinstance(given.payload, tuple):
         raise CertificateRejected("bundle", "expected a bundle")
     if len(given.payload) != len(stated) + len(scene):

@@ -6,7 +6,7 @@ not join exactly, so continuity is decided up to a tolerance that the caller sta
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
@@ -62,6 +62,15 @@ class Trajectory:
         """The largest jump of a derivative, whose pieces may be given; None where it has none."""
         place = largest_gap(self.derivative(order) if rows is None else rows, self.lengths)
         return None if place is None else Jump(order, place[1], self.breaks[place[0] + 1], place[2])
+
+    def cut(self, times: Iterable[Fraction]) -> Trajectory:
+        """The same with breaks at these times, too."""
+        breaks, pieces, k = sorted({*self.breaks, *times}), list[Row](), 0
+        for start in breaks[:-1]:
+            k += start >= self.breaks[k + 1]
+            inner = RationalPoly.of([start - self.breaks[k], 1])
+            pieces.append(tuple(p.compose(inner) for p in self.pieces[k]))
+        return Trajectory(self.names, tuple(breaks), tuple(pieces))
 
     def slowed(self, factor: Fraction) -> Trajectory:
         """The same path in ``factor`` times the time."""

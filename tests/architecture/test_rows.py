@@ -63,6 +63,7 @@ ROWS = {
     "bezier.chains.plan": 23,
     "bezier.chains.command": 24,
     "bezier.trajectories": 15,
+    "bezier.trajectories.along": 18,
     "bezier.trajectories.command": 23,
     "bezier.scenes": 15,
     "bezier.scenes.command": 24,
@@ -172,7 +173,7 @@ def test_rows() -> None:
 
 
 BALLS = ("qe.kernel.arithmetic.", "qe.expert.arithmetic.", "bezier.proofs.duals", "bezier.proofs.square_roots")
-BALLS += ("bezier.arm.motion_chain",)
+BALLS += ("bezier.arm.motion_chain", "bezier.arm.tip")
 
 
 def test_flint_is_imported_only_in_the_exact_layer_and_in_the_arithmetic_of_the_checkers() -> None:
