@@ -71,8 +71,7 @@ def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tupl
         plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
     larger = stated_radius(stated.summary)
     plan = with_findings(plan, lambda solvable: stated_rule(problem, solvable, larger))
-    moving = with_joints(with_quality(plan))
-    whole = _of_certificate(lambda: with_stated(moving, certificate))
+    whole = _of_certificate(lambda: with_stated(with_joints(with_quality(plan, certificate)), certificate))
     return whole, (*result.lines, *_derived(whole))
 
 

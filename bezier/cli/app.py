@@ -346,7 +346,7 @@ def route(
 def retime(
     file: TimedPath,
     limits: Annotated[Path, typer.Option("--limits", help="A TOML file: velocity, acceleration, …, as for certify.")],
-    law: Annotated[Law | None, typer.Option("--law", help="A law with a formula; else the fastest motion.")] = None,
+    law: Annotated[Law, typer.Option("--law", help="The fastest motion, or a law with a formula.")] = Law.LEAST,
     accuracy: Annotated[str, typer.Option("--accuracy", help="Share above the bound at which to stop.")] = "1/250",
     out: Annotated[Path | None, typer.Option("--out", help="Write the motion here (.csv), for certify.")] = None,
     certificate: Evidence = None,
@@ -363,7 +363,7 @@ def retime(
     check_limits(timeout, memory)
     for name in (out, certificate, page):
         check_writable(name)
-    if check is not None and (certificate is not None or law is not None):
+    if check is not None and (certificate is not None or law is not Law.LEAST):
         raise InputError("--check: expected no --certificate and --law with it, found one")
     if out is not None and out.suffix.lower() != ".csv":
         raise InputError(f"--out {out}: expected a name that ends in .csv")

@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from bezier.input.toml_table import Table
+from bezier.interface.function import table_value
 from bezier.interface.trajectory import limited_motion, path_of
 from bezier.motion.timelaw import Law
 from bezier.retiming.least_time import LeastTime, least_time
@@ -26,7 +28,7 @@ def retime(
     acceleration: object = None,
     velocity_norm: object = None,
     acceleration_norm: object = None,
-    law: object = None,
+    law: object = Law.LEAST,
     accuracy: object = "1/250",
     timeout: float | None = None,
     memory: int | None = None,
@@ -58,18 +60,10 @@ def retime(
     share = arguments.rational(accuracy, "accuracy")
     if share <= 0:
         raise InputError(f"{SOURCE}: accuracy: expected a number above 0, found {arguments.shown(accuracy)}")
+    chosen = Table({"law": table_value(law, "law")}, SOURCE).choice("law", Law)
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    return perform(partial(_timed, places, limits, _law(law), share), bounds)
+    return perform(partial(_timed, places, limits, chosen, share), bounds)
 
 
-def _law(given: object) -> Law | None:
-    if given is None or isinstance(given, Law):
-        return given
-    if given not in [law.value for law in Law]:
-        names = ", ".join(law.value for law in Law)
-        raise InputError(f"{SOURCE}: law: expected one of {names}, found {arguments.shown(given)}")
-    return Law(given)
-
-
-def _timed(path: Any, limits: Any, law: Law | None, accuracy: Any, budget: Budget) -> LeastTime:
+def _timed(path: Any, limits: Any, law: Law, accuracy: Any, budget: Budget) -> LeastTime:
     return least_time(path, limits, law=law, accuracy=accuracy, budget=budget)

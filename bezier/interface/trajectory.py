@@ -6,20 +6,18 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bezier.arm.robot import Robot
 from bezier.chains.plan import ChainPlan
-from bezier.curves.curve import Bezier
 from bezier.input.toml_table import Table
 from bezier.interface.function import table_value
 from bezier.interface.planned import Planned
-from bezier.motion.motion import near, pieces
+from bezier.motion.motion import pieces
+from bezier.planner.least_time import joined
 from bezier.trajectories.along import load_path
 from bezier.trajectories.command import Certified, limits_of, scene_of
-from bezier.trajectories.exact import by_control_points
 from bezier.trajectories.limits import Limit
 from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
@@ -121,23 +119,15 @@ def path_of(given: Any, *, timed: bool = True) -> Trajectory:
         return given
     if isinstance(given, Planned):
         motion = given.motion if timed else None
-        return _joined("xyz", [(part.high - part.low, part.curve) for part in pieces(given.path, motion)])
+        return joined("xyz", [(part.high - part.low, part.curve) for part in pieces(given.path, motion)])
     if isinstance(given, ChainPlan):
         if not given.feasible:
             raise InputError(f"path: expected a chain, found none: {given}")
         chain = given.chain
-        return _joined("xyz"[: chain.dimension], list(zip(chain.times, given.curves, strict=True)))
+        return joined("xyz"[: chain.dimension], list(zip(chain.times, given.curves, strict=True)))
     if isinstance(given, str | os.PathLike):
         return load(Path(given))
     return from_scipy(given)
-
-
-def _joined(names: str, parts: Sequence[tuple[Fraction, Bezier]]) -> Trajectory:
-    """Curves one after the other, each with its duration; irrational coordinates become numbers next to them."""
-    rows = [tuple(tuple(near(c) for c in point) for point in curve.points) for _, curve in parts]
-    breaks = tuple(accumulate((length for length, _ in parts), initial=Fraction(0)))
-    polys = [by_control_points(row, length) for row, (length, _) in zip(rows, parts, strict=True)]
-    return Trajectory(tuple(names), breaks, tuple(polys))
 
 
 def limited_motion(values: Mapping[str, object], axes: int, source: str) -> list[Limit]:

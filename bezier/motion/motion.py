@@ -3,7 +3,7 @@
 In a problem file::
 
     [timing]
-    law = "quintic"             # cubic | quintic | trapezoid (then optionally ramp = "1/4")
+    law = "quintic"             # cubic | quintic | trapezoid (then optionally ramp = "1/4") | least
     duration = 50               # seconds; without it the least time that keeps the limits
     max_speed = 20              # mm/s, optional
     max_acceleration = 5        # mm/s^2, optional
@@ -75,6 +75,10 @@ def read_timing(table: Table) -> Timing | None:
         raise section.error("ramp", "at most 1/2", str(ramp))
     duration = section.positive("duration") if "duration" in raw else None
     limits = {key: section.positive(key) for key in LIMITS if key in raw}
+    if law is Law.LEAST and duration is not None:
+        raise section.error("duration", 'no such key with law = "least"', str(duration))
+    if law is Law.LEAST and "max_acceleration" not in limits:
+        raise section.error("max_acceleration", 'this limit with law = "least"', "none")
     if duration is None and not limits:
         raise section.error("duration", "a duration, max_speed or max_acceleration", "none of them")
     return Timing(law, ramp, duration, limits)
@@ -88,6 +92,9 @@ class Motion:
     duration: Fraction
     extremes: Extremes
     """The largest speed (mm/s) and acceleration (mm/s^2) over the whole time."""
+    law: TimeLaw
+    at_least: Fraction | None = None
+    """Seconds that no motion along the path can beat, with the law of least time."""
 
     def __repr__(self) -> str:
         return f"Motion({float(self.duration):.6g} s, {'within' if self.keeps_limits else 'not within'} its limits)"
@@ -117,6 +124,11 @@ class Motion:
         broken = [(key, kept) for key, kept in self.kept.items() if kept is not True]
         parts = [f"{key} = {self.timing.limits[key]} {units[key]} {words[kept]}" for key, kept in broken]
         return f"in {self.duration} s the motion does not keep its limits: {', '.join(parts)}" if parts else ""
+
+    @property
+    def bound_in_words(self) -> str:
+        """Where a bound of the time is known, what it is."""
+        return "" if self.at_least is None else f"; every motion takes at least {decimal_text(self.at_least, 8)} s"
 
     @property
     def suggestion(self) -> str:
@@ -158,14 +170,21 @@ def quality_of(path: Path, timing: Timing | None) -> Quality:
         name: None if is_zero(lengths[name].low) else curvature_enclosure(curve, REL)
         for name, curve in path.curves.items()
     }
-    return Quality(lengths, curvatures, None if timing is None else motion_of(path, timing))
+    has_law = timing is not None and timing.law is not Law.LEAST
+    return Quality(lengths, curvatures, motion_of(path, timing) if timing is not None and has_law else None)
 
 
 def motion_of(path: Path, timing: Timing) -> Motion:
-    """The motion that the timing asks for."""
-    unit = extremes(path, TimeLaw.of(timing.law, timing.ramp))
-    duration = least_duration(unit, timing.limits) if timing.duration is None else timing.duration
-    return Motion(timing, duration, unit.lasting(duration))
+    """The motion that the timing asks for, which has a law with a formula."""
+    return moving(path, timing, TimeLaw.of(timing.law, timing.ramp))
+
+
+def moving(path: Path, timing: Timing, law: TimeLaw, shortest: Fraction = Fraction(0)) -> Motion:
+    """The motion by a law in the time asked for, or in the least one, from ``shortest`` on, that keeps the limits."""
+    unit = extremes(path, law)
+    least = max(least_duration(unit, timing.limits), shortest)
+    duration = least if timing.duration is None else timing.duration
+    return Motion(timing, duration, unit.lasting(duration), law)
 
 
 # --- files and words ----------------------------------------------------------------------------------
@@ -191,9 +210,8 @@ def motion_csv(path: Path, motion: Motion) -> str:
 
 def state(path: Path, motion: Motion, tau: Fraction) -> tuple[str, Fraction, tuple[Vector, Vector, Vector]]:
     """The curve, its parameter, and position, velocity and acceleration at the time tau * duration, exactly."""
-    law = TimeLaw.of(motion.timing.law, motion.timing.ramp)
     total = sum((path.duration(name) for name in path.curves), Fraction(0))
-    value, slope, bend = (total * d for d in law.derivatives(tau))
+    value, slope, bend = (total * d for d in motion.law.derivatives(tau))
     begin, last = Fraction(0), list(path.curves)[-1]
     for name in path.curves:
         length = path.duration(name)
@@ -219,6 +237,8 @@ def motion_json(motion: Motion) -> str:
         "kept": motion.kept,
         "units": {"time": "s", "length": "mm"},
     }
+    if motion.at_least is not None:
+        data["at_least"] = {"exact": str(motion.at_least), "decimal": decimal_text(motion.at_least)}
     return json.dumps(data, indent=1) + "\n"
 
 
@@ -254,7 +274,7 @@ def _motion_words(motion: Motion) -> str:
     fastest, hardest = _short(motion.extremes.speed), _short(motion.extremes.acceleration)
     return (
         f"motion: {motion.timing.law.value}, {decimal_text(motion.duration, 8)} s, at most {fastest} mm/s and"
-        f" {hardest} mm/s^2{limits}"
+        f" {hardest} mm/s^2{limits}{motion.bound_in_words}"
     )
 
 
@@ -317,8 +337,7 @@ def _plain(path: Path, curves: dict[str, Bezier]) -> Iterator[TimedCurve]:
 
 
 def _timed(path: Path, curves: dict[str, Bezier], motion: Motion) -> Iterator[TimedCurve]:
-    law = TimeLaw.of(motion.timing.law, motion.timing.ramp)
-    certain = [stretch for stretch in stretches(path, law) if stretch.certain]
+    certain = [stretch for stretch in stretches(path, motion.law) if stretch.certain]
     middles = [(a.high + b.low) / 2 for a, b in pairwise(certain)]
     ends = [Fraction(0), *middles, Fraction(1)]
     for stretch, (low, high) in zip(certain, pairwise(ends), strict=True):

@@ -36,12 +36,13 @@ class Law(Enum):
     """How the path is run through.
 
     CUBIC: 3 tau^2 - 2 tau^3, at rest at both ends. QUINTIC: 6 tau^5 - 15 tau^4 + 10 tau^3, without acceleration there
-    either. TRAPEZOID: the speed rises linearly, stays, and falls linearly.
+    either. TRAPEZOID: the speed rises linearly, stays, and falls linearly. LEAST: as fast as the limits allow.
     """
 
     CUBIC = "cubic"
     QUINTIC = "quintic"
     TRAPEZOID = "trapezoid"
+    LEAST = "least"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +54,14 @@ class TimeLaw:
 
     @staticmethod
     def of(law: Law, ramp: Fraction = Fraction(1, 4)) -> TimeLaw:
-        """``ramp``: the share of the time in which the trapezoid speeds up, and of that in which it slows down."""
+        """``ramp``: the share of the time in which the trapezoid speeds up, and of that in which it slows down. Raises
+        ``InputError`` for the least time, which depends on the path."""
         if law is Law.CUBIC:
             return TimeLaw((ZERO, ONE), ((ZERO, ZERO, Fraction(3), Fraction(-2)),))
         if law is Law.QUINTIC:
             return TimeLaw((ZERO, ONE), ((ZERO, ZERO, ZERO, Fraction(10), Fraction(-15), Fraction(6)),))
+        if law is Law.LEAST:
+            raise InputError("law: expected cubic, quintic or trapezoid, which have a formula, found least")
         if not 0 < ramp <= Fraction(1, 2):
             raise InputError("the ramp of a trapezoid takes more than 0 and at most 1/2 of the time")
         top = 1 / (1 - ramp)
@@ -74,7 +78,10 @@ class TimeLaw:
         return _value(polynomial, tau), _value(slope, tau), _value(bs.power_derivative(slope), tau)
 
     def passage(self, share: Fraction) -> tuple[Fraction, Fraction]:
-        """Rational numbers around the tau with s(tau) = share, equal where that is found exactly."""
+        """Rational numbers around the tau with s(tau) = share, equal where that is found exactly, as at breaks."""
+        for tau, polynomial in zip(self.breaks, self.polynomials, strict=False):
+            if _value(polynomial, tau) == share:
+                return tau, tau
         low, high = ZERO, ONE
         while high - low > PASSAGE_WIDTH:
             middle = (low + high) / 2

@@ -79,8 +79,8 @@ def with_joints(plan: Plan) -> Plan:
         return plan
     curves = {name: rounded(curve) for name, curve in plan.path.curves.items()}
     parts = {name: plan.path.duration(name) for name in curves}
-    motion, timing = None if plan.quality is None else plan.quality.motion, plan.problem.timing
-    law = TimeLaw.of(Law.QUINTIC) if timing is None else TimeLaw.of(timing.law, timing.ramp)
+    motion = None if plan.quality is None else plan.quality.motion
+    law = TimeLaw.of(Law.QUINTIC) if motion is None else motion.law
     duration = USUAL_DURATION if motion is None else motion.duration
     try:
         result = joint_plan(load_arm(plan.problem.arm), curves, law, duration, SAMPLES, parts=parts)

@@ -7,15 +7,18 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from bezier.motion.motion import quality_of
+from bezier.motion.timelaw import Law
 from bezier.paths import heights
 from bezier.planner import radius_rule
 from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
 from bezier.planner.derivations import with_derivations
+from bezier.planner.least_time import with_least_time
 from bezier.planner.table import method_of
 from bezier.plans import Begun, Clock, Outcome, Plan, RadiusRule
 from bezier.problem import Problem, ends_inside
 from qe.errors import BudgetExceeded, Unable
+from qe.proof.certificate import Certificate
 
 NEAR = (
     "the exact optimum needs a number field of high degree: rational control points are proved to be within 10^-9 of"
@@ -102,19 +105,22 @@ def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan
     return replace(result, remarks=(*result.remarks, *remarks))
 
 
-def with_quality(plan: Plan) -> Plan:
+def with_quality(plan: Plan, given: Certificate | None = None) -> Plan:
     """The plan with lengths, curvatures and the motion; it is not solved when the motion does not keep its limits.
 
-    Without them, and with a remark, if they were not found and not asked for.
+    Without them, and with a remark, if they were not found and not asked for. ``given``: the certificate of its folder.
     """
+    timing = plan.problem.timing
     if plan.path is None:
         return plan
     try:
-        quality = quality_of(plan.path, plan.problem.timing)
+        quality = quality_of(plan.path, timing)
     except Unable as error:
-        if isinstance(error, BudgetExceeded) or plan.problem.timing is not None:
+        if isinstance(error, BudgetExceeded) or timing is not None:
             raise
         return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
+    if timing is not None and timing.law is Law.LEAST:
+        return with_least_time(plan, quality, plan.path, timing, given)
     kept = quality.motion is None or quality.motion.keeps_limits
     solved = plan.outcome.is_success
     return replace(plan, quality=quality, outcome=Outcome.TOO_FAST if solved and not kept else plan.outcome)

@@ -91,7 +91,7 @@ def _motion(plan: Plan) -> list[Card]:
             label,
             f"{decimal_text(motion.duration, 6)} s",
             tone,
-            f"{motion.timing.law.value} law; {limits}".rstrip("; "),
+            f"{motion.timing.law.value} law; {limits}".rstrip("; ") + motion.bound_in_words,
         )
     ]
 

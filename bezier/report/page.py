@@ -203,7 +203,7 @@ def _motion(motion: Motion) -> list[Text]:
                 result,
             )
         )
-    title = f"Motion: {motion.timing.law.value} law, {decimal_text(motion.duration, 8)} s"
+    title = f"Motion: {motion.timing.law.value} law, {decimal_text(motion.duration, 8)} s{motion.bound_in_words}"
     return [html.heading(title), html.table(("", "over the whole time", "limit", "result"), rows)]
 
 

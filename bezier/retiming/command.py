@@ -21,7 +21,7 @@ def run(
     file: Path,
     limits: Path,
     *,
-    law: Law | None = None,
+    law: Law = Law.LEAST,
     accuracy: Fraction,
     evidence: bool = False,
     against: Path | None = None,

@@ -127,7 +127,7 @@ def least_time(
     path: Trajectory,
     limits: Sequence[Limit],
     *,
-    law: Law | None = None,
+    law: Law = Law.LEAST,
     accuracy: Fraction = ACCURACY,
     tolerance: Fraction = Fraction(1, 10**9),
     budget: Budget | None = None,
@@ -143,7 +143,7 @@ def least_time(
 def _least_time(
     path: Trajectory,
     limits: Sequence[Limit],
-    law: Law | None,
+    law: Law,
     accuracy: Fraction,
     tolerance: Fraction,
     budget: Budget,
@@ -157,9 +157,9 @@ def _least_time(
     speeds = np.sqrt(given.squares)
 
     def motion(slower: Fraction) -> tuple[Step, ...]:
-        return fastest(grid, speeds / float(slower)) if law is None else usual(path, law, seconds * slower)
+        return fastest(grid, speeds / float(slower)) if law is Law.LEAST else usual(path, law, seconds * slower)
 
-    steps, verdict = _keeping(grid, limits, tolerance, motion, 1 + MARGIN if law is None else Fraction(1))
+    steps, verdict = _keeping(grid, limits, tolerance, motion, 1 + MARGIN if law is Law.LEAST else Fraction(1))
     return LeastTime(path, steps, verdict, proved, seconds)
 
 

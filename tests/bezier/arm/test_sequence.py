@@ -82,7 +82,7 @@ def test_half_the_time_doubles_the_speed(plan: JointPlan) -> None:
     assert [b.high / a.high for a, b in zip(slow.accelerations, fast.accelerations)] == [4, 4, 4]
 
 
-@pytest.mark.parametrize("law", list(Law))
+@pytest.mark.parametrize("law", [Law.CUBIC, Law.QUINTIC, Law.TRAPEZOID])
 def test_every_law_is_bounded(plan: JointPlan, law: Law) -> None:
     motion = joint_motion(plan.path, plan.path.whole_runs[0], TimeLaw.of(law), Fraction(10), WHOLE)
     assert all(0 < v.low <= v.high for v in motion.speeds)

@@ -124,7 +124,7 @@ def test_arguments_that_make_no_sense_are_one_line() -> None:
         ({"velocity": 1}, "acceleration or acceleration_norm"),
         ({"velocity": 1, "acceleration": [1, 2]}, "one for each of 1 axes"),
         ({"acceleration": -1}, "acceleration"),
-        ({"acceleration": 1, "law": "linear"}, "cubic, quintic, trapezoid"),
+        ({"acceleration": 1, "law": "linear"}, '"cubic" or "quintic" or "trapezoid" or "least"'),
         ({"acceleration": 1, "accuracy": 0}, "accuracy"),
         ({"acceleration": 1, "position": [2, 3]}, "no motion along it keeps the limits: position"),
     ):
