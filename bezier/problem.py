@@ -112,7 +112,21 @@ _KEYS = ("method", "workspace", *_POINTS, "radius", *_WISHES)
 
 def read_problem(text: str, source: str = "<problem>") -> Problem:
     """Read a problem from TOML text. Raises ``InputError`` with file, line, key, what was expected and found."""
-    return problem_of(Table.parse(text, source))
+    return new_problem(Table.parse(text, source))
+
+
+def new_problem(table: Table) -> Problem:
+    """The problem of a table that a person wrote: there a via point in an obstacle is a mistake, which ``InputError``
+    names. Via points that the planner chooses may be in one; then it tries others."""
+    problem = problem_of(table)
+    if "via" in table.values and problem.method in INNER and not ends_inside(problem):
+        via = {name: point for name, point in problem.named_points.items() if name.startswith("via")}
+        for item in inside(via, problem.obstacles):
+            place = ", ".join(map(str, item.place))
+            raise table.error(
+                item.name, "a point clear of all obstacles", f"({place}), which lies in {item.obstacle.name}"
+            )
+    return problem
 
 
 def problem_of(table: Table) -> Problem:

@@ -34,6 +34,8 @@ SUFFIX = ".urdf"
 CLOSE = 1e-3
 """rad: 1.571 is pi/2."""
 
+MOST_METRES = 20
+"""Larger lengths may be millimetres, which URDF does not know."""
 DIGITS = 9
 TO_MM = 1000
 QUARTER = STEP // 2
@@ -145,6 +147,8 @@ def _origin(matrix: Floats | None, where: str) -> tuple[tuple[Fraction, ...], tu
     entries = [[float(v) for v in row] for row in matrix]
     if not all(math.isfinite(v) for row in entries for v in row):
         raise InputError(f"{where}: finite numbers expected as origin, {entries[:3]} found")
+    if max(abs(row[3]) for row in entries[:3]) > MOST_METRES:
+        raise InputError(f"{where}: an origin in m expected, {[row[3] for row in entries[:3]]} found, which may be mm")
     shift = tuple(round(Fraction(repr(row[3])) * TO_MM, DIGITS - 3) for row in entries[:3])
     pitch = math.asin(max(-1.0, min(1.0, -entries[2][0])))
     if math.cos(pitch) > CLOSE:
@@ -170,14 +174,18 @@ def _joint(joint: Any, where: str) -> Joint:
     motion = MOVING[joint.type]
     factor = 1 if motion is JointKind.REVOLUTE else TO_MM
     limit, limits, velocity = joint.limit, None, None
+    if joint.type != "continuous":
+        ends = [None if limit is None else getattr(limit, name) for name in ("lower", "upper")]
+        if None in ends:
+            raise InputError(f"{where}: limits lower and upper expected, as it is not continuous, found none")
+        low, high = (_exact(float(v), where) for v in ends)
+        if low >= high:
+            raise InputError(f"{where}: a lower limit below the upper one expected, {low} and {high} found")
+        unit, most = ("rad", MOST_RADIANS) if motion is JointKind.REVOLUTE else ("m", MOST_METRES)
+        if max(-low, high) > most:
+            raise InputError(f"{where}: limits in {unit} expected, {float(low):g} and {float(high):g} found")
+        limits = (low * factor, high * factor)
     if limit is not None:
-        if joint.type != "continuous" and limit.lower is not None and limit.upper is not None:
-            low, high = (_exact(float(v), where) * factor for v in (limit.lower, limit.upper))
-            if low > high:
-                raise InputError(f"{where}: a lower limit below the upper one expected, {low} and {high} found")
-            if motion is JointKind.REVOLUTE and max(-low, high) > MOST_RADIANS:
-                raise InputError(f"{where}: limits in rad expected, {float(low):g} and {float(high):g} found")
-            limits = (low, high) if low < high else None
         velocity = _exact(float(limit.velocity), where) * factor if limit.velocity else None
         if velocity is not None and velocity < 0:
             raise InputError(f"{where}: a velocity above zero expected, {velocity} found")

@@ -22,7 +22,7 @@ from bezier.input.toml_table import Table, meant
 from bezier.interface.planned import NoPath, Planned
 from bezier.interface.work import Work
 from bezier.planner.words import why_not
-from bezier.problem import Problem, problem_of
+from bezier.problem import Problem, new_problem
 from qe import arguments
 from qe.errors import InputError
 from qe.processes.limits import Limits
@@ -187,4 +187,4 @@ def problem_from(given: Mapping[str, object]) -> Problem:
     values = {
         key: table_value(value, f"{SOURCE}: {NAMES.get(key, key)}") for key, value in given.items() if value is not None
     }
-    return problem_of(Table(values, SOURCE, names=NAMES))
+    return new_problem(Table(values, SOURCE, names=NAMES))

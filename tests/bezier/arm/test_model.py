@@ -272,7 +272,10 @@ def test_every_axis(axis: str, tmp_path: Path) -> None:
     ('type="prismatic"', 'type="planar"', "planar found"),
     ('<axis xyz="-1 0 0"/>', '<axis xyz="-1 0 0"/><mimic joint="shoulder"/>', "one that mimics another"),
     ('name="shoulder"', 'name=""', None),
-    ('<limit lower="-1.5" upper="1.5" effort="1" velocity="2"/>', "", None),
+    ('<limit lower="-1.5" upper="1.5" effort="1" velocity="2"/>', "", "limits lower and upper"),
+    ('lower="-1.5" upper', "upper", "limits lower and upper"),
+    ('upper="0.2"', 'upper="200"', "limits in m expected"),
+    ('xyz="0.12 0 0"', 'xyz="120 0 0"', "an origin in m expected, [120.0, 0.0, 0.0] found, which may be mm"),
     ('<joint name="waist-1" type="continuous">', "<joint>", "URDF expected"),
 )
 def test_what_is_refused(old: str, new: str, message: str | None, tmp_path: Path) -> None:

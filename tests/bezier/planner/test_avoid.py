@@ -18,7 +18,7 @@ from bezier.planner.words import lines
 from bezier.plans import Clock, Outcome
 from bezier.problem import PlanMethod, read_problem
 from bezier.report.page import render
-from qe.errors import BudgetExceeded, CertificateRejected
+from qe.errors import BudgetExceeded, CertificateRejected, InputError
 from tests.bezier.made import CRATE_TEXT as CRATE
 from tests.bezier.made import obstacle_text
 from tests.tables import each
@@ -30,7 +30,7 @@ goal = [4, 2, 1]
 radius = 6
 """
 BALLOON = obstacle_text("ball", "balloon", centre=[0, 2, 2], radius=1)
-WALL = obstacle_text("box", "wall", low=[-3, -20, -20], high=[3, 20, 20])
+WALL = obstacle_text("box", "wall", low=["-1/2", -20, -20], high=["1/2", 20, 20])
 
 
 def planned(*parts: str):
@@ -113,8 +113,16 @@ def test_where_nothing_helps_the_path_is_blocked_and_all_methods_were_tried(tmp_
     assert all(a.outcome is not Outcome.SOLVED for a in plan.attempts)
     words = "\n".join(lines(plan))
     assert "no path found: every path that was tried MEETS an obstacle" in words
-    assert "tried: as given: P: enters wall" in words
+    assert "tried: as given: Q: enters wall" in words
     assert "an obstacle is in the way" in render(plan, method_of(plan.problem.method), None)
+
+
+def test_a_via_point_in_an_obstacle_is_one_line():
+    with pytest.raises(
+        InputError, match=r"via\[1\]: expected a point clear of all obstacles, found \(1/2, 2, 2\), which"
+    ) as one:
+        planned(START, 'via = [[-1, 2, 4], ["1/2", 2, 2]]\n', BALLOON)
+    assert "\n" not in str(one.value) and "lies in balloon" in str(one.value)
 
 
 def test_points_above_an_obstacle_are_conditions_of_the_method():
