@@ -175,7 +175,7 @@ def _joint(joint: Any, where: str) -> Joint:
     factor = 1 if motion is JointKind.REVOLUTE else TO_MM
     limit, limits, velocity = joint.limit, None, None
     if joint.type != "continuous":
-        ends = [None if limit is None else getattr(limit, name) for name in ("lower", "upper")]
+        ends: list[Any] = [None if limit is None else getattr(limit, name) for name in ("lower", "upper")]
         if None in ends:
             raise InputError(f"{where}: limits lower and upper expected, as it is not continuous, found none")
         low, high = (_exact(float(v), where) for v in ends)
