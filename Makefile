@@ -14,6 +14,7 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 CORE := $(VENV)/.core-installed
 DEV := $(VENV)/.dev-installed
 DOCS := $(VENV)/.docs-installed
+SAT := $(VENV)/.sat-installed
 
 # As a folder on the path and by no import hook, so that type checkers of editors find the packages.
 EDITABLE := --config-settings editable_mode=compat --editable
@@ -45,12 +46,16 @@ $(DOCS): $(CORE)
 	$(PIP) install $(EDITABLE) '.[docs,squares]'
 	@touch $@
 
+$(SAT): $(CORE)
+	$(PIP) install $(EDITABLE) '.[sat]'
+	@touch $@
+
 setup: $(DEV) ## create .venv with every dependency
 
 plan: $(CORE) ## plan the example path; the report is out/report.html
 	$(BIN)/bezier plan examples/three_balls.toml --out $(OUT)
 
-paper: $(CORE) ## check every claim of the paper; the page is out/paper/index.html
+paper: $(SAT) ## check every claim of the paper; the page is out/paper/index.html
 	$(BIN)/python -m paper_repro --out $(OUT)/paper
 
 test: $(DEV) ## all tests but the long ones
