@@ -111,6 +111,11 @@ def definitions(problem: Block, options: Options) -> str | None:
     return "an equation may define a variable" if may_define(problem.formula) else None
 
 
+def quantified(problem: Block, options: Options) -> str | None:
+    """Any quantifier."""
+    return None if problem.formula.is_quantifier_free else "quantifiers"
+
+
 def curved_and_bound(problem: Block, options: Options) -> str | None:
     """Quantifiers over polynomials that are not linear, in more than one variable."""
     if not problem.curved or problem.formula.is_quantifier_free or not is_short(problem.formula, POSITION_TERMS):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome
 from qe.engine.local import WORK, without_locals
@@ -14,7 +15,7 @@ from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert
 from qe.formula.features import features
 from qe.formula.syntax import TRUE, And, Exists, Formula, Quantified
-from qe.formula.traverse import map_atoms, subformulas
+from qe.formula.traverse import atoms, map_atoms, subformulas
 from qe.options import Options, Stage
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
@@ -23,6 +24,7 @@ from qe.rules.lift import Solve
 from qe.rules.normal_position import at_steps, coefficients, steps_to_normal_position
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import StepKind
+from qe.simplifier.simplify import simplify
 
 
 def to_dual(problem: Block, log: RunLog) -> None:
@@ -41,6 +43,36 @@ def lifted_values(ready: Prepared, outcome: Outcome, log: RunLog) -> Values | No
     except Unable as error:
         log.switch("no witness", error)
         return None
+
+
+class Simplification:
+    """A question that says more than it has to: every method looks for forms that true conditions and factors hide."""
+
+    name = "standard simplification"
+
+    def suits(self, problem: Block, options: Options) -> str | None:
+        return "conditions that say nothing new"
+
+    def run(self, problem: Block, context: Context) -> Outcome | None:
+        question = problem.formula
+        simple = simplify(question, watch=context.budget.check)
+        if _weight(simple) >= _weight(question):
+            return None
+        context.log.step(StepKind.SIMPLIFY.value, question, simple)
+
+        def back(rest: Outcome) -> Outcome:
+            values = rest.witness if type(simple) is type(question) else {}  # the block is gone: any values will do
+            if problem.free or values is None or rest.formula != problem.asked(TRUE) or not problem.variables:
+                return Outcome(rest.formula, order=rest.order)
+            return Outcome(rest.formula, {v: values.get(v, Fraction(0)) for v in problem.variables})
+
+        return Outcome(simple, back=back)
+
+
+def _weight(formula: Formula) -> tuple[int, int]:
+    """The atoms of a formula, and the sum of their degrees."""
+    found = list(atoms(formula))
+    return len(found), sum(a.poly.total_degree for a in found)
 
 
 class Definitions:
@@ -98,7 +130,7 @@ class NormalPosition:
             for step in reversed(steps):
                 if values is not None and step.variable in values:
                     values[step.variable] = step.value(values)
-            return replace(rest, witness=values, certificate=None)
+            return replace(rest, witness=values, certificate=None, make=None)
 
         return Outcome(current, back=back) if steps else None
 

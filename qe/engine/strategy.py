@@ -41,6 +41,7 @@ class Listed:
 
 
 METHODS = {
+    "standard simplification": Listed("qe.engine.reductions", "Simplification", "simplifying"),
     "definitions": Listed("qe.engine.reductions", "Definitions", "substituting definitions", Stage.EQUATIONS),
     "normal position": Listed("qe.engine.reductions", "NormalPosition", "a change of coordinates", Stage.POSITION),
     "local variables": Listed(
@@ -190,6 +191,7 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 """
 
 STRATEGY: tuple[Attempt, ...] = (
+    Attempt(Scope.QUESTION, "standard simplification", on.quantified),
     Attempt(Scope.QUESTION, "definitions", on.definitions),
     Attempt(Scope.QUESTION, "local variables", on.many_linear_cases),
     Attempt(Scope.QUESTION, "witness", on.inner_blocks, SHORTCUT),

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from fractions import Fraction
+from collections.abc import Iterable, Mapping
 from itertools import islice, product
 from math import lcm
 
@@ -19,34 +18,16 @@ def as_squares(theory: Lemmas, poly: Poly) -> None:
     for sign in (1, -1):
         least = minimum(poly * sign)
         if least is not None:
-            _sum_of_squares(theory, poly * sign, least.value, least.zeros)
+            scale = lcm(least.value.denominator, *(weight.denominator for weight, _ in least.squares))
+            squares: list[Term] = [(int(weight * scale), _squared(root)) for weight, root in least.squares]
+            constant: list[Term] = [(int(least.value * scale), ())] if least.value else []
+            theory.identity([(-scale * sign, ((poly, 1),)), *squares, *constant])
 
 
-def _sum_of_squares(theory: Lemmas, poly: Poly, value: Fraction, zeros: Sequence[Poly]) -> None:
-    if all(not any(k % 2 for k in e) for e, _ in poly.terms()):
-        theory.identity([(-1, ((poly, 1),)), *_monomials(poly)])
-        return
-    weights: list[Fraction] = []
-    rest, scale = poly, 1
-    for zero in zeros:  # the first variable of each square stands in no later one
-        first = zero.variables[0]
-        lead = zero.leading(first).constant_value()
-        square = Fraction(_square_coefficient(rest, first), scale) / lead**2
-        weights.append(square)
-        common = lcm(scale, square.denominator)
-        rest = rest * (common // scale) - zero * zero * int(square * common)
-        scale = common
-    if not rest.is_constant or Fraction(rest.constant_value(), scale) != value:
-        return
-    squares: list[Term] = [(int(w * scale), ((z, 2),)) for w, z in zip(weights, zeros, strict=True)]
-    constant: list[Term] = [(rest.constant_value(), ())] if rest else []
-    theory.identity([(-scale, ((poly, 1),)), *squares, *constant])
-
-
-def _square_coefficient(poly: Poly, x: int) -> int:
-    """The coefficient of x^2, for a polynomial of total degree 2."""
-    parts = poly.coefficients(x)
-    return parts[2].constant_value() if len(parts) > 2 else 0
+def _squared(root: Poly) -> tuple[tuple[Poly, int], ...]:
+    """The square of a polynomial as powers: of variables, if it is a monomial."""
+    (exponents, _), *more = root.terms()
+    return ((root, 2),) if more else tuple((root.ring.gen(i), 2 * k) for i, k in enumerate(exponents) if k)
 
 
 def _monomials(poly: Poly) -> list[Term]:

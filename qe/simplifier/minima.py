@@ -1,24 +1,34 @@
-"""Where and how a polynomial attains its minimum: quadratic polynomials, and sums of even monomials."""
+"""Where and how a polynomial attains its minimum, where completing squares finds it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from math import lcm
 
-from qe.exact.quadratic_form import quadratic
 from qe.exact.ring import Poly
 
-_LARGEST = 8  # number of variables up to which the elimination is tried
+_MOST_TERMS = 60
 
 
 @dataclass(frozen=True, slots=True)
 class Minimum:
-    """``value``, attained exactly where all polynomials of ``zeros`` vanish."""
+    """The polynomial is ``value`` and positive multiples of squares of polynomials that vanish together somewhere.
+
+    ``squares``: (weight, polynomial), these primitive.
+    """
 
     value: Fraction
-    zeros: tuple[Poly, ...]
+    squares: tuple[tuple[Fraction, Poly], ...] = ()
+
+    @property
+    def zeros(self) -> tuple[Poly, ...]:
+        """The minimum is attained exactly where all of these vanish."""
+        return tuple(_radical(root) for _, root in self.squares)
+
+    def over(self, scale: int) -> Minimum:
+        """The minimum of the polynomial divided by this positive number."""
+        return Minimum(self.value / scale, tuple((weight / scale, root) for weight, root in self.squares))
 
 
 @lru_cache(maxsize=20_000)
@@ -26,62 +36,44 @@ def minimum(poly: Poly) -> Minimum | None:
     """The global minimum of a polynomial where one of two simple arguments finds it, else None.
 
     A constant plus positive multiples of monomials with even exponents is least where all the monomials vanish.
-    Otherwise the polynomial must be quadratic.
+    4a * (a*x^2 + l*x + r) = (2a*x + l)^2 + (4a*r - l^2), with a number a > 0, is least over x where 2a*x + l = 0, and
+    what remains is without x. With a < 0 the polynomial is unbounded below. Every quadratic polynomial is decided.
     """
-    if poly.total_degree % 2 or not poly:
+    if poly.total_degree % 2 or not poly or poly.term_count() > _MOST_TERMS:
         return None
-    constant, zeros = 0, []
+    even = _even_monomials(poly)
+    if even is not None:
+        return even
+    for i in poly.variables:
+        parts = poly.coefficients(i)
+        if len(parts) != 3 or not parts[2].is_constant:
+            continue
+        a = parts[2].constant_value()
+        rest = parts[0] * (4 * a) - parts[1] * parts[1]
+        least = None if a < 0 else Minimum(Fraction(rest.constant_value())) if rest.is_constant else minimum(rest)
+        if least is None:
+            return None  # also where the remainder is not known to be bounded: another variable may know, but which?
+        size, root = (poly.ring.gen(i) * (2 * a) + parts[1]).normal()
+        return Minimum(least.value, ((Fraction(size * size), root), *least.squares)).over(4 * a)
+    return None
+
+
+def _even_monomials(poly: Poly) -> Minimum | None:
+    constant, squares = Fraction(0), []
     for exponents, coefficient in poly.terms():
         if not any(exponents):
-            constant = coefficient
+            constant = Fraction(coefficient)
         elif coefficient < 0 or any(k % 2 for k in exponents):
-            return minimum_of_quadratic(poly) if poly.total_degree == 2 else None
-        else:
-            zeros.append(poly.ring.from_terms({tuple(min(k, 1) for k in exponents): 1}))
-    return Minimum(Fraction(constant), tuple(reversed(zeros)))
-
-
-def minimum_of_quadratic(poly: Poly) -> Minimum | None:
-    """The minimum over R^n of a polynomial of total degree 2, or None when it is unbounded below (or too large).
-
-    Completing squares one variable at a time: a*x^2/2 + l*x + rest = a*(x + l/a)^2/2 + rest - l^2/(2a) with
-    a > 0 is least over x where a*x + l = 0, and what remains is quadratic in the other variables. With a = 0
-    the polynomial is bounded below only if x does not occur. With a < 0 it is not bounded below.
-    """
-    n = len(poly.variables)
-    if n > _LARGEST:
-        return None
-    form = quadratic(poly, poly.variables)
-    assert form is not None
-    hessian, linear, constant = [list(row) for row in form.hessian], list(form.gradient), form.constant
-    zeros: list[Poly] = []
-    for k in range(n):
-        a = hessian[k][k]
-        if a < 0:
             return None
-        if a == 0:
-            if linear[k] or any(hessian[k][k + 1 :]):
-                return None
-            continue
-        zeros.append(_linear_form(poly, hessian[k][k:], k, linear[k]))
-        for i in range(k + 1, n):
-            ratio = hessian[i][k] / a
-            linear[i] -= ratio * linear[k]
-            for j in range(k + 1, n):
-                hessian[i][j] -= ratio * hessian[k][j]
-        constant -= linear[k] ** 2 / (2 * a)
-    return Minimum(constant, tuple(zeros))
+        else:
+            squares.append((Fraction(coefficient), poly.ring.from_terms({tuple(k // 2 for k in exponents): 1})))
+    return Minimum(constant, tuple(reversed(squares)))
 
 
-def _linear_form(poly: Poly, coefficients: list[Fraction], first: int, constant: Fraction) -> Poly:
-    """The primitive integer multiple of sum(coefficients[k] * variable[first + k]) + constant."""
-    ring = poly.ring
-    common = lcm(*(c.denominator for c in coefficients), constant.denominator)
-    form = ring.constant(int(constant * common))
-    for k, c in enumerate(coefficients):
-        if c:
-            form = form + ring.gen(poly.variables[first + k]) * int(c * common)
-    return form.normal()[1]
+def _radical(root: Poly) -> Poly:
+    """A monomial without its exponents, any other polynomial as it is."""
+    (exponents, _), *more = root.terms()
+    return root if more else root.ring.from_terms({tuple(min(k, 1) for k in exponents): 1})
 
 
 def vanishing(poly: Poly) -> tuple[Poly, ...]:

@@ -2,12 +2,13 @@
 
 from fractions import Fraction
 from itertools import product
+from math import lcm
 
 from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
-from qe.simplifier.minima import minimum, minimum_of_quadratic, vanishing
+from qe.simplifier.minima import minimum, vanishing
 from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
@@ -39,6 +40,22 @@ def test_no_minimum_is_claimed(poly: Poly) -> None:
 COEFFICIENTS = st.integers(-3, 3)
 
 
+def is_sum(poly, least):
+    scale = lcm(least.value.denominator, *(weight.denominator for weight, _ in least.squares))
+    squares = sum(root * root * int(weight * scale) for weight, root in least.squares)
+    return all(weight > 0 for weight, _ in least.squares) and poly * scale == squares + int(least.value * scale)
+
+
+@given(*[st.lists(COEFFICIENTS, min_size=4, max_size=4)] * 2, COEFFICIENTS)
+def test_squares_of_curved_polynomials_are_completed(c, d, constant):
+    inner = c[0] * Y * Z + c[1] * Y**2 + c[2] * Z + c[3]
+    outer = d[0] * Y**2 + d[1] * Y * Z + d[2] * Z**2 + d[3]
+    poly = (X - inner) ** 2 * 3 + 2 * (Y - d[0] * Z**2) ** 2 + Z**4 + constant
+    found = minimum(poly)
+    assert found is not None and found.value <= constant and is_sum(poly, found)
+    assert minimum((X - inner) ** 2 + outer - X**4) is None
+
+
 @given(st.lists(COEFFICIENTS, min_size=10, max_size=10))
 def test_minima_of_quadratics_are_least_values(c):
     poly = (
@@ -55,7 +72,7 @@ def test_minima_of_quadratics_are_least_values(c):
     )
     if poly.total_degree != 2:
         return
-    found = minimum_of_quadratic(poly)
+    found = minimum(poly)
     points = list(product((-3, -1, 0, Fraction(1, 2), 2), repeat=3))
     if found is None:  # so it is unbounded: along some direction, or linear along a flat one
         far = [
@@ -63,6 +80,7 @@ def test_minima_of_quadratics_are_least_values(c):
         ]
         assert min(far) < 0 or any(c[6:9])
         return
+    assert is_sum(poly, found)
     for point in points:
         value = poly.evaluate(point)
         assert value >= found.value
