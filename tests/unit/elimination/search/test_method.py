@@ -256,7 +256,10 @@ def many(count: int, last: str) -> Formula:
     return read(f"ex x, y, z. {' and '.join(cases)} and {last}")
 
 
-@each(("x < 1 and y > 20", True), ("x < 1 and y < 1 and z = 1", False), ("x < 1 and y < 1 and z = 40 - y", True))
+SMALL = "x + y < 2 and x - y < 1 and y - x < 1"  # so x and y are at most 3/2, which no simplification sees
+
+
+@each(("x - y < 1 and x + y > 50", True), (f"{SMALL} and z = 1", False), (f"{SMALL} and z = 40 - y", True))
 def test_many_choices(last: str, truth: bool) -> None:
     sentence = many(14, last)
     answer = qe.eliminate(sentence, timeout=120)
