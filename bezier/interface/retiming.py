@@ -26,8 +26,10 @@ def retime(
     position: object = None,
     velocity: object = None,
     acceleration: object = None,
+    jerk: object = None,
     velocity_norm: object = None,
     acceleration_norm: object = None,
+    jerk_norm: object = None,
     law: object = Law.LEAST,
     accuracy: object = "1/250",
     timeout: float | None = None,
@@ -38,7 +40,8 @@ def retime(
 
     ``path``: what ``bezier.certify`` takes; only its places count, not its times. Where its direction jumps the motion
     stops. The limits are those of ``bezier.certify``; one of the acceleration is needed. ``law``: ``"cubic"``,
-    ``"quintic"`` or ``"trapezoid"`` in place of the fastest motion. ``accuracy``: the share above the bound at which
+    ``"quintic"`` or ``"trapezoid"`` in place of the fastest motion; with a limit of jerk ``"quintic"``, while the bound
+    leaves jerk aside. ``accuracy``: the share above the bound at which
     the search stops.
 
     The result says ``duration``, ``bound`` (no motion takes less; both exact), ``trajectory``, ``certificate``;
@@ -53,8 +56,8 @@ def retime(
     >>> fast.verdict.is_kept, fast.bound < fast.duration < fast.bound * 1.004
     (True, True)
     """
-    names = ("position", "velocity", "acceleration", "velocity_norm", "acceleration_norm")
-    values = (position, velocity, acceleration, velocity_norm, acceleration_norm)
+    names = ("position", "velocity", "acceleration", "jerk", "velocity_norm", "acceleration_norm", "jerk_norm")
+    values = (position, velocity, acceleration, jerk, velocity_norm, acceleration_norm, jerk_norm)
     places = path_of(path, timed=False)
     limits = limited_motion(dict(zip(names, values, strict=True)), len(places.names), SOURCE)
     share = arguments.rational(accuracy, "accuracy")

@@ -50,6 +50,8 @@ def with_least_time(plan: Plan, quality: Quality, path: Path, timing: Timing, gi
         least = least_time(places, limits) if given is None else checked(places, limits, _members(given))
     except InputError as error:
         raise Unable(f"no least time of the path is known: {error}") from None
+    if not {*places.breaks} <= {*least.path.breaks}:
+        raise Unable("no least time of the path is known: the speed of its parameter jumps at a join")
     motion = replace(moving(path, timing, _law(least), least.duration), at_least=least.bound)
     proof = least.certificate
     members = [*listed(plan.certificate), *((PREFIX + label, one) for label, one in listed(proof))]

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from math import comb
 from typing import Any
 
@@ -41,9 +41,8 @@ class Bounds:
 
     @staticmethod
     def of(limits: Sequence[Limit], axes: int) -> Bounds:
-        """Raises ``InputError`` for jerk, for limits of some of the axes, and where nothing limits the acceleration."""
-        if any(limit.order > 2 for limit in limits):
-            raise InputError("retime: expected limits of velocity and acceleration, found one of jerk")
+        """Raises ``InputError`` for limits of some of the axes, and where nothing limits the acceleration. Those of
+        jerk are left aside."""
         for order in (1, 2):
             named = [x.axis for x in limits if x.order == order and x.axis is not None]
             if named and named != [*range(axes)]:
@@ -72,38 +71,70 @@ class Interval:
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """A break of the path at which every motion rests: an end, or a jump of the direction. ``before``, ``after``:
-    whether q' is not zero on that side, so that ds/dt has to be."""
+    """A break of the path at which every motion rests: an end, a jump of the direction, or (``by_choice``) q' = 0
+    though the direction goes on. ``before``, ``after``: whether q' is not zero on that side, so that ds/dt has to be.
+    """
 
     before: bool
     after: bool
+    by_choice: bool = False
+
+
+def even(path: Trajectory) -> Trajectory:
+    """The same places by a parameter whose speed does not jump where the direction goes on, with breaks where it is 0
+    inside of pieces and the direction goes on. Raises ``InputError`` for a piece that is one point."""
+    zeros = []
+    for start, row, h in zip(path.breaks, path.derivative(1), path.lengths, strict=False):
+        for zero in _zeros(row, h):
+            before, after = (_Direction.of(row, zero, side * h, 0.0).unit for side in (-1, 1))
+            zeros += [start + zero] if before @ after > 0 else []
+    path = path.cut(zeros) if zeros else path
+    slopes, factors = path.derivative(1), [Fraction(1)]
+    for row, h, following, (before, after) in zip(slopes, path.lengths, slopes[1:], _joins(path), strict=False):
+        ratio, moving = Fraction(1), before.is_moving and after.is_moving
+        if moving and not after.turns_from(before) and not _is_close(before.speed, after.speed):
+            i = max(range(len(row)), key=lambda i: abs(row[i](h)))
+            ratio = following[i](ZERO) / row[i](h)
+        factors.append(Fraction(float(factors[-1] * ratio)))
+    if set(factors) == {1}:
+        return path
+    lengths = (f * h for f, h in zip(factors, path.lengths, strict=True))
+    inner = [RationalPoly.of([0, 1 / f]) for f in factors]
+    rows = (tuple(p.compose(t) for p in row) for row, t in zip(path.pieces, inner, strict=True))
+    return Trajectory(path.names, tuple(accumulate(lengths, initial=path.breaks[0])), tuple(rows))
+
+
+def _is_close(one: float, other: float) -> bool:
+    return abs(one - other) <= SMOOTH * max(one, other)
+
+
+def _ends(path: Trajectory) -> list[tuple[_Direction, _Direction]]:
+    """How each piece begins and ends."""
+    result = []
+    for row, h in zip(path.derivative(1), path.lengths, strict=True):
+        size = max(float(abs(p(at))) for p in row for at in (ZERO, h / 3, h / 2, h))
+        result.append((_Direction.of(row, ZERO, h, size), _Direction.of(row, h, -h, size)))
+    return result
+
+
+def _joins(path: Trajectory) -> list[tuple[_Direction, _Direction]]:
+    """Both sides of each break inside."""
+    return [(before[1], after[0]) for before, after in pairwise(_ends(path))]
 
 
 def stops_of(path: Trajectory) -> dict[int, Stop]:
-    """The stops, by the numbers of their breaks. Raises ``InputError`` where the path jumps, stands still, or where
-    its parameter changes its speed: there ds/dt would jump without a stop."""
-    slopes, ends = path.derivative(1), list[tuple[_Direction, _Direction]]()
-    for row, h in zip(slopes, path.lengths, strict=True):
-        size = max(float(abs(p(at))) for p in row for at in (ZERO, h / 3, h / 2, h))
-        ends.append((_Direction.of(row, ZERO, h, size), _Direction.of(row, h, -h, size)))
-    result = {0: Stop(False, ends[0][0].is_moving), len(slopes): Stop(ends[-1][1].is_moving, False)}
-    for k, (before, after) in enumerate(pairwise(ends), start=1):
+    """The stops of an even path, by the numbers of their breaks. Raises ``InputError`` where the path jumps or stands
+    still."""
+    ends = _ends(path)
+    result = {0: Stop(False, ends[0][0].is_moving), len(ends): Stop(ends[-1][1].is_moving, False)}
+    for k, (before, after) in enumerate(_joins(path), start=1):
         at, h = f"at {float(path.breaks[k]):.10g}", path.lengths[k - 1]
         places = [(float(p(h)), float(q(ZERO))) for p, q in zip(path.pieces[k - 1], path.pieces[k], strict=True)]
         if any(abs(x - y) > SMOOTH * max(1.0, abs(x)) for x, y in places):
             raise InputError(f"path: expected a continuous one, found a jump {at}")
-        turn = float(np.linalg.norm(before[1].unit - after[0].unit))
-        fast, slow = sorted((before[1].speed, after[0].speed))
-        if turn > SMOOTH:
-            result[k] = Stop(before[1].is_moving, after[0].is_moving)
-        elif not (before[1].is_moving and after[0].is_moving) or slow - fast > SMOOTH * slow:
-            raise InputError(f"path: expected one whose parameter has a smooth speed above 0, found a jump or 0 {at}")
-    for k, (row, h) in enumerate(zip(slopes, path.lengths, strict=True)):
-        for zero in _zeros(row, h):
-            units = [_Direction.of(row, zero, side * h, 0.0).unit for side in (-1, 1)]
-            if units[0] @ units[1] > 0:
-                place = f"{float(path.breaks[k] + zero):.10g}"
-                raise InputError(f"path: expected one whose parameter has a smooth speed above 0, found 0 at {place}")
+        turns = after.turns_from(before)
+        if turns or not (before.is_moving and after.is_moving):
+            result[k] = Stop(before.is_moving, after.is_moving, not turns)
     return result
 
 
@@ -114,6 +145,10 @@ class _Direction:
     speed: float
     is_moving: bool
     unit: Any
+
+    def turns_from(self, other: _Direction) -> bool:
+        """Whether the direction jumps."""
+        return float(np.linalg.norm(other.unit - self.unit)) > SMOOTH
 
     @staticmethod
     def of(row: Row, at: Fraction, inwards: Fraction, size: float) -> _Direction:

@@ -13,12 +13,12 @@ import numpy as np
 from bezier.curves.scalar import described
 from bezier.motion.timelaw import Law
 from bezier.retiming.bound import Weights, bound, weights
-from bezier.retiming.grid import Bounds, Grid, stops_of
+from bezier.retiming.grid import Bounds, Grid, even, stops_of
 from bezier.retiming.law import Step, fastest, is_motion, timed, usual
 from bezier.retiming.proposals import Proposal, proposal
 from bezier.trajectories.evidence import claims, compare, exceeding, refuted, whole
 from bezier.trajectories.limits import Limit, Verdict, decided
-from bezier.trajectories.piecewise import Trajectory
+from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.words import in_words, to_json
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.formula.syntax import FALSE, Formula
@@ -38,7 +38,11 @@ LEAST = "at least"
 
 @dataclass(frozen=True)
 class LeastTime:
-    """``verdict``: of the path taken by ``steps``; no motion takes less than ``bound`` seconds, by ``weights``."""
+    """``verdict``: of the path taken by ``steps``; no motion takes less than ``bound`` seconds, by ``weights``.
+
+    ``path`` has a parameter whose speed does not jump. Where it is 0 though the direction goes on (``rests``), motions
+    are meant that rest there.
+    """
 
     path: Trajectory
     steps: tuple[Step, ...]
@@ -61,12 +65,24 @@ class LeastTime:
         """The share by which the time is at most above the least one."""
         return self.duration / self.bound - 1
 
+    @cached_property
+    def rests(self) -> tuple[tuple[Fraction, ...], ...]:
+        """The places inside where the parameter stands still though the direction goes on."""
+        breaks = [k for k, stop in stops_of(self.path).items() if stop.by_choice]
+        return tuple(tuple(p(self.path.lengths[k - 1]) for p in self.path.pieces[k - 1]) for k in breaks)
+
     @property
     def lines(self) -> list[str]:
         """The time from both sides, then a line for each limit."""
         above = f"at most {float(self.gap) * 100:.2g} % above the least"
-        times = f"{float(self.duration):.9g} s; every motion takes at least {float(self.bound):.9g} s: {above}"
-        return [times, *in_words(self.verdict)]
+        there = " that rests where the parameter of the path stands still" if self.rests else ""
+        times = f"{float(self.duration):.9g} s; every motion{there} takes at least {float(self.bound):.9g} s: {above}"
+        places = (", ".join(f"{float(x):.6g}" for x in place) for place in self.rests)
+        return [
+            times,
+            *(f"at rest at ({place}), where the parameter stands still" for place in places),
+            *in_words(self.verdict),
+        ]
 
     def __str__(self) -> str:
         return "\n".join(self.lines)
@@ -109,6 +125,7 @@ class LeastTime:
             "duration": described(self.duration),
             "at least": described(self.bound),
             "gap": float(self.gap),
+            "rests": [list(map(str, place)) for place in self.rests],
             "steps": [{"s": list(map(str, s.place.coefficients())), "seconds": str(s.duration)} for s in self.steps],
         }
 
@@ -133,7 +150,8 @@ def least_time(
     budget: Budget | None = None,
 ) -> LeastTime:
     """The fastest motion along a path from rest to rest, at most ``accuracy`` above the bound where that is within
-    reach. ``law``: one with a formula, in its own least time. Raises ``InputError`` and ``Unable``."""
+    reach. ``law``: one with a formula, in its own least time; the quintic one where jerk is limited, which the bound
+    leaves aside. Raises ``InputError`` and ``Unable``."""
     try:
         return _least_time(path, limits, law, accuracy, tolerance, budget or Budget())
     except OverflowError:
@@ -149,6 +167,11 @@ def _least_time(
     budget: Budget,
 ) -> LeastTime:
     bounds = Bounds.of(limits, len(path.names))
+    if any(limit.order > 2 for limit in limits):
+        if law not in (Law.LEAST, Law.QUINTIC):
+            raise InputError(f"law: expected quintic with a limit of jerk, found {law.value}, whose jerk is infinite")
+        law = Law.QUINTIC
+    path = even(path)
     grid, given = _proposals(Grid.of(path), bounds, float(accuracy), budget)
     proved = tuple(weights(grid, given))
     seconds = bound(path, grid.stops, bounds, proved)
@@ -211,8 +234,8 @@ def _keeping(
         if verdict.is_kept:
             return steps, verdict
         if verdict.factor is None:
-            worst, what = verdict.worst, "it jumps"
-            if worst is not None:
+            worst, what = verdict.worst, " and ".join(f"{QUANTITIES[j.order]} jumps" for j in verdict.breaking)
+            if worst is not None and not what:
                 what = f"{worst.limit.words(grid.path.names)} is {worst.value:.10g}"
             raise InputError(f"path: no motion along it keeps the limits: {what}")
         slower *= verdict.factor + MARGIN
@@ -250,6 +273,7 @@ def checked(path: Trajectory, limits: Sequence[Limit], certificate: Certificate)
     try:
         steps = tuple(Step.read(text) for head, _, text in labels if head.startswith("piece ") and text)
         proved = tuple(Weights.read(text) for head, _, text in labels if head == LEAST)
+        path = even(path)
         stops = stops_of(path)
         if not is_motion(path, stops, steps):
             raise ValueError("steps that are no motion along this path")

@@ -16,6 +16,7 @@ from scipy.interpolate import CubicSpline
 import bezier
 import qe
 from bezier.cli import main
+from bezier.interface.trajectory import limited_motion
 from bezier.motion.timelaw import Law
 from bezier.retiming.bound import bound, weights
 from bezier.retiming.grid import Bounds, Grid, stops_of
@@ -48,7 +49,7 @@ def kept(motion: bezier.LeastTime, limits: dict[str, float]) -> None:
     for piece, h in zip(motion.trajectory.pieces, motion.trajectory.lengths, strict=True):
         t = np.linspace(0, float(h), 40)
         values = [np.polynomial.Polynomial([float(c) for c in p.coefficients()] or [0.0]) for p in piece]
-        for order, name in ((1, "velocity"), (2, "acceleration")):
+        for order, name in ((1, "velocity"), (2, "acceleration"), (3, "jerk")):
             rows = np.array([p.deriv(order)(t) for p in values])
             assert np.abs(rows).max() <= limits.get(name, np.inf) * (1 + 1e-12)
             assert np.linalg.norm(rows, axis=0).max() <= limits.get(f"{name}_norm", np.inf) * (1 + 1e-12)
@@ -66,6 +67,9 @@ def kept(motion: bezier.LeastTime, limits: dict[str, float]) -> None:
         "begins and ends with q' = 0": (path([HERMITE]), {"velocity": 2, "acceleration": 4}, 1.0),
         "a corner with q' = 0": (path([HERMITE, [0]], [[1], HERMITE]), {"velocity": 2, "acceleration": 4}, 2.0),
         "a corner with q'' = 0, too": (path([QUINTIC, [0]], [[1], QUINTIC]), {"velocity": 2, "acceleration": 4}, 2.0),
+        "another speed of the parameter": (path([[0, 1]], [[1, 2]]), {"velocity": 2, "acceleration": 4}, 2.0),
+        "q' = 0 on the way": (path([HERMITE], [[1, 0, 3, -2]]), {"velocity": 2, "acceleration": 4}, 2.0),
+        "q' = 0 inside": (path([[0, 3, -3, 1]], breaks=(0, 2)), {"velocity": 2, "acceleration": 4}, 2.0),
         "tiny": (path([[0, F(1, 10**12)]]), {"velocity": 1, "acceleration": 4}, 1e-6),
     }
 )
@@ -74,6 +78,10 @@ def test_the_least_time_lies_between_both_sides(along: Trajectory, limits: dict[
     assert motion.bound <= seconds * (1 + 1e-12) and motion.duration >= seconds * (1 - 1e-12)
     assert motion.gap <= F(1, 250) and motion.verdict.is_kept
     kept(motion, limits)
+    assert len(motion.rests) == ("rests where the parameter of the path stands still" in str(motion))
+    if along.breaks[-1] != motion.path.breaks[-1]:
+        listed = limited_motion(limits, len(along.names), "test")
+        assert checked(along, listed, motion.certificate).duration == motion.duration
 
 
 @each((3, "axes"), (6, "axes"), (3, "norms"))
@@ -103,17 +111,28 @@ def test_a_law_with_a_formula_takes_its_own_least_time(law: str, peak: float) ->
         bezier.retime(path([[0, 1], [0]], [[1], [0, 1]]), acceleration=1, law=law)
 
 
+def test_a_limit_of_jerk_is_kept_and_the_bound_is_that_without_it() -> None:
+    line = bezier.retime(path([[0, 10]]), velocity=100, acceleration=100, jerk=75)
+    assert float(line.duration) == pytest.approx(2, rel=1e-5)  # 60 * 10 / T^3 = 75
+    curve, limits = spline(np.random.default_rng(3).uniform(-1, 1, (7, 3))), {"velocity": 1, "acceleration": 2}
+    motion = bezier.retime(curve, **limits, jerk=F(1, 2), jerk_norm=1)
+    kept(motion, {**limits, "jerk": 0.5, "jerk_norm": 1})
+    assert motion.duration > bezier.retime(curve, **limits, law="quintic").duration
+    assert motion.verdict.is_kept and motion.bound == bezier.retime(curve, **limits).bound < motion.duration
+    with pytest.raises(InputError, match="acceleration jumps"):  # q'' does, at the break
+        bezier.retime(path([[0, 1]], [[1, 1, 1]]), **limits, jerk=1)
+    with pytest.raises(InputError, match="expected quintic with a limit of jerk"):
+        bezier.retime(curve, **limits, jerk=20, law="trapezoid")
+
+
 @each(
     {
         "stands still": (path([[1]]), "moves everywhere"),
         "jumps": (path([[0, 1]], [[2, 1]]), "continuous"),
-        "another speed of the parameter": (path([[0, 1]], [[1, 2]]), "jump or 0 at 1"),
-        "q' = 0 on the way": (path([HERMITE], [[1, 0, 3, -2]]), "jump or 0 at 1"),
-        "q' = 0 inside of a piece": (path([[0, 3, -3, 1]], breaks=(0, 2)), "found 0 at 1"),
         "too large": (path([[0, 10**400]]), "10\\^308"),
     }
 )
-def test_paths_without_a_smooth_parameter_are_refused(along: Trajectory, words: str) -> None:
+def test_what_is_no_path_is_refused(along: Trajectory, words: str) -> None:
     with pytest.raises(InputError, match=words):
         bezier.retime(along, velocity=1, acceleration=1)
 
@@ -132,8 +151,6 @@ def test_arguments_that_make_no_sense_are_one_line() -> None:
             bezier.retime(line, **arguments)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="PPoly"):
         bezier.retime(3, acceleration=1)
-    with pytest.raises(InputError, match="jerk"):
-        least_time(line, [Limit(2, 0, F(1)), Limit(3, 0, F(1))])
     with pytest.raises(InputError, match="each of 2 axes"):
         least_time(path([[0, 1], [0, 2]]), [Limit(2, 1, F(1)), Limit(2, 1, F(2))])
 
