@@ -10,7 +10,7 @@ from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.formula.block import Block
 from qe.formula.build import convert
-from qe.formula.syntax import Formula
+from qe.formula.syntax import TRUE, Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Root
 from qe.proof.run_log import RunLog
@@ -58,6 +58,20 @@ class Outcome:
     def stats(self) -> Mapping[str, object]:
         """What was done, counted from the log."""
         return self.log.stats()
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """An outcome, the question that it is for, and where it is right; FALSE where nothing can hold.
+
+    ``generic``: the inequations in ``assuming`` that the caller did not assume; ``plainly``: by the way without any.
+    """
+
+    question: Formula
+    outcome: Outcome
+    assuming: Formula = TRUE
+    generic: tuple[Formula, ...] = ()
+    plainly: bool = False
 
 
 @dataclass(frozen=True, slots=True)

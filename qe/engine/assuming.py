@@ -8,10 +8,9 @@ Every step stands at the place of the question in ``A implies question`` (``qe.f
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from qe.decomposition.formulas import Undistinguished
-from qe.elimination.protocol import Context, Outcome
+from qe.elimination.protocol import Context, Known, Outcome
 from qe.engine.redundant import is_cheap_sentence, without_redundant_parts
 from qe.engine.run import answered, outcome_for
 from qe.engine.strategy import allows
@@ -38,20 +37,6 @@ ROUNDS = 4
 
 MOST_GENERIC = 12
 """So many inequations are assumed at most."""
-
-
-@dataclass(frozen=True, slots=True)
-class Known:
-    """An outcome, the question that it is for, and where it is right; FALSE where nothing can hold.
-
-    ``generic``: the inequations in ``assuming`` that the caller did not assume; ``plainly``: by the way without any.
-    """
-
-    question: Formula
-    outcome: Outcome
-    assuming: Formula = TRUE
-    generic: tuple[Formula, ...] = ()
-    plainly: bool = False
 
 
 def answered_assuming(

@@ -7,7 +7,6 @@ from dataclasses import replace
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome
-from qe.engine.local import WORK, without_locals
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring, format_poly
@@ -21,7 +20,6 @@ from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested
 from qe.rules.lift import Solve
-from qe.rules.normal_position import at_steps, coefficients, steps_to_normal_position
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import StepKind
 from qe.simplifier.simplify import simplify
@@ -111,6 +109,8 @@ class NormalPosition:
         return "coordinates in which the polynomials are shorter"
 
     def run(self, problem: Block, context: Context) -> Outcome | None:
+        from qe.rules.normal_position import coefficients, steps_to_normal_position
+
         current, ring, log = problem.formula, problem.formula.ring, context.log
         if ring is None or any(step.rule == StepKind.POSITION.value for step in log.steps()):
             return None
@@ -137,6 +137,8 @@ class NormalPosition:
 
 def moved_by(formula: Formula, steps: Sequence[Solve]) -> Formula:
     """The formula with the values of variables, which it binds, in their places."""
+    from qe.rules.normal_position import at_steps
+
     return map_atoms(formula, lambda a: atom(at_steps(a.poly, steps), a.relation)) if steps else formula
 
 
@@ -154,6 +156,8 @@ class LocalVariables:
         return "variables of one condition each"
 
     def run(self, problem: Block, context: Context) -> Outcome | None:
+        from qe.engine.local import WORK, without_locals
+
         decide, budget = context.decide, context.budget
         if decide is None:
             return None

@@ -15,7 +15,6 @@ from fractions import Fraction
 from qe.elimination.protocol import Context, Outcome
 from qe.engine.constant import Start
 from qe.engine.reductions import gathered_block, lifted_values, to_dual
-from qe.engine.shortening import shortened
 from qe.engine.strategy import SPARE, Attempt, Scope, Spare, alone, attempts, chosen_alone, complete
 from qe.errors import Unable
 from qe.exact.number import Values
@@ -93,7 +92,7 @@ class _Run:
         made = outcome.certificate is not None or outcome.make is not None
         if made or outcome.shortest or isinstance(outcome.formula, Constant):
             return outcome
-        return replace(outcome, formula=shortened(outcome.formula, self.context(), Start(question, mark), self.short))
+        return replace(outcome, formula=self.shortened(outcome.formula, Start(question, mark)))
 
     def outcome_at_length(self, question: Formula, problem: Block | None) -> Outcome:
         """The same, not yet shortened."""
@@ -133,6 +132,11 @@ class _Run:
 
     def context(self, budget: Budget | None = None) -> Context:
         return Context(self.options, budget or self.budget, self.log, outcome_for)
+
+    def shortened(self, formula: Formula, start: Start | None = None) -> Formula:
+        from qe.engine.shortening import shortened  # no sentence needs its rules
+
+        return shortened(formula, self.context(), start, self.short)
 
     def prepared(self, formula: Formula) -> Prepared:
         """Every block brought to its real dimension."""
@@ -263,7 +267,7 @@ class _Run:
             self.log.switch(name, f"{', '.join(features(formula).bound)} left for another method")
             formula = self.without_quantifiers(formula)
         if attempt.shorten and problem.free:
-            formula = shortened(formula, self.context(), known=self.short)
+            formula = self.shortened(formula)
         simple = self.log.step("simplification", formula, simplify(formula, watch=self.budget.check))
         return outcome if simple == outcome.formula else replace(outcome, formula=simple)
 

@@ -10,7 +10,7 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from qe.arguments import whole as whole_number
 from qe.errors import CertificateRejected, InputError
@@ -19,10 +19,11 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, exists, forall
 from qe.formula.syntax import FALSE, TRUE, And, Formula
 from qe.formula.traverse import conjuncts
-from qe.proof.cells import CellTable
-from qe.proof.cells_json import cells_from_json, cells_to_json
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text, read_json
 from qe.services import Service, service
+
+if TYPE_CHECKING:
+    from qe.proof.cells import CellTable
 
 FORMAT = "bezier-qe certificate"
 VERSION = 3
@@ -118,6 +119,8 @@ class Certificate:
     def cells(table: CellTable, answer: Formula | None = None, start: Formula | None = None) -> Certificate:
         """That ``answer``, without quantifiers, is equivalent to the formula of the table, or to ``start``, of which
         this is a prenex form; without an answer: that the table is right."""
+        from qe.proof.cells_json import cells_to_json
+
         question = prenex_form(table) if start is None else start
         if answer is None and not question.free and table.root.truth is not None:
             answer = TRUE if table.root.truth else FALSE
@@ -240,6 +243,8 @@ class Certificate:
 
 def table_of(certificate: Certificate) -> CellTable | None:
     """The table in a certificate that says no more than that it is one of its formula, which has no quantifiers."""
+    from qe.proof.cells_json import cells_from_json
+
     evidence, payload = certificate.evidence_for("cells"), certificate.payload
     if not isinstance(evidence, dict) or not isinstance(payload, dict) or payload["start"] != payload["answer"]:
         return None

@@ -6,15 +6,14 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
-from qe.certify.claims import is_about
 from qe.elimination.protocol import Outcome, witness_of
 from qe.errors import Contradiction, Unable
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
-from qe.formula.build import convert
+from qe.formula.build import atom, conj, convert
 from qe.formula.normal import without_clashes
-from qe.formula.syntax import Formula
-from qe.kernel.renaming import is_same
+from qe.formula.syntax import And, Atom, Atomic, Exists, Formula, Relation
+from qe.formula.traverse import conjuncts, map_atoms
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED
 from qe.proof.certificate import Certificate, Kind, Proof
@@ -53,17 +52,23 @@ def certificate_of(
         made = witness_of(problem, outcome.witness)
     if made is not None and _says_just(made, question, outcome.formula):
         return Proof(made)
-    said = None if made is None else is_about(made, question)
-    if made is not None and said is not None and is_same(said, outcome.formula):
+    if made is not None and _is_known_to_say(made, question, outcome.formula):
         step = made.single_step
         assert isinstance(step["evidence"], dict)
         return Proof(Certificate.step(str(step["rule"]), (), question, outcome.formula, step["evidence"]))
-    from qe.proving.linear import substitution_certificate  # with all that finds lemmas
-
     linear = substitution_certificate(question, outcome.formula)
     if linear is not None or not options.certify:
         return Proof(linear, reason="" if linear is not None else NOT_WANTED)
     return derived_or_decomposed(asked, question, log, outcome.formula, options, budget)
+
+
+def _is_known_to_say(made: Certificate, question: Formula, answer: Formula) -> bool:
+    """Whether it claims this answer to this question, up to names and order."""
+    from qe.certify.claims import is_about
+    from qe.kernel.renaming import is_same
+
+    said = is_about(made, question)
+    return said is not None and is_same(said, answer)
 
 
 def _says_just(made: Certificate, question: Formula, answer: Formula) -> bool:
@@ -78,6 +83,58 @@ def _says_just(made: Certificate, question: Formula, answer: Formula) -> bool:
         return False
     sides = (formula_to_json(convert(side, ring), quantified=True) for side in (question, answer))
     return all(payload[name] == side for name, side in zip(("start", "answer"), sides))
+
+
+def substitution_certificate(block: Formula, answer: Formula) -> Certificate | None:
+    """A certificate for ``block`` <-> ``answer``, or None where linear equations with constant pivots do not give it.
+
+    ``block`` must be ``ex variables. conjunction``. Source: the Gauss case of Loos & Weispfenning 1993, section 3.
+    """
+    if not isinstance(block, Exists) or not block.body.is_quantifier_free or not isinstance(block.body, And):
+        return None
+    ring = Ring.of(dict.fromkeys((*block.body.free, *block.variables)))
+    body = matrix = convert(block.body, ring)
+    solved: list[tuple[str, Poly]] = []
+    left = list(block.variables)
+    while left:
+        found = _solvable(body, ring, left)
+        if found is None:
+            return None
+        name, equation = found
+        body = _replaced(body, ring.index[name], equation)
+        solved.append(found)
+        left.remove(name)
+    if _set(body) != _set(convert(answer, ring)):
+        return None
+    return Certificate.substitution(matrix, ring.names, solved, body)
+
+
+def _solvable(body: Formula, ring: Ring, names: list[str]) -> tuple[str, Poly] | None:
+    """A variable and an equation among the conjuncts that is linear in it with a constant coefficient."""
+    for conjunct in conjuncts(body):
+        if isinstance(conjunct, Atom) and conjunct.relation is Relation.EQ:
+            for name in names:
+                i = ring.index[name]
+                if conjunct.poly.degree(i) == 1 and conjunct.poly.leading(i).is_constant:
+                    return name, conjunct.poly
+    return None
+
+
+def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
+    rest, lead = equation.coefficients(i)
+    top, bottom = (-rest, lead) if lead.constant_value() > 0 else (rest, -lead)
+
+    def change(given: Atomic) -> Formula:
+        if not isinstance(given, Atom) or not given.poly.degree(i):
+            return given
+        return atom(given.poly.at_quotient(i, top, bottom), given.relation)
+
+    used = Atom(equation, Relation.EQ)
+    return conj(map_atoms(c, change) for c in conjuncts(body) if c != used)
+
+
+def _set(formula: Formula) -> frozenset[Formula]:
+    return frozenset(conjuncts(formula))
 
 
 def derived_or_decomposed(

@@ -26,7 +26,7 @@ from qe.formula.build import conj, convert
 from qe.formula.syntax import TRUE, Formula
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget
-from qe.proof.cells import SIGN_OF, Cell, CellTable, FreeCell
+from qe.proof.cells import CHARACTER_OF, SIGN_OF, Cell, CellTable, FreeCell
 from qe.simplifier.simplify import simplify
 from qe.spelling import quoted
 
@@ -256,13 +256,15 @@ def _condition(
 ) -> str:
     """The condition on the parameters that says which cells: the ``chosen`` ones, and perhaps some of those that are
     open. It is a formula, or what pieces say whose ends are numbers and polynomials, if that is shorter."""
-    depth = max((base.depth for base in bases), default=0)
-    cells = [
-        FreeCell(base.path, tuple(map(placed_signs, base.used, base.signs)), i in chosen)
-        for i, base in enumerate(bases)
-        if i not in open_
-    ]
-    formula = simplify(formula_of_cells(table.factors[:depth], cells))
+    factors = table.factors[: max((base.depth for base in bases), default=0)]
+    places = [(base, i in chosen) for i, base in enumerate(bases) if i not in open_]
+    try:
+        cells = [FreeCell(base.path, tuple(map(placed_signs, base.used, base.signs)), true) for base, true in places]
+        formula = formula_of_cells(factors, cells)
+    except Undistinguished:
+        cells = [FreeCell(base.path, tuple(_signs_with_derivatives(factors, base)), true) for base, true in places]
+        formula = formula_of_cells([_with_derivatives(polys) for polys in factors], cells)
+    formula = simplify(formula)
     if formula == TRUE:
         return ""
     text = str(formula)
@@ -270,6 +272,29 @@ def _condition(
     if all(end is None or _is_plain(end) for piece in pieces for r in piece.ranges for end in (r.lower, r.upper)):
         return min(text, " or ".join(map(str, pieces)), key=len)
     return text
+
+
+def _with_derivatives(polys: Sequence[Poly]) -> list[Poly]:
+    """Factors of a level with their derivatives in its variable."""
+    return [*polys, *(d for poly in polys for d in _derivatives(poly) if d not in polys)]
+
+
+def _derivatives(poly: Poly) -> Iterator[Poly]:
+    for _ in range(1, poly.degree(level := poly.level)):
+        poly = poly.derivative(level)
+        yield poly
+
+
+def _signs_with_derivatives(factors: Sequence[Sequence[Poly]], place: Place) -> Iterator[str]:
+    """The signs of factors and derivatives on a cell. Over a cell a root of a factor has one multiplicity: where it
+    vanishes, so do its derivatives below that, and the next one has the same sign everywhere."""
+    for polys, used, signs in zip(factors, place.used, place.signs, strict=True):
+        known = placed_signs(used, signs).ljust(len(polys), "?")
+        for poly, character in zip(polys, known):
+            for derivative in _derivatives(poly):
+                character = CHARACTER_OF[place.point.sign(derivative)] if character == "0" else "?"
+                known += "" if derivative in polys else character
+        yield known.rstrip("?")
 
 
 def _is_plain(end: RootFunction) -> bool:

@@ -34,7 +34,7 @@ from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Kind, digest
 from qe.proof.entry import Entry, formula_from_json, formula_to_json, poly_to_text
-from qe.proving.linear import substitution_certificate
+from qe.proving.certificates import substitution_certificate
 from tests.attacks.formulas import altered, differs, eliminated, formula, question, simple
 from tests.attacks.rules import RULES
 from tests.bezier.made import ball
