@@ -213,6 +213,17 @@ def curved_with_parameters(problem: Block, options: Options) -> str | None:
     return curved_in_the_block(problem, options) if len(problem.variables) == 1 and problem.free else None
 
 
+def as_many_equations_as_variables(problem: Block, options: Options) -> str | None:
+    """A small curved block that takes finitely many values, as where roots are counted.
+
+    Measured: decomposition of all blocks of a claim about three roots of a cubic at once did not end in 60 s, one after
+    the other they take 500 cells each.
+    """
+    equations = [a for a in problem.conditions if isinstance(a, Atom) and a.relation is Relation.EQ]
+    is_small = problem.total <= CAD_FIRST_VARIABLES + 2 and len(equations) == len(problem.variables)
+    return "as many equations as variables" if is_small and problem.free and problem.curved else None
+
+
 def several_parameters(problem: Block, options: Options) -> str | None:
     """More variables in all than decomposition takes."""
     total = problem.total

@@ -223,6 +223,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "cad", on.complete),
     Attempt(Scope.BLOCK, "vs", on.always, None, complete_if_closed, shorten=True),
     Attempt(Scope.INNER, "vs", on.always, FIRST, complete),
+    Attempt(Scope.INNER, "cad", on.as_many_equations_as_variables, PROBE, complete_and_small),
     Attempt(Scope.INNER, "critical, convex universal", on.curved_with_parameters, SHORTCUT, complete_and_small),
     Attempt(Scope.INNER, "critical", on.never),
     Attempt(Scope.ASKED, "witness", on.never),

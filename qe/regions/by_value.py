@@ -21,17 +21,18 @@ from qe.decomposition.pieces import RootFunction, Sections, merge, range_text
 from qe.decomposition.radicals import radicals
 from qe.decomposition.sampled_cells import Place, any_true, child, leaves
 from qe.decomposition.sign_table import Columns, placed_signs
+from qe.exact.algebraic import real_roots
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.build import conj, convert
-from qe.formula.syntax import TRUE, Formula
+from qe.formula.syntax import TRUE, Formula, Or
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget
 from qe.proof.cells import CHARACTER_OF, SIGN_OF, Cell, CellTable, FreeCell
 from qe.simplifier.simplify import simplify
 from qe.spelling import quoted
 
-MOST_CELLS = 400
-"""Cells of the parameters; more are described as pieces."""
+MOST_CELLS = 2_000
+"""Cells of the parameters; more are described as pieces. (Two linear equations with six parameters have 700.)"""
 
 Terms = tuple[str, ...]
 """What each of the last variables is."""
@@ -174,7 +175,7 @@ class _Said:
                 yield first, {(text,) for text in said}
                 continue
             number = first.point.number(place.depth)
-            is_fixed = isinstance(number, Fraction) and any(end.value is not None for end in ends[start // 2])
+            is_fixed = isinstance(number, Fraction) and str(number) in equal
             inner = {**fixed, place.depth: number} if isinstance(number, Fraction) and is_fixed else fixed
             equations = {f"{name} = {value}": self.needs[value] for value in equal}
             self.needs.update(equations)
@@ -191,6 +192,9 @@ class _Said:
         degree, short = max((k for k, sign in enumerate(signs) if sign != 0), default=0), poly
         for i, value in fixed.items():
             short = short.at_rational(i, value)
+        if short.variables == (level,):
+            yield str(real_roots(short.to_univariate(level))[end.k - 1])
+            return
         radical = None
         if lead := signs[degree]:
             for form in dict.fromkeys((short, poly)):
@@ -253,9 +257,10 @@ def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Term
 
 def _condition(
     table: CellTable, bases: list[Place], chosen: frozenset[int], open_: frozenset[int], budget: Budget
-) -> str:
+) -> tuple[str, bool]:
     """The condition on the parameters that says which cells: the ``chosen`` ones, and perhaps some of those that are
-    open. It is a formula, or what pieces say whose ends are numbers and polynomials, if that is shorter."""
+    open; and whether it is a disjunction. It is a formula, or what pieces say whose ends are numbers and polynomials,
+    if that is shorter."""
     factors = table.factors[: max((base.depth for base in bases), default=0)]
     places = [(base, i in chosen) for i, base in enumerate(bases) if i not in open_]
     try:
@@ -266,12 +271,12 @@ def _condition(
         formula = formula_of_cells([_with_derivatives(polys) for polys in factors], cells)
     formula = simplify(formula)
     if formula == TRUE:
-        return ""
-    text = str(formula)
+        return "", False
+    said = str(formula), isinstance(formula, Or)
     pieces = merge(_only(table, frozenset(bases[i].path for i in chosen), True), budget=budget)
     if all(end is None or _is_plain(end) for piece in pieces for r in piece.ranges for end in (r.lower, r.upper)):
-        return min(text, " or ".join(map(str, pieces)), key=len)
-    return text
+        return min(said, (" or ".join(map(str, pieces)), len(pieces) > 1), key=lambda one: len(one[0]))
+    return said
 
 
 def _with_derivatives(polys: Sequence[Poly]) -> list[Poly]:
@@ -302,15 +307,15 @@ def _is_plain(end: RootFunction) -> bool:
     return end.value is not None or (end.written is not None and end.written[1] is None and end.written[2].is_constant)
 
 
-def _cases(condition: str, said: list[Terms]) -> list[str]:
-    """A condition and what holds under it; what is said of the first variable is said once."""
-    parts = _parts(said)
+def _cases(given: tuple[str, bool], said: list[Terms]) -> list[str]:
+    """A condition, perhaps a disjunction, and what holds under it; what is said of the first variable is said once."""
+    (condition, is_or), parts = given, _parts(said)
     if not (condition and parts):
         return parts or [condition or "true"]
     return [
         " and ".join(
-            f"({text})" if is_or else text
-            for text, is_or in ((condition, " or " in condition), (" or ".join(parts), len(parts) > 1))
+            f"({text})" if has_or else text
+            for text, has_or in ((condition, is_or), (" or ".join(parts), len(parts) > 1))
         )
     ]
 

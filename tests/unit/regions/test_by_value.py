@@ -86,6 +86,16 @@ EXPECTED = (
     ("a*x^2 + 1 > 0", "x", "a >= 0 or a < 0 and -1/sqrt(-a) < x < 1/sqrt(-a)"),
     ("|x| > a", "x", "a < 0 or x < -a or x > a"),
     ("sqrt(x) < a", "x", "a > 0 and 0 <= x < a^2"),
+    (
+        "x^3 + a*x + b > 0",
+        "x",
+        "4*a^3 + 27*b^2 > 0 and x > root(1, x^3 + a*x + b, x) or a = 0 and b = 0 and x > 0 or 4*a^3 + 27*b^2 = 0 and "
+        "b > 0 and (root(1, x^3 + a*x + b, x) < x < root(2, x^3 + a*x + b, x) or x > root(2, x^3 + a*x + b, x)) or "
+        "4*a^3 + 27*b^2 = 0 and b < 0 and x > root(2, x^3 + a*x + b, x) or 4*a^3 + 27*b^2 < 0 and "
+        "(root(1, x^3 + a*x + b, x) < x < root(2, x^3 + a*x + b, x) or x > root(3, x^3 + a*x + b, x))",
+    ),
+    ("x^2 + y^2 = 5 and x*y = 2", None, "x = -2 and y = -1 or x = -1 and y = -2 or x = 1 and y = 2 or x = 2 and y = 1"),
+    ("x + y + z = 6 and x*y*z = 6 and x = 1", None, "x = 1 and (y = 2 and z = 3 or y = 3 and z = 2)"),
     ("x^2 + 1 = 0", None, "false"),
     ("0*x = 0", "x", "true"),
 )
@@ -112,6 +122,19 @@ def test_in_the_median_they_are_no_longer() -> None:
 def test_values_that_a_case_fixes_are_substituted() -> None:
     lines = qe.solve("x^2 + y^2 = a and x*y = b", "x, y").lines
     assert "b = 0 and a >= 0 and x = 0 and (y = -sqrt(a) or y = sqrt(a))" in lines and len(lines) <= 5
+
+
+def test_two_linear_equations_with_parameters_have_few_cases() -> None:
+    lines = qe.solve("a*x + b*y = e and c*x + d*y = f", "x, y").lines
+    assert len(lines) <= 7 and any("x = (e*d - b*f)/(a*d - b*c)" in line for line in lines)
+
+
+@pytest.mark.deep
+@each("x^3 + a*x + b > 0", "x^3 + a*x + b >= 0", "a*x^3 + b*x + 1 > 0")
+def test_cases_by_numbers_of_roots_are_proved(question: str) -> None:
+    solutions = qe.solve(question, "x", check=True)
+    assert solutions.guarantee is qe.Guarantee.CHECKED and not solutions.reason
+    assert qe.verify(solutions.certificate)
 
 
 def _question(chance: random.Random) -> tuple[str, str]:
