@@ -192,16 +192,16 @@ class _Said:
         degree, short = max((k for k, sign in enumerate(signs) if sign != 0), default=0), poly
         for i, value in fixed.items():
             short = short.at_rational(i, value)
-        if short.variables == (level,):
+        is_number, has_text = short.variables == (level,), False
+        if is_number:
             yield str(real_roots(short.to_univariate(level))[end.k - 1])
-            return
-        radical = None
         if lead := signs[degree]:
-            for form in dict.fromkeys((short, poly)):
+            for form in dict.fromkeys((poly,) if is_number else (short, poly)):
                 for radical in radicals(form.coefficients(level)[: degree + 1], end.k, count, lead):
+                    has_text = True
                     self.needs.setdefault(radical.text, [*radical.needs])
                     yield radical.text
-        if radical is None:
+        if not (is_number or has_text):
             text = f"root({end.k}, {format_poly(poly)}, {quoted(self.table.order[level])})"
             self.needs[text] = [(poly.ring.constant(1), frozenset())]
             yield text
