@@ -2,6 +2,7 @@
 
 Applegate, Cook, Dash, Espinoza 2007 (QSopt_ex). First all inequalities get a common slack t: where it can be positive,
 a rounded point will do; where it is negative, the multipliers contradict; where it is 0, only strict ones get a slack.
+In sparse systems these come first: vertices cost little there.
 """
 
 from __future__ import annotations
@@ -44,12 +45,13 @@ def decided(
     """
     inequalities = [i for i, row in enumerate(system.rows) if not row.is_equation]
     strict = [i for i in inequalities if system.rows[i].is_strict]
-    for slack in (inequalities, strict) if 0 < len(strict) < len(inequalities) else (inequalities,):
+    orders = [inequalities, strict] if 0 < len(strict) < len(inequalities) else [inequalities]
+    for slack in reversed(orders) if system.is_sparse else orders:
         problem: Slackened | None = _slackened(system, slack)
         while problem is not None:
             proposal = propose(problem, seconds())
             if proposal is None:
-                return None
+                break
             seconds()
             outcome = _rounded(problem, proposal) or _refutation(problem, proposal)
             if outcome is not None:
@@ -100,6 +102,8 @@ def _refutation(problem: Slackened, proposal: Proposal) -> Refutation | None:
     weights = proportions({i: w for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY})
     if weights and problem.system.refuted_by(weights):
         return Refutation(weights)
+    if not proposal.ray and proposal.point[problem.size] > _TINY and not problem.centre:
+        return None
     support = [i for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY]
     equations: dict[int, dict[int, int]] = {}
     for k, i in enumerate(support):

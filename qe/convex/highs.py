@@ -16,10 +16,6 @@ from typing import Any
 
 from qe.convex.linear_rows import LinearRows
 
-_SPARSE, _MANY = 0.2, 5_000
-"""Below that share of entries, and with more of them, an interior method with crossover is faster than the simplex
-method (measured: 3,000 rows of 5 entries in 1,000 variables 0.55 s for 1.4 s, 1,280 dense rows 4 s for 2 s)."""
-
 _NEAR = 1e-7
 """How far from a bound a row is taken to keep it."""
 
@@ -88,8 +84,7 @@ def highs(problem: Slackened, seconds: float | None) -> Proposal | None:
         import highspy
     except ImportError:
         return None
-    entries = sum(len(row.terms) for row in problem.system.rows)
-    sparse = entries > _MANY and entries < _SPARSE * problem.size * len(problem.system.rows)
+    sparse = problem.system.is_sparse
     solver = _solver(seconds, {"solver": "ipm"} if sparse else {"presolve": "off", "simplex_strategy": 4})
     try:
         solver.passModel(_model(problem))

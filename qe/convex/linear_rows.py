@@ -11,6 +11,11 @@ from qe.formula.syntax import Atom, Relation
 from qe.proof.multipliers import FormRelation
 
 
+_SPARSE, _MANY = 0.2, 5_000
+"""Below that share of entries, and with more of them, an interior method with crossover is faster than the simplex
+method (measured: 3,000 rows of 5 entries in 1,000 variables 0.55 s for 1.4 s, 1,280 dense rows 4 s for 2 s)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Row:
     """sum terms[j] * x_j + constant relation 0, where the polynomial of the condition is ``sign`` times that sum."""
@@ -44,6 +49,12 @@ class LinearRows:
         columns: dict[str, int] = {}
         rows = tuple(_row(given, columns) for given in atoms)
         return LinearRows(tuple(columns), rows)
+
+    @property
+    def is_sparse(self) -> bool:
+        """Whether there are many entries, and many more zeros."""
+        entries = sum(len(row.terms) for row in self.rows)
+        return _MANY < entries < _SPARSE * len(self.names) * len(self.rows)
 
     def holds(self, point: Sequence[Fraction]) -> bool:
         """Whether a point keeps all conditions."""

@@ -7,10 +7,24 @@ shortest paths are kept: a further edge changes those only that become shorter t
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from bisect import bisect_right
+from collections.abc import Hashable
+from typing import Any, NamedTuple
 
-Since = tuple[int, "Since | None"]
-"""The last edge of those that made a path shorter, and what that was before."""
+import numpy as np
+
+_NEVER = -1
+
+
+class Change(NamedTuple):
+    """What an edge made shorter: the pairs of vertices, their lengths before, and the changes that these came from,
+    counted through all edges. ``first``: how many changes there were before."""
+
+    starts: Any
+    ends: Any
+    lengths: Any
+    since: Any
+    first: int
 
 
 class DifferenceGraph:
@@ -19,46 +33,41 @@ class DifferenceGraph:
     def __init__(self, size: int, far: int) -> None:
         self.far = far
         self.edges: list[tuple[int, int, int, Hashable]] = []
-        self.length = [[0 if u == v else far for v in range(size)] for u in range(size)]
-        self._since: list[list[Since | None]] = [[None] * size for _ in range(size)]
-        self._changed: list[tuple[int, int, int, Since | None]] = []
-        self._marks: list[int] = []
+        self.length = np.full((size, size), far, dtype=np.int64 if far < 1 << 60 else object)
+        np.fill_diagonal(self.length, 0)
+        self._since = np.full((size, size), _NEVER)
+        self._changes: list[Change] = []
+        self._firsts: list[int] = []
 
-    def add(self, u: int, v: int, length: int, reason: Hashable) -> list[Hashable] | Iterator[tuple[int, int, int]]:
-        """A further edge: reasons of a cycle of negative length that it closes (it is left out then), or the pairs of
-        vertices that it brings nearer with the lengths before."""
-        lengths, at_v = self.length, self.length[v]
-        if lengths[u][v] <= length:
-            return iter(())
-        if at_v[u] + length < 0:
+    def add(self, u: int, v: int, length: int, reason: Hashable) -> list[Hashable] | Change | None:
+        """A further edge: reasons of a cycle of negative length that it closes (it is left out then), or what it
+        brings nearer, if anything."""
+        lengths = self.length
+        if lengths[u, v] <= length:
+            return None
+        if lengths[v, u] + length < 0:
             return [reason, *self.reasons(v, u)]
-        number, first = len(self.edges), len(self._changed)
+        far, to_u, from_v = self.far, lengths[:, u], lengths[v]
+        (starts,) = np.nonzero((to_u < far) & (to_u + length < lengths[:, v]))
+        (ends,) = np.nonzero((from_v < far) & (from_v + length < lengths[u]))
+        block = np.ix_(starts, ends)
+        now, before = (to_u[starts] + length)[:, None] + from_v[ends], lengths[block]
+        rows, columns = np.nonzero(now < before)
+        pairs = starts[rows], ends[columns]
+        first = self._firsts[-1] + len(self._changes[-1].starts) if self._changes else 0
+        change = Change(*pairs, before[rows, columns], self._since[pairs], first)
+        lengths[pairs], self._since[pairs] = now[rows, columns], np.arange(first, first + len(rows))
         self.edges.append((u, v, length, reason))
-        self._marks.append(first)
-        far = self.far
-        targets = [
-            (y, more) for y, (more, now) in enumerate(zip(at_v, lengths[u])) if more < far and length + more < now
-        ]
-        for x, row in enumerate(lengths):
-            start = row[u] + length
-            if row[u] >= far or start >= row[v]:
-                continue
-            since = self._since[x]
-            for y, more in targets:
-                old = row[y]
-                if start + more < old:
-                    self._changed.append((x, y, old, since[y]))
-                    row[y], since[y] = start + more, (number, since[y])
-        return ((x, y, old) for x, y, old, _ in self._changed[first:])
+        self._changes.append(change)
+        self._firsts.append(first)
+        return change
 
     def keep(self, count: int) -> None:
         """Go back to the first so many edges."""
-        if count >= len(self.edges):
-            return
-        first = self._marks[count]
-        for x, y, length, since in reversed(self._changed[first:]):
-            self.length[x][y], self._since[x][y] = length, since
-        del self._changed[first:], self._marks[count:], self.edges[count:]
+        for change in reversed(self._changes[count:]):
+            pairs = change.starts, change.ends
+            self.length[pairs], self._since[pairs] = change.lengths, change.since
+        del self._changes[count:], self._firsts[count:], self.edges[count:]
 
     def reasons(self, u: int, v: int, edges: int | None = None) -> list[Hashable]:
         """Those of the edges on a shortest path; ``edges``: among the first so many."""
@@ -68,15 +77,16 @@ class DifferenceGraph:
             x, y, limit = pending.pop()
             if x == y:
                 continue
-            since = self._since[x][y]
-            while since is not None and since[0] >= limit:
-                since = since[1]
-            assert since is not None
-            start, end, _, reason = self.edges[since[0]]
+            number, since = limit, int(self._since[x, y])
+            while number >= limit:
+                at, number = since, bisect_right(self._firsts, since) - 1
+                assert number >= 0
+                since = int(self._changes[number].since[at - self._firsts[number]])
+            start, end, _, reason = self.edges[number]
             reasons.append(reason)
-            pending += [(x, start, since[0]), (end, y, since[0])]
+            pending += [(x, start, number), (end, y, number)]
         return reasons
 
     def potentials(self) -> list[int]:
         """Values of the variables that keep all bounds: how far each is from the nearest vertex."""
-        return [min(column) for column in zip(*self.length)]
+        return [int(least) for least in self.length.min(axis=0)]

@@ -9,12 +9,12 @@ from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from fractions import Fraction
 from functools import partial
+from importlib.util import find_spec
 from math import lcm
 from typing import NamedTuple
 
 from qe.elimination.search.linear_forms import Direction, FormBounds, Monomial, over_monomials
 from qe.elimination.search.proposed_bounds import ProposedBounds
-from qe.exact.difference_graph import DifferenceGraph
 from qe.exact.linear_bounds import Value
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
@@ -62,11 +62,13 @@ class Differences:
 
     @staticmethod
     def suit(bounds: Iterable[Said]) -> bool:
-        """Whether there are differences, and not too many variables in them."""
+        """Whether there are differences, not too many variables in them, and arrays for their paths."""
         pairs = [pair for one in bounds if (pair := difference(one.direction)) is not None]
-        return 0 < len({m for pair in pairs for m in pair}) <= MOST_VERTICES
+        return 0 < len({m for pair in pairs for m in pair}) <= MOST_VERTICES and find_spec("numpy") is not None
 
     def __init__(self, bounds: Iterable[Said]) -> None:
+        from qe.exact.difference_graph import DifferenceGraph  # and numpy
+
         vertices: dict[Monomial | None, int] = {None: 0}
         ends: list[tuple[Said, int, int]] = []
         for one in bounds:
@@ -87,6 +89,8 @@ class Differences:
         for listed in self.watched.values():
             listed.sort()
         self.graph = DifferenceGraph(len(vertices), 1 + sum(abs(w) for _, _, w in self.edges.values()))
+        self.is_watched = self.graph.length < 0  # none so far
+        self.is_watched[tuple(zip(*self.watched))] = True
         self.nearer: list[tuple[int, int, int]] = []
 
     def tell(self, literal: int) -> list[int] | None:
@@ -96,7 +100,10 @@ class Differences:
         found = self.graph.add(*edge, literal)
         if isinstance(found, list):
             return _literals(found)
-        self.nearer += found
+        if found is not None:
+            known = self.is_watched[found.starts, found.ends]
+            columns = (found.starts[known], found.ends[known], found.lengths[known])
+            self.nearer += zip(*(column.tolist() for column in columns))
         return None
 
     def settle(self) -> list[int] | None:
@@ -105,13 +112,11 @@ class Differences:
     def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:
         edges = len(self.graph.edges)
         for u, v, before in self.nearer:
-            listed = self.watched.get((u, v))
-            if listed:
-                now = self.graph.length[u][v]
-                for length, literal in listed[bisect_left(listed, (now, 0)) :]:
-                    if length >= before:
-                        break
-                    yield literal, partial(self._reasons, u, v, edges)
+            listed, now = self.watched[u, v], int(self.graph.length[u, v])
+            for length, literal in listed[bisect_left(listed, (now, 0)) :]:
+                if length >= before:
+                    break
+                yield literal, partial(self._reasons, u, v, edges)
         self.nearer.clear()
 
     def _reasons(self, u: int, v: int, edges: int) -> list[int]:

@@ -38,7 +38,7 @@ def added(graph: DifferenceGraph, edges: Sequence[Edge]) -> list[Edge]:
             assert shortest([e for _, e in found]) is None  # type: ignore[misc]
             assert shortest([*taken, edge]) is None
         else:
-            nearer = list(found)
+            nearer = [] if found is None else list(zip(found.starts, found.ends, found.lengths))
             taken.append(edge)
             assert shortest(taken) is not None
             assert all(graph.length[u][v] < before for u, v, before in nearer)
