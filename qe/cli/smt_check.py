@@ -17,9 +17,10 @@ from qe.io import surface as s
 from qe.io.smtlib_parser import Expression
 from qe.io.smtlib_script import Script
 from qe.io.total import Fill, Total
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
+from qe.proof.answer import Answer
 
 MOST_PARTS = 300
 """Parts of a script up to which it is read in this process where no limit must hold."""
@@ -77,16 +78,10 @@ class Checks:
         result = self.completed(nodes, exists)
         if result.answer != "sat" or not (self.script.fixed or self.script.varying):
             return result
-        result = self.completed(nodes, self.whatever)
+        result = self.completed(nodes, partial(_whatever, sorted(self.script.fixed), sorted(self.script.varying)))
         if result.answer == "sat":
             return result._replace(point=None)
         return Result("unknown", result.reason or "(an assertion was not understood)")
-
-    def whatever(self, names: Iterable[str], formula: Formula) -> Formula:
-        """Whether there is a solution whatever the values are that were not read."""
-        fixed, varying = self.script.fixed, self.script.varying
-        values = [name for name in names if name not in fixed and name not in varying]
-        return forall(sorted(fixed), exists(values, forall(sorted(varying), formula)))
 
     def completed(self, nodes: Sequence[s.Node], close: Closing) -> Result:
         """The answer for the functions that are not defined everywhere made total."""
@@ -102,30 +97,38 @@ class Checks:
         return result
 
     def attempt(self, nodes: Sequence[s.Node], total: Total, close: Closing) -> Result:
-        start, left = time.monotonic(), self.left()
+        left = self.left()
         if left is not None and left <= 0:
             return Result("unknown", "timeout")
         try:
-            formula, total = self.formula(nodes, total, left)
+            if self.is_short(nodes, left):
+                formula = self.script.formula_of(nodes, total)
+                return _result(api.eliminate(close(formula.free, formula)), formula, total)
+            return perform(partial(_attempted, self.sent(), nodes, total, close), self.limits(left), at_once=True)
         except Unable as error:
             return Result("unknown", _reason(str(error)))
-        closed = close(formula.free, formula)
-        rest = None if left is None else max(left - (time.monotonic() - start), 0.01)
-        answer = api.eliminate(closed, timeout=rest, memory=self.memory)
-        if answer.truth is None:
-            return Result("unknown", _reason(answer.reason))
-        if not answer.truth:
-            return Result("unsat", total=total)
-        point = dict(answer.witness) if answer.witness is not None else ({} if not formula.free else None)
-        return Result("sat", point=point, total=total)
 
     def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:
         """What the nodes mean together; in a process of its own, which a limit ends, if there is one."""
-        if seconds is None and self.memory is None and len(self.script.used(nodes)) <= MOST_PARTS:
+        if self.is_short(nodes, seconds):
             return self.script.formula_of(nodes, total), total
+        return perform(partial(_formula, self.sent(), nodes, total), self.limits(seconds), at_once=True)
+
+    def is_short(self, nodes: Sequence[s.Node], seconds: float | None) -> bool:
+        """Whether nodes are read in this process."""
+        return seconds is None and self.memory is None and len(self.script.used(nodes)) <= MOST_PARTS
+
+    def limits(self, seconds: float | None) -> Limits:
+        """Those of the work for one check."""
+        return Limits(seconds, self.memory)
+
+    def sent(self) -> Script:
+        """The script as another process has it: what nodes mean, and nothing of how they were read."""
         script = copy(self.script)
         script.tick = unwatched  # what watches here holds the streams of this process
-        return perform(partial(_formula, script, nodes, total), Limits(seconds, self.memory), at_once=True)
+        script.assertions, script.objectives, script.levels = [], [], []
+        script.globals, script.forms, script.expanded = {}, {}, {}
+        return script
 
 
 def unwatched() -> None:
@@ -135,6 +138,26 @@ def unwatched() -> None:
 def _formula(script: Script, nodes: Sequence[s.Node], total: Total, budget: Budget) -> tuple[Formula, Total]:
     script.tick = budget.check
     return script.formula_of(nodes, total), total
+
+
+def _attempted(script: Script, nodes: Sequence[s.Node], total: Total, close: Closing, budget: Budget) -> Result:
+    formula, total = _formula(script, nodes, total, budget)
+    return _result(api.settled(close(formula.free, formula), Options(), budget), formula, total)
+
+
+def _whatever(fixed: Sequence[str], varying: Sequence[str], names: Iterable[str], formula: Formula) -> Formula:
+    """Whether there is a solution whatever the values are that were not read."""
+    values = [name for name in names if name not in fixed and name not in varying]
+    return forall(fixed, exists(values, forall(varying, formula)))
+
+
+def _result(answer: Answer, formula: Formula, total: Total) -> Result:
+    if answer.truth is None:
+        return Result("unknown", _reason(answer.reason))
+    if not answer.truth:
+        return Result("unsat", total=total)
+    point = dict(answer.witness) if answer.witness is not None else ({} if not formula.free else None)
+    return Result("sat", point=point, total=total)
 
 
 def _reason(text: str) -> str:

@@ -57,16 +57,13 @@ class WithoutLocals:
         if outcome.formula != TRUE or (outcome.witness is None and self.formula != TRUE):
             return None
         values: Values = dict(outcome.witness or {})
-        for names, part in self.local:
-            outer = [values.setdefault(name, Fraction(0)) for name in part.free if name not in names]
-            if not all(isinstance(value, Fraction) for value in outer):
-                return None
-            known = {v: x for v, x in values.items() if v not in names and isinstance(x, Fraction)}
-            inner = decide(exists(names, substituted(part, known)))
-            if inner.formula != TRUE:
-                return None
-            values |= dict.fromkeys(names, Fraction(0)) | (inner.witness or {})
-        return values
+        lost = dict.fromkeys(name for names, _ in self.local for name in names)  # none of one condition is free in another
+        known = {n: values.setdefault(n, Fraction(0)) for _, part in self.local for n in part.free if n not in lost}
+        numbers = {name: value for name, value in known.items() if isinstance(value, Fraction)}
+        if len(numbers) < len(known):
+            return None
+        inner = decide(exists(lost, conj([substituted(part, numbers) for _, part in self.local])))
+        return values | dict.fromkeys(lost, Fraction(0)) | (inner.witness or {}) if inner.formula == TRUE else None
 
 
 def without_locals(problem: Block, options: Options, eliminate: Eliminate) -> WithoutLocals | None:

@@ -177,7 +177,8 @@ class LocalVariables:
         context.log.take_up(shorter.steps)
 
         def back(rest: Outcome) -> Outcome:
-            values = shorter.values(rest, lambda sentence: decide(sentence, context.options, budget))
+            whole = options.with_(without=options.without | {Stage.MINISCOPING})  # the search takes all at once
+            values = shorter.values(rest, lambda sentence: decide(sentence, whole, budget))
             return Outcome(problem.asked(rest.formula), values)
 
         return Outcome(shorter.formula, back=back)

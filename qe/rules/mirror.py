@@ -86,7 +86,7 @@ def _mirrors(variables: Sequence[str], body: Formula, watch: Callable[[], object
 def _sign_changes(single: Sequence[str], inner: Sequence[str], polys: Sequence[Poly]) -> Iterator[Mirror]:
     """Those that map every polynomial to plus or minus one of them."""
     index, names = polys[0].ring.index, (*single, *inner)
-    spread = [[(sum(1 << i for i, e in enumerate(exps) if e % 2), exps, c) for exps, c in p.terms()] for p in polys]
+    spread = [[(sum(1 << i for i, e in exps if e % 2), exps, c) for exps, c in p.sparse_terms()] for p in polys]
     known = {frozenset((exps, c) for _, exps, c in terms) for terms in spread}
     known |= {frozenset((exps, -c) for _, exps, c in terms) for terms in spread}
     for count in range(1, len(names) + 1):
@@ -112,7 +112,9 @@ def is_convex(formula: Formula, moved: Collection[str]) -> bool:
     match formula:
         case Atom(poly, relation):
             places = [poly.ring.index[name] for name in moved if name in poly.ring.index]
-            return relation is not Relation.NE and all(sum(e[i] for i in places) <= 1 for e, _ in poly.terms())
+            return relation is not Relation.NE and all(
+                sum(e for i, e in exps if i in places) <= 1 for exps, _ in poly.sparse_terms()
+            )
         case And(args):
             return all(is_convex(a, moved) for a in args)
         case Or(args):
