@@ -57,13 +57,16 @@ class WithoutLocals:
         if outcome.formula != TRUE or (outcome.witness is None and self.formula != TRUE):
             return None
         values: Values = dict(outcome.witness or {})
-        lost = dict.fromkeys(name for names, _ in self.local for name in names)  # none of one condition is free in another
+        lost = dict.fromkeys(name for names, _ in self.local for name in names)  # each free in one condition only
         known = {n: values.setdefault(n, Fraction(0)) for _, part in self.local for n in part.free if n not in lost}
         numbers = {name: value for name, value in known.items() if isinstance(value, Fraction)}
         if len(numbers) < len(known):
             return None
-        inner = decide(exists(lost, conj([substituted(part, numbers) for _, part in self.local])))
-        return values | dict.fromkeys(lost, Fraction(0)) | (inner.witness or {}) if inner.formula == TRUE else None
+        sentence = exists(lost, conj([substituted(part, numbers) for _, part in self.local]))
+        inner = decide(sentence)
+        if inner.formula != TRUE or (inner.witness is None and sentence != TRUE):
+            return None
+        return values | dict.fromkeys(lost, Fraction(0)) | (inner.witness or {})
 
 
 def without_locals(problem: Block, options: Options, eliminate: Eliminate) -> WithoutLocals | None:
