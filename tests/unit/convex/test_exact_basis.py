@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import pytest
 
+from qe.convex import linear_rows
 from qe.convex.exact_basis import Refutation, decided
 from qe.convex.highs import Proposal, highs
 from qe.convex.linear_point import LinearContradiction, linear_point
@@ -41,8 +42,12 @@ def check(conditions, outcome):
         assert system.holds(outcome)
 
 
-def test_random_systems_against_the_exact_simplex_method():
+@pytest.mark.parametrize("sparse", [False, True])
+def test_random_systems_against_the_exact_simplex_method(monkeypatch, sparse):
     pytest.importorskip("highspy")
+    if sparse:  # strict conditions come first, and an interior method proposes
+        monkeypatch.setattr(linear_rows, "_MANY", -1)
+        monkeypatch.setattr(linear_rows, "_SPARSE", 2)
     rng, decided_ones = random.Random(3), 0
     for _ in range(150):
         conditions = random_conditions(rng, rng.randint(1, 5), rng.randint(1, 9))
