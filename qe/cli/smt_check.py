@@ -17,7 +17,7 @@ from qe.io import surface as s
 from qe.io.smtlib_parser import Expression
 from qe.io.smtlib_script import Script
 from qe.io.total import Fill, Total
-from qe.options import Budget, Options
+from qe.options import Budget
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer
@@ -142,7 +142,8 @@ def _formula(script: Script, nodes: Sequence[s.Node], total: Total, budget: Budg
 
 def _attempted(script: Script, nodes: Sequence[s.Node], total: Total, close: Closing, budget: Budget) -> Result:
     formula, total = _formula(script, nodes, total, budget)
-    return _result(api.settled(close(formula.free, formula), Options(), budget), formula, total)
+    closed, left = close(formula.free, formula), budget.time_left("reading")
+    return _result(api.eliminate(closed, timeout=left, process=False), formula, total)
 
 
 def _whatever(fixed: Sequence[str], varying: Sequence[str], names: Iterable[str], formula: Formula) -> Formula:

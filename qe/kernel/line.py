@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
-from math import lcm
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly
@@ -90,14 +89,6 @@ class Sample:
 
     def sign(self, f: Poly) -> int:
         """The sign of a polynomial at the point."""
-        if f.total_degree == 1 and self.rationals.keys() >= set(f.variables):
-            known = {level: self.rationals[level] for level in f.variables}
-            for level, number in known.items():
-                check_value(f, level, number)
-            whole = lcm(*(number.denominator for number in known.values()))
-            scaled = {level: number.numerator * (whole // number.denominator) for level, number in known.items()}
-            value = sum(c * (scaled[powers[0][0]] if powers else whole) for powers, c in f.sparse_terms())
-            return (value > 0) - (value < 0)
         for level in f.variables:
             f = self._put(f, level) if level in self.rationals else f
         return self.point.sign(f)
