@@ -137,7 +137,8 @@ class Solver(Checks):
         once more to see where."""
         try:
             (command,) = parse(text, fail, placed=False)
-            self.script.change(cast(list[Expression], command))
+            if not self.script.change(cast(list[Expression], command)):
+                return False
         except (InputError, Unable, RecursionError, ValueError):
             return False
         self.result = None
