@@ -108,6 +108,7 @@ def test_answers(script: str, expected: list[str]) -> None:
     ("(pop)", "only 0 levels"),
     ("(push x)", "a number of levels"),
     ("(frobnicate)", "is not supported"),
+    ("(assert-soft (> x 0))", "assert-soft is not supported"),
     ("(define-fun-rec f () Real 1)", "recursive"),
     ("(assert (> x", "never closed"),
     ("(assert (> x 0)))", "no partner"),
