@@ -94,7 +94,9 @@ class Motion:
     """The largest speed (mm/s) and acceleration (mm/s^2) over the whole time."""
     law: TimeLaw
     at_least: Fraction | None = None
-    """Seconds that no motion along the path can beat, with the law of least time."""
+    """Seconds that no motion along the path can beat, with the law of least time; ``rests``: none that rests where the
+    path stands still."""
+    rests: bool = False
 
     def __repr__(self) -> str:
         return f"Motion({float(self.duration):.6g} s, {'within' if self.keeps_limits else 'not within'} its limits)"
@@ -128,7 +130,10 @@ class Motion:
     @property
     def bound_in_words(self) -> str:
         """Where a bound of the time is known, what it is."""
-        return "" if self.at_least is None else f"; every motion takes at least {decimal_text(self.at_least, 8)} s"
+        if self.at_least is None:
+            return ""
+        which = "every motion that rests where the path stands still" if self.rests else "every motion"
+        return f"; {which} takes at least {decimal_text(self.at_least, 8)} s"
 
     @property
     def suggestion(self) -> str:
@@ -238,7 +243,8 @@ def motion_json(motion: Motion) -> str:
         "units": {"time": "s", "length": "mm"},
     }
     if motion.at_least is not None:
-        data["at_least"] = {"exact": str(motion.at_least), "decimal": decimal_text(motion.at_least)}
+        bound = {"exact": str(motion.at_least), "decimal": decimal_text(motion.at_least)}
+        return json.dumps({**data, "at_least": bound, "rests": motion.rests}, indent=1) + "\n"
     return json.dumps(data, indent=1) + "\n"
 
 

@@ -52,7 +52,7 @@ def with_least_time(plan: Plan, quality: Quality, path: Path, timing: Timing, gi
         raise Unable(f"no least time of the path is known: {error}") from None
     if not {*places.breaks} <= {*least.path.breaks}:
         raise Unable("no least time of the path is known: the speed of its parameter jumps at a join")
-    motion = replace(moving(path, timing, _law(least), least.duration), at_least=least.bound)
+    motion = replace(moving(path, timing, _law(least), least.duration), at_least=least.bound, rests=bool(least.rests))
     proof = least.certificate
     members = [*listed(plan.certificate), *((PREFIX + label, one) for label, one in listed(proof))]
     checks = {**plan.checks, CLAIM: verify(proof)} if given is None else plan.checks
