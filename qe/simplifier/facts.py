@@ -42,6 +42,18 @@ def key_of(poly: Poly) -> tuple[Poly, int, int]:
 
 
 @lru_cache(maxsize=20_000)
+def place_of(poly: Poly) -> tuple[Poly, Fraction]:
+    """(q, v) such that poly has the sign of q - v; see ``key_of``."""
+    key, unit, constant = key_of(poly)
+    return key, Fraction(-constant, unit)
+
+
+@lru_cache(maxsize=5_000)
+def _terms(key: Poly) -> tuple[tuple[tuple[tuple[int, int], ...], Fraction], ...]:
+    return tuple((powers, Fraction(c)) for powers, c in key.sparse_terms())
+
+
+@lru_cache(maxsize=20_000)
 def inherent(key: Poly) -> Range:
     """A range of the polynomial that holds at every real point: above its global minimum, where that is easy."""
     least = minimum(key)
@@ -123,16 +135,19 @@ class Facts:
             return EVERYTHING
         if key.term_count() > _ENCLOSED_TERMS:
             return _one_sided(key, gens)
+        terms = _terms(key)
+        if len(terms) > 1 and any(k % 2 and gens[i] is EVERYTHING for powers, _ in terms for i, k in powers):
+            return EVERYTHING  # one term of the sum is anything
         total: Range | None = None
-        for powers, coefficient in key.sparse_terms():
+        for powers, coefficient in terms:
             term: Range | None = None
             for i, k in powers:
                 part = power(gens[i], k)
                 term = part if term is None else multiply(term, part)
             if term is None:
-                piece = Range(Fraction(coefficient), Fraction(coefficient), False, False)
+                piece = Range(coefficient, coefficient, False, False)
             else:
-                piece = scale(term, Fraction(coefficient))
+                piece = scale(term, coefficient)
             total = piece if total is None else add(total, piece)
             if total.lo is None and total.hi is None and not total.holes:
                 return EVERYTHING
@@ -154,8 +169,8 @@ class Facts:
         return signs if unit > 0 else frozenset(-s for s in signs)
 
     def _signs(self, primitive: Poly) -> frozenset[int]:
-        key, scale_by, constant = key_of(primitive)
-        return self.known(key).signs(Fraction(-constant, scale_by))
+        key, value = place_of(primitive)
+        return self.known(key).signs(value)
 
     def sign(self, poly: Poly) -> int | None:
         """1 or -1 where the polynomial is known to be positive or negative, else None."""
@@ -167,7 +182,7 @@ class Facts:
         ranges = dict(self.ranges)
         for given in atoms:
             if isinstance(given, Atom):
-                key, wanted = constraint(given)
+                key, wanted = constraint(given.poly, given.relation)
                 ranges[key] = meet(ranges.get(key, EVERYTHING), wanted)
         return Facts(ranges, self.literals, self.watch)
 
@@ -185,12 +200,14 @@ class Facts:
 NOTHING = Facts()
 
 
-def constraint(atom: Atom) -> tuple[Poly, Range]:
-    """The key of an atom and the range that the atom gives it."""
-    key, unit, constant = key_of(atom.poly)
-    return key, compare(atom.relation, Fraction(-constant, unit))
+@lru_cache(maxsize=20_000)
+def constraint(poly: Poly, relation: Relation) -> tuple[Poly, Range]:
+    """The key of an atom's polynomial and the range that the atom gives it."""
+    key, value = place_of(poly)
+    return key, compare(relation, value)
 
 
+@lru_cache(maxsize=20_000)
 def atom_of(key: Poly, relation: Relation, value: Fraction) -> Atom:
     """The atom ``key relation value``; the inverse of ``constraint`` for one comparison."""
     poly = key * value.denominator - value.numerator

@@ -30,7 +30,7 @@ class Range:
     @property
     def is_empty(self) -> bool:
         """Whether no number lies in the range."""
-        return self is EMPTY or self == EMPTY
+        return self is EMPTY or (self.lo is not None and self.hi is not None and self.lo > self.hi)
 
     @property
     def point(self) -> Fraction | None:
@@ -94,7 +94,7 @@ def meet(a: Range, b: Range) -> Range:
     """The intersection."""
     if a is EVERYTHING:
         return b
-    if b is EVERYTHING:
+    if b is EVERYTHING or a is b:
         return a
     if a.is_empty or b.is_empty:
         return EMPTY
@@ -121,7 +121,7 @@ def describe(own: Range, base: Range, as_equations: bool) -> list[tuple[Relation
     Only what ``base`` does not already say is listed. Where ``base`` ends at v and only v itself is to be
     excluded there are two ways to say so; ``as_equations`` chooses /= (its negation is an equation).
     """
-    if own == base:
+    if own is base or own == base:
         return []
     if own.point is not None:
         return [(Relation.EQ, own.point)]

@@ -196,7 +196,7 @@ class _Board:
             self.insert(given)
 
     def insert(self, given: Atom) -> None:
-        key, wanted = constraint(given if self.conjunctive else Atom(given.poly, given.relation.negated))
+        key, wanted = constraint(given.poly, given.relation if self.conjunctive else given.relation.negated)
         group = self.groups.setdefault(key, [])
         if given not in group:
             group.append(given)
@@ -292,5 +292,5 @@ def _emit(board: _Board, conjunctive: bool) -> list[Atom] | None:
         fresh = [atom_of(key, relation, value) for relation, value in wanted]
         if not conjunctive:
             fresh = [Atom(a.poly, a.relation.negated) for a in fresh]
-        out += group if set(group) == set(fresh) else fresh
+        out += group if group == fresh or set(group) == set(fresh) else fresh
     return out
