@@ -32,6 +32,9 @@ depend on the clock (measured: up to a tenth of a second for all trials of a pro
 TOO_HEAVY = 10 * HEAVY
 """The usual order is left for another one outright where its projection has steps of more effort than this."""
 
+TRIALS_FROM = 200
+"""With fewer units of work left for what is to be decomposed, trial projections would take longer than that."""
+
 ROOTS_UP_TO = 300
 """Roots are counted where the polynomials of level 0 have degrees up to this in all."""
 
@@ -96,6 +99,9 @@ def choose_order(
     if written or all(len(block) < 2 for block in blocks):
         return tuple(v for block in blocks for v in block), WRITTEN
     brown = tuple(v for block in blocks for v in brown_order(polys, block))
+    left = budget.left()
+    if left is not None and left < TRIALS_FROM:
+        return brown, "brown (there is little work left)"
     greedy = _unless_heavy(lambda: greedy_order(polys, blocks, lambda some, v: _projected(some, v, budget)), budget)
     if greedy is None:
         return brown, "brown (greedy is too heavy)"

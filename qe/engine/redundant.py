@@ -74,14 +74,15 @@ def without_redundant_parts(
 ) -> Formula:
     """The formula without parts that make no difference where ``known`` holds, as far as little work shows them.
 
-    The sentences are likely to be false, so that trials at points would be in vain.
+    The sentences are likely to be false, so that trials at points would be in vain; and there is too little work for
+    better coordinates to pay.
     """
     if context.decide is None:
         return formula
     if not _is_suited(conj((known, formula))):
         return _without_excluded_parts(formula, context) if known == TRUE else formula
     points = _Points(conj((known, formula)).free, context.budget.check)
-    options = context.options.with_(without=context.options.without | {Stage.SAMPLES})
+    options = context.options.with_(without=context.options.without | {Stage.SAMPLES, Stage.POSITION})
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
     while (
         patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept, known), None)) is not None
