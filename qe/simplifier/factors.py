@@ -25,6 +25,13 @@ from qe.simplifier.minima import vanishing
 
 def atom_under(poly: Poly, relation: Relation, facts: Facts) -> Formula:
     """A formula equivalent to ``poly relation 0`` under the facts, by the rules above; a constant if they decide it."""
+    made = facts.made.get((poly, relation))
+    if made is None:
+        made = facts.made[poly, relation] = _atom_under(poly, relation, facts)
+    return made
+
+
+def _atom_under(poly: Poly, relation: Relation, facts: Facts) -> Formula:
     given = atom(poly, relation)
     if not isinstance(given, Atom) or given.poly.total_degree == 1:
         return _decided(given, facts)

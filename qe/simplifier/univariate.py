@@ -46,7 +46,7 @@ def irredundant(atoms: Sequence[Atom], facts: Facts) -> list[Atom] | None:
             continue
         if all(a.poly.total_degree == 1 for a in (*group, *outer)):
             continue
-        redundant = _redundant(index, group, outer)
+        redundant = _redundant(index, tuple(group), tuple(outer))
         if redundant is None:
             return None
         dropped |= redundant
@@ -60,7 +60,8 @@ def _known(facts: Facts, index: int) -> Iterable[Atom]:
                 yield atom_of(key, relation, value)
 
 
-def _redundant(index: int, group: Sequence[Atom], outer: Sequence[Atom]) -> set[Atom] | None:
+@lru_cache(maxsize=2_000)
+def _redundant(index: int, group: tuple[Atom, ...], outer: tuple[Atom, ...]) -> frozenset[Atom] | None:
     everything = (*group, *outer)
     cuts = _merged(root for a in everything for root in roots_of(a.poly))
     samples = _samples(cuts)
@@ -82,7 +83,7 @@ def _redundant(index: int, group: Sequence[Atom], outer: Sequence[Atom]) -> set[
                 rest &= truth[a]
         if rest == left:
             kept.remove(candidate)
-    return set(group) - set(kept)
+    return frozenset(group).difference(kept)
 
 
 def _merged(roots: Iterable[RealAlgebraic]) -> list[RealAlgebraic]:
