@@ -62,6 +62,13 @@ def test_a_heavy_trial_is_given_up() -> None:
     assert set(order[:4]) == set("abcd")
 
 
+def test_with_little_work_left_nothing_is_tried() -> None:
+    matrix = read("x^3 + a*x^2 + b*x + c = 0 and x > 0 and x < 1")
+    order, reason = choose_order(matrix, (("a", "b", "c"), ("x",)), budget=Budget().part(100))
+    assert order == (*brown_order(polynomials(matrix), "abc"), "x")
+    assert reason == "brown (there is little work left)"
+
+
 def test_an_order_that_is_asked_for_stays() -> None:
     found = qe.eliminate("ex x. x^3 + b*x^2 + c*x + d = 0 and x > 0", method="cad", order=("d", "c", "b"))
     (figures,) = found.stats["cad"]
