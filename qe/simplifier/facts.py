@@ -105,8 +105,8 @@ class Facts:
     """What is known to hold: ranges by key polynomial, and literals that are opaque to ranges.
 
     ``ranges``: key -> range (inherent ranges are not stored). ``literals``: root atoms and quantified
-    subformulas known to be true or false. ``watch`` is asked wherever work under the facts may take long. ``made``: atoms
-    as ``atom_under`` made them here.
+    subformulas known to be true or false. ``watch`` is asked wherever work under the facts may take long.
+    ``made``: atoms as ``atom_under`` made them here.
     """
 
     ranges: Mapping[Poly, Range] = field(default_factory=dict)
