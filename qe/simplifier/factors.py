@@ -22,11 +22,16 @@ from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
 from qe.simplifier.facts import Facts, factor_list
 from qe.simplifier.minima import vanishing
 
+MOST_MADE = 5_000
+"""Atoms that are remembered: facts that say nothing live as long as the process."""
+
 
 def atom_under(poly: Poly, relation: Relation, facts: Facts) -> Formula:
     """A formula equivalent to ``poly relation 0`` under the facts, by the rules above; a constant if they decide it."""
     made = facts.made.get((poly, relation))
     if made is None:
+        if len(facts.made) >= MOST_MADE:
+            facts.made.clear()
         made = facts.made[poly, relation] = _atom_under(poly, relation, facts)
     return made
 
