@@ -1,13 +1,18 @@
 """How short no path of a scene is: a bound from below for the length, over all ways through the free cells.
 
 The obstacles are taken as polytopes within them, the workspace as one around it, which only makes paths shorter.
-THEOREM. Let the convex cells C_1, ..., C_n cover what is free then, let paths go from cell to cell through the doors,
-let every door d have an affine function f_d, and start and goal numbers. Where for all doors d and e (or start and
-goal) of a cell f_e(y) - f_d(x) <= |y - x| + h for x in d, y in e, every path from start to goal has at least the length
-f_goal - f_start - n h. PROOF. Some shortest path visits each cell at most once, since cells are convex; between its
-doors the sum telescopes. Where some g with |g| <= 1 has f_e(y) - f_d(x) <= g . (y - x) + h at all pairs of corners,
-this holds for all x and y. The sentence of a cell says that there are such g for its doors; the kernel checks it by
-them. That the cells cover is said in sentences, too; the doors are those of ``FreeCells``, made again by who checks.
+THEOREM. Let convex cells C_1, ..., C_n, one with the start, have doors: convex parts of a side of C_i in a C_j beyond
+it. Let every point on a side of a cell be in one of its doors, in a polytope within an obstacle, or on the rim of the
+polytope around. Let every door d have an affine function f_d, and start and goal numbers. Where for all doors d and e
+(or start and goal) of a cell f_e(y) - f_d(x) <= |y - x| + h for x in d, y in e, every path from start to goal has at
+least the length f_goal - f_start - n h. PROOF. A path is as long, up to any small number, as one of segments that
+begins inside the cell of the start, meets the planes of all sides at single points, no two of them at once, and keeps
+away from the rim, since what is free is open. Where that leaves a cell for the last time it is in a door, and then in
+the cell beyond. So it visits cells at most once, and ends in one with the goal; between doors the sum telescopes. Where
+some g with |g| <= 1 has f_e(y) - f_d(x) <= g . (y - x) + h at all pairs of corners, this holds for all x and y.
+
+Sentences say that there are such g for each cell, and that sides are in doors and walls; where one of these has all
+corners of a side, that is seen at once.
 """
 
 from __future__ import annotations
@@ -20,14 +25,14 @@ from math import ceil, hypot, lcm
 
 from bezier.curves.enclosure import root_below
 from bezier.curves.scalar import dot, subtract
-from bezier.scenes.cells import Cell, FreeCells, Point
+from bezier.scenes.cells import Cell, FreeCells, Point, Side, common_side
 from bezier.scenes.conic import Conic
 from bezier.scenes.scene import Scene
-from bezier.scenes.sentences import covering
+from bezier.scenes.sentences import coordinates, enclosing, every, of_sides
 from bezier.scenes.solid import directions
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
-from qe.formula.build import atom, conj, exists
+from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget
 from qe.proof.certificate import Certificate
@@ -36,12 +41,12 @@ DIGITS, SHORTER, MOST_ROWS = 2**32, 1 - 2.0**-26, 25_000
 Level = tuple[Point, Fraction]
 """The affine function n . x + c of a door."""
 Key = tuple[int, int]
-START, GOAL = -1, -2
+START, GOAL = (-1, -1), (-2, -2)
 
 
 @dataclass(frozen=True, slots=True)
 class LengthBound:
-    """``levels``: of every door, by the numbers of its cells; of start and goal by the cell and START or GOAL."""
+    """``levels``: of every door, by the numbers of its cells; of START and GOAL."""
 
     scene: Scene
     fine: int
@@ -57,10 +62,12 @@ class LengthBound:
             return root_below(Fraction(dot(away, away)), 40), {}
         (around, walls, free), known = relaxed(self.scene, self.fine, budget), dict(self.levels)
         rows = {f"length in cell {i}": _matrix(pairs, known, self.slack) for i, pairs in _pairs(self.scene, free)}
-        ends = [_value(known[key], p) for key, p in _ends(self.scene, free)]
+        if free.holding(self.scene.start) is None or any(key not in known for key, _ in _ends(self.scene)):
+            raise CertificateRejected("length", "start or goal is in no cell")
+        first, last = (_value(known[key], p) for key, p in _ends(self.scene))
         quantified = {k: exists(_names(matrix), matrix) for k, matrix in rows.items()}
-        cover = dict(covering(self.scene, around, walls, free.cells))
-        return ends[1] - ends[0] - len(free.cells) * self.slack, cover | quantified
+        said = dict(enclosing(self.scene, around, walls)) | dict(_exits(self.scene, around, walls, free))
+        return last - first - len(free.cells) * self.slack, said | quantified
 
 
 def relaxed(scene: Scene, fine: int, budget: Budget) -> tuple[Cell, list[Cell], FreeCells]:
@@ -100,7 +107,9 @@ def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, 
                         for k, c in zip(cols, (*p, 1.0), strict=True)
                     ]
                     program.at_least(along + ends, 0.0)
-    for (key, point), sign in zip(_ends(scene, free), (1.0, -1.0), strict=True):
+    if any(key not in columns for key, _ in _ends(scene)):
+        return straight
+    for (key, point), sign in zip(_ends(scene), (1.0, -1.0), strict=True):
         program.add_cost([(k, sign * c) for k, c in zip(columns[key], (*map(float, point), 1.0), strict=True)])
     answer = program.solved()
     if answer is None:
@@ -118,7 +127,7 @@ def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, 
         for x, y in product(xs.corners, ys.corners)
     )
     slack = Fraction(max(0, ceil(max(missing) * DIGITS)), DIGITS)
-    first, last = (_value(levels[key], p) for key, p in _ends(scene, free))
+    first, last = (_value(levels[key], p) for key, p in _ends(scene))
     value = last - first - len(free.cells) * slack
     if value <= least:
         return straight
@@ -135,22 +144,35 @@ Door = tuple[Key, Cell]
 
 def _pairs(scene: Scene, free: FreeCells) -> Iterator[tuple[int, list[tuple[Door, Door]]]]:
     """For each cell the ordered pairs of its doors, start and goal among them."""
-    ends = dict(_ends(scene, free))
-    for i in range(len(free.cells)):
+    for i, cell in enumerate(free.cells):
         doors: list[Door] = [((min(i, j), max(i, j)), door) for j, door in free.doors[i].items()]
-        doors += [(key, Cell.box(p, p)) for key, p in ends.items() if key[0] == i]
+        doors += [(key, Cell.box(p, p)) for key, p in _ends(scene) if cell.contains(p)]
         if len(doors) > 1:
-            yield i, [(a, b) for a, b in permutations(doors, 2) if a[0][1] != GOAL and b[0][1] != START]
+            yield i, [(a, b) for a, b in permutations(doors, 2) if a[0] != GOAL and b[0] != START]
 
 
-def _ends(scene: Scene, free: FreeCells) -> list[tuple[Key, Point]]:
-    result = []
-    for point, name in ((scene.start, START), (scene.goal, GOAL)):
-        cell = free.holding(point)
-        if cell is None:
-            raise CertificateRejected("length", "start or goal is in no cell")
-        result.append(((cell, name), point))
-    return result
+def _ends(scene: Scene) -> tuple[tuple[Key, Point], tuple[Key, Point]]:
+    return (START, scene.start), (GOAL, scene.goal)
+
+
+def _exits(scene: Scene, around: Cell, walls: Sequence[Cell], free: FreeCells) -> Iterator[tuple[str, Formula]]:
+    """That every point on a side of a cell is in a door to a cell beyond it, or in a wall, or on the rim."""
+    at = coordinates(scene)
+    for i, cell in enumerate(free.cells):
+        for k, side in enumerate(cell.sides):
+            face = cell.face(k)
+            ends = [door for j, door in free.doors[i].items() if _leads(side, door, free.cells[j])] + [*walls]
+            on_rim = 1 not in around.signs(side)
+            if on_rim or any(all(map(end.contains, face.corners)) for end in ends):
+                continue
+            near = [set(end.sides).difference(face.sides) for end in ends if common_side(cell, k, end) is not None]
+            ways = disj(of_sides(sorted(sides), at) for sides in near)
+            yield f"cell {i} is left by doors, side {k}", every(at, disj((neg(of_sides(face.sides, at)), ways)))
+
+
+def _leads(side: Side, door: Cell, other: Cell) -> bool:
+    """Whether a door on this side of a cell is in the other cell, and this beyond the side."""
+    return not any(door.signs(side)) and -1 not in other.signs(side) and all(map(other.contains, door.corners))
 
 
 def _value(level: Level, point: Point) -> Fraction:

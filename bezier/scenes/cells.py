@@ -135,9 +135,8 @@ class Cell:
         """The part of it in the plane of its side k."""
         on = [i for i, mask in enumerate(self.through) if mask >> k & 1]
         bit = 1 << len(self.sides)
-        corners, floats = tuple(self.corners[i] for i in on), tuple(self.floats[i] for i in on)
-        through = tuple(self.through[i] | bit for i in on)
-        return Cell((*self.sides, opposite(self.sides[k])), corners, through, floats, True)
+        corners = [(self.corners[i], self.through[i] | bit) for i in on]
+        return _kept((*self.sides, opposite(self.sides[k])), corners, True)
 
 
 def _excess(side: Side, point: Sequence[Fraction]) -> Fraction:
@@ -149,9 +148,9 @@ def _rounded(corners: Sequence[Point]) -> tuple[tuple[float, ...], ...]:
 
 
 def _kept(sides: Sequence[Side], corners: Sequence[tuple[Point, int]], is_flat: bool) -> Cell:
-    """Without the sides that touch a full cell in less than a facet."""
-    size, points = len(corners[0][0]), tuple(p for p, _ in corners)
-    used = [k for k in range(len(sides)) if is_flat or sum(mask >> k & 1 for _, mask in corners) >= size]
+    """Without the sides that touch a full cell in less than a facet, a flat one nowhere."""
+    least, points = 1 if is_flat else len(corners[0][0]), tuple(p for p, _ in corners)
+    used = [k for k in range(len(sides)) if sum(mask >> k & 1 for _, mask in corners) >= least]
     through = tuple(sum(1 << new for new, k in enumerate(used) if mask >> k & 1) for _, mask in corners)
     return Cell(tuple(sides[k] for k in used), points, through, _rounded(points), is_flat)
 
@@ -241,13 +240,13 @@ def _doors(cells: Sequence[Cell], walls: Sequence[Cell]) -> tuple[dict[int, Cell
     doors: tuple[dict[int, Cell], ...] = tuple({} for _ in cells)
     for ones, others in planes.values():
         for (i, k), (j, _) in product(ones, others):
-            door = _common(cells[i], k, cells[j])
+            door = common_side(cells[i], k, cells[j])
             if door is not None and not any(wall.contains(door.centre) for wall in walls):
                 doors[i][j] = doors[j][i] = door
     return doors
 
 
-def _common(one: Cell, k: int, other: Cell) -> Cell | None:
+def common_side(one: Cell, k: int, other: Cell) -> Cell | None:
     """The part of side k of a cell that another one behind it has, too; None where it is no full part of it."""
     size = len(one.corners[0])
     for axis in range(size):

@@ -28,14 +28,19 @@ Curve = tuple[Point, ...]
 def covering(
     scene: Scene, around: Cell, walls: Sequence[Cell | Wall], cells: Sequence[Cell]
 ) -> Iterator[tuple[str, Formula]]:
-    """That the walls are in obstacles or outside the workspace, and cover with the cells a polytope around it.
+    """That walls and cells cover a polytope around the workspace, and the walls are in what is not free."""
+    at = coordinates(scene)
+    covered = disj(of_sides(cell.sides, at) for cell in (*map(cell_of, walls), *cells))
+    yield COVERED, every(at, disj((neg(of_sides(around.sides, at)), covered)))
+    yield from enclosing(scene, around, walls)
+
+
+def enclosing(scene: Scene, around: Cell, walls: Sequence[Cell | Wall]) -> Iterator[tuple[str, Formula]]:
+    """That the workspace is in the polytope, and the walls are in obstacles or outside the workspace.
 
     Of a polytope in one body, which is convex, that is seen at its corners. Raises ``CertificateRejected``."""
     at = coordinates(scene)
-    covered = disj(of_sides(cell.sides, at) for cell in (*map(cell_of, walls), *cells))
-    held = of_sides(around.sides, at)
-    yield HELD, every(at, disj((neg(conj(inside(part, at) for part in scene.domain)), held)))
-    yield COVERED, every(at, disj((neg(held), covered)))
+    yield HELD, every(at, disj((neg(conj(inside(part, at) for part in scene.domain)), of_sides(around.sides, at))))
     for k, wall in enumerate(walls, start=1):
         if isinstance(wall, Wall):
             bodies = [scene.solids[i] for i in wall.bodies]

@@ -24,9 +24,10 @@ from bezier.curves.scalar import dot, subtract
 from bezier.interface.function import table_value
 from bezier.scenes import route as route_module
 from bezier.scenes.barrier import barrier
+from bezier.scenes.bound import least_length
 from bezier.scenes.cells import Cell, FreeCells
 from bezier.scenes.conic import Conic
-from bezier.scenes.route import Blocked, Route, Wish, decided
+from bezier.scenes.route import Blocked, Route, Wish, decided, proved
 from bezier.scenes.scene import Scene, given_scene
 from bezier.scenes.sentences import COVERED, covering, inside
 from bezier.scenes.solid import nearest
@@ -392,6 +393,23 @@ def test_a_broken_proposer_of_lengths_proves_nothing_false(monkeypatch: pytest.M
         found.check()
         assert isinstance(found, Route) and found.at_least is not None
         assert found.at_least < 2 * 10**0.5 + 2 < found.length
+
+
+def test_half_a_door_gives_no_false_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which doors there are was believed: with the upper halves of them the bound was longer than the shortest path."""
+    scene = read_scene({**SCENE, "start": [1, 4], "goal": [9, 4], "obstacle": [WALLS[0]]})
+    real, half = FreeCells.of, ((Fraction(0), Fraction(1)), Fraction(15, 2))
+
+    def broken(domain: Cell, walls: Any, budget: Budget) -> FreeCells:
+        free = real(domain, walls, budget)
+        upper = tuple({j: door.cut(half)[1] or door for j, door in doors.items()} for doors in free.doors)
+        return replace(free, doors=upper)
+
+    monkeypatch.setattr(FreeCells, "of", staticmethod(broken))
+    bound, known = least_length(scene, 1, Budget())
+    assert bound.value > 2 * 10**0.5 + 2
+    with pytest.raises(qe.Unable, match="left by doors"):
+        proved({k: v for k, v in bound.sentences(Budget())[1].items() if k not in dict(known)}, Budget(60))
 
 
 @pytest.mark.deep
