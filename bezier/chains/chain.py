@@ -1,4 +1,4 @@
-"""A chain of Bézier curves through via points as a value, and its control points as combinations of free points.
+"""A chain of Bézier curves through via points as a value, what its control points have to keep, and what is least.
 
 A curve of degree d with duration T has at its ends the derivatives d!/(d-j)! Δ^j P / T^j in time (Farin, "Curves and
 Surfaces for CAGD", 5.3), so that a join is C^c in time where Δ^j P / T^j agree for j = 1, ..., c. These equations are
@@ -7,7 +7,8 @@ solved over Q; what they leave free is free.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -15,13 +16,28 @@ from functools import cached_property
 from itertools import pairwise
 from math import comb, factorial
 
-from bezier.chains.form import Affine, Form, Point, affine_sum, linear_form, squared_length, weighted_sum
-from bezier.curves.curve import Bezier
+from bezier.chains.form import (
+    AXES,
+    Affine,
+    Form,
+    Point,
+    Requirement,
+    Solved,
+    affine_sum,
+    linear_form,
+    squared_length,
+    weighted_sum,
+)
 from qe.errors import InputError
-from qe.exact.quadratic_form import echelon
+from qe.exact.quadratic_form import echelon, solve_linear
 
 MOST_VIA = 50
 _ZERO, _ONE = Fraction(0), Fraction(1)
+_WORDS = ("place", "velocity", "acceleration")
+Place = tuple[int, int]
+"""A control point by its curve and its number in it; a corner as that of the curve that begins there."""
+Equation = tuple[str, dict[Place, Fraction], Point]
+"""What it is about; the weights of points that are not known, whose sum is a point."""
 
 
 class Objective(Enum):
@@ -61,9 +77,11 @@ class Chain:
     """``points``: start, via points, goal (of a closed chain: all points, the last joined with the first).
 
     Every control point has to lie in the ball about ``centre`` with this ``radius_squared``, where it is given, and in
-    all ``half_spaces``: (a, b) for a . p >= b. ``free_via``: the number of a point that may move.
+    all ``half_spaces``: (a, b) for a . p >= b.
     ``max_length`` (mm) of all curves together, ``max_curvature`` (1/mm). ``free_total``: the sum of free durations.
-    ``velocities`` at the start and at the goal (mm/s), where these are fixed.
+    ``velocities`` at the start and at the goal (mm/s), where these are fixed. ``free``: what may be another one, in
+    questions about repairs: a point by its name, "velocities[0]", or "durations[2]": this without the joins of that
+    curve, so that what excludes such chains excludes all durations of it.
     """
 
     points: tuple[Point, ...]
@@ -76,7 +94,7 @@ class Chain:
     centre: Point = ()
     radius_squared: Fraction | None = None
     half_spaces: tuple[tuple[Point, Fraction], ...] = ()
-    free_via: int | None = None
+    free: str = ""
     max_length: Fraction | None = None
     max_curvature: Fraction | None = None
     free_total: Fraction | None = None
@@ -97,8 +115,8 @@ class Chain:
             raise InputError("chain: a sum of free durations above 0 expected, and no durations")
         if self.closed and self.ends is not Ends.FREE:
             raise InputError("chain: a closed chain has no ends")
-        if self.velocities and (self.closed or self.ends is not Ends.FREE or len(self.velocities) != 2):
-            raise InputError("chain: velocities at the start and at the goal of an open chain with free ends expected")
+        if self.velocities and (self.closed or [len(v) for v in self.velocities] != [self.dimension] * 2):
+            raise InputError("chain: velocities at the start and at the goal of an open chain expected")
         if self.objective.order > self.degree:
             raise InputError(f"chain: a degree of at least {self.objective.order} expected for {self.objective.value}")
         if self.radius_squared is not None and self.radius_squared <= 0:
@@ -116,6 +134,16 @@ class Chain:
         return ("start", *(f"via[{i}]" for i in range(via)), *(() if self.closed else ("goal",)))
 
     @property
+    def moving(self) -> tuple[str, ...]:
+        """What may be ``free`` and is a point or a vector: points, and velocities at the ends."""
+        return self.point_names + (() if self.closed else ("velocities[0]", "velocities[1]"))
+
+    @property
+    def paces(self) -> tuple[str, ...]:
+        """The names of the durations."""
+        return tuple(f"durations[{k}]" for k in range(self.pieces))
+
+    @property
     def corners(self) -> tuple[Point, ...]:
         """Where the curves begin and end, in order."""
         return (*self.points, self.points[0]) if self.closed else self.points
@@ -130,50 +158,24 @@ class Chain:
         """The durations of the curves, 1 each where none are given."""
         return self.durations or (_ONE,) * self.pieces
 
-    @cached_property
-    def solved(self) -> Solved | None:
-        """The control points; None where the joins and ends contradict each other."""
-        return _solved(self)
-
-
-@dataclass(frozen=True, slots=True)
-class Solved:
-    """The control points of each curve as combinations of ``size`` free points."""
-
-    size: int
-    controls: tuple[tuple[Affine, ...], ...]
-
-    def curves(self, free: Sequence[Point]) -> tuple[Bezier, ...]:
-        """The curves for these free points."""
-        return tuple(Bezier(tuple(p.at(free) for p in piece)) for piece in self.controls)
-
-
-@dataclass(frozen=True, slots=True)
-class Requirement:
-    """``form`` <= 0. ``squares``: with it sum w |p|² is bounded; none where the form is linear. ``is_ball``: a larger
-    radius is a wider condition."""
-
-    label: str
-    form: Form
-    squares: tuple[tuple[Fraction, Affine], ...] = ()
-    is_ball: bool = False
-    detail: str = ""
-    """How to make it again, where the chain alone does not say it: behind the labels of proofs that use it."""
-
     @property
-    def right(self) -> Fraction:
-        """The bound of the sum of squares."""
-        squares = ((w, squared_length(p).constant) for w, p in self.squares)
-        return sum((w * c for w, c in squares), -self.form.constant)
+    def is_still(self) -> bool:
+        """Whether it rests at its ends, as far as no ``velocities`` say more."""
+        return self.ends is Ends.ZERO
+
+    @cached_property
+    def solved(self) -> Solved:
+        """The control points as combinations of free ones."""
+        return solved_joins(self)
 
 
 def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
-    """Of all control points, those that several curves share once."""
-    result = []
+    """Of all control points, those that several curves share once; with the joins that contradict each other."""
+    result, names = [row for _, row in solved.joins], chain.point_names
     for k, piece in enumerate(solved.controls):
         last = k == chain.pieces - 1 and not chain.closed
         for j, point in enumerate(piece if last else piece[:-1]):
-            corner = chain.point_names[(k + (j > 0)) % len(chain.points)]
+            corner = names[(k + (j > 0)) % len(names)]
             name = f"C{k + 1}.{j}" if 0 < j < chain.degree else corner
             if chain.radius_squared is not None:
                 away = affine_sum(((_ONE, point), (-_ONE, Affine({}, chain.centre))))
@@ -187,9 +189,9 @@ def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
 
 def objective_form(chain: Chain, solved: Solved) -> Form:
     """What is to be least."""
-    if chain.free_via is not None:
-        corner = solved.controls[chain.free_via % chain.pieces][0 if chain.free_via < chain.pieces else -1]
-        return squared_length(affine_sum(((_ONE, corner), (-_ONE, Affine({}, chain.points[chain.free_via])))))
+    if chain.free:
+        place, given = freed(chain, solved)
+        return squared_length(affine_sum(((_ONE, place), (-_ONE, Affine({}, given)))))
     order, pieces = chain.objective.order, solved.controls
     if not order:
         if chain.objective is Objective.MIDDLE_LEGS and not chain.closed:
@@ -198,6 +200,17 @@ def objective_form(chain: Chain, solved: Solved) -> Form:
         return weighted_sum((_ONE, squared_length(leg)) for leg in legs)
     parts = [(w, f) for p, t in zip(pieces, chain.times, strict=True) for w, f in _energy(p, t, order)]
     return weighted_sum(parts)
+
+
+def freed(chain: Chain, solved: Solved) -> tuple[Affine, Point]:
+    """The point or velocity that is free, and the one that is given."""
+    if matched := re.fullmatch(r"velocities\[([01])\]", chain.free):
+        end = int(matched[1])
+        terms = derivative(chain, end * (chain.pieces - 1), end, 1)
+        velocity = affine_sum((w, solved.controls[k][j]) for (k, j), w in terms)
+        return velocity, chain.velocities[end] if chain.velocities else (_ZERO,) * chain.dimension
+    k = chain.point_names.index(chain.free)
+    return solved.controls[min(k, chain.pieces - 1)][0 if k < chain.pieces else -1], chain.points[k]
 
 
 def _energy(points: Sequence[Affine], time: Fraction, order: int) -> list[tuple[Fraction, Form]]:
@@ -225,61 +238,88 @@ def _difference(points: Sequence[Affine]) -> Affine:
     return affine_sum((Fraction((-1) ** (k - j) * comb(k, j)), p) for j, p in enumerate(points))
 
 
-def _solved(chain: Chain) -> Solved | None:
-    """Gauss and Jordan with the points of the beginning last: they stay free, and the others are tame in them."""
+def solved_joins(chain: Chain) -> Solved:
+    """Gauss and Jordan with the points of the beginning last: they stay free, and the others are tame in them. Where
+    the equations contradict each other, all points stay free and the smallest contradiction is in ``joins``."""
     d, c, m = chain.degree, chain.continuity, chain.pieces
+    cut = [k for k in range(m) if chain.free == f"durations[{k}]"]
+    ends = {(0, 1), (m - 1, d - 1), *(at for k in cut for at in ((k - 1, d - 1), (k + 1, 1)))}
     inner = [(k, j) for k in range(m) for j in range(1, d)]
-    ends = {(0, 1), (m - 1, d - 1)}
     columns = sorted(inner, key=lambda at: (at in ends, at[1] <= d - 1 - c, at))
-    place = {at: i for i, at in enumerate(columns)}
-    moving = chain.free_via
-    width = len(columns) + (moving is not None)
-    rows = []
-
-    def equation(terms: Sequence[tuple[int, int, Fraction]], value: Point = (_ZERO,) * chain.dimension) -> None:
-        row, right = [_ZERO] * width, list(value)
-        for k, j, weight in terms:
-            corner = (k + (j == d)) % len(chain.points) if j in (0, d) else None
-            if corner is None:
-                row[place[k, j]] += weight
-            elif corner == moving:
-                row[-1] += weight
-            else:
-                right = [r - weight * x for r, x in zip(right, chain.points[corner], strict=True)]
-        rows.append([*row, *right])
-
-    times = chain.times
-    for k in range(m if chain.closed else m - 1):
-        after = (k + 1) % m
-        for order in range(1, c + 1):
-            equation([*_end(k, d, order, times[k]), *((q, j, -w) for q, j, w in _begin(after, order, times[after]))])
-    if chain.ends is Ends.ZERO:
-        for order in range(1, 3 if d == 5 else 2):
-            equation(_begin(0, order, times[0]))
-            equation(_end(m - 1, d, order, times[-1]))
-    for velocity, end in zip(chain.velocities, (_begin(0, 1, times[0]), _end(m - 1, d, 1, times[-1])), strict=False):
-        equation([(k, j, d * w) for k, j, w in end], velocity)
-    work, pivots = echelon(rows)
-    if any(p >= width for p in pivots):
-        return None
+    columns += [(k, 0) for k, name in enumerate(chain.point_names) if name == chain.free]
+    width, listed = len(columns), list(_equations(chain))
+    matrix = [[terms.get(at, _ZERO) for at in columns] for _, terms, _ in listed]
+    work, pivots = echelon([[*row, *value] for row, (_, _, value) in zip(matrix, listed, strict=True)])
+    contradictory = any(p >= width for p in pivots)
+    if contradictory:
+        work, pivots = [], []
     free = {column: i for i, column in enumerate(c for c in range(width) if c not in set(pivots))}
-    zero = (_ZERO,) * chain.dimension
-    values = {column: Affine({i: _ONE}, zero) for column, i in free.items()}
+    values = {column: Affine({i: _ONE}, (_ZERO,) * chain.dimension) for column, i in free.items()}
     for row, column in zip(work, pivots, strict=True):
         values[column] = Affine({i: -row[q] for q, i in free.items() if row[q]}, tuple(row[width:]))
-    known = [Affine({}, p) for p in chain.corners]
-    if moving is not None:
-        known = [values[width - 1] if k % len(chain.points) == moving else p for k, p in enumerate(known)]
-    middle = [[values[place[k, j]] for j in range(1, d)] for k in range(m)]
-    controls = tuple((known[k], *middle[k], known[k + 1]) for k in range(m))
-    return Solved(len(free), controls)
+    at = {place: values[i] for i, place in enumerate(columns)}
+    corners = [at.get((k % len(chain.points), 0), Affine({}, p)) for k, p in enumerate(chain.corners)]
+    controls = tuple((corners[k], *(at[k, j] for j in range(1, d)), corners[k + 1]) for k in range(m))
+    joins = _contradiction(chain, listed, matrix, at) if contradictory else ()
+    return Solved(len(free), controls, joins)
 
 
-def _begin(k: int, order: int, time: Fraction) -> list[tuple[int, int, Fraction]]:
-    signs = [(-1) ** (order - j) * comb(order, j) for j in range(order + 1)]
-    return [(k, j, s / time**order) for j, s in enumerate(signs)]
+def _contradiction(
+    chain: Chain, listed: list[Equation], matrix: list[list[Fraction]], at: dict[Place, Affine]
+) -> tuple[tuple[Fraction, Requirement], ...]:
+    """Weights with which equations have the sum 0 = 1 in one coordinate. Those with a weight are independent but for
+    this, so that there is no other contradiction among them."""
+    for axis in range(chain.dimension):
+        columns = [*zip(*matrix, strict=True), [value[axis] for _, _, value in listed]]
+        right = [*(_ZERO for _ in columns[1:]), _ONE]
+        if (solution := solve_linear(columns, right, len(listed))) is not None:
+            break
+    else:
+        raise AssertionError("equations without a solution that contradict each other in no coordinate")
+    unit, joins = tuple(_ONE if k == axis else _ZERO for k in range(chain.dimension)), []
+    for weight, (label, terms, value) in zip(solution.particular, listed, strict=True):
+        if weight:
+            total = weighted_sum((w, linear_form(unit, at[place])) for place, w in terms.items())
+            form = weighted_sum([(-_ONE if weight > 0 else _ONE, total.shifted(-value[axis]))])
+            joins.append((abs(weight), Requirement(f"{label}, {AXES[axis]}", form)))
+    return tuple(joins)
 
 
-def _end(k: int, degree: int, order: int, time: Fraction) -> list[tuple[int, int, Fraction]]:
-    signs = [(-1) ** (order - j) * comb(order, j) for j in range(order + 1)]
-    return [(k, degree - order + j, s / time**order) for j, s in enumerate(signs)]
+def _equations(chain: Chain) -> Iterator[Equation]:
+    """Of joins and ends, but for what is free. A free duration: without those that depend on it."""
+    m, names, zero = chain.pieces, chain.point_names, (_ZERO,) * chain.dimension
+    for k in range(m if chain.closed else m - 1):
+        after = (k + 1) % m
+        for order in range(1, chain.continuity + 1):
+            terms = [*derivative(chain, k, 1, order), *((p, -w) for p, w in derivative(chain, after, 0, order))]
+            if chain.free not in (f"durations[{k}]", f"durations[{after}]"):
+                yield _equation(chain, f"one {_WORDS[order]} at {names[(k + 1) % len(names)]}", terms, zero)
+    given = chain.velocities or ((zero, zero) if chain.is_still else ())
+    for end, velocity in enumerate(given):
+        k, name = end * (m - 1), names[-end]
+        if chain.free != f"velocities[{end}]" and not (chain.free == f"durations[{k}]" and any(velocity)):
+            yield _equation(chain, f"velocity at {name}", derivative(chain, k, end, 1), velocity)
+        if chain.is_still and chain.degree == 5:
+            yield _equation(chain, f"acceleration at {name}", derivative(chain, k, end, 2), zero)
+
+
+def derivative(chain: Chain, k: int, end: int, order: int) -> list[tuple[Place, Fraction]]:
+    """That of a curve at its beginning (0) or end (1), as control points with weights."""
+    d, scale = chain.degree, _ONE
+    for j in range(order):
+        scale *= (d - j) / chain.times[k]
+    first = (d - order) * end
+    return [((k, first + j), scale * (-1) ** (order - j) * comb(order, j)) for j in range(order + 1)]
+
+
+def _equation(chain: Chain, label: str, terms: list[tuple[Place, Fraction]], value: Point) -> Equation:
+    """With what is known on the right."""
+    unknown: dict[Place, Fraction] = {}
+    for (k, j), weight in terms:
+        corner = (k + (j > 0)) % len(chain.points)
+        if 0 < j < chain.degree or (chain.free and chain.point_names[corner] == chain.free):
+            place = (k, j) if 0 < j < chain.degree else (corner, 0)
+            unknown[place] = unknown.get(place, _ZERO) + weight
+        else:
+            value = tuple(v - weight * x for v, x in zip(value, chain.points[corner], strict=True))
+    return label, unknown, value

@@ -12,7 +12,7 @@ import qe
 from bezier.chains.chain import Chain, objective_form, requirements
 from bezier.chains.form import Form
 from bezier.chains.limits import LENGTH, keeps_limits, stated_chords
-from bezier.chains.proof import names_of, polynomial
+from bezier.chains.proof import LEAST, MOST, names_of, polynomial
 from bezier.chains.region import at_form, beyond_form, placed
 from bezier.chains.repair import changed
 from qe.errors import CertificateRejected, QEError
@@ -23,7 +23,6 @@ from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Certificate, Labelled
 from qe.proof.entry import Entry, formula_from_json
 
-LEAST, MOST = "least value at least ", "least value at most "
 EXCLUDE, WITHOUT = "they exclude each other", "without "
 POSSIBLE, IMPOSSIBLE = "possible", "impossible"
 
@@ -34,7 +33,7 @@ def checked(chain: Chain, certificate: Certificate) -> list[str]:
     if not members:
         raise CertificateRejected("bundle", "expected a bundle")
     first = [m for m in members if m.label.partition(" with ")[0] == EXCLUDE]
-    conflict = {part for m in first for part in _claimed(chain, m, _labels(chain))}
+    conflict = {part for m in first for part in _claimed(chain, m, _labels(chain).values())}
     for member in members:
         try:
             _examine(chain, member, conflict)
@@ -54,17 +53,19 @@ def _examine(chain: Chain, member: Labelled, conflict: Collection[Formula]) -> N
     claim, *changes = member.label.split(" with ")
     for change in changes:
         chain = _changed(chain, change)
+    if chain.free not in ("", *chain.moving) and (claim != IMPOSSIBLE or chain.free not in chain.paces):
+        raise ValueError("nothing of this name may be free in this claim")
     chords = "".join(change.removeprefix("chords ") for change in changes if change.startswith("chords "))
     known = _labels(chain)
     everything = set(known.values())
-    if chords and chain.solved is not None:
+    if chords:
         known[LENGTH] = _atom(chain, stated_chords(chain, chain.solved, chords).form, Relation.LE)
-    said = set(_claimed(chain, member, known))
-    if claim.startswith(LEAST):
-        below = _value(chain, claim.removeprefix(LEAST), Relation.LT)
-        _is(member, below in said and said <= {*known.values(), below}, FALSE)
+    below = {_value(chain, claim.removeprefix(LEAST), Relation.LT)} if claim.startswith(LEAST) else set()
+    said = set(_claimed(chain, member, {*known.values(), *below}))
+    if below:
+        _is(member, below <= said <= {*known.values(), *below}, FALSE)
     elif claim.startswith(MOST):
-        _is(member, said == everything | {_value(chain, claim.removeprefix(MOST), Relation.LE)}, TRUE)
+        _is(member, said == (everything | {_value(chain, claim.removeprefix(MOST), Relation.LE)}) - {TRUE}, TRUE)
         _keeps_limits(chain, member)
     elif claim in (EXCLUDE, IMPOSSIBLE):
         _is(member, said <= set(known.values()), FALSE)
@@ -85,10 +86,10 @@ def _examine_place(chain: Chain, member: Labelled, name: str, numbers: Sequence[
     d, known = chain.dimension, _labels(freed)
     if len(numbers) != d + (not has):
         raise ValueError("the coordinates of a point, or of a half-space, expected")
-    said = set(_claimed(freed, member, known))
+    said = set(_claimed(freed, member, known.values()))
     if has:
         here = {_atom(freed, form, Relation.LE) for form in at_form(place, tuple(numbers))}
-        _is(member, said == here | set(known.values()), TRUE)
+        _is(member, said == (here | set(known.values())) - {TRUE}, TRUE)
     else:
         beyond = _atom(freed, beyond_form(place, tuple(numbers[:d]), numbers[d]), Relation.LT)
         _is(member, beyond in said and said <= {*known.values(), beyond}, FALSE)
@@ -98,7 +99,7 @@ def _changed(chain: Chain, change: str) -> Chain:
     if change.startswith("chords "):
         return chain
     if change.endswith(" free"):
-        return replace(chain, free_via=chain.point_names.index(change.removesuffix(" free")))
+        return replace(chain, free=change.removesuffix(" free"))
     name, _, value = change.partition(" = ")
     numbers = [Fraction(part) for part in value.split(", ")]
     if name == "durations" and sum(numbers) != chain.free_total:
@@ -109,10 +110,10 @@ def _changed(chain: Chain, change: str) -> Chain:
 def _keeps_limits(chain: Chain, member: Labelled) -> None:
     """Whether the curves of a witness keep the bounds of length and curvature, by exact enclosures."""
     solved = chain.solved
-    if solved is None or (chain.max_length is None and chain.max_curvature is None):
+    if chain.max_length is None and chain.max_curvature is None:
         return
-    flat = [Fraction(text) for text in member.certificate.evidence_for("instance")["values"]]
-    d = chain.dimension
+    values = member.certificate.evidence_for("instance")["values"] if solved.size else ()
+    flat, d = [Fraction(text) for text in values], chain.dimension
     points = [tuple(flat[i : i + d]) for i in range(0, len(flat), d)]
     if broken := keeps_limits(chain, solved.curves(points)):
         raise CertificateRejected(member.label, broken)
@@ -126,37 +127,30 @@ def _is(member: Labelled, fits: bool, answer: Formula) -> None:
 
 def _labels(chain: Chain) -> dict[str, Formula]:
     """The conditions as atoms by their labels, without those that hold of themselves."""
-    solved = chain.solved
-    if solved is None:
-        raise CertificateRejected("chain", "its joins contradict each other")
-    atoms = {row.label: _atom(chain, row.form, Relation.LE) for row in requirements(chain, solved)}
+    atoms = {row.label: _atom(chain, row.form, Relation.LE) for row in requirements(chain, chain.solved)}
     return {label: condition for label, condition in atoms.items() if condition != TRUE}
 
 
 def _value(chain: Chain, bound: str, relation: Relation) -> Formula:
-    solved = chain.solved
-    assert solved is not None
-    return _atom(chain, objective_form(chain, solved).shifted(-Fraction(bound)), relation)
+    return _atom(chain, objective_form(chain, chain.solved).shifted(-Fraction(bound)), relation)
 
 
 def _atom(chain: Chain, form: Form, relation: Relation) -> Formula:
-    solved = chain.solved
-    assert solved is not None
-    ring = Ring.of(names_of(chain, solved.size))
-    return atom(polynomial(form, ring, solved.size, chain.dimension), relation)
+    ring = Ring.of(names_of(chain, chain.solved.size))
+    return atom(polynomial(form, ring, chain.solved.size, chain.dimension), relation)
 
 
-def _claimed(chain: Chain, member: Labelled, known: dict[str, Formula]) -> list[Formula]:
+def _claimed(chain: Chain, member: Labelled, known: Collection[Formula]) -> list[Formula]:
     """The conditions that the sentence of a member joins under its quantifier."""
-    solved, payload = chain.solved, member.certificate.payload
-    if solved is None or not isinstance(payload, dict):
+    payload = member.certificate.payload
+    if not isinstance(payload, dict):
         raise CertificateRejected(member.label, "expected a derivation")
-    names = names_of(chain, solved.size)
+    names = names_of(chain, chain.solved.size)
     if payload.get("order") != list(names):
         raise CertificateRejected(member.label, "other variables than those of this chain")
     start = formula_from_json(Entry(payload.get("start"), member.label), Ring.of(names), quantified=True)
     if start == FALSE:  # a condition on given points alone, which is looked for among those of the chain
-        return [FALSE] if FALSE in known.values() else [start, TRUE]
+        return [FALSE] if FALSE in known else [start, TRUE]
     body = start.body if isinstance(start, Exists) else start
     parts = list(conjuncts(body))
     if not all(isinstance(part, Atom) for part in parts) and body != TRUE:

@@ -9,7 +9,8 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.chains.chain import Chain, Requirement, Solved, objective_form
+from bezier.chains.chain import Chain, objective_form
+from bezier.chains.form import Requirement, Solved
 from bezier.chains.proof import Best, names_of
 from bezier.curves.curve import Bezier
 from qe.convex.evidence import optimum_certificate

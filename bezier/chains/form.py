@@ -11,10 +11,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from bezier.curves.curve import Bezier
 from qe.exact.quadratic_form import Quadratic, solve_linear
 
 Point = tuple[Fraction, ...]
 _ZERO = Fraction(0)
+AXES = "xyz"
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,17 +69,24 @@ class Form:
         """The form with this added."""
         return Form(self.matrix, self.gradient, self.constant + constant)
 
-    def minimum(self, size: int, dimension: int) -> tuple[tuple[Point, ...], Fraction] | None:
+    def minimum(
+        self, size: int, dimension: int, near: Sequence[Point] | None = None
+    ) -> tuple[tuple[Point, ...], Fraction] | None:
         """Where the form, convex, is least and its value there; None where it is unbounded below. ``dimension``: of the
-        points, of which there are ``size``."""
+        points, of which there are ``size``. Where it is least at many places: little from those that are ``near``."""
         axes = []
         rows = [[2 * self.matrix.get((i, j), _ZERO) for j in range(size)] for i in range(size)]
         for k in range(dimension):
             right = [-self.gradient[i][k] if i in self.gradient else _ZERO for i in range(size)]
+            if near is not None:
+                right = [
+                    b - sum((a * p[k] for a, p in zip(row, near, strict=True)), _ZERO)
+                    for row, b in zip(rows, right, strict=True)
+                ]
             solution = solve_linear(rows, right, size)
             if solution is None:
                 return None
-            axes.append(solution.particular)
+            axes.append([x + (near[i][k] if near else 0) for i, x in enumerate(solution.particular)])
         point = tuple(tuple(axis[i] for axis in axes) for i in range(size))
         return point, self.value(point)
 
@@ -120,6 +129,39 @@ def linear_form(normal: Point, point: Affine) -> Form:
     """normal . point."""
     gradient = {i: tuple(a * c for c in normal) for i, a in point.coefficients.items()}
     return Form({}, {i: g for i, g in gradient.items() if any(g)}, _dot(normal, point.constant))
+
+
+@dataclass(frozen=True, slots=True)
+class Requirement:
+    """``form`` <= 0. ``squares``: with it sum w |p|² is bounded; none where the form is linear. ``is_ball``: a larger
+    radius is a wider condition."""
+
+    label: str
+    form: Form
+    squares: tuple[tuple[Fraction, Affine], ...] = ()
+    is_ball: bool = False
+    detail: str = ""
+    """How to make it again, where the chain alone does not say it: behind the labels of proofs that use it."""
+
+    @property
+    def right(self) -> Fraction:
+        """The bound of the sum of squares."""
+        squares = ((w, squared_length(p).constant) for w, p in self.squares)
+        return sum((w * c for w, c in squares), -self.form.constant)
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """The control points of each curve as combinations of ``size`` free points."""
+
+    size: int
+    controls: tuple[tuple[Affine, ...], ...]
+    joins: tuple[tuple[Fraction, Requirement], ...] = ()
+    """Where the equations of joins and ends contradict each other: the least contradiction, with its weights."""
+
+    def curves(self, free: Sequence[Point]) -> tuple[Bezier, ...]:
+        """The curves for these free points."""
+        return tuple(Bezier(tuple(p.at(free) for p in piece)) for piece in self.controls)
 
 
 def _dot(u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:

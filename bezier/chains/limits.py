@@ -21,8 +21,8 @@ from math import comb
 from typing import Any
 
 from bezier.chains import proposals
-from bezier.chains.chain import Chain, Requirement, Solved, objective_form
-from bezier.chains.form import Affine, Point, affine_sum, linear_form, squared_length, weighted_sum
+from bezier.chains.chain import Chain, objective_form
+from bezier.chains.form import Affine, Point, Requirement, Solved, affine_sum, linear_form, squared_length, weighted_sum
 from bezier.chains.proof import (
     Best,
     Contradiction,

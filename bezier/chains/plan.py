@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from bezier.chains.chain import Chain, Requirement, Solved, requirements
+from bezier.chains.chain import Chain, requirements
 from bezier.chains.exact import Exact, exactly
-from bezier.chains.form import Point
+from bezier.chains.form import Point, Requirement, Solved
 from bezier.chains.limits import best_within
 from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
 from bezier.chains.region import PointRegion, Validity, region, validity
-from bezier.chains.repair import Repair, least_radius, nearest_duration, nearest_point
+from bezier.chains.repair import Repair, excluded, least_radius, nearest, nearest_duration
 from bezier.chains.timing import timed
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import described, exact_text
@@ -54,6 +53,8 @@ class ChainPlan:
     conflict: Conflict | None = None
     repair: Repair | None = None
     repairs: tuple[Repair, ...] = ()
+    excluded: tuple[tuple[str, Certificate], ...] = ()
+    """What is proved not to help, in words, with the proof."""
     exact: Exact | None = None
     """The optimum itself, where at most one condition is active; with two it takes longer: ``exactly``."""
     searched: bool = False
@@ -75,7 +76,7 @@ class ChainPlan:
 
     def exactly(self) -> Exact | None:
         """The optimum itself as an algebraic number, where at most two conditions are active; else None."""
-        if self.exact is not None or self.value is None or _is_bounded(self.chain) or self.chain.solved is None:
+        if self.exact is not None or self.value is None or _is_bounded(self.chain):
             return self.exact
         solved = self.chain.solved
         rows = requirements(self.chain, solved)
@@ -84,20 +85,28 @@ class ChainPlan:
         return None if found is None else exactly(self.chain, solved, rows, found, 2)
 
     def with_repairs(self) -> ChainPlan:
-        """The same with all ``repairs`` that are known: the radius, the point that has to move least, one duration of a
-        curve that the conflict names."""
-        if self.conflict is None or _is_bounded(self.chain):
+        """The same with all ``repairs`` that are known: the radius, the point or velocity that has to move least, one
+        duration; or the proof that no other one point, or velocity, or duration is enough."""
+        given = self.chain
+        if self.conflict is None or _is_bounded(given):
             return self
-        named = (re.match(r"C(\d+)\.", label) for label in self.conflict.conditions)
-        pieces = sorted({int(match[1]) - 1 for match in named if match is not None})
-        listed = (self.repair, nearest_point(self.chain), nearest_duration(self.chain, pieces))
-        return replace(self, repairs=tuple(repair for repair in listed if repair is not None))
+        ends = ("velocities[0]", "velocities[1]") if given.velocities or given.is_still else ()
+        found = [self.repair] if self.repair is not None else []
+        proofs = []
+        for what, names in (("point", given.point_names), ("velocity", ends), ("duration", given.paces)):
+            repair = nearest_duration(given) if what == "duration" else nearest(given, names)
+            if repair is not None:
+                found.append(repair)
+            elif names and (proof := excluded(given, names)) is not None:
+                proofs.append((f"another {what}", proof))
+        return replace(self, repairs=tuple(found), excluded=tuple(proofs))
 
     @property
     def proof(self) -> Certificate:
         """All certificates as one: the optimum, or the contradiction, the conflict and the repairs."""
         proofs = [self.certificate] if self.conflict is None else [self.conflict.certificate]
         proofs += [repair.certificate for repair in self.repairs or (self.repair,) if repair]
+        proofs += [proof for _, proof in self.excluded]
         members = [m for m in bundled(proofs).payload if isinstance(m, Labelled)]
         return Certificate.bundle([(self._labelled(m.label), m.certificate) for m in members])
 
@@ -119,6 +128,7 @@ class ChainPlan:
             f"no chain: {self.conflict}{', all of them needed' if needed else ''}",
             *picked,
             *(f"possible with {repair}" for repair in self.repairs),
+            *(f"{what} alone is not enough, proved" for what, _ in self.excluded),
         ]
 
     def region(self, name: str, accuracy: Any = None) -> PointRegion:
@@ -151,6 +161,7 @@ class ChainPlan:
                 {"change": r.change, "value": [described(c) for c in r.value], "too small": described(r.too_small)}
                 for r in self.repairs
             ]
+            data["not enough"] = [what for what, _ in self.excluded]
         return data
 
     def page(self, title: str = "chain", shown: PointRegion | None = None) -> str:
@@ -187,8 +198,6 @@ def planned(given: Chain) -> ChainPlan:
     if given.free_total is not None:
         return replace(planned(timed(given)), searched=True)
     solved = given.solved
-    if solved is None:
-        raise Unable("the joins and the ends leave no chain: their equations contradict each other")
     rows = requirements(given, solved)
     inside = decided(given, solved, rows)
     found = inside if isinstance(inside, Contradiction) else _best(given, solved, rows, inside)

@@ -16,8 +16,8 @@ from itertools import product
 from math import lcm
 
 from bezier.chains import proposals
-from bezier.chains.chain import Chain, Requirement, Solved, objective_form
-from bezier.chains.form import Form, Point, weighted_sum
+from bezier.chains.chain import Chain, objective_form
+from bezier.chains.form import AXES, Form, Point, Requirement, Solved, weighted_sum
 from qe.convex.evidence import optimum_certificate
 from qe.convex.minimise import evidence_about, solve
 from qe.convex.near_optimum import GAP
@@ -26,7 +26,7 @@ from qe.errors import Unable
 from qe.exact.quadratic_form import Quadratic
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
-from qe.formula.syntax import Relation
+from qe.formula.syntax import TRUE, Relation
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import FormRelation, OptimumStatus
@@ -37,11 +37,12 @@ GAPS = (GAP, 1000 * GAP, 1_000_000 * GAP)
 MOST_EXACT = 12
 """Variables up to which an exact method is tried where rounded multipliers prove nothing."""
 EXACT_SECONDS = 1.0
+LEAST, MOST = "least value at least ", "least value at most "
+"""Labels of the two sides."""
 _PLACES = (20, 30, 40, 50)  # binary, of a point, in proportion to the size of the problem
 _DROPPED = (1e-6, 1e-9, 0.0)  # shares of the largest weight below which weights are left out
 _ADDED = (1e-12, 1e-10, 1e-8)
 _SMALLER = tuple(Fraction(1, 10**k) for k in (13, 12, 11, 10))  # shares of the room of a condition
-_AXES = "xyz"
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,9 @@ def decided(chain: Chain, solved: Solved, rows: Sequence[Requirement]) -> tuple[
     """Free points that keep these conditions, or why there are none. Raises ``Unable`` where they touch so that neither
     can be proved."""
     size, d = solved.size, chain.dimension
+    known = {row.label for row in rows}
+    if solved.joins and all(row.label in known for _, row in solved.joins):
+        return contradiction(chain, size, {r.label: w for w, r in solved.joins}, [r for _, r in solved.joins])
     for row in rows:
         if row.form.is_constant and row.form.constant > 0:
             return contradiction(chain, size, {row.label: _ONE}, (row,))
@@ -157,6 +161,10 @@ def best(
     if proposal is None:
         raise Unable("no optimum was proposed")
     points = list(near_optimum(chain, proposal, inside, varying, objective))
+    for near in (inside, *points) if lowest is not None else ():  # least at many places, some of which may be inside
+        lowered = objective.minimum(size, d, near)
+        if lowered is not None and all(row.form.value(lowered[0]) <= 0 for row in rows):
+            return bounded(chain, solved, rows, lowered[0], {})
     reason = "no point near the optimum keeps all conditions"
     fitted = proposals.fitted_weights(varying, objective, proposal.point) or ()
     multipliers = [*rational_weights(proposal.weights), *rational_weights(fitted)]
@@ -195,8 +203,8 @@ def bounded(
     detail = next((row.detail for row in chosen if row.detail), "")
     reached = [*(row.form for row in rows if not row.detail), objective.shifted(-value)]
     proofs = [
-        (f"least value at least {lowest[1]}{detail}", below),
-        (f"least value at most {value}", witness(chain, size, reached, free)),
+        (f"{LEAST}{lowest[1]}{detail}", below),
+        (f"{MOST}{value}", witness(chain, size, reached, free)),
     ]
     used = {row.label: weights[row.label] for row in chosen}
     return Best(tuple(free), value, lowest[1], used, Certificate.bundle(proofs))
@@ -212,6 +220,8 @@ def witness(chain: Chain, size: int, forms: Sequence[Form], free: Sequence[Point
     names = names_of(chain, size)
     ring = Ring.of(names)
     matrix = conj(tuple(atom(polynomial(form, ring, size, chain.dimension), Relation.LE) for form in forms))
+    if matrix == TRUE:  # nothing is free
+        return Certificate.derivation(names, TRUE, (), TRUE)
     return Certificate.witness(matrix, names, [c for p in free for c in p])
 
 
@@ -237,7 +247,7 @@ def polynomial(form: Form, ring: Ring, size: int, dimension: int) -> Poly:
 
 def names_of(chain: Chain, size: int) -> tuple[str, ...]:
     """The variables of the sentences: the coordinates of the free points, numbered from 1."""
-    return tuple(f"{_AXES[k]}{i + 1}" for i in range(size) for k in range(chain.dimension))
+    return tuple(f"{AXES[k]}{i + 1}" for i in range(size) for k in range(chain.dimension))
 
 
 def rounded_point(chain: Chain, point: Sequence[Sequence[float]], places: int) -> tuple[Point, ...]:

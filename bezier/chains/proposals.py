@@ -9,8 +9,8 @@ from fractions import Fraction
 from math import sqrt
 from typing import Any
 
-from bezier.chains.chain import Chain, Requirement
-from bezier.chains.form import Affine, Form
+from bezier.chains.chain import Chain
+from bezier.chains.form import Affine, Form, Requirement
 from qe.extras import wanted
 
 TOLERANCES = (1e-12, 1e-10, 1e-8)
@@ -50,6 +50,8 @@ def _solved(
     d, unit = chain.dimension, max(abs(float(c)) for p in chain.points for c in p)
     n = size * d
     width = n + (objective is None)
+    if not width:
+        return Proposal((), (0.0,) * len(rows))
     lines: list[Any] = []
     right: list[float] = []
     cones: list[Any] = []

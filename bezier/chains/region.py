@@ -17,8 +17,8 @@ from functools import partial
 from typing import Any
 
 from bezier.chains import proposals
-from bezier.chains.chain import Chain, Requirement, Solved, requirements
-from bezier.chains.form import Affine, Form, Point, linear_form, weighted_sum
+from bezier.chains.chain import Chain, freed, requirements
+from bezier.chains.form import Affine, Form, Point, Requirement, Solved, linear_form, weighted_sum
 from bezier.chains.hull import Facet, grown, simplex
 from bezier.chains.proof import Contradiction, decided, near_optimum, rational_weights, refuted, witness
 from bezier.curves.enclosure import root_above, root_below
@@ -54,20 +54,17 @@ def placed(chain: Chain, name: str) -> tuple[Chain, Solved, Affine]:
     """The chain with this point free, and the point in it. Raises ``InputError``, ``Unable``."""
     if chain.max_length is not None or chain.max_curvature is not None or chain.free_total is not None:
         raise InputError("region: expected a chain with given durations, without bounds on length and curvature")
-    if name in chain.point_names:
-        k = chain.point_names.index(name)
-        chain = replace(chain, free_via=k)
-        curve, j = (k, 0) if k < chain.pieces else (k - 1, chain.degree)
-    elif (matched := re.fullmatch(r"C(\d{1,3})\.(\d)", name)) and 0 < int(matched[1]) <= chain.pieces:
+    moved = replace(chain, free=name)
+    if name in chain.moving:
+        return moved, moved.solved, freed(moved, moved.solved)[0]
+    if (matched := re.fullmatch(r"C(\d{1,3})\.(\d)", name)) and 0 < int(matched[1]) <= chain.pieces:
         curve, j = int(matched[1]) - 1, int(matched[2])
     else:
         curve, j = 0, chain.degree + 1
     if j > chain.degree:
-        known = f"{', '.join(chain.point_names)}, or C1.0 to C{chain.pieces}.{chain.degree}"
+        known = f"{', '.join(chain.moving)}, or C1.0 to C{chain.pieces}.{chain.degree}"
         raise InputError(f"region: expected one of {known}, found {name}")
     solved = chain.solved
-    if solved is None:
-        raise Unable("the joins and the ends leave no chain: their equations contradict each other")
     place = solved.controls[curve][j]
     if not place.coefficients:
         raise InputError(f"region: expected a point that may move, found {name}")
@@ -122,14 +119,10 @@ class Places:
         forms, weights = [*(f for _, f in chosen), beyond], [*(w for w, _ in chosen), _ONE]
         return refuted(self.chain, self.solved.size, forms, weights, support.stationary, strict=1)
 
-    def witness(self, support: Support) -> Certificate:
-        """A chain with the place at the corner."""
-        return witness(
-            self.chain,
-            self.solved.size,
-            [*(r.form for r in self.rows), *at_form(self.place, support.corner)],
-            support.at,
-        )
+    def witness(self, corner: Point, free: Sequence[Point]) -> Certificate:
+        """A chain, that of these free points, with the place at the corner."""
+        forms = [*(r.form for r in self.rows), *at_form(self.place, corner)]
+        return witness(self.chain, self.solved.size, forms, free)
 
 
 def at_form(place: Affine, point: Point) -> list[Form]:
@@ -165,7 +158,7 @@ class PointRegion:
     @property
     def certificate(self) -> Certificate:
         """A witness for each corner, multipliers for each half-space."""
-        corners = [(at_label(self.name, s.corner), self.places.witness(s)) for s in self.supports]
+        corners = [(at_label(self.name, s.corner), self.places.witness(s.corner, s.at)) for s in self.supports]
         sides = [(beyond_label(self.name, s), self.places.proof(s)) for s in self.sides]
         return Certificate.bundle([*corners, *sides])
 
@@ -291,7 +284,7 @@ def validity(chain: Chain, name: str) -> Validity:
     most = root_above((high.offset - Fraction(dot(high.normal, here))) ** 2 / _square(high.normal))
     if any(f.beyond(here) > 0 for f in state.facets):
         raise Unable(f"there may be no chain with {name} where it is")
-    proofs = [(at_label(name, s.corner), places.witness(s)) for s in corners]
+    proofs = [(at_label(name, s.corner), places.witness(s.corner, s.at)) for s in corners]
     proofs.append((beyond_label(name, high), places.proof(high)))
     return Validity(name, least, most, high.normal, Certificate.bundle(proofs))
 

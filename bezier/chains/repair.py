@@ -1,9 +1,11 @@
-"""What change makes an infeasible chain possible: another radius, one point elsewhere, one duration. Each is proved to
-be enough by a chain, and each comes with one that is proved not to be.
+"""What change makes an infeasible chain possible: another radius, one point elsewhere, another velocity at one end, one
+duration. Each is proved to be enough by a chain, and each comes with one that is proved not to be; or all of a kind are
+proved not to help.
 
-The distance by which a point has to move is a convex problem, so both sides are those of its least value. The radius
-is one, too. Durations are not: a duration is looked for among some, and the one that is proved not to be enough is
-nearer to the given one, but others yet nearer are not excluded.
+The distance by which a point or velocity has to move is a convex problem, so both sides are those of its least value.
+The radius is one, too. Durations are not: a duration is looked for among some, and the one that is proved not to be
+enough is nearer to the given one, but others yet nearer are not excluded. What excludes the chains that lack the joins
+of one curve excludes all durations of it.
 """
 
 from __future__ import annotations
@@ -12,12 +14,15 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 from bezier.chains import proposals
-from bezier.chains.chain import Chain, Requirement, Solved, objective_form, requirements
-from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
+from bezier.chains.chain import Chain, objective_form, requirements
+from bezier.chains.form import Requirement, Solved
+from bezier.chains.proof import GAPS, LEAST, Contradiction, best, decided, feasible
+from bezier.chains.region import Places, at_label
 from qe.errors import Unable
-from qe.proof.certificate import Certificate
+from qe.proof.certificate import Certificate, Labelled
 
 NARROW = Fraction(1, 10**7)
 """How far, relative, the values that are proved to be enough, and not enough, lie from the one that was proposed."""
@@ -28,9 +33,9 @@ _TOLERANCE = 1e-7  # of conditions, in floating point, in proportion to the room
 
 @dataclass(frozen=True, slots=True)
 class Repair:
-    """``change`` ("radius", "start", "via[2]", "durations[0]"): with this ``value`` there is a chain, and with
-    ``too_small`` there is none (of a point: the square of a distance below which no place is near enough).
-    ``certificate`` proves both."""
+    """``change`` ("radius", "start", "via[2]", "velocities[0]", "durations[0]"): with this ``value`` there is a chain,
+    and with ``too_small`` there is none (of a point or velocity: the square of a distance below which no place is near
+    enough). ``certificate`` proves both."""
 
     change: str
     value: tuple[Fraction, ...]
@@ -49,32 +54,35 @@ class Repair:
 
 def changed(chain: Chain, change: str, value: Sequence[Fraction]) -> Chain:
     """The chain with this radius, point or duration. Raises ``InputError`` or ``ValueError`` for what is none."""
+    if (change == "radius" or change in chain.paces) and (len(value) != 1 or value[0] <= 0):
+        raise ValueError("one number above 0 expected")
     if change == "radius":
         return replace(chain, radius_squared=value[0] ** 2)
     if change == "durations":
         return replace(chain, durations=tuple(value), free_total=None)
     if matched := re.fullmatch(r"durations\[(\d+)\]", change):
-        times = list(chain.times)
-        times[int(matched[1])] = value[0]
-        return replace(chain, durations=tuple(times))
-    points = list(chain.points)
-    points[chain.point_names.index(change)] = tuple(value)
-    return replace(chain, points=tuple(points))
+        return replace(chain, durations=_with(chain.times, int(matched[1]), value[0]))
+    if matched := re.fullmatch(r"velocities\[([01])\]", change):
+        zero = (Fraction(0),) * chain.dimension
+        return replace(chain, velocities=_with(chain.velocities or (zero, zero), int(matched[1]), tuple(value)))
+    return replace(chain, points=_with(chain.points, chain.point_names.index(change), tuple(value)))
+
+
+def _with(values: Sequence[Any], place: int, value: Any) -> tuple[Any, ...]:
+    return *values[:place], value, *values[place + 1 :]
 
 
 def both_sides(chain: Chain, change: str, enough: Fraction, less: Fraction) -> Repair | None:
     """With one number there is a chain, with the other there is none, if that can be proved."""
     sides = [changed(chain, change, (value,)) for value in (enough, less)]
-    solved = [side.solved for side in sides]
-    if solved[0] is None or solved[1] is None:
-        return None
+    rows = [requirements(side, side.solved) for side in sides]
     try:
-        inside, none = (decided(c, s, requirements(c, s)) for c, s in zip(sides, solved, strict=True) if s is not None)
+        inside, none = (decided(side, side.solved, listed) for side, listed in zip(sides, rows, strict=True))
     except Unable:
         return None
     if isinstance(inside, Contradiction) or not isinstance(none, Contradiction):
         return None
-    proof = feasible(sides[0], solved[0], requirements(sides[0], solved[0]), inside)
+    proof = feasible(sides[0], sides[0].solved, rows[0], inside)
     labels = [f"possible with {change} = {enough}", f"impossible with {change} = {less}"]
     return Repair(
         change, (enough,), less, Certificate.bundle(list(zip(labels, (proof, none.certificate), strict=True)))
@@ -93,49 +101,36 @@ def least_radius(given: Chain, solved: Solved, rows: Sequence[Requirement]) -> R
     return both_sides(given, "radius", wanted * (1 + NARROW), wanted * (1 - NARROW))
 
 
-def nearest_point(given: Chain) -> Repair | None:
-    """The point that has to move least, and where to. That no other point could move by less is not proved."""
-    moves = sorted(_moves(given))
-    for _, k in moves:
+def nearest(given: Chain, names: Sequence[str]) -> Repair | None:
+    """Which of these points or velocities has to move least, and where to. That no other one could move by less is not
+    proved."""
+    for _, name in sorted(_moves(given, names)):
         try:
-            solved, best = _best_move(replace(given, free_via=k))
+            places = Places.of(given, name)
+            least = best(places.chain, places.solved, places.rows, places.inside, _GAPS)
         except Unable:
             continue
-        corner = solved.controls[k % given.pieces][0 if k < given.pieces else -1].at(best.free)
-        name = given.point_names[k]
-        members = best.certificate.payload
-        assert isinstance(members, tuple)
-        labelled = [(f"{m.label} with {name} free", m.certificate) for m in members]
-        return Repair(name, corner, best.bound, Certificate.bundle(labelled))
+        corner = places.place.at(least.free)
+        member = next(m for m in least.certificate.payload if isinstance(m, Labelled) and m.label.startswith(LEAST))
+        labelled = [(f"{member.label} with {name} free", member.certificate)]
+        labelled.append((at_label(name, corner), places.witness(corner, least.free)))
+        return Repair(name, corner, least.bound, Certificate.bundle(labelled))
     return None
 
 
-def _best_move(freed: Chain) -> tuple[Solved, Best]:
-    solved = freed.solved
-    if solved is None:
-        raise Unable("no chain")
-    rows = requirements(freed, solved)
-    inside = decided(freed, solved, rows)
-    if isinstance(inside, Contradiction):
-        raise Unable("moving this point does not help")
-    return solved, best(freed, solved, rows, inside, _GAPS)
-
-
-def _moves(given: Chain) -> Iterator[tuple[float, int]]:
-    """The squares of the distances, in floating point, by which points have to move."""
-    for k in range(len(given.points)):
-        freed = replace(given, free_via=k)
-        if (solved := freed.solved) is None:
-            continue
-        rows = requirements(freed, solved)
+def _moves(given: Chain, names: Sequence[str]) -> Iterator[tuple[float, str]]:
+    """The squares of the distances, in floating point, by which points or velocities have to move."""
+    for name in names:
+        chain = replace(given, free=name)
+        rows = requirements(chain, chain.solved)
         varying = [row for row in rows if not row.form.is_constant]
-        if any(row.form.constant > 0 for row in rows if row.form.is_constant):
+        if chain.solved.joins or any(row.form.constant > 0 for row in rows if row.form.is_constant):
             continue
-        objective = objective_form(freed, solved)
-        proposal = proposals.least_value(freed, solved.size, varying, objective)
+        objective = objective_form(chain, chain.solved)
+        proposal = proposals.least_value(chain, chain.solved.size, varying, objective)
         if proposal is not None and _holds(varying, proposal):
             point = tuple(tuple(Fraction(c) for c in p) for p in proposal.point)
-            yield float(objective.value(point)), k
+            yield float(objective.value(point)), name
 
 
 def _holds(rows: Sequence[Requirement], proposal: proposals.Proposal) -> bool:
@@ -143,14 +138,32 @@ def _holds(rows: Sequence[Requirement], proposal: proposals.Proposal) -> bool:
     return all(row.form.value(point) <= _TOLERANCE * max(1.0, abs(float(row.form.constant))) for row in rows)
 
 
-def nearest_duration(given: Chain, pieces: Sequence[int]) -> Repair | None:
-    """One of these curves made slower or faster by the least factor that was seen to help."""
-    seen = []
-    for k in pieces:
+def excluded(given: Chain, names: Sequence[str]) -> Certificate | None:
+    """That no other value of one of these helps; None where that cannot be proved of all."""
+    proofs = []
+    for name in names:
+        chain = replace(given, free=name)
+        try:
+            none = decided(chain, chain.solved, requirements(chain, chain.solved))
+        except Unable:
+            return None
+        if not isinstance(none, Contradiction):
+            return None
+        proofs.append((f"impossible with {name} free", none.certificate))
+    return Certificate.bundle(proofs)
+
+
+def nearest_duration(given: Chain) -> Repair | None:
+    """One curve made slower or faster by the least factor that was seen to help."""
+    seen = list[tuple[float, int, int]]()
+    for k in range(given.pieces):
+        least = min(seen)[0] if seen else _FACTORS[-1]
+        if _excess(replace(given, free=f"durations[{k}]")) > 0:
+            continue
         for sign in (1, -1):
             before = 1.0
-            for factor in _FACTORS:
-                if _excess(given, k, factor**sign) <= 0:
+            for factor in (*(f for f in _FACTORS if f < least), least):
+                if _excess(_paced(given, k, factor**sign)) <= 0:
                     seen.append((_threshold(given, k, before, factor, sign), sign, k))
                     break
                 before = factor
@@ -164,20 +177,20 @@ def nearest_duration(given: Chain, pieces: Sequence[int]) -> Repair | None:
 
 def _threshold(given: Chain, k: int, low: float, high: float, sign: int) -> float:
     """Where between a factor that does not help and one that does the first help begins, by bisection."""
-    while high - low > 1e-8 * high:
+    while high - low > 1e-7 * high:
         middle = (low + high) / 2
-        low, high = (low, middle) if _excess(given, k, middle**sign) <= 0 else (middle, high)
+        low, high = (low, middle) if _excess(_paced(given, k, middle**sign)) <= 0 else (middle, high)
     return high
 
 
-def _excess(given: Chain, k: int, factor: float) -> float:
-    times = list(given.times)
-    times[k] *= Fraction(factor).limit_denominator(10**12)
-    other = replace(given, durations=tuple(times))
-    if (solved := other.solved) is None:
+def _paced(given: Chain, k: int, factor: float) -> Chain:
+    time = given.times[k] * Fraction(factor).limit_denominator(10**12)
+    return replace(given, durations=_with(given.times, k, time))
+
+
+def _excess(chain: Chain) -> float:
+    rows = requirements(chain, chain.solved)
+    if chain.solved.joins or any(row.form.is_constant and row.form.constant > 0 for row in rows):
         return 1.0
-    rows = requirements(other, solved)
-    if any(row.form.is_constant and row.form.constant > 0 for row in rows):
-        return 1.0
-    proposal = proposals.least_excess(other, solved.size, [row for row in rows if not row.form.is_constant])
+    proposal = proposals.least_excess(chain, chain.solved.size, [row for row in rows if not row.form.is_constant])
     return 1.0 if proposal is None else proposal.excess

@@ -49,7 +49,7 @@ def _lasting(chain: Chain, times: Sequence[float]) -> Chain:
 def _value(chain: Chain, times: Sequence[float]) -> float:
     """The least value of the objective; where there is no chain a large number, larger where more is missing."""
     other = _lasting(chain, times)
-    if (solved := other.solved) is None:
+    if (solved := other.solved).joins:
         return float("inf")
     rows = requirements(other, solved)
     varying, objective = [row for row in rows if not row.form.is_constant], objective_form(other, solved)

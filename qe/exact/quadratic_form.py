@@ -161,9 +161,10 @@ def echelon(rows: Matrix) -> tuple[list[list[Number]], list[int]]:
     if not work or not work[0]:
         return [], []
     if all(isinstance(entry, Fraction) for row in work for entry in row):
-        flat = [fmpq(entry.numerator, entry.denominator) for row in work for entry in row]
+        none, zero = fmpq(0), Fraction(0)  # most entries
+        flat = [fmpq(entry.numerator, entry.denominator) if entry else none for row in work for entry in row]
         reduced, rank = fmpq_mat(len(work), len(work[0]), flat).rref()
-        work = [[Fraction(int(e.p), int(e.q)) for e in row] for row in reduced.tolist()[:rank]]
+        work = [[Fraction(int(e.p), int(e.q)) if e else zero for e in row] for row in reduced.tolist()[:rank]]
         return work, [next(c for c, entry in enumerate(row) if entry) for row in work]
     pivots: list[int] = []
     for column in range(len(work[0])):

@@ -18,7 +18,9 @@ import bezier
 import qe
 from bezier.chains import plan, proof, proposals
 from bezier.chains.chain import Chain, Ends, Objective, objective_form, requirements
+from bezier.chains.checking import checked
 from bezier.chains.proof import Contradiction
+from bezier.chains.repair import changed
 from bezier.curves.curve import Bezier
 from qe.errors import InputError, Unable
 from tests.tables import each
@@ -156,8 +158,13 @@ def test_velocities_at_the_ends(kind: tuple[int, int], first: Any, last: Any) ->
     times = [Fraction(2), Fraction(1), Fraction(3)]
     named = {"degree": kind[0], "continuity": kind[1], "durations": times}
     if last is None:
-        with pytest.raises(Unable, match="joins"):
-            chain(PLANE, velocities=[first, first], **named)
+        none = chain(PLANE, velocities=[first, first], **named).with_repairs()
+        assert none.conflict.smallest and len(none.conflict.conditions) == 4
+        assert len(checked(none.chain, none.proof)) > 5 and [r.change for r in none.repairs][-1].startswith(
+            "velocities"
+        )
+        for repair in none.repairs:
+            assert plan.planned(changed(none.chain, repair.change, repair.value)).feasible
         return
     made = chain(PLANE, velocities=[first, last], **named)
     assert derivative(made.curves[0], 1, 0, times[0]) == first
@@ -176,6 +183,34 @@ def test_multipliers_that_prove_nothing_are_refused() -> None:
             proof.contradiction(given, solved.size, weights, rows[:1])
     with pytest.raises(Unable):
         proof.bounded(given, solved, rows, inside, {"no such condition": Fraction(1)})
+
+
+def test_the_goal_moves_to_a_place_where_there_is_a_chain() -> None:
+    """The repair "goal" named the place of the first via point."""
+    none = chain(PLANE, radius=5).with_repairs()
+    goal = none.repairs[1]
+    assert (
+        goal.change == "goal" and 0.148 < sum((a - b) ** 2 for a, b in zip(goal.value, PLANE[3], strict=True)) < 0.149
+    )
+    assert plan.planned(replace(changed(none.chain, "goal", goal.value), radius_squared=Fraction("25.00001"))).feasible
+    assert [what for what, _ in none.excluded] == ["another duration"] and checked(none.chain, none.proof)
+    for said, other in (("impossible with", "possible with"), ("[0] free", "[9] free")):  # claims about such chains
+        labels = [(m.label.replace(said, other), m.certificate) for m in none.excluded[0][1].payload]
+        with pytest.raises(qe.CertificateRejected):
+            checked(none.chain, qe.Certificate.bundle(labels))
+
+
+def test_a_least_value_that_many_chains_have_is_exact() -> None:
+    """With a jerk of zero, and no middle legs, no share of the value could be proved."""
+    flat = chain(PLANE, continuity=1, objective="jerk", half_spaces=[([1, 0], "-0.1")], radius=8)
+    none = chain(PLANE[:3], degree=5, objective="middle legs", velocities=[[0, 0], [-1, -3]], radius=6)
+    assert flat.value == flat.bound == 0 == none.value == none.bound
+
+
+def test_a_chain_that_is_determined_has_a_certificate() -> None:
+    """A witness without variables was refused."""
+    made = chain(PLANE, ends="zero", radius=9)
+    assert len(checked(made.chain, made.certificate)) == 2
 
 
 @each(
@@ -211,4 +246,6 @@ def test_the_chains_of_the_corpus(shared: Path) -> None:
             assert float(made.value) == pytest.approx(record["objective"], rel=1e-8)
         else:
             assert made.conflict.smallest and made.repair is not None and qe.verify(made.repair.certificate).accepted
+            if record["via"] <= 12:
+                assert len(made.with_repairs().repairs) == 3
             assert chain(record["points"], radius=made.repair.radius * Fraction(101, 100)).feasible
