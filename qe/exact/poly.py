@@ -365,6 +365,10 @@ class Poly:
         rational = fmpq_mpoly(self.p, self.ring.qctx).subs({slot: fmpq(number.numerator, number.denominator)})
         return Poly(self.ring, self._clear(rational, number.denominator ** self.degree(i)))
 
+    def at_rationals(self, values: Mapping[int, Fraction | int]) -> Poly:
+        """A positive multiple of the polynomial with these variables set to rational numbers."""
+        return reduce(lambda f, i: f.at_rational(i, values[i]), values, self)
+
     def _clear(self, rational: fmpq_mpoly, scale: int) -> fmpz_mpoly:
         context = self.ring.ctx
         return context.from_dict({m: int((c * scale).p) for m, c in rational.terms()})

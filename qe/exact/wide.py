@@ -206,12 +206,10 @@ class WidePoly(Poly):
         return self._expanded(own, f.gcd(g))
 
     def resultant(self, other: Poly, i: int) -> Poly:
-        """The resultant with respect to variable ``i``; both need not contain it."""
         own, (f, g) = self._compact(other)
         return self._expanded(own, f.resultant(g, own.index(i))) if i in own else self.ring.constant(1)
 
     def discriminant(self, i: int) -> Poly:
-        """The discriminant with respect to variable ``i``, of degree at least 1 in it."""
         own, f = self._alone
         return self._expanded(own, f.discriminant(own.index(i)))
 
@@ -227,18 +225,18 @@ class WidePoly(Poly):
 
     # --- substitution -----------------------------------------------------------------------
     def at_rational(self, i: int, value: Fraction | int) -> Poly:
-        """A positive multiple of the polynomial with variable ``i`` set to a rational number."""
+        return self.at_rationals({i: value}) if i in self.variables else self
+
+    def at_rationals(self, values: Mapping[int, Fraction | int]) -> Poly:
         own, f = self._alone
-        return self._expanded(own, f.at_rational(own.index(i), value)) if i in own else self
+        return self._expanded(own, f.at_rationals({own.index(i): value for i, value in values.items()}))
 
     def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
-        """The value at a rational point (one value per ring variable)."""
         point = tuple(values)
         own, f = self._alone
         return f.evaluate([point[i] for i in own])
 
     def compose(self, substitution: Mapping[int, Poly]) -> Poly:
-        """Replace variables by polynomials of the same ring, simultaneously."""
         total: Poly = self.ring.constant(0)
         for powers, c in self.sparse_terms():
             images = (substitution[i] if i in substitution else self.ring.gen(i) for i, _ in powers)

@@ -89,9 +89,10 @@ class Sample:
 
     def sign(self, f: Poly) -> int:
         """The sign of a polynomial at the point."""
-        for level in f.variables:
-            f = self._put(f, level) if level in self.rationals else f
-        return self.point.sign(f)
+        known = {level: self.rationals[level] for level in f.variables if level in self.rationals}
+        for level, number in known.items():
+            check_value(f, level, number)
+        return self.point.sign(f.at_rationals(known))
 
     def sign_of(self, product: Product) -> int:
         """The sign of a product of factors at the point."""
