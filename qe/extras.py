@@ -21,6 +21,7 @@ _EXTRAS = {
     "pyarrow": "sweep",
     "pysat": "sat",
     "scipy": "plan",
+    "trimesh": "plan",
     "yourdfpy": "robots",
     "z3": "solvers",
 }

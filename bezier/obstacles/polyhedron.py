@@ -144,6 +144,16 @@ def from_corners(points: Sequence[Point]) -> Polytope:
     return _with_edges(distinct, planes)
 
 
+def from_sides(corners: Sequence[Point], sides: Sequence[tuple[Point, Fraction]]) -> Polytope:
+    """The body with just these corners and these facets (n, c): n . p <= c."""
+    planes = {}
+    for n, c in sides:
+        normal = _primitive(n)
+        on = tuple(i for i, p in enumerate(corners) if dot(n, p) == c)
+        planes[normal, Fraction(dot(normal, corners[on[0]]))] = on
+    return _with_edges(list(corners), planes)
+
+
 def _with_edges(points: list[Point], planes: dict[tuple[Point, Fraction], tuple[int, ...]]) -> Polytope:
     """Extreme points lie in three facets, edges join two extreme points that share two facets."""
     shared = {i: [on for on in planes.values() if i in on] for i in range(len(points))}

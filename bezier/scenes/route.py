@@ -25,7 +25,7 @@ from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
 from bezier.scenes.outlines import outlines
 from bezier.scenes.scene import Scene
-from bezier.scenes.sentences import Curve, cell_of, clear, coordinates, covering, every, of_sides
+from bezier.scenes.sentences import Curve, cell_of, clear, coordinates, covering, every, of_sides, surfaces
 from bezier.scenes.shortest import least_chain
 from bezier.scenes.solid import Solid, directions
 from qe.certify.claims import is_about
@@ -72,6 +72,7 @@ class Route:
     def sentences(self) -> dict[str, Formula]:
         """What is proved of each curve, and of the length."""
         curves = {f"curve {k}": clear(self.scene, curve) for k, curve in enumerate(self.curves, start=1)}
+        curves |= surfaces(self.scene)
         return curves if self.bound is None else curves | self.bound.sentences(Budget())[1]
 
     def check(self, certificate: Certificate | None = None) -> None:
@@ -136,9 +137,9 @@ class Blocked:
         walls = (cell_of(wall) for wall in self.walls)
         both = conj(disj(of_sides(cell.sides, at) for cell in side) for side in (self.start_side, self.goal_side))
         apart = every(at, disj((neg(both), *(of_sides(cell.sides, at) for cell in walls))))
-        return dict(covering(self.scene, self.around, self.walls, (*self.start_side, *self.goal_side))) | {
-            DISJOINT: apart
-        }
+        sides = (*self.start_side, *self.goal_side)
+        cover = dict(covering(self.scene, self.around, self.walls, sides))
+        return cover | {DISJOINT: apart} | dict(surfaces(self.scene))
 
     def check(self, certificate: Certificate | None = None) -> None:
         """Verify again, by the scene, the walls and the two sides alone. Raises ``qe.CertificateRejected``."""

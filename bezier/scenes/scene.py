@@ -14,9 +14,10 @@ from bezier.input.numbers import describe
 from bezier.input.toml_table import Table, read_text
 from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.obstacle import Constraint, Obstacle, ball, half_space, pieces_of, slab
-from bezier.obstacles.polyhedron import point, segment
+from bezier.obstacles.polyhedron import from_sides, point, segment
 from bezier.obstacles.reader import read_obstacles
 from bezier.scenes.cells import Cell, Point, Side
+from bezier.scenes.mesh import MOST_FACETS, Surface, around_polygons, load_mesh
 from bezier.scenes.solid import ZERO, Solid
 from qe.errors import InputError
 
@@ -37,7 +38,8 @@ _COMMON = ("kind", "name", "margin")
 @dataclass(frozen=True, slots=True)
 class Scene:
     """``domain``: its intersection is the workspace, but for the open ``holes``. ``obstacles`` are closed, so that
-    those that touch leave no passage between them. ``low`` and ``high``: a box around the workspace; one unit."""
+    those that touch leave no passage between them. ``low`` and ``high``: a box around the workspace; one unit.
+    ``surfaces``: of the bodies that are no convex ones; their parts are among the obstacles."""
 
     domain: tuple[Solid, ...]
     holes: tuple[Solid, ...]
@@ -46,6 +48,7 @@ class Scene:
     goal: Point
     low: Point
     high: Point
+    surfaces: tuple[Surface, ...] = ()
 
     @property
     def dimension(self) -> int:
@@ -85,8 +88,16 @@ def read_scene(table: Table) -> Scene:
     extra = table.number("margin", ZERO)
     if extra < 0:
         raise table.error("margin", "a number that is not negative", str(extra))
-    listed = (_solid(entry, k, size, extra, (low, high)) for k, entry in enumerate(table.tables("obstacle"), start=1))
-    return Scene(domain, holes, tuple(body for body in listed if body is not None), start, goal, low, high)
+    bodies, surfaces = list[Solid](), list[Surface]()
+    for k, entry in enumerate(table.tables("obstacle"), start=1):
+        surface = _surface(entry, k, size)
+        if surface is not None:
+            surfaces.append(surface)
+            margin = _margin(entry, extra)
+            bodies += (_of_cell(f"{surface.name}, part {i}", c, margin) for i, c in enumerate(surface.cores, start=1))
+        elif (body := _solid(entry, k, size, extra, (low, high))) is not None:
+            bodies.append(body)
+    return Scene(domain, holes, tuple(bodies), start, goal, low, high, tuple(surfaces))
 
 
 def load_scene(file: Path) -> Scene:
@@ -175,6 +186,52 @@ def _around(table: Table, domain: Sequence[Solid]) -> tuple[Point, Point]:
 def _kind(entry: Table, usual: str = "") -> str:
     raw = entry.values.get("kind", usual) if usual else entry.required("kind", "the kind of obstacle")
     return _ALSO.get(raw, raw) if isinstance(raw, str) else describe(raw)
+
+
+def _surface(entry: Table, k: int, size: int) -> Surface | None:
+    """The surface of a mesh, or of a polygon with holes or that is not convex; None for others."""
+    name, kind = str(entry.values.get("name", f"obstacle {k}")), entry.values.get("kind")
+    if kind == "mesh" and size == 3:
+        entry.only((*_COMMON, "file", "scale", "shift"))
+        file = entry.required("file", "the name of an STL, OBJ or PLY file")
+        if not isinstance(file, str):
+            raise entry.error("file", "the name of an STL, OBJ or PLY file", describe(file))
+        shift = entry.point("shift") if "shift" in entry.values else (ZERO,) * 3
+        triangles = load_mesh(Path(entry.source).parent / file, entry.positive("scale", Fraction(1)), shift)
+        return Surface.of(f"mesh {file}", triangles)
+    if kind != "polygon" or size != 2 or "vertices" not in entry.values:
+        return None
+    entry.only((*_COMMON, *_PLANE["polyhedron"], "holes"))
+    holes = entry.values.get("holes", [])
+    if not isinstance(holes, list):
+        raise entry.error("holes", "a list of lists of points", describe(holes))
+    outlines = [_outline(entry, "vertices", entry.values["vertices"])]
+    outlines += (_outline(entry, f"holes[{i}]", hole) for i, hole in enumerate(holes))
+    surface = Surface.of(f"polygon {name}", around_polygons(outlines))
+    return None if len(surface.cores) == 1 else surface
+
+
+def _outline(entry: Table, key: str, raw: object) -> list[Point]:
+    if not isinstance(raw, list) or not 3 <= len(raw) <= MOST_FACETS:
+        raise entry.error(key, f"3 to {MOST_FACETS} points, one after the other around", describe(raw))
+    return [entry.as_point(f"{key}[{i}]", p, 2) for i, p in enumerate(raw)]
+
+
+def _margin(entry: Table, extra: Fraction) -> Fraction:
+    margin = entry.number("margin", ZERO)
+    if margin < 0:
+        raise entry.error("margin", "a number that is not negative", str(margin))
+    return margin + extra
+
+
+def _of_cell(name: str, cell: Cell, margin: Fraction) -> Solid:
+    """A cell with margin."""
+    if len(cell.corners[0]) == 2:
+        pieces = tuple(_wide_polygon(cell.corners, cell.sides, margin))
+    else:
+        core = from_sides(cell.corners, cell.sides)
+        pieces = tuple(piece.constraints for piece in pieces_of(Rounded(core, margin)))
+    return Solid(name, cell.corners, cell.sides, margin, pieces)
 
 
 def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, Point] | None) -> Solid | None:

@@ -61,6 +61,22 @@ def _holds_cell(scene: Scene, body: Solid, wall: Cell) -> bool:
     return part is not None and all(map(body.contains, part.corners))
 
 
+def surfaces(scene: Scene) -> Iterator[tuple[str, Formula]]:
+    """That the parts of each surface and the cells beside them cover the box around it. What else they have to be is
+    counted. Raises ``CertificateRejected``."""
+    for surface in scene.surfaces:
+        surface.check()
+        known = {body.sides for body in scene.obstacles}
+        if any(core.sides not in known for core in surface.cores):
+            raise CertificateRejected(surface.name, "a part of it is no obstacle of the scene")
+        at = coordinates(scene)
+        cells = disj(of_sides(cell.sides, at) for cell in (*surface.cores, *surface.beside))
+        yield (
+            f"{surface.name}: cells cover the box around it",
+            every(at, disj((neg(of_sides(surface.around.sides, at)), cells))),
+        )
+
+
 def coordinates(scene: Scene) -> list[Poly]:
     """The coordinates of a point as variables."""
     names = NAMES[: scene.dimension]

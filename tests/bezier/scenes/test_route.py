@@ -138,7 +138,7 @@ def test_many_boxes_agree_with_a_flood_of_the_grid() -> None:
         check(read_scene(boxes(rng, 3 if k % 5 == 0 else 2)))
 
 
-def mixed(rng: random.Random, kinds: str = "disc box capsule polygon half_plane") -> Scene:
+def mixed(rng: random.Random, kinds: str = "disc box capsule polyhedron half_plane") -> Scene:
     """A random scene of the plane, start and goal at free points of half a grid; many bodies touch."""
     listed = list[dict[str, Any]]()
 
@@ -154,7 +154,7 @@ def mixed(rng: random.Random, kinds: str = "disc box capsule polygon half_plane"
             entry |= {"low": at, "high": [min(10, c + rng.randint(0, 4)) for c in at]}
         elif kind == "capsule":
             entry |= {"start": at, "end": [at[0] + rng.randint(1, 3), rng.randint(0, 10)], "radius": Fraction(1, 4)}
-        elif kind == "polygon":
+        elif kind == "polyhedron":
             corners = [at, [at[0] + rng.randint(1, 4), at[1]], point(), [at[0], at[1] - rng.randint(1, 3)]]
             entry |= {"vertices": corners, "margin": Fraction(rng.randint(0, 2), 4)}
         else:
@@ -184,7 +184,7 @@ def decide_twice(scene: Scene) -> Blocked | Route:
 
 def test_the_plane_is_decided_completely() -> None:
     rng = random.Random(12)
-    free = [decide_twice(mixed(rng, "disc" if k % 2 else "disc box capsule polygon half_plane")) for k in range(12)]
+    free = [decide_twice(mixed(rng, "disc" if k % 2 else "disc box capsule polyhedron half_plane")) for k in range(12)]
     assert 1 < sum(isinstance(f, Route) for f in free) < 12
 
 
@@ -192,7 +192,7 @@ def test_the_plane_is_decided_completely() -> None:
 def test_many_scenes_of_the_plane_are_decided_completely() -> None:
     rng = random.Random(2)
     for k in range(500):
-        scene = mixed(rng, "disc box" if k % 2 else "disc box capsule polygon half_plane")
+        scene = mixed(rng, "disc box" if k % 2 else "disc box capsule polyhedron half_plane")
         found = decide_twice(scene)
         if found.blocked and not any(scene.blocked_at(p) for p in (scene.start, scene.goal)):
             assert not flooded(scene, HALF)
