@@ -31,7 +31,7 @@ def clearance_certificate(curve: Bezier, obstacle: Obstacle) -> Certificate | No
     touches the boundary of an obstacle given by strict inequalities, or comes closer than ``DEEP`` halvings can tell.
     Raises ``InputError`` when the curve does meet the obstacle.
     """
-    sentence = _sentence(curve, obstacle)
+    sentence = meeting(curve, obstacle)
     return _clear(sentence, obstacle) if sentence is not None else None
 
 
@@ -43,7 +43,7 @@ def contact_certificate(curve: Bezier, obstacle: Obstacle, contact: Contact) -> 
     irrational parameter), and in the cases of ``clearance_certificate``.
     """
     low, high = contact.t
-    place, whole = curve.point(high), _sentence(curve, obstacle)
+    place, whole = curve.point(high), meeting(curve, obstacle)
     if whole is None or not any(all(c.holds(c.value(place)) for c in piece.constraints) for piece in obstacle.pieces):
         return None
     sharp = contact.is_exact and whole.theta is None
@@ -59,8 +59,8 @@ def contact_certificate(curve: Bezier, obstacle: Obstacle, contact: Contact) -> 
     return None if clear is None else Certificate.bundle([("not before", clear), ("there", there)])
 
 
-def _sentence(curve: Bezier, obstacle: Obstacle) -> CurveSentence | None:
-    """That some point of the curve lies in the obstacle."""
+def meeting(curve: Bezier, obstacle: Obstacle) -> CurveSentence | None:
+    """That some point of the curve lies in the obstacle; None where a degree is above ``MAX_DEGREE``."""
     systems = [[(dict(c.terms), c.relation) for c in piece.constraints] for piece in obstacle.pieces]
     most = max(c.degree for piece in obstacle.pieces for c in piece.constraints)
     return CurveSentence(curve, systems) if most * curve.degree <= MAX_DEGREE else None

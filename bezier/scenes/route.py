@@ -1,7 +1,7 @@
 """Whether start and goal of a scene can be joined, with proof of either answer.
 
-FREE: a polygonal path, or a chain of Bézier curves; for each segment or curve a sentence in one variable says that it
-is clear of all obstacles and in the workspace for all t.
+FREE: a polygonal path, or a chain of Bézier curves; for each segment or curve the sentence is refuted that for some t
+its point is in an obstacle or outside the workspace.
 
 BLOCKED: walls, which are in obstacles or outside the workspace, and two closed sets U and V, unions of convex
 polytopes, with start in U and goal in V. THEOREM. Where every point of the workspace is in a wall, in U or in V, and
@@ -12,7 +12,7 @@ empty. All of this but where start and goal are is said in sentences, proved by 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -20,21 +20,23 @@ from itertools import pairwise
 import qe
 from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, subtract
+from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier
 from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
 from bezier.scenes.outlines import outlines
 from bezier.scenes.scene import Scene
-from bezier.scenes.sentences import Curve, cell_of, clear, coordinates, covering, every, of_sides, surfaces
+from bezier.scenes.sentences import Curve, cell_of, coordinates, covering, every, in_space, in_the_way, of_sides, surfaces
 from bezier.scenes.shortest import least_chain
 from bezier.scenes.solid import Solid, directions
 from qe.certify.claims import is_about
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.formula.build import conj, disj, neg
-from qe.formula.syntax import TRUE, Formula
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 
+NONE: Mapping[str, Formula] = {}
 DISJOINT = "none beside the walls is on both sides"
 PLANE_STEPS, SPACE_STEPS = (1, 2, 3), (0, 1, 2, 3)
 """How fine the polytopes around round bodies are, one after the other: see ``directions``."""
@@ -70,10 +72,16 @@ class Route:
 
     @property
     def sentences(self) -> dict[str, Formula]:
-        """What is proved of each curve, and of the length."""
-        curves = {f"curve {k}": clear(self.scene, curve) for k, curve in enumerate(self.curves, start=1)}
-        curves |= surfaces(self.scene)
-        return curves if self.bound is None else curves | self.bound.sentences(Budget())[1]
+        """What is proved of surfaces, and of the length."""
+        said = dict(surfaces(self.scene))
+        return said if self.bound is None else said | self.bound.sentences(Budget())[1]
+
+    @property
+    def refuted(self) -> dict[str, Formula]:
+        """What is refuted of each curve: that a point of it is not free."""
+        whole = in_the_way(self.scene)
+        said = ((f"curve {k}", meeting(in_space(c), whole)) for k, c in enumerate(self.curves, start=1))
+        return {label: FALSE if sentence is None else sentence.formula for label, sentence in said}
 
     def check(self, certificate: Certificate | None = None) -> None:
         """Verify again, by the scene and the corners alone. Raises ``qe.CertificateRejected``."""
@@ -85,7 +93,7 @@ class Route:
             raise CertificateRejected("length", "the bound is about another scene")
         if self.bound is not None and self.bound.value > self.bound.sentences(Budget())[0]:
             raise CertificateRejected("length", "the bound is larger than what is said")
-        verified(certificate or self.certificate, self.sentences)
+        verified(certificate or self.certificate, self.sentences, self.refuted)
 
     def to_json(self) -> dict[str, object]:
         """The corners as texts of exact numbers, control points where it is curved; lengths as floats."""
@@ -201,8 +209,9 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | No
     known, proofs = _shortest(known, wish, budget) if wish is not None and isinstance(known, Route) else (known, [])
     if not proof:
         return known
+    clear = [*cleared(known, budget)] if isinstance(known, Route) else []
     other = {k: sentence for k, sentence in known.sentences.items() if k not in dict(proofs)}
-    return replace(known, certificate=Certificate.bundle([*proved(other, budget), *proofs]))
+    return replace(known, certificate=Certificate.bundle([*clear, *proved(other, budget), *proofs]))
 
 
 def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tuple[str, Certificate]]]:
@@ -308,6 +317,20 @@ def _separated(
     return Blocked(scene, domain, walls, one, other, "the obstacles and the domain separate start and goal", None)
 
 
+def cleared(known: Route, budget: Budget) -> Iterator[tuple[str, Certificate]]:
+    """The proof that a curve is free, one after the other. Raises ``Unable``."""
+    whole = in_the_way(known.scene)
+    for label, curve in zip(known.refuted, known.curves, strict=True):
+        budget.check("proof of the route")
+        try:
+            certificate = clearance_certificate(in_space(curve), whole)
+        except InputError:
+            certificate = None
+        if certificate is None:
+            raise Unable(f"not proved: {label}")
+        yield label, certificate
+
+
 def proved(sentences: dict[str, Formula], budget: Budget) -> list[tuple[str, Certificate]]:
     """A certificate for each sentence. Raises ``Unable``."""
     members = []
@@ -320,16 +343,19 @@ def proved(sentences: dict[str, Formula], budget: Budget) -> list[tuple[str, Cer
     return members
 
 
-def verified(certificate: Certificate | None, sentences: dict[str, Formula]) -> None:
-    """Whether the members are proofs of just these sentences. Raises ``CertificateRejected``."""
+def verified(
+    certificate: Certificate | None, sentences: Mapping[str, Formula], refuted: Mapping[str, Formula] = NONE
+) -> None:
+    """Whether the members refute some sentences and prove others, just these. Raises ``CertificateRejected``."""
     if certificate is None:
         raise CertificateRejected("members", "there is no certificate")
     members = certificate.payload if isinstance(certificate.payload, tuple) else ()
-    if [m.label for m in members] != list(sentences):
-        raise CertificateRejected("members", f"expected {', '.join(sentences)}")
-    for member, sentence in zip(members, sentences.values(), strict=True):
-        if is_about(member.certificate, sentence) != TRUE:
-            raise CertificateRejected(member.label, "it does not say that the sentence is true")
+    said = [(k, s, FALSE) for k, s in refuted.items()] + [(k, s, TRUE) for k, s in sentences.items()]
+    if [m.label for m in members] != [label for label, _, _ in said]:
+        raise CertificateRejected("members", f"expected {', '.join(label for label, _, _ in said)}")
+    for member, (label, sentence, truth) in zip(members, said, strict=True):
+        if is_about(member.certificate, sentence) != truth:
+            raise CertificateRejected(label, f"it does not say that the sentence is {truth}")
     verdict = qe.verify(certificate)
     if not verdict.accepted:
         raise CertificateRejected(verdict.step, verdict.reason)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import comb, lcm
 
+from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, subtract
-from bezier.obstacles.obstacle import Constraint
+from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
 from bezier.scenes.barrier import Wall
 from bezier.scenes.cells import Cell, Point, Side, opposite
 from bezier.scenes.scene import Scene
@@ -99,12 +101,24 @@ def cell_of(wall: Wall | Cell) -> Cell:
     return Cell.of(sides, (a, b), is_flat=True)
 
 
-def clear(scene: Scene, curve: Curve) -> Formula:
-    """For all t in [0, 1] the point of the curve is outside every obstacle, and in the workspace."""
-    return along(curve, lambda at, scale: neg(taken(scene, scene.solids, at, scale)))
+def in_the_way(scene: Scene) -> Obstacle:
+    """All points that are not free, as one obstacle: of every body, and beyond every side of the workspace."""
+    beyond = (
+        Piece((replace(c, terms=tuple((e, -x) for e, x in c.terms), strict=not c.strict),))
+        for part in scene.domain
+        for (conditions,) in (part.pieces,)
+        for c in conditions
+    )
+    pieces = (Piece(conditions) for body in scene.solids for conditions in body.pieces)
+    return Obstacle("what is in the way", ObstacleKind.FORMULA, (*pieces, *beyond))
 
 
-def taken(scene: Scene, bodies: Sequence[Solid], at: Sequence[Poly], scale: int = 1) -> Formula:
+def in_space(curve: Curve) -> Bezier:
+    """A curve; the plane is where z = 0."""
+    return Bezier(tuple((*p, Fraction(0))[:3] for p in curve))
+
+
+def taken(scene: Scene, bodies: Sequence[Solid], at: Sequence[Poly], scale: int) -> Formula:
     """That a point is in one of the bodies or outside the workspace."""
     outside = (neg(inside(part, at, scale)) for part in scene.domain)
     return disj((*outside, *(inside(body, at, scale) for body in bodies)))
