@@ -47,7 +47,8 @@ def _view(known: Route | Blocked, i: int, j: int) -> tuple[str, float]:
     if isinstance(known, Blocked) and scene.dimension == 2:
         sides = (np.array(cell.floats) for cell in known.start_side)
         parts += [shape(hull(p), f'fill="{SIDE}" opacity="0.4"') for p in sides if len(p) > 2]
-    parts += [shape(outline(body, i, j), f'fill="{BODY}" opacity="0.8"') for body in scene.solids]
+    bodies = (shape(outline(body, i, j), f'fill="{BODY}"') for body in scene.solids)
+    parts.append(f'<g opacity="0.8">{"".join(bodies)}</g>')  # as one: parts of a mesh overlap
     if isinstance(known, Route):
         way = at(np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])[:, (i, j)])
         parts.append(f'<polyline points="{way}" fill="none" stroke="{WAY}" stroke-width="2"/>')

@@ -26,6 +26,17 @@ from qe.errors import CertificateRejected, InputError
 from qe.extras import wanted
 
 MOST_BYTES, MOST_FACETS, MOST_CELLS, CANDIDATES = 10_000_000, 1_000, 400, 24
+UNREADABLE = (
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    ArithmeticError,
+    AssertionError,
+    ImportError,
+    RuntimeError,
+)
+"""What trimesh raises for a file that is no mesh; an import error where it would guess the coding of its text."""
 RAYS = tuple((Fraction(97), Fraction(31 * k + 5), Fraction(17 * k * k - 59)) for k in range(40))
 """Directions in which crossings are counted; one that meets the rim of a facet says nothing."""
 
@@ -99,7 +110,7 @@ def load_mesh(file: Path, scale: Fraction, shift: Point) -> list[tuple[Point, ..
     try:
         mesh = trimesh.load_mesh(BytesIO(data), file_type=kind, process=False)
         rows = mesh.vertices[mesh.faces].tolist()
-    except Exception:  # noqa: BLE001  # of a file that is none the library says this in many ways
+    except UNREADABLE:
         raise InputError(f"mesh {file}: expected a mesh as .{kind} files have it, found none") from None
     if not rows:
         raise InputError(f"mesh {file}: expected triangles, found none")

@@ -26,7 +26,17 @@ from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
 from bezier.scenes.outlines import outlines
 from bezier.scenes.scene import Scene
-from bezier.scenes.sentences import Curve, cell_of, coordinates, covering, every, in_space, in_the_way, of_sides, surfaces
+from bezier.scenes.sentences import (
+    Curve,
+    cell_of,
+    coordinates,
+    covering,
+    every,
+    in_space,
+    in_the_way,
+    of_sides,
+    surfaces,
+)
 from bezier.scenes.shortest import least_chain
 from bezier.scenes.solid import Solid, directions
 from qe.certify.claims import is_about

@@ -1,4 +1,4 @@
-"""Meshes and polygons that are not convex: their parts against cubes, the answers against a flood, both against lies."""
+"""Meshes and polygons that are not convex: parts against cubes, answers against a flood, and lies."""
 
 from __future__ import annotations
 
