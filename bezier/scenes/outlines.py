@@ -39,7 +39,8 @@ def outlines(scene: Scene, fine: int) -> tuple[Cell, tuple[Cell, ...]]:
     for i in list(cells):
         for j in (*(k for k in cells if k < i), len(solids) - 2, len(solids) - 1):
             other = cells.get(j) or Cell.box(solids[j].corners[0], solids[j].corners[0])
-            if _apart(cells[i], other) or common_point(solids[i], solids[j]) is not None:
+            is_body = j < len(scene.solids)  # start and goal are free, and may be on the boundary of an open body
+            if _apart(cells[i], other) or (is_body and common_point(solids[i], solids[j]) is not None):
                 continue
             strips = separators(solids[i], solids[j]) if not solids[i].tube and not solids[j].tube else None
             for k, side in zip((i, j), strips or (), strict=False):

@@ -219,6 +219,15 @@ def test_a_disc_may_touch_the_rim_of_a_round_workspace(gap: Fraction, blocked: b
     found.check()
 
 
+def test_a_start_on_the_rim_of_a_hole_leads_somewhere() -> None:
+    """It was undecided: the polygon around the hole, which is open, was not kept from its boundary."""
+    ring = {"kind": "annulus", "centre": [5, 5], "inner": 3, "outer": 7}
+    disc = {"kind": "disc", "centre": [6, 8], "radius": "3/4"}
+    found = bezier.route({"domain": ring, "start": [5, 8], "goal": [10, 8], "obstacle": [disc]})
+    assert not found.blocked
+    found.check()
+
+
 @each(
     ("a bar across the workspace", [{"kind": "capsule", "start": [0, 5], "end": [10, 6], "radius": "1/2"}], True),
     ("a bar that ends", [{"kind": "capsule", "start": [0, 5], "end": [9, 6], "radius": "1/2"}], False),
