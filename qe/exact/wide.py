@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
+from math import lcm
 
 from flint import fmpz_mpoly, fmpz_poly
 
@@ -36,7 +37,6 @@ class WideRing(Ring, more_than=WIDE):
         return WidePoly(self, p) if support is None else WidePoly.of(self, p, frozenset(support))
 
     def constant(self, value: int) -> Poly:
-        """The constant polynomial ``value``."""
         return self.element(self.ctx.constant(value), ())
 
     def from_terms(self, terms: Mapping[tuple[int, ...], int]) -> Poly:
@@ -46,7 +46,6 @@ class WideRing(Ring, more_than=WIDE):
         return self.from_sparse([(tuple((i, k) for i, k in enumerate(e) if k), int(c)) for e, c in terms.items()])
 
     def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
-        """The polynomial with these terms; see ``Poly.sparse_terms``."""
         sums: dict[tuple[str, ...], int] = {}
         for powers, c in terms:
             names = tuple(self.names[i] for i, k in powers for _ in range(k))
@@ -132,7 +131,6 @@ class WidePoly(Poly):
 
     @cached_property
     def degrees(self) -> tuple[int, ...]:
-        """The degree in every variable of the ring, in ring order (0 for the zero polynomial)."""
         own = self._own_degrees
         return tuple(own.get(i, 0) for i in range(self.ring.size))
 
@@ -143,7 +141,6 @@ class WidePoly(Poly):
         return {i: len(self.coefficients(i)) - 1 for i in self.variables}
 
     def degree(self, i: int) -> int:
-        """The degree in variable ``i``."""
         return self._own_degrees.get(i, 0)
 
     def sparse_terms(self) -> list[SparseTerm]:
@@ -214,7 +211,6 @@ class WidePoly(Poly):
         return self._expanded(own, f.discriminant(own.index(i)))
 
     def factors(self) -> tuple[int, tuple[tuple[Poly, int], ...]]:
-        """(unit, ((irreducible primitive factor, multiplicity), ...)), cached in the ring."""
         stored = self.ring.cache.get(("factors", self))
         if stored is None:
             own, f = self._alone
@@ -228,6 +224,11 @@ class WidePoly(Poly):
         return self.at_rationals({i: value}) if i in self.variables else self
 
     def at_rationals(self, values: Mapping[int, Fraction | int]) -> Poly:
+        if self.total_degree == 1:  # one at a time would copy all terms as often
+            whole, put = lcm(*(v.denominator for v in values.values())), {((i, 1),): v for i, v in values.items()}
+            return self.ring.from_sparse(
+                ((), c * int(put[p] * whole)) if p in put else (p, c * whole) for p, c in self.sparse_terms()
+            )
         own, f = self._alone
         return self._expanded(own, f.at_rationals({own.index(i): value for i, value in values.items()}))
 
@@ -244,7 +245,6 @@ class WidePoly(Poly):
         return total
 
     def to_univariate(self, i: int) -> fmpz_poly:
-        """The polynomial as a FLINT univariate one; no other variable may occur."""
         if self.variables not in ((i,), ()):
             raise InternalError("a polynomial in one variable expected")
         return fmpz_poly([c.constant_value() for c in self.coefficients(i)])
