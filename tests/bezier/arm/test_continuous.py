@@ -225,7 +225,7 @@ def check_random(seed: int) -> bool:
     return True
 
 
-@each((range(20), 8), pytest.param(range(1000, 1500), 250, marks=pytest.mark.deep))
+@each((range(10), 4), pytest.param(range(1000, 1500), 250, marks=pytest.mark.deep))
 def test_random_paths_near_the_axis_and_near_borders(seeds: range, simple: int) -> None:
     assert sum(check_random(seed) for seed in seeds) >= simple
 
