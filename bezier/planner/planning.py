@@ -13,7 +13,6 @@ from bezier.planner import radius_rule
 from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
 from bezier.planner.derivations import with_derivations
-from bezier.planner.least_time import with_least_time
 from bezier.planner.table import method_of
 from bezier.plans import Begun, Clock, Outcome, Plan, RadiusRule
 from bezier.problem import Problem, ends_inside
@@ -120,6 +119,8 @@ def with_quality(plan: Plan, given: Certificate | None = None) -> Plan:
             raise
         return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
     if timing is not None and timing.law is Law.LEAST:
+        from bezier.planner.least_time import with_least_time  # and numpy, which plans do without otherwise
+
         return with_least_time(plan, quality, plan.path, timing, given)
     kept = quality.motion is None or quality.motion.keeps_limits
     solved = plan.outcome.is_success

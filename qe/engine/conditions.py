@@ -221,7 +221,9 @@ def as_many_equations_as_variables(problem: Block, options: Options) -> str | No
     """
     equations = [a for a in problem.conditions if isinstance(a, Atom) and a.relation is Relation.EQ]
     is_small = problem.total <= CAD_FIRST_VARIABLES + 2 and len(equations) == len(problem.variables)
-    return "as many equations as variables" if is_small and problem.free and problem.curved else None
+    if not is_small or not problem.free or not problem.curved or options.root_atoms:  # which what is around cannot read
+        return None
+    return "as many equations as variables"
 
 
 def several_parameters(problem: Block, options: Options) -> str | None:

@@ -246,6 +246,8 @@ def attempts(scope: Scope, problem: Block, options: Options) -> Iterator[tuple[A
         if options.method is not Method.AUTO and scope is not Scope.QUESTION:  # reduced, it is still for that method
             if attempt.listed.choice is not options.method or attempt.method in seen:
                 continue
+            if scope is Scope.INNER and any(a.scope is Scope.NESTED and a.method == attempt.method for a in STRATEGY):
+                continue  # it takes all blocks at once
             seen.add(attempt.method)
             attempt, reason = replace(attempt, when=on.always, work=None), "asked for"
         else:

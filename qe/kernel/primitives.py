@@ -1,52 +1,54 @@
-"""The rules of derivations that the kernel decides: one line a checker, with the rules that it knows."""
+"""The rules of derivations that the kernel decides, each with its checker: one line a rule."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from importlib import import_module
+from collections.abc import Mapping
 
+from qe.kernel.block import check_block
+from qe.kernel.elimination_set import check_elimination_set
+from qe.kernel.linear_equation import check_linear
+from qe.kernel.nested import check_converse, check_no_exception, check_steps
+from qe.kernel.open_block import check_inequations, check_open_block
+from qe.kernel.parts import check_parts
+from qe.kernel.quantifiers import check_quantifiers
+from qe.kernel.root import check_root
 from qe.kernel.step import Check
+from qe.kernel.table import check_table
+from qe.kernel.terms import check_terms
+from qe.kernel.theorem import check_theorem
+from qe.kernel.witness import check_instance
 
-_QUANTIFIERS = ("quantifiers", "renaming", "duality", "negation normal form", "independent parts and miniscoping")
-_RULES = {
+PRIMITIVES: Mapping[str, Check] = {
     # frame
-    "nested.check_steps": ("steps", "virtual substitution", "equations taken apart"),
-    "nested.check_converse": ("converse",),
-    "nested.check_no_exception": ("no exception",),
-    "parts.check_parts": ("parts",),
-    "witness.check_instance": ("instance",),
+    "steps": check_steps,
+    "virtual substitution": check_steps,
+    "equations taken apart": check_steps,
+    "converse": check_converse,
+    "no exception": check_no_exception,
+    "parts": check_parts,
+    "instance": check_instance,
     # signs
-    "block.check_block": ("signs",),
-    "quantifiers.check_quantifiers": (*_QUANTIFIERS, "nested blocks of one kind gathered"),
+    "signs": check_block,
+    # quantifiers
+    "quantifiers": check_quantifiers,
+    "renaming": check_quantifiers,
+    "duality": check_quantifiers,
+    "negation normal form": check_quantifiers,
+    "independent parts and miniscoping": check_quantifiers,
+    "nested blocks of one kind gathered": check_quantifiers,
     # terms, and roots that exist
-    "terms.check_terms": ("terms",),
-    "root.check_root": ("root",),
-    "linear_equation.check_linear": ("linear equation solved",),
+    "terms": check_terms,
+    "root": check_root,
+    "linear equation solved": check_linear,
     # test points
-    "elimination_set.check_elimination_set": ("elimination set",),
+    "elimination set": check_elimination_set,
     # cylinders
-    "table.check_table": ("cells", "shorter", "covering"),
+    "cells": check_table,
+    "shorter": check_table,
+    "covering": check_table,
     # open sets
-    "open_block.check_inequations": ("inequations that remove no interior",),
-    "open_block.check_open_block": ("open block",),
-    "theorem.check_theorem": ("theorem",),
+    "inequations that remove no interior": check_inequations,
+    "open block": check_open_block,
+    # theorems
+    "theorem": check_theorem,
 }
-_CHECKERS = {rule: checker for checker, rules in _RULES.items() for rule in rules}
-
-
-class _Primitives(Mapping[str, Check]):
-    """A checker is loaded when its rule is named: most certificates name few."""
-
-    def __getitem__(self, rule: str) -> Check:
-        module, name = _CHECKERS[rule].split(".")
-        check: Check = getattr(import_module(f"qe.kernel.{module}"), name)
-        return check
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(_CHECKERS)
-
-    def __len__(self) -> int:
-        return len(_CHECKERS)
-
-
-PRIMITIVES: Mapping[str, Check] = _Primitives()

@@ -8,6 +8,7 @@ from qe.formula.traverse import ring_of
 from qe.rules.block_context import BlockContext
 from qe.rules.change import Change
 from qe.rules.lift import Solve
+from qe.rules.rotation import invariant_plane
 from qe.rules.step import StepKind
 
 
@@ -23,8 +24,6 @@ def without_rotations(formula: Exists | ForAll, context: BlockContext) -> tuple[
     turns: list[dict[str, object]] = []
     rules: list[Solve] = []
     while StepKind.ROTATION in context.enabled and len(variables) > 1:
-        from qe.rules.rotation import invariant_plane
-
         context.budget.check("prepare")
         turn = invariant_plane(variables, body, signs, context.watch)
         if turn is None:

@@ -183,8 +183,8 @@ def test_both_counts_agree(polys: list[Poly], relation: Relation, shift: int) ->
 
 FALSE_SENTENCES = [
     "ex x, y. x^2 + y^2 = 1 and x*y = 1",
-    "ex x, y. x^2 + y^2 = 1 and x*y = 0 and x > 1",
-    "ex x, y. (x^2 = 2 and y = x and x > 2) or (y^2 = 3 and x^3 = y and y > 2)",
+    "ex x, y. x^2 + y^2 = 1 and x*y = 0 and x + y > 2",
+    "ex x, y. (x^2 + y^2 = 2 and x*y = 1 and x + y > 3) or (x^2 + y^2 = 3 and x^3 = y and x + y > 4)",
 ]
 
 

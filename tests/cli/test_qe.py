@@ -250,7 +250,7 @@ def test_help() -> None:
 
 def test_check_says_what_is_claimed(tmp_path: Path) -> None:
     path = tmp_path / "proof.json"
-    question = "all x, y, z, u, v. x^2 + y^2 + z^2 + u^2 + v^2 > -1"
+    question = "all x, y, z, u, v. x^2 + y^2 + z^2 + u^2 + v^2 <= 1 -> x + y + z + u + v <= 3"
     assert run("eliminate", question, "--certificate", str(path)).stdout == "true\n"
     lines = run("check", str(path)).stdout.splitlines()
     assert lines[0].startswith("accepted")
@@ -276,7 +276,12 @@ def test_check_in_plain_python(tmp_path: Path) -> None:
     refused(run("check", str(path), "--plain"), 4, "rejected")
     path.write_text("{}")
     refused(run("check", str(path), "--plain"), 2, "not a certificate")
-    run("eliminate", "all x, y, z, u, v. x^2 + y^2 + z^2 + u^2 + v^2 > -1", "--certificate", str(path))
+    run(
+        "eliminate",
+        "all x, y, z, u, v. x^2 + y^2 + z^2 + u^2 + v^2 <= 1 -> x + y + z + u + v <= 3",
+        "--certificate",
+        str(path),
+    )
     refused(run("check", str(path), "--plain"), 4, "core", "multipliers")
 
 
