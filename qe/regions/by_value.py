@@ -293,7 +293,7 @@ def _derivatives(poly: Poly) -> Iterator[Poly]:
 def _signs_with_derivatives(factors: Sequence[Sequence[Poly]], place: Place) -> Iterator[str]:
     """The signs of factors and derivatives on a cell. Over a cell a root of a factor has one multiplicity: where it
     vanishes, so do its derivatives below that, and the next one has the same sign everywhere."""
-    for polys, used, signs in zip(factors, place.used, place.signs, strict=True):
+    for polys, used, signs in zip(factors, place.used, place.signs, strict=False):  # of fewer levels, perhaps
         known = placed_signs(used, signs).ljust(len(polys), "?")
         for poly, character in zip(polys, known):
             for derivative in _derivatives(poly):
