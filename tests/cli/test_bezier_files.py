@@ -152,6 +152,7 @@ def compared(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     return process.stdout, folder / "out"
 
 
+@pytest.mark.deep
 def test_the_table_sets_both_methods_side_by_side(compared: tuple[str, Path]) -> None:
     text, _ = compared
     lines = {line.split("│")[1].strip(): line.split("│")[2:4] for line in text.splitlines() if line.count("│") == 4}
@@ -165,6 +166,7 @@ def test_the_table_sets_both_methods_side_by_side(compared: tuple[str, Path]) ->
     assert "always has the solution Q1 = Q0, Q2 = R0" in text and "the engine proved that every Q1 of (8)" in text
 
 
+@pytest.mark.deep
 def test_the_data_are_exact_and_consistent(compared: tuple[str, Path]) -> None:
     _, out = compared
     data = json.loads((out / "compare.json").read_text())
@@ -186,6 +188,7 @@ def test_the_data_are_exact_and_consistent(compared: tuple[str, Path]) -> None:
     assert {Path(f).name for f in data["files"]} == {p.name for p in out.iterdir()}
 
 
+@pytest.mark.deep
 def test_the_page_is_whole_and_needs_nothing_else(compared: tuple[str, Path]) -> None:
     _, out = compared
     page = (out / "compare.html").read_text()
@@ -198,6 +201,7 @@ def test_the_page_is_whole_and_needs_nothing_else(compared: tuple[str, Path]) ->
         assert (out / picture).read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.deep
 def test_a_comparison_has_nothing_to_check(compared: tuple[str, Path]) -> None:
     process = run_compare("check", compared[1])
     assert process.returncode == 2 and "found a comparison (qe check" in process.stderr

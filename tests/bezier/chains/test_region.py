@@ -114,6 +114,7 @@ def _floats(outer: Any) -> list[tuple[Any, float]]:
     return [(np.array([float(c) for c in n]), float(b)) for n, b in outer]
 
 
+@pytest.mark.deep
 def test_regions_in_space_and_of_infeasible_chains() -> None:
     points = [[1, -5, -1], [-2, -4, 4], [-1, 6, 1], [1, 2, 2], [-4, -1, -3]]
     none = chain(points, radius="6.5")

@@ -236,6 +236,7 @@ def solved() -> tuple[Problem, Plane, qe.Region]:
     return given, plane, whole_curve.region(given, plane, timeout=100)
 
 
+@pytest.mark.deep
 def test_the_planar_region_of_whole_curves_keeps_its_derivation(root: Path) -> None:
     """It was lost unnoticed: a decomposition of the whole question does not end, one for each of its pieces does."""
     given = read_problem((root / "examples" / "cubic_joins.toml").read_text())

@@ -184,8 +184,8 @@ def decide_twice(scene: Scene) -> Blocked | Route:
 
 def test_the_plane_is_decided_completely() -> None:
     rng = random.Random(12)
-    free = [decide_twice(mixed(rng, "disc" if k % 2 else "disc box capsule polyhedron half_plane")) for k in range(12)]
-    assert 1 < sum(isinstance(f, Route) for f in free) < 12
+    free = [decide_twice(mixed(rng, "disc" if k % 2 else "disc box capsule polyhedron half_plane")) for k in range(6)]
+    assert 1 < sum(isinstance(f, Route) for f in free) < 6
 
 
 @pytest.mark.deep
@@ -255,7 +255,7 @@ BALL = {"kind": "ball", "centre": [0, 0, 0], "radius": 5}
     (BALL, [{"kind": "cylinder", "centre": [0, 0], "radius": 2}], False),
     (BALL, [{"kind": "capsule", "start": [0, -6, 1], "end": [0, 6, 1], "radius": 1}], False),
     (BALL, [{"kind": "half_space", "normal": [0, 0, 1], "offset": "1/2"}], False),
-    (BALL, [{"kind": "ball", "centre": [0, 0, 0], "radius": 3}], False),
+    pytest.param(BALL, [{"kind": "ball", "centre": [0, 0, 0], "radius": 3}], False, marks=pytest.mark.deep),
     (BALL, [{"kind": "ball", "centre": [0, 0, 0], "radius": 8}], True),
 )
 def test_workspaces_and_obstacles_in_space(domain: Any, listed: list[Any], blocked: bool) -> None:
