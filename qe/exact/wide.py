@@ -230,7 +230,7 @@ class WidePoly(Poly):
                 ((), c * int(put[p] * whole)) if p in put else (p, c * whole) for p, c in self.sparse_terms()
             )
         own, f = self._alone
-        return self._expanded(own, f.at_rationals({own.index(i): value for i, value in values.items()}))
+        return self._expanded(own, f.at_rationals({own.index(i): value for i, value in values.items() if i in own}))
 
     def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
         point = tuple(values)

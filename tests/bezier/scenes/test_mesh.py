@@ -99,6 +99,15 @@ def test_a_hollow_is_left_through_a_hole_only(cubes: set[Any], blocked: bool) ->
     assert found.blocked is blocked
 
 
+@each(({(0, 0, 0)}, "cores"), (RING, "beside"))
+def test_one_cell_with_the_surface_inside_is_refused(cubes: set[Any], side: str) -> None:
+    """The surface goes once around its centre, or not at all, which says nothing about the rest."""
+    surface = Surface.of("whole", of_cubes(cubes))
+    surface.check()
+    with pytest.raises(qe.CertificateRejected, match="goes through the inside"):
+        replace(surface, **{"cores": (), "beside": (), side: (surface.around,)}).check()  # type: ignore[arg-type]
+
+
 def test_a_wrong_division_is_refused() -> None:
     surface = Surface.of("bracket", of_cubes(BRACKET))
     known = caged(surface, (0, 0, 3), (0, 0, 4))

@@ -91,6 +91,9 @@ def test_substitution(f, g, values):
         if f.variables == (i,):
             assert f.to_univariate(i) == large.to_univariate(place)
     assert large.at_rational(0, 3) == large
+    put = large.at_rationals(dict(zip(PLACES, values, strict=True)))
+    assert put.is_constant and (put.constant_value() if put else 0) * f.evaluate(values) >= 0
+    assert bool(put) is bool(f.evaluate(values))
 
 
 @settings(max_examples=10)
@@ -104,6 +107,9 @@ def test_a_polynomial_with_more_variables_than_are_few(coefficients, constant):
         assert f.terms() == plain.terms() and f.total_degree == degree
         point = [Fraction(i % 5, 1 + i % 3) for i in range(BIG.size)]
         assert f.evaluate(point) == plain.evaluate(point)
+        for step in (1, 2):  # all variables, and half of them
+            put = f.at_rationals({i: point[i] for i in range(0, BIG.size, step)})
+            assert put.evaluate(point) * f.evaluate(point) > 0 or put.evaluate(point) == f.evaluate(point) == 0
         assert f.at_rational(1, Fraction(2, 3)) == plain.at_rational(1, Fraction(2, 3))
         assert f.gcd(f * 2) == plain.gcd(plain * 2)
 
