@@ -60,8 +60,8 @@ class Plane:
         for point in free:
             place = st.names(plane_coordinates(point))
             for name, *axes in zip(coordinates(point), self.first, self.second, strict=True):
-                parts = tuple(st.Product((st.number(exactly(a)), c)) for a, c in zip(axes, place, strict=True))
-                equations.append(st.equal(st.Name(name), st.Sum(parts)))
+                parts = [st.product(st.number(exactly(a)), c) for a, c in zip(axes, place, strict=True)]
+                equations.append(st.equal(st.name(name), st.total(parts)))
                 variables.append(name)
         return st.exists(variables, st.every(*equations, condition))
 

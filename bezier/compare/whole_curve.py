@@ -62,16 +62,16 @@ class Family:
         return _all(conditions, [self.control_point(k) for k in range(self.base.degree + 1)])
 
 
-TIME = st.Name("t")
+TIME = st.name("t")
 WHOLE = st.between(st.number(0), TIME, st.number(1))
 
 
 def _for_all_t(body: st.Statement) -> st.Statement:
-    return st.for_all(["t"], st.Implies(WHOLE, body))
+    return st.for_all(["t"], st.implies(WHOLE, body))
 
 
 def _all(conditions: Iterable[Condition], points: Sequence[Sequence[st.Term]]) -> st.Statement:
-    return st.Every(tuple(stated(c, point) for c in conditions for point in points), bracketed=True)
+    return st.grouped(*(stated(c, point) for c in conditions for point in points))
 
 
 def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> st.Term:
@@ -82,11 +82,11 @@ def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> st.Term:
             if not is_zero(c):
                 factors = (
                     st.number(exactly(c)),
-                    *([st.Power(TIME, k)] if k else []),
-                    *([st.Name(name)] if name else []),
+                    *([st.power(TIME, k)] if k else []),
+                    *([st.name(name)] if name else []),
                 )
-                terms.append(st.Product(factors))
-    return st.Bracketed(st.Sum(tuple(terms or [st.number(0)])))
+                terms.append(st.product(*factors))
+    return st.bracketed(st.total(terms or [st.number(0)]))
 
 
 def families(problem: Problem, plane: Plane) -> dict[str, Family]:
@@ -135,7 +135,7 @@ def implications(problem: Problem, plane: Plane, *, timeout: float | None = None
     data: dict[str, Any] = {}
     for name, family in families(problem, plane).items():
         for c in problem.workspace.conditions:
-            inside = st.Implies(st.every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))
+            inside = st.implies(st.every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))
             answer = qe.eliminate(
                 st.for_all(order, inside).formula, timeout=budget.time_left("whole curves"), order=order
             )

@@ -56,12 +56,10 @@ def sentence(problem: Problem, via: str, free: str) -> st.Statement:
     square, k = st.number(problem.workspace.radius_squared), problem.ratio
     listed = coordinates(free)
     point = st.names(listed)
-    other = [
-        st.difference(st.number((1 + k) * v), st.Product((st.number(k), c))) for v, c in zip(at, point, strict=True)
-    ]
+    other = [st.difference(st.number((1 + k) * v), st.product(st.number(k), c)) for v, c in zip(at, point, strict=True)]
     norms = (st.at_most(st.squares(row), square) for row in (point, other))
     same_place = (st.equal(c, st.number(v)) for c, v in zip(point, at, strict=True))
-    return st.for_all(listed, st.Implies(st.every(*norms), st.every(*same_place)))
+    return st.for_all(listed, st.implies(st.every(*norms), st.every(*same_place)))
 
 
 def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) -> RadiusRule | None:

@@ -85,15 +85,15 @@ class Shape:
 
     def symbolic(self) -> st.Statement:
         """The formula with the given points and r left as parameters ``q0x``, ..., ``r``."""
-        radius = st.Name("r")
-        norms = [st.at_most(st.squares(st.names(coordinates(point))), st.Power(radius, 2)) for point in self.inner]
-        joins = self.joins(lambda point, i: st.Name(coordinates(point)[i]))
+        radius = st.name("r")
+        norms = [st.at_most(st.squares(st.names(coordinates(point))), st.power(radius, 2)) for point in self.inner]
+        joins = self.joins(lambda point, i: st.name(coordinates(point)[i]))
         return self.closed([st.at_least(radius, st.number(0)), *joins, *norms])
 
     def joins(self, at: At) -> list[st.Statement]:
         """The joins: each coordinate of each dependent point; ``at`` gives a coordinate of another point."""
         return [
-            st.equal(st.Name(variable), _combination(terms, i, at))
+            st.equal(st.name(variable), _combination(terms, i, at))
             for point, terms in self.follows.items()
             for i, variable in enumerate(coordinates(point))
         ]
@@ -140,12 +140,12 @@ class System:
 
     def _at(self, point: str, i: int) -> st.Term:
         """A coordinate: a number for a given point, a variable otherwise."""
-        return st.number(exactly(self.given[point][i])) if point in self.given else st.Name(coordinates(point)[i])
+        return st.number(exactly(self.given[point][i])) if point in self.given else st.name(coordinates(point)[i])
 
     def _in_free(self, point: str) -> list[st.Term]:
         terms = self.shape.combination(point)
         result = [_combination(terms, i, self._at) for i in range(3)]
-        return result if point in self.shape.free else [st.Bracketed(term) for term in result]
+        return result if point in self.shape.free else [st.bracketed(term) for term in result]
 
     # --- exact numbers ---------------------------------------------------------------------------
 
@@ -209,11 +209,11 @@ def stated(condition: Condition, point: Sequence[st.Term]) -> st.Statement:
         return st.at_most(st.squares(away), st.number(exactly(condition.radius_squared)))
     if isinstance(condition, HalfSpace):
         parts = [
-            c if n == 1 else st.Product((st.number(exactly(n)), c))
+            c if n == 1 else st.product(st.number(exactly(n)), c)
             for n, c in zip(condition.normal, point, strict=True)
             if n
         ]
-        return st.at_least(parts[0] if len(parts) == 1 else st.Sum(tuple(parts)), st.number(exactly(-condition.offset)))
+        return st.at_least(parts[0] if len(parts) == 1 else st.total(parts), st.number(exactly(-condition.offset)))
     raise InternalError(f"no atom for the condition {condition.name}")
 
 

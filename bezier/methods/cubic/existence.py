@@ -31,11 +31,11 @@ class Existence:
 
 def question() -> st.Statement:
     """For all Q0, R0, r with |Q0|, |R0| <= r there are Q1, Q2 that satisfy formula (7) as printed."""
-    shape, radius = cubic.shape(), st.Name("r")
+    shape, radius = cubic.shape(), st.name("r")
     parameters = [name for point in GIVEN for name in coordinates(point)]
-    inside = [st.at_most(st.squares(st.names(coordinates(point))), st.Power(radius, 2)) for point in GIVEN]
+    inside = [st.at_most(st.squares(st.names(coordinates(point))), st.power(radius, 2)) for point in GIVEN]
     given = st.every(*inside, st.at_least(radius, st.number(0)))
-    return st.for_all([*parameters, "r"], st.Implies(given, st.exists(shape.variables, shape.symbolic())))
+    return st.for_all([*parameters, "r"], st.implies(given, st.exists(shape.variables, shape.symbolic())))
 
 
 def sentence() -> str:

@@ -52,7 +52,7 @@ def corrected(problem: Problem) -> System:
 def leaving(problem: Problem) -> st.Statement:
     """The sentence: some control points allowed by the printed formula (8) lie below the table."""
     allowed = printed(problem)
-    heights = st.Some(tuple(st.below(st.Name(coordinates(point)[2]), st.number(0)) for point in SHAPE.inner))
+    heights = st.some(*(st.below(st.name(coordinates(point)[2]), st.number(0)) for point in SHAPE.inner))
     parts = [*allowed.joins(), *(statement for _, statement in allowed.labelled()), heights]
     return st.exists((*FREE, *QUANTIFIED), st.every(*parts))
 

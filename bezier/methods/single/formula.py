@@ -41,11 +41,9 @@ def linearity(degree: int) -> st.Statement:
     """(2) as a sentence: with equally spaced x_i, P_x(t) = (1-t) x_0 + t x_n for all x_0, x_n and t."""
     first, last, t = st.names(("x0", "xn", "t"))
     spaced = [
-        st.Product(
-            (
-                st.number(Fraction(1, degree)),
-                st.Sum((st.Product((st.number(degree - i), first)), st.Product((st.number(i), last)))),
-            )
+        st.product(
+            st.number(Fraction(1, degree)),
+            st.total((st.product(st.number(degree - i), first), st.product(st.number(i), last))),
         )
         for i in range(degree + 1)
     ]
@@ -56,13 +54,13 @@ def inverse() -> st.Statement:
     """(3) as a sentence: t = (x - x_0) / (x_n - x_0) is the one solution of (2) for t."""
     first, last, x, t = st.names(("x0", "xn", "x", "t"))
     here = st.equal(x, _between(first, last, t))
-    solved = st.equal(st.Product((st.difference(last, first), t)), st.difference(x, first))
-    same = st.Every((st.Implies(here, solved), st.Implies(solved, here)), bracketed=True)
-    return st.for_all(("x0", "xn", "x", "t"), st.Implies(st.Atomic(first, Relation.NE, last), same))
+    solved = st.equal(st.product(st.difference(last, first), t), st.difference(x, first))
+    same = st.grouped(st.implies(here, solved), st.implies(solved, here))
+    return st.for_all(("x0", "xn", "x", "t"), st.implies(st.atomic(first, Relation.NE, last), same))
 
 
 def _between(first: st.Term, last: st.Term, t: st.Term) -> st.Term:
-    return st.Sum((st.Product((st.difference(st.number(1), t), first)), st.Product((t, last))))
+    return st.total((st.product(st.difference(st.number(1), t), first), st.product(t, last)))
 
 
 def identities(degree: int) -> dict[str, st.Statement]:
@@ -83,9 +81,9 @@ def identities_hold(degree: int) -> bool:
 
 def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> list[st.Statement]:
     """The conditions of (4); with a or b symbolic also the index condition that p and q stand for."""
-    height: st.Term = st.Name("h") if Symbol.HEIGHT in symbols else _number(axis.height or Fraction(0))
-    start: st.Term = st.Name(f"{axis.name}0") if Symbol.START in symbols else _number(axis.start)
-    goal: st.Term = st.Name(f"{axis.name}n") if Symbol.GOAL in symbols else _number(axis.goal)
+    height: st.Term = st.name("h") if Symbol.HEIGHT in symbols else _number(axis.height or Fraction(0))
+    start: st.Term = st.name(f"{axis.name}0") if Symbol.START in symbols else _number(axis.start)
+    goal: st.Term = st.name(f"{axis.name}n") if Symbol.GOAL in symbols else _number(axis.goal)
     points = [start, *st.names(variables(given, axis)), goal]
     times = [
         _time(given, symbol.value) if symbol in symbols else _number(t)
@@ -104,33 +102,33 @@ def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> li
 
 
 def _number(value: Fraction) -> st.Term:
-    return st.Bracketed(st.number(value))
+    return st.bracketed(st.number(value))
 
 
 def _time(given: Task, name: str) -> st.Term:
     low, high = given.x_ends
-    return st.Bracketed(st.Product((_number(1 / (high - low)), st.difference(st.Name(name), _number(low)))))
+    return st.bracketed(st.product(_number(1 / (high - low)), st.difference(st.name(name), _number(low))))
 
 
 def _at(points: Sequence[st.Term], t: st.Term) -> st.Term:
     """The value at t of the polynomial with these Bernstein coefficients."""
     n, rest = len(points) - 1, st.difference(st.number(1), t)
-    return st.Sum(
-        tuple(
-            st.Product((st.number(comb(n, i)), st.Power(t, i), st.Power(rest, n - i), point))
+    return st.total(
+        [
+            st.product(st.number(comb(n, i)), st.power(t, i), st.power(rest, n - i), point)
             for i, point in enumerate(points)
-        )
+        ]
     )
 
 
 def total(given: Task, axis: Axis) -> st.Term:
     """The sum of (4)."""
-    return st.Sum(st.names(f"{axis.name}{i}" for i in given.middle))
+    return st.total(st.names(f"{axis.name}{i}" for i in given.middle))
 
 
 def attainable(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> st.Statement:
     """The formula whose free variables are v and the symbols: some solution of (4) has the sum v."""
-    matrix = st.every(st.equal(st.Name(VALUE), total(given, axis)), *constraints(given, axis, symbols))
+    matrix = st.every(st.equal(st.name(VALUE), total(given, axis)), *constraints(given, axis, symbols))
     return st.exists(variables(given, axis), matrix)
 
 
@@ -167,14 +165,14 @@ def closed(given: Task, workspace: Workspace) -> st.Statement:
     for other in given.axes:
         inner = st.names(variables(given, axis)) if other == axis else ()
         columns.append([_number(other.start), *inner, _number(other.goal)])
-    t, zero = st.Name("t"), st.number(0)
+    t, zero = st.name("t"), st.number(0)
     at = [_at(column, t) for column in columns]
     low, high = (_number(time) for time in given.times)
     kept = st.at_least(at[1 + given.axes.index(axis)], _number(axis.height or Fraction(0)))
     inside: st.Statement = st.at_most(st.squares(at), _number(workspace.radius_squared))
     if workspace.kind is WorkspaceKind.HEMISPHERE:
-        inside = st.Every((inside, st.at_least(at[-1], zero)), bracketed=True)
-    parts = [st.equal(st.Name(VALUE), total(given, axis)), *constraints(given, axis)]
-    parts.append(st.for_all(["t"], st.Implies(st.between(low, t, high, bracketed=True), kept)))
-    parts.append(st.for_all(["t"], st.Implies(st.between(zero, t, st.number(1), bracketed=True), inside)))
+        inside = st.grouped(inside, st.at_least(at[-1], zero))
+    parts = [st.equal(st.name(VALUE), total(given, axis)), *constraints(given, axis)]
+    parts.append(st.for_all(["t"], st.implies(st.grouped(st.between(low, t, high)), kept)))
+    parts.append(st.for_all(["t"], st.implies(st.grouped(st.between(zero, t, st.number(1))), inside)))
     return st.exists(variables(given, axis), st.every(*parts))

@@ -13,27 +13,27 @@ import qe
 from bezier.curves.scalar import sign
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind
 from bezier.methods.control.statements import (
-    Atomic,
-    Bracketed,
-    Every,
-    Implies,
-    Minus,
-    Name,
-    Number,
-    Power,
-    Product,
-    Quantified,
-    Some,
     Statement,
-    Sum,
     Term,
     at_most,
+    atomic,
+    bracketed,
     combined,
     difference,
     every,
+    for_all,
+    grouped,
+    implies,
+    minus,
+    name,
     names,
     number,
+    power,
+    product,
+    some,
+    total,
 )
+from bezier.methods.control.statements import exists as some_values
 from bezier.methods.control.terms import condition_terms, objective_terms
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
@@ -134,29 +134,30 @@ NUMBERS = st.fractions(min_value=-5, max_value=5, max_denominator=4)
 
 
 def _larger(inner: st.SearchStrategy[Term]) -> st.SearchStrategy[Term]:
-    several = st.lists(inner, min_size=1, max_size=3).map(tuple)
+    several = st.lists(inner, min_size=1, max_size=3)
     return st.one_of(
-        several.map(Sum),
-        several.map(Product),
-        inner.map(Minus),
-        inner.map(Bracketed),
-        st.builds(Power, inner, st.integers(0, 3)),
+        several.map(total),
+        several.map(lambda parts: product(*parts)),
+        inner.map(minus),
+        inner.map(bracketed),
+        st.builds(power, inner, st.integers(0, 3)),
     )
 
 
-TERMS = st.recursive(st.one_of(NUMBERS.map(Number), NAMES.map(Name)), _larger, max_leaves=8)
-ATOMS = st.builds(Atomic, TERMS, st.sampled_from(Relation), TERMS)
+TERMS = st.recursive(st.one_of(NUMBERS.map(number), NAMES.map(name)), _larger, max_leaves=8)
+ATOMS = st.builds(atomic, TERMS, st.sampled_from(Relation), TERMS)
 
 
 def _joined(inner: st.SearchStrategy[Statement]) -> st.SearchStrategy[Statement]:
-    several = st.lists(inner, min_size=1, max_size=3).map(tuple)
+    several = st.lists(inner, min_size=1, max_size=3)
     bound = st.lists(NAMES, min_size=1, max_size=2, unique=True).map(tuple)
     return st.one_of(
-        several.map(Some),
-        st.builds(Every, several, st.just(True)),
-        several.map(lambda parts: every(*parts)).map(lambda whole: Every(whole.parts, bracketed=True)),
-        st.builds(Quantified, st.booleans(), bound, inner),
-        st.builds(Implies, inner, inner),
+        several.map(lambda parts: some(*parts)),
+        several.map(lambda parts: grouped(*parts)),
+        several.map(lambda parts: grouped(every(*parts))),
+        st.builds(for_all, bound, inner),
+        st.builds(some_values, bound, inner),
+        st.builds(implies, inner, inner),
     )
 
 
@@ -182,10 +183,10 @@ def test_how_people_read_it() -> None:
     x, y = names(("q1x", "q1y"))
     assert str(combined([(Fraction(2), number(3)), (Fraction(-1), x)])) == "2*3 - q1x"
     assert str(combined([(Fraction(-1), x), (Fraction(1, 2), y)])) == "-q1x + (1/2)*q1y"
-    assert str(Power(difference(x, number(-3)), 2)) == "(q1x - (-3))^2"
-    assert str(Bracketed(number(-3))) == "(-3)" and str(Bracketed(number(3))) == "(3)"
+    assert str(power(difference(x, number(-3)), 2)) == "(q1x - (-3))^2"
+    assert str(bracketed(number(-3))) == "(-3)" and str(bracketed(number(3))) == "(3)"
     inside = at_most(x, number(1))
-    assert str(Implies(every(inside, inside), inside)) == "q1x <= 1 and q1x <= 1 -> q1x <= 1"
+    assert str(implies(every(inside, inside), inside)) == "q1x <= 1 and q1x <= 1 -> q1x <= 1"
 
 
 @pytest.mark.parametrize("pair", [("2*x", Fraction(1)), (1, 2), (1, 2, 3)])
@@ -196,8 +197,8 @@ def test_only_a_polynomial_with_a_rational_factor_is_a_pair(pair: Any) -> None:
 
 @given(NUMBERS, st.integers(1, 5))
 def test_the_least_value_of_a_polynomial_with_a_factor(place: Fraction, below: int) -> None:
-    x = Name("x")
-    aim = Product((number(Fraction(1, below)), Power(difference(x, number(place)), 2)))
+    x = name("x")
+    aim = product(number(Fraction(1, below)), power(difference(x, number(place)), 2))
     found = qe.minimize(aim.polynomial, at_most(x, number(place - 1)).formula)
     assert found.value == Fraction(1, below) == qe.minimize(str(aim), str(at_most(x, number(place - 1)))).value
     assert qe.verify(found.certificate).accepted
@@ -205,12 +206,12 @@ def test_the_least_value_of_a_polynomial_with_a_factor(place: Fraction, below: i
 
 def test_a_sum_is_taken_away_as_a_whole() -> None:
     x, y, t = names(("x", "y", "t"))
-    away = Sum((x, Minus(Sum((y, t))), Sum((t, y))))
-    assert str(away) == "x - (y + t) + (t + y)" and str(Product((Sum((x, y)), Minus(t)))) == "(x + y)*(-t)"
+    away = total((x, minus(total((y, t))), total((t, y))))
+    assert str(away) == "x - (y + t) + (t + y)" and str(product(total((x, y)), minus(t))) == "(x + y)*(-t)"
     assert away.polynomial == (x.polynomial[0].convert(away.polynomial[0].ring), Fraction(1))
 
 
 def test_bound_names_come_after_the_free_ones() -> None:
     x, r = names(("x", "r"))
-    asked = Quantified(False, ("x",), every(at_most(x, number(1)), at_most(r, x)))
+    asked = some_values(("x",), every(at_most(x, number(1)), at_most(r, x)))
     assert asked.formula.ring.names == ("r", "x") == read(str(asked)).ring.names
