@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.curves.scalar import Terms, Vector, rational, sign
+from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.stored import numbers
 from bezier.methods.control.optimal_path import (
@@ -26,15 +26,7 @@ from bezier.methods.control.optimal_path import (
     verified,
 )
 from bezier.methods.control.system import System
-from bezier.methods.control.terms import (
-    check_optimum_of,
-    condition_terms,
-    coordinate_terms,
-    fixed_by,
-    foreign,
-    member,
-    reduced,
-)
+from bezier.methods.control.terms import check_optimum_of, coordinate_terms, member
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
 from bezier.plans import Begun, Clock
@@ -42,7 +34,7 @@ from bezier.problem import Problem
 from qe.certify.claims import is_about
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.formula.build import exists
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Relation
+from qe.formula.syntax import TRUE, Formula
 from qe.proof.certificate import Certificate, table_of
 
 REGION, BELOW = "region", "below the table"
@@ -202,70 +194,17 @@ def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
 
 
 def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:
-    """The region of Q1: the cell table is about the conditions of this system."""
+    """The region of Q1: the cell table is about a formula that says what the conditions of this system say, which is
+    decided with a proof that is checked."""
     table = table_of(member(certificate, REGION, "cells"))
     if table is None or table.order != quadratic.FREE or not table.is_decomposition:
         raise CertificateRejected(REGION, f"expected the table of a region of {', '.join(quadratic.FREE)}")
     region = qe.Region(table.matrix, table, table.order)
     if region.is_empty != infeasible:
         raise CertificateRejected(REGION, "the region and the optimum disagree about the existence of a control point")
-    if not _says_the_same(system, table.matrix, infeasible=infeasible):
+    if not qe.equivalent(system.in_free_points().formula, table.matrix, check=True):
         raise CertificateRejected(REGION, "the cell table is about another formula")
     return region
-
-
-def _says_the_same(system: System, matrix: Formula, *, infeasible: bool) -> bool:
-    """Whether the formula says what the conditions of the system say.
-
-    Each atom is one of the conditions, and each condition is an atom or weaker than one (a smaller constant); variables
-    that are fixed by equations may have been replaced. Where the engine has rewritten the conditions further, it
-    decides the equivalence of two formulas without quantifiers. ``infeasible``: the conditions are known to have no
-    solution, and neither has the formula; then only the atoms need to be conditions of this system.
-    """
-    stated = [_at_most_zero(part) for part in (matrix.args if isinstance(matrix, And) else (matrix,))]
-    known = [item for item in stated if item is not None]
-    fixed = fixed_by(known)
-    ours = len(known) == len(stated) and foreign(system, known, fixed) is None
-    if infeasible:
-        return ours or matrix == FALSE
-    if ours and all(_follows(condition_terms(system, item), known, fixed) for item in system.conditions):
-        return True
-    return qe.equivalent(system.in_free_points().formula, matrix)
-
-
-def _at_most_zero(part: Formula) -> tuple[Terms, str] | None:
-    """An atom as a polynomial that is at most zero, or zero; None for anything else."""
-    if not isinstance(part, Atom) or part.relation not in (Relation.LE, Relation.GE, Relation.EQ):
-        return None
-    side = -1 if part.relation is Relation.GE else 1
-    terms: Terms = {exponents: Fraction(side * c) for exponents, c in part.poly.terms()}
-    return terms, "=" if part.relation is Relation.EQ else "<="
-
-
-def _follows(terms: Terms, known: list[tuple[Terms, str]], fixed: dict[int, Any]) -> bool:
-    """Whether p <= 0 follows from one of the atoms s <= 0 (or s = 0): p = c s - d with c > 0 and d >= 0."""
-    goal = reduced(terms, fixed)
-    if all(not any(exponents) for exponents in goal):
-        return all(c <= 0 for c in goal.values())
-    for other, relation in known:
-        atom = reduced(other, fixed)
-        for side in (1, -1) if relation == "=" else (1,):
-            if _weaker(goal, {exponents: side * c for exponents, c in atom.items()}):
-                return True
-    return False
-
-
-def _weaker(goal: Terms, atom: Terms) -> bool:
-    """Whether goal = c atom - d with c > 0 and d >= 0."""
-    slopes = {e: c for e, c in goal.items() if any(e)}
-    others = {e: c for e, c in atom.items() if any(e)}
-    if slopes.keys() != others.keys():
-        return False
-    key = next(iter(slopes))
-    ratio = slopes[key] / others[key]
-    zero = (0,) * len(key)
-    same = ratio > 0 and all(slopes[e] == ratio * others[e] for e in slopes)
-    return same and goal.get(zero, 0) <= ratio * atom.get(zero, 0)
 
 
 # --- the question of the table -------------------------------------------------------------------------------------
