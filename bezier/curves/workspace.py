@@ -16,6 +16,7 @@ from typing import Any, Protocol
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, dot, sign, subtract
+from qe.exact.algebraic_text import format_root
 
 
 class Condition(Protocol):
@@ -110,19 +111,8 @@ class Workspace:
 
 
 def root_text(square: Fraction) -> str:
-    """The exact square root of a nonnegative rational number: ``3/2``, ``3*sqrt(3)``, ``sqrt(2)/3``.
-
-    Square factors are taken out by trial division up to a bound, so a huge radicand may keep some.
-    """
-    inside, outside = square.numerator * square.denominator, Fraction(1, square.denominator)
-    root = isqrt(inside)
-    if root * root == inside:
-        return str(outside * root)
-    p = 2
-    while p * p <= inside and p < 2000:
-        while inside % (p * p) == 0:
-            inside //= p * p
-            outside *= p
-        p += 1
-    top = f"sqrt({inside})" if outside.numerator == 1 else f"{outside.numerator}*sqrt({inside})"
-    return top if outside.denominator == 1 else f"{top}/{outside.denominator}"
+    """The exact square root of a nonnegative rational number: ``3/2``, ``3*sqrt(3)``, ``sqrt(2)/3``."""
+    inside = square.numerator * square.denominator
+    if isqrt(inside) ** 2 == inside:
+        return str(Fraction(isqrt(inside), square.denominator))
+    return format_root((-square.numerator, 0, square.denominator), 1)

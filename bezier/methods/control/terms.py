@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from itertools import pairwise
+from functools import partial, reduce
 from typing import Any
 
+from bezier.curves.containment import margin_terms
 from bezier.curves.scalar import Terms, Vector, exactly, sign, terms_product, terms_scaled, terms_sum
-from bezier.curves.workspace import Ball, HalfSpace
 from bezier.input.stored import DIMENSION, numbers
+from bezier.methods.control.statements import Term
 from bezier.methods.control.system import OnPoint, System
 from qe.convex.near_optimum import GAP
-from qe.errors import CertificateRejected, InternalError
+from qe.errors import CertificateRejected
 from qe.proof.certificate import Certificate
 
 
@@ -28,38 +29,29 @@ def terms_of(listed: Sequence[Any]) -> Terms:
 
 def objective_terms(system: System) -> Terms:
     """The objective: the sum of |b - a|^2 along the route."""
-    route = pairwise(system.shape.route)
-    steps = [
-        terms_sum(coordinate_terms(system, b, i), terms_scaled(-1, coordinate_terms(system, a, i)))
-        for a, b in route
-        for i in range(3)
-    ]
-    return terms_sum(*(terms_product(step, step) for step in steps))
+    return _meant(system, system.objective())
 
 
 def condition_terms(system: System, item: OnPoint) -> Terms:
     """The polynomial p with p <= 0 exactly on the condition."""
-    condition, one = item.condition, _origin(system)
-    at = [coordinate_terms(system, item.point, i) for i in range(3)]
-    if isinstance(condition, Ball):
-        away = [terms_sum(c, {one: -exactly(o)}) for c, o in zip(at, condition.centre, strict=True)]
-        return terms_sum(*(terms_product(c, c) for c in away), {one: -condition.radius_squared})
-    if isinstance(condition, HalfSpace):
-        parts = (terms_scaled(-exactly(n), c) for n, c in zip(condition.normal, at, strict=True))
-        return terms_sum(*parts, {one: -condition.offset})
-    raise InternalError(f"no polynomial for the condition {condition.name}")
+    point = [coordinate_terms(system, item.point, i) for i in range(3)]
+    parts = (
+        (c, [p for p, e in zip(point, key, strict=True) for _ in range(e)])
+        for key, c in margin_terms(item.condition).items()
+    )
+    return terms_sum(*(reduce(terms_product, factors, {_origin(system): -c}) for c, factors in parts))
 
 
 def coordinate_terms(system: System, point: str, i: int) -> Terms:
     """Coordinate i of a control point as a polynomial in the free coordinates, in the order of ``Shape.variables``."""
-    free, parts = system.shape.free, list[Terms]()
-    for coefficient, name in system.shape.combination(point):
-        if name in free:
-            place = 3 * free.index(name) + i
-            parts.append({tuple(int(k == place) for k in range(3 * len(free))): coefficient})
-        else:
-            parts.append({_origin(system): coefficient * exactly(system.given[name][i])})
-    return terms_sum(*parts)
+    return _meant(system, system.coordinate(point, i))
+
+
+def _meant(system: System, term: Term) -> Terms:
+    poly, factor = term.polynomial
+    order = {name: k for k, name in enumerate(poly.ring.names)}
+    places = [order.get(name) for name in system.shape.variables]
+    return {tuple(0 if k is None else e[k] for k in places): factor * c for e, c in poly.terms()}
 
 
 def multiple_of(a: Terms, b: Terms) -> Fraction | None:
@@ -71,13 +63,8 @@ def multiple_of(a: Terms, b: Terms) -> Fraction | None:
     return ratio if ratio > 0 and all(a[e] == ratio * b[e] for e in a) else None
 
 
-def fixed_values(constraints: Sequence[Mapping[str, Any]]) -> dict[int, Fraction]:
-    """The variables that an equation c x + d = 0 among the constraints fixes, with their values."""
-    return fixed_by((terms_of(constraint["terms"]), constraint["relation"]) for constraint in constraints)
-
-
 def fixed_by(constraints: Iterable[tuple[Terms, str]]) -> dict[int, Fraction]:
-    """``fixed_values`` for polynomials with their relations to zero."""
+    """The variables that an equation c x + d = 0 among the constraints fixes, with their values."""
     result = {}
     for terms, relation in constraints:
         if relation == "=" and all(sum(exponents) <= 1 for exponents in terms):
@@ -88,7 +75,7 @@ def fixed_by(constraints: Iterable[tuple[Terms, str]]) -> dict[int, Fraction]:
     return result
 
 
-def reduced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
+def replaced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
     """The polynomial with fixed variables replaced by their values."""
     parts = []
     for exponents, coefficient in terms.items():
@@ -112,12 +99,12 @@ def named_multipliers(system: System, optimum: Any) -> list[tuple[str, Any]]:
     """
     known = [(item.label, condition_terms(system, item)) for item in system.conditions]
     stated = proof_of(optimum.certificate)["problem"]["constraints"][: len(optimum.multipliers)]
-    fixed = fixed_values(stated)
+    fixed = fixed_by((terms_of(constraint["terms"]), constraint["relation"]) for constraint in stated)
     result = []
     for constraint, value in zip(stated, optimum.multipliers, strict=True):
         if sign(value):
             terms, at = terms_of(constraint["terms"]), {} if constraint["relation"] == "=" else fixed
-            matches = ((label, multiple_of(reduced(terms, at), reduced(other, at))) for label, other in known)
+            matches = ((label, multiple_of(replaced(terms, at), replaced(other, at))) for label, other in known)
             label, ratio = next(((name, c) for name, c in matches if c is not None), ("another condition", Fraction(1)))
             result.append((label, ratio * value))
     return result
@@ -139,12 +126,19 @@ def optimal_points(system: System, payload: Mapping[str, Any]) -> dict[str, Vect
     """
     if payload["status"] != "optimal":
         return None
-    if tuple(payload["problem"]["variables"]) != system.shape.variables:
-        raise CertificateRejected("optimum: problem.variables", f"expected {', '.join(system.shape.variables)}")
-    coordinates = numbers(payload["point"], payload["field"], "optimum.point")
+    stated = payload["problem"]["variables"], payload["point"], payload["field"]
+    return _allowed(system, stated, ("optimum: problem.variables", "optimum.point", "optimum.point"))
+
+
+def _allowed(system: System, stated: tuple[Any, Any, Any], places: tuple[str, str, str]) -> dict[str, Vector]:
+    """The control points by names, values and the field of these, whose ``places`` and that of the point are told."""
+    names, values, field = stated
+    if tuple(names) != system.shape.variables:
+        raise CertificateRejected(places[0], f"expected {', '.join(system.shape.variables)}")
+    coordinates = numbers(values, field, places[1])
     points = system.points([coordinates[i : i + DIMENSION] for i in range(0, len(coordinates), DIMENSION)])
     for label in system.violated(points):
-        raise CertificateRejected("optimum.point", f"violates the condition {label}")
+        raise CertificateRejected(places[2], f"violates the condition {label}")
     return points
 
 
@@ -160,15 +154,10 @@ def near_points(
 
     Raises ``CertificateRejected`` when they violate a condition, or are not as near to each other as they have to be.
     """
-    bound = objective_terms(system).get(_origin(system), Fraction(0)) - _last(system, payload).get(
-        _origin(system), Fraction(0)
-    )
-    if tuple(reached["order"]) != system.shape.variables:
-        raise CertificateRejected("optimum: point: order", f"expected {', '.join(system.shape.variables)}")
-    coordinates = numbers(reached["values"], None, "optimum: point: values")
-    points = system.points([coordinates[i : i + DIMENSION] for i in range(0, len(coordinates), DIMENSION)])
-    for label in system.violated(points):
-        raise CertificateRejected("optimum: point", f"violates the condition {label}")
+    aim, last = (p.get(_origin(system), Fraction(0)) for p in (objective_terms(system), _last(system, payload)))
+    bound = aim - last
+    places = "optimum: point: order", "optimum: point: values", "optimum: point"
+    points = _allowed(system, (reached["order"], reached["values"], None), places)
     value = exactly(system.objective_at(points))
     if value - bound > GAP * abs(value):
         raise CertificateRejected("optimum: bound", "not as near to the objective as it has to be")
@@ -191,8 +180,7 @@ def _last(system: System, payload: Mapping[str, Any]) -> Terms:
     stated = payload["problem"]
     if not stated["constraints"] or sorted(stated["variables"]) != sorted(system.shape.variables):
         raise CertificateRejected("optimum: bound: problem", "not about the control points of this problem")
-    order = [stated["variables"].index(name) for name in system.shape.variables]
-    return _ordered(stated["constraints"][-1]["terms"], order)
+    return _ordered(system, stated["variables"], stated["constraints"][-1]["terms"])
 
 
 def _origin(system: System) -> tuple[int, ...]:
@@ -211,17 +199,18 @@ def check_optimum_of(system: System, payload: Mapping[str, Any], label: str, min
     variables = system.shape.variables
     if sorted(stated["variables"]) != sorted(variables):
         raise CertificateRejected(f"{label}: problem.variables", f"expected {', '.join(variables)}")
-    order = [stated["variables"].index(name) for name in variables]
-    if _ordered(stated["minimise"], order) != (objective_terms(system) if minimise is None else minimise):
+    ordered = partial(_ordered, system, stated["variables"])
+    if ordered(stated["minimise"]) != (objective_terms(system) if minimise is None else minimise):
         raise CertificateRejected(f"{label}: problem.minimise", "not the objective of this problem")
-    constraints = [(_ordered(item["terms"], order), item["relation"]) for item in stated["constraints"]]
+    constraints = [(ordered(item["terms"]), item["relation"]) for item in stated["constraints"]]
     wrong = foreign(system, constraints, fixed_by(constraints))
     if wrong is not None:
         raise CertificateRejected(f"{label}: problem.constraints[{wrong}]", "not a condition of this problem")
 
 
-def _ordered(listed: Sequence[Any], order: Sequence[int]) -> Terms:
-    """A polynomial of a certificate with its variables in this order."""
+def _ordered(system: System, variables: Sequence[str], listed: Sequence[Any]) -> Terms:
+    """A polynomial of a certificate in these variables, by those of the system in their order."""
+    order = [variables.index(name) for name in system.shape.variables]
     return {tuple(exponents[i] for i in order): c for exponents, c in terms_of(listed).items()}
 
 
@@ -233,13 +222,11 @@ def foreign(system: System, constraints: Sequence[tuple[Terms, str]], fixed: Map
     allowed = [condition_terms(system, item) for item in system.conditions]
 
     def known(terms: Terms, fixed: Mapping[int, Fraction]) -> bool:
-        return any(multiple_of(reduced(terms, fixed), reduced(other, fixed)) is not None for other in allowed)
+        return any(multiple_of(replaced(terms, fixed), replaced(other, fixed)) is not None for other in allowed)
 
     for i, (terms, relation) in enumerate(constraints):
-        opposite = {exponents: -coefficient for exponents, coefficient in terms.items()}
-        needed = {"<=": (terms,), "=": (terms, opposite)}.get(relation, ())
         # an equation needs both of its halves among the conditions; the others may use it
-        usable = fixed if relation == "<=" else {}
-        if not needed or not all(known(half, usable) for half in needed):
+        needed = {"<=": (terms,), "=": (terms, terms_scaled(-1, terms))}.get(relation, ())
+        if not needed or not all(known(half, fixed if relation == "<=" else {}) for half in needed):
             return i
     return None

@@ -1,14 +1,7 @@
-"""The quadratic method for the rest of the program: words, files, pictures and checks around its plan.
-
-Reading balls and half-spaces back out of a quantifier-free answer, for pictures and tables.
-
-The engine's answer is a formula about Q1. Where it is a conjunction of spheres and planes, each atom is a
-``Condition``; anything else is reported as not recognised, and the picture is then left out, never guessed.
-"""
+"""The quadratic method for the rest of the program: words, files, pictures and checks around its plan."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
@@ -17,7 +10,7 @@ from markupsafe import Markup
 
 from bezier.curves.containment import Leaves
 from bezier.curves.scalar import decimal_text, exact_text, with_decimal
-from bezier.curves.workspace import Ball, Condition, HalfSpace, root_text
+from bezier.curves.workspace import root_text
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic import plan as quadratic_plan
 from bezier.methods.quadratic.plan import FORMULA, QuadraticPlan, above_label
@@ -27,45 +20,10 @@ from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
 from bezier.report.html import Section, Text, toned
 from bezier.report.parts import norm, shown
-from qe.exact import quadratic_form
-from qe.exact.quadratic_form import Quadratic
-from qe.exact.ring import Ring
-from qe.formula.syntax import Atom, Constant, Formula, Relation
-from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
-
-
-def as_conditions(formula: Formula, variables: Sequence[str]) -> tuple[Condition, ...] | None:
-    """The conditions whose intersection the formula describes (up to strictness), or None."""
-    if isinstance(formula, Constant):
-        return () if formula.value else None
-    result = [_condition(part, variables) for part in conjuncts(formula)]
-    return None if any(c is None for c in result) else tuple(c for c in result if c is not None)
-
-
-def _condition(part: Formula, variables: Sequence[str]) -> Condition | None:
-    if not isinstance(part, Atom) or part.relation not in (Relation.LE, Relation.LT, Relation.GE, Relation.GT):
-        return None
-    poly = part.poly if part.relation in (Relation.GE, Relation.GT) else -part.poly
-    if any(poly.ring.names[i] not in variables for i in poly.variables):
-        return None
-    form = quadratic_form.quadratic(poly.convert(Ring.of(variables)), range(len(variables)))
-    return None if form is None else _set_of(form)
-
-
-def _set_of(form: Quadratic) -> Condition | None:
-    """The set where the form is at least 0 as a half-space, or as a ball, for lead*|p - c|^2/2 + d."""
-    if form.is_linear:
-        return HalfSpace(form.gradient, form.constant)
-    lead = form.hessian[0][0]
-    sphere = tuple(tuple(lead * (i == j) for j in range(form.size)) for i in range(form.size))
-    if lead >= 0 or form.hessian != sphere:
-        return None
-    centre = tuple(-c / lead for c in form.gradient)
-    return Ball(centre, sum((c * c for c in centre), Fraction(0)) - 2 * form.constant / lead)
 
 
 REPORTED = (
@@ -304,8 +262,7 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
 
     named = quadratic.as_conditions_on_q1(plan.system)
     chosen = plan.path.points["Q1"] if plan.path else None
-    conditions = as_conditions(plan.answer.formula, quadratic.FREE)
-    region = None if plan.region.is_empty or conditions is None else region_picture(conditions, named, chosen)
+    region = None if plan.region.is_empty else region_picture(named, named, chosen)
     extra = {}
     if plan.gap.region is not None and not plan.gap.region.is_empty:
         both = quadratic.as_conditions_on_q1(quadratic.corrected(plan.problem))

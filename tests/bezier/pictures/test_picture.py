@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from bezier.curves.workspace import Ball, HalfSpace
 from bezier.methods.quadratic import formula as quadratic
-from bezier.methods.quadratic.method import as_conditions
 from bezier.pictures import mesh, plot, scene
 from bezier.pictures.picture import INK, PathPicture, RegionPicture, curve_pictures, numbers, region_picture
 from bezier.problem import load_problem
@@ -67,14 +66,6 @@ def test_nothing_to_draw():
 def test_hull_of_a_square_with_a_point_inside():
     points = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]])
     assert sorted(map(tuple, mesh.hull(points)[:-1].tolist())) == [(0, 0), (0, 1), (1, 0), (1, 1)]
-
-
-def test_conditions_are_read_back_from_an_answer():
-    variables = ("x", "y", "z")
-    found = as_conditions(text.read("x^2 + y^2 + z^2 - 4*x <= 0 and 3 - 2*z >= 0"), variables)
-    assert found == (Ball((2, 0, 0), Fraction(4)), HalfSpace((0, 0, -2), Fraction(3)))
-    for other in ("x*y >= 0", "x^2 + 2*y^2 + z^2 <= 1", "x^2 + y^2 + z^2 >= 1", "x = 0", "x > 0 or y > 0", "w > 0"):
-        assert as_conditions(text.read(other), variables) is None
 
 
 def test_labels_and_colours(picture):
