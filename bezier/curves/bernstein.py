@@ -13,8 +13,7 @@ quotients.
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from math import comb, lcm
@@ -26,65 +25,52 @@ Coefficients = tuple[Any, ...]
 HALF = Fraction(1, 2)
 
 
-def _whole(values: Sequence[Any]) -> tuple[list[int], int] | None:
-    """Integers and what to divide them by, for rational numbers; None for others.
+def _whole(values: Sequence[Any]) -> tuple[list[Any], int]:
+    """Integers and what to divide them by, for rational numbers; other numbers as they are, by 1.
 
     A fraction finds a greatest common divisor at every operation, integers only once at the end.
     """
     if not all(isinstance(c, (int, Fraction)) for c in values):
-        return None
+        return list(values), 1
     below = lcm(*(c.denominator for c in values))
     return [c.numerator * (below // c.denominator) for c in values], below
 
 
+def _over(number: Any, below: int) -> Any:
+    if isinstance(number, int):
+        return Fraction(number, below)
+    return number if below == 1 else number * Fraction(1, below)
+
+
+def _rows(b: Sequence[Any], t: Any) -> Iterator[tuple[list[Any], int]]:
+    """The rows of de Casteljau's algorithm, each with what to divide it by."""
+    row, below = _whole(b)
+    is_whole = isinstance(row[0], int) and isinstance(t, (int, Fraction))
+    up, all_of = t.as_integer_ratio() if is_whole else (t, 1)
+    rest = all_of - up
+    yield row, below
+    while len(row) > 1:
+        pairs = pairwise(row)
+        row = [rest * x + up * y for x, y in pairs] if is_whole else [x + t * (y - x) for x, y in pairs]
+        below *= all_of
+        yield row, below
+
+
 def value(b: Sequence[Any], t: Any) -> Any:
     """p(t) by de Casteljau's algorithm."""
-    if (known := _whole(b)) is not None and isinstance(t, (int, Fraction)):
-        (numbers, below), up, all_of = known, t.numerator, t.denominator
-        rest = all_of - up
-        while len(numbers) > 1:
-            numbers = [rest * x + up * y for x, y in itertools.pairwise(numbers)]
-        return Fraction(numbers[0], below * all_of ** (len(b) - 1))
-    row = list(b)
-    while len(row) > 1:
-        row = [x + t * (y - x) for x, y in itertools.pairwise(row)]
-    return row[0]
+    *_, ((last,), below) = _rows(b, t)
+    return _over(last, below)
 
 
 def split(b: Sequence[Any], t: Any = HALF) -> tuple[Coefficients, Coefficients]:
     """The Bernstein coefficients on [0, t] and on [t, 1], each mapped to [0, 1]."""
-    if (known := _whole(b)) is not None and isinstance(t, (int, Fraction)):
-        return _split_whole(*known, t)
-    row, left, right = list(b), [b[0]], [b[-1]]
-    while len(row) > 1:
-        row = [x + t * (y - x) for x, y in itertools.pairwise(row)]
-        left.append(row[0])
-        right.append(row[-1])
-    return tuple(left), tuple(reversed(right))
-
-
-def _split_whole(numbers: list[int], below: int, t: Fraction | int) -> tuple[Coefficients, Coefficients]:
-    """The same for integers over a common denominator."""
-    up, all_of = t.numerator, t.denominator
-    rest, left, right = all_of - up, [Fraction(numbers[0], below)], [Fraction(numbers[-1], below)]
-    while len(numbers) > 1:
-        numbers, below = [rest * x + up * y for x, y in itertools.pairwise(numbers)], below * all_of
-        left.append(Fraction(numbers[0], below))
-        right.append(Fraction(numbers[-1], below))
-    return tuple(left), tuple(reversed(right))
+    ends = [(_over(row[0], below), _over(row[-1], below)) for row, below in _rows(b, t)]
+    return tuple(left for left, _ in ends), tuple(right for _, right in reversed(ends))
 
 
 def elevate(b: Sequence[Any], degree: int) -> Coefficients:
     """The same polynomial with ``degree`` + 1 coefficients (degree elevation)."""
-    more = degree + 1 - len(b)
-    if more > 0 and _whole(b) is not None:
-        return multiply(b, (1,) * (more + 1))  # 1 in Bernstein form
-    row = list(b)
-    while len(row) <= degree:
-        n = len(row)
-        middle = [Fraction(k, n) * row[k - 1] + Fraction(n - k, n) * row[k] for k in range(1, n)]
-        row = [row[0], *middle, row[-1]]
-    return tuple(row)
+    return multiply(b, (1,) * (degree + 2 - len(b))) if len(b) <= degree else tuple(b)  # 1 in Bernstein form
 
 
 def add(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
@@ -101,20 +87,13 @@ def negate(b: Sequence[Any]) -> Coefficients:
 def multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     """The product: c_k = sum_{i+j=k} C(m,i) C(n,j) / C(m+n,k) a_i b_j (Farouki 2012, section 4)."""
     m, n = len(a) - 1, len(b) - 1
-    one, other = _whole(a), _whole(b)
-    if one is not None and other is not None:
-        scaled = [comb(m, i) * x for i, x in enumerate(one[0])]
-        sums = _convolved(scaled, [comb(n, j) * y for j, y in enumerate(other[0])])
-        return tuple(Fraction(s, comb(m + n, k) * one[1] * other[1]) for k, s in enumerate(sums))
-    out: list[Any] = [Fraction(0)] * (m + n + 1)
-    for i, x in enumerate(a):
-        for j, y in enumerate(b):
-            out[i + j] = out[i + j] + Fraction(comb(m, i) * comb(n, j), comb(m + n, i + j)) * (x * y)
-    return tuple(out)
+    (one, below), (other, under) = _whole(a), _whole(b)
+    sums = _convolved([comb(m, i) * x for i, x in enumerate(one)], [comb(n, j) * y for j, y in enumerate(other)])
+    return tuple(_over(s, comb(m + n, k) * below * under) for k, s in enumerate(sums))
 
 
-def _convolved(a: Sequence[int], b: Sequence[int]) -> list[int]:
-    out = [0] * (len(a) + len(b) - 1)
+def _convolved(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
+    out: list[Any] = [0] * (len(a) + len(b) - 1)
     for i, x in enumerate(a):
         for j, y in enumerate(b):
             out[i + j] += x * y
@@ -124,36 +103,22 @@ def _convolved(a: Sequence[int], b: Sequence[int]) -> list[int]:
 def derivative(b: Sequence[Any]) -> Coefficients:
     """The derivative: n (b_{k+1} - b_k)."""
     n = len(b) - 1
-    return tuple(n * (y - x) for x, y in itertools.pairwise(b)) or (Fraction(0),)
+    return tuple(n * (y - x) for x, y in pairwise(b)) or (Fraction(0),)
 
 
 def to_power(b: Sequence[Any]) -> Coefficients:
     """Coefficients of 1, t, t^2, ..., without leading zeros (() for the zero polynomial)."""
-    n = len(b) - 1
-    if (known := _whole(b)) is not None:
-        numbers, below = known
-        sums = (sum((-1) ** (k - i) * comb(k, i) * numbers[i] for i in range(k + 1)) for k in range(n + 1))
-        return trim([Fraction(comb(n, k) * total, below) for k, total in enumerate(sums)])
-    out = []
-    for k in range(n + 1):
-        total = sum(((-1) ** (k - i) * comb(k, i) * b[i] for i in range(k + 1)), Fraction(0))
-        out.append(comb(n, k) * total)
-    return trim(out)
+    n, (numbers, below) = len(b) - 1, _whole(b)
+    sums = (sum((-1) ** (k - i) * comb(k, i) * numbers[i] for i in range(k + 1)) for k in range(n + 1))
+    return trim([_over(comb(n, k) * total, below) for k, total in enumerate(sums)])
 
 
 def from_power(p: Sequence[Any]) -> Coefficients:
     """The Bernstein coefficients of a polynomial given by its coefficients of 1, t, t^2, ..."""
-    n = max(len(p) - 1, 0)
-    rows = list(p) or [Fraction(0)]
-    if (known := _whole(rows)) is not None:
-        numbers, below = known
-        shared = lcm(*(comb(n, i) for i in range(n + 1)))
-        shares = [number * (shared // comb(n, i)) for i, number in enumerate(numbers)]
-        sums = (sum(comb(k, i) * shares[i] for i in range(k + 1)) for k in range(n + 1))
-        return tuple(Fraction(total, below * shared) for total in sums)
-    return tuple(
-        sum((Fraction(comb(k, i), comb(n, i)) * rows[i] for i in range(k + 1)), Fraction(0)) for k in range(n + 1)
-    )
+    n, (numbers, below) = max(len(p) - 1, 0), _whole(p or (0,))
+    shared = lcm(*(comb(n, i) for i in range(n + 1)))
+    shares = [shared // comb(n, i) * number for i, number in enumerate(numbers)]
+    return tuple(_over(sum(comb(k, i) * shares[i] for i in range(k + 1)), below * shared) for k in range(n + 1))
 
 
 def restrict(b: Sequence[Any], low: Fraction, high: Fraction) -> Coefficients:
@@ -165,7 +130,7 @@ def restrict(b: Sequence[Any], low: Fraction, high: Fraction) -> Coefficients:
 def sign_changes(b: Sequence[Any]) -> int:
     """Sign changes of the coefficients, zeros left out: at least the number of roots in (0, 1)."""
     signs = [s for s in map(sign, b) if s]
-    return sum(x != y for x, y in itertools.pairwise(signs))
+    return sum(x != y for x, y in pairwise(signs))
 
 
 # --- polynomials by their coefficients of 1, t, t^2, ... -----------------------------------------
@@ -183,14 +148,8 @@ def power_multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     """The product of two polynomials in power form."""
     if not a or not b:
         return ()
-    one, other = _whole(a), _whole(b)
-    if one is not None and other is not None:
-        return tuple(Fraction(s, one[1] * other[1]) for s in _convolved(one[0], other[0]))
-    out: list[Any] = [Fraction(0)] * (len(a) + len(b) - 1)
-    for i, x in enumerate(a):
-        for j, y in enumerate(b):
-            out[i + j] = out[i + j] + x * y
-    return tuple(out)
+    (one, below), (other, under) = _whole(a), _whole(b)
+    return tuple(_over(s, below * under) for s in _convolved(one, other))
 
 
 def divide(a: Sequence[Any], b: Sequence[Any]) -> tuple[Coefficients, Coefficients]:
