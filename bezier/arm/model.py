@@ -22,7 +22,10 @@ from functools import cache, cached_property
 from math import atan2
 from typing import Any
 
+from bezier.curves.scalar import dot, rational
 from bezier.input.numbers import NotANumber, describe, parse, read
+from bezier.proofs.arm_rows import cosine_of
+from bezier.proofs.square_roots import Surd, primes
 from qe.exact.field import NumberField
 
 Pair = tuple[Any, Any]
@@ -58,19 +61,16 @@ class Angle:
         return "0" if not part else top if part.denominator == 1 else f"{top}/{part.denominator}"
 
     @property
-    def roots(self) -> frozenset[int]:
-        """Which of sqrt 2 and sqrt 3 its cosine and sine need."""
-        if self.twelfths is None or self.twelfths % 6 == 0:
-            return frozenset()
-        if self.twelfths % 2:
-            return frozenset({2} if self.twelfths % 3 == 0 else {2, 3})
-        return frozenset({3})
+    def exact(self) -> tuple[Surd, Surd]:
+        """Cosine and sine as sums of square roots."""
+        if self.twelfths is None:
+            return Surd.rational(self.cosine), Surd.rational(self.sine)
+        return cosine_of(self.twelfths), cosine_of(self.twelfths - 6)
 
     def in_field(self, field: NumberField) -> Pair:
         """Cosine and sine in a field that ``field_of`` found for this angle among others."""
-        if self.twelfths is None:
-            return self.cosine, self.sine
-        return _cosine(self.twelfths, field), _cosine(self.twelfths - 6, field)
+        c, s = (sum((q * _root(d, field) for d, q in part.terms), ZERO) for part in self.exact)
+        return c, s
 
 
 def read_angle(raw: object) -> Angle:
@@ -97,7 +97,7 @@ def read_angle(raw: object) -> Angle:
 
 def field_of(angles: Iterable[Angle]) -> NumberField:
     """The least of Q, Q(sqrt 2), Q(sqrt 3), Q(sqrt 2 + sqrt 3) with the cosines and sines of all these angles."""
-    return _field(frozenset[int]().union(*(angle.roots for angle in angles)))
+    return _field(frozenset(p for angle in angles for part in angle.exact for d, _ in part.terms for p in primes(d)))
 
 
 @cache
@@ -110,37 +110,14 @@ def _field(roots: frozenset[int]) -> NumberField:
     return NumberField.from_root([-square, 0, 1], 1, 2)
 
 
-def _cosine(twelfths: int, field: NumberField) -> Any:
-    """cos(k pi / 12)."""
-    k = abs(twelfths) % (2 * STEP)
-    k = min(k, 2 * STEP - k)
-    if k > 6:
-        return -_cosine(STEP - k, field)
-    two, three = _root(2, field), _root(3, field)
-    half = Fraction(1, 2)
-    match k:
-        case 0:
-            return Fraction(1)
-        case 1:
-            return (two * three + two) * half * half
-        case 2:
-            return three * half
-        case 3:
-            return two * half
-        case 4:
-            return half
-        case 5:
-            return (two * three - two) * half * half
-    return Fraction(0)
-
-
-def _root(square: int, field: NumberField) -> Any:
-    """sqrt 2 or sqrt 3 in the field; zero (then unused) where the field has none."""
+def _root(d: int, field: NumberField) -> Any:
+    """The square root of d = 1, 2, 3 or 6 in a field that has it."""
+    if d in (1, 6):
+        return Fraction(1) if d == 1 else _root(2, field) * _root(3, field)
     theta = field.generator()
     if field.degree == 4:
-        cube = theta**3
-        return (cube - 9 * theta) / 2 if square == 2 else (11 * theta - cube) / 2
-    return theta if field.degree == 2 and theta * theta == square else Fraction(0)
+        return (theta**3 - 9 * theta) / 2 if d == 2 else (11 * theta - theta**3) / 2
+    return theta
 
 
 Matrix = tuple[tuple[Any, ...], ...]
@@ -239,7 +216,7 @@ class Arm:
                 joints.append(row.joint)
                 open_part = IDENTITY
             open_part = product(open_part, after)
-        return Chain((*constants, open_part), tuple(joints))
+        return Chain(tuple(map(_plain, (*constants, open_part))), tuple(joints))
 
     def parts(self, row: Row) -> tuple[Matrix, Matrix]:
         """The motions of a row before and after its joint."""
@@ -274,45 +251,22 @@ def translation(shift: Iterable[Any]) -> Matrix:
 
 def product(a: Matrix, b: Matrix) -> Matrix:
     """The motion ``b`` followed by ``a``."""
-    return tuple(
-        tuple(
-            _sum(_times(row[k], b[k][j]) for k in range(3)) if j < 3 else _sum([row[3], *_products(row, b)])
-            for j in range(4)
-        )
-        for row in a
-    )
+    *axes, shift = zip(*b, strict=True)
+    turned = (tuple(dot(row[:3], axis) for axis in axes) for row in a)
+    return tuple((*row, v) for row, v in zip(turned, apply(a, shift), strict=True))
 
 
 def apply(a: Matrix, point: Sequence[Any]) -> tuple[Any, ...]:
     """The image of a point."""
-    return tuple(_sum([row[3], *(_times(row[k], point[k]) for k in range(3))]) for row in a)
+    return tuple(dot(row[:3], point) + row[3] for row in a)
 
 
 def inverse(a: Matrix) -> Matrix:
     """The inverse motion: the rotation part is orthogonal."""
-    turned = [[a[j][i] for j in range(3)] for i in range(3)]
-    return tuple((*row, -_sum(_times(row[k], a[k][3]) for k in range(3))) for row in turned)
+    *axes, shift = zip(*a, strict=True)
+    return tuple((*axis, -dot(axis, shift)) for axis in axes)
 
 
-def _products(row: Sequence[Any], b: Matrix) -> list[Any]:
-    return [_times(row[k], b[k][3]) for k in range(3)]
-
-
-def _times(x: Any, y: Any) -> Any:
-    """x y, where constants 0 and 1 (most entries) cost nothing."""
-    for one, other in ((x, y), (y, x)):
-        if isinstance(one, Fraction):
-            if one == 0:
-                return ZERO
-            if one == 1:
-                return other
-    return x * y
-
-
-def _sum(values: Iterable[Any]) -> Any:
-    total: Any = ZERO
-    for value in values:
-        if isinstance(value, Fraction) and value == 0:
-            continue
-        total = value if isinstance(total, Fraction) and total == 0 else total + value
-    return total
+def _plain(a: Matrix) -> Matrix:
+    """The same, with numbers that are rational as such: they are what is computed with fastest."""
+    return tuple(tuple(v if (number := rational(v)) is None else number for v in row) for row in a)

@@ -59,7 +59,7 @@ def _angle(entry: Entry) -> tuple[Surd, Surd]:
     if isinstance(entry.value, int) and not isinstance(entry.value, bool):
         if abs(entry.value) > 24:
             raise entry.fail("expected at most 24 twelfths of pi")
-        return _cosine(entry.value), _cosine(entry.value - 6)
+        return cosine_of(entry.value), cosine_of(entry.value - 6)
     c, s = read_circle(entry)
     return Surd.rational(c), Surd.rational(s)
 
@@ -72,12 +72,12 @@ def read_circle(entry: Entry) -> tuple[Fraction, Fraction]:
     return values[0], values[1]
 
 
-def _cosine(k: int) -> Surd:
+def cosine_of(k: int) -> Surd:
     """cos(k pi / 12)."""
     k = abs(k) % 24
     k = min(k, 24 - k)
     if k > 6:
-        return -_cosine(12 - k)
+        return -cosine_of(12 - k)
     quarter, half = Fraction(1, 4), Fraction(1, 2)
     return Surd.of(
         (
