@@ -69,8 +69,8 @@ class Angle:
 
     def in_field(self, field: NumberField) -> Pair:
         """Cosine and sine in a field that ``field_of`` found for this angle among others."""
-        c, s = (sum((q * _root(d, field) for d, q in part.terms), ZERO) for part in self.exact)
-        return c, s
+        c, s = self.exact
+        return in_field(c, field), in_field(s, field)
 
 
 def read_angle(raw: object) -> Angle:
@@ -110,6 +110,12 @@ def _field(roots: frozenset[int]) -> NumberField:
     return NumberField.from_root([-square, 0, 1], 1, 2)
 
 
+def in_field(value: Surd, field: NumberField) -> Any:
+    """A sum of the square roots of 1, 2, 3 and 6 in a field that has these: a rational number where it is one."""
+    return sum((q * _root(d, field) for d, q in value.terms), ZERO)
+
+
+@cache
 def _root(d: int, field: NumberField) -> Any:
     """The square root of d = 1, 2, 3 or 6 in a field that has it."""
     if d in (1, 6):

@@ -10,7 +10,9 @@ from fractions import Fraction
 from math import lcm
 from typing import Any
 
+from bezier.arm.model import in_field
 from bezier.curves.scalar import rational
+from bezier.proofs.square_roots import Surd
 from qe.exact.field import NumberField
 from qe.exact.ring import Poly, Ring
 
@@ -60,6 +62,11 @@ class Ratio:
     def __truediv__(self, other: Any) -> Ratio:
         """By a nonzero number."""
         result: Ratio = self * (1 / (Fraction(other) if isinstance(other, int) else other))
+        return result
+
+    def by(self, c: Surd) -> Ratio:
+        """Times a number of the field."""
+        result: Ratio = self * in_field(c, self.field)
         return result
 
     @property

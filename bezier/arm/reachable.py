@@ -32,9 +32,10 @@ from typing import Any
 import qe
 from bezier.arm.elimination import Geometry
 from bezier.arm.inverse import geometry_of
-from bezier.arm.model import Arm, Joint, JointKind, apply, inverse, motion, product
+from bezier.arm.model import Arm, Joint, JointKind, apply, in_field, inverse, motion, product
 from bezier.arm.ratio import Ratio, constant, variable
-from bezier.curves.scalar import dot, is_zero, sign
+from bezier.proofs.square_roots import Triple, dot
+from bezier.proofs.three_joints import rows_of
 from qe.errors import Unable
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
@@ -78,29 +79,29 @@ class Torus:
 
 def reachable_set(arm: Arm) -> Torus:
     """The reachable set. Raises ``Unable`` for an arm of another shape; then ``inverse`` decides single points."""
-    geometry = geometry_of(arm)
-    _check_shape(geometry)
-    a_squared = dot(geometry.shift[:2], geometry.shift[:2])
+    shift = _check_shape(geometry_of(arm))
+    a_squared, c = (in_field(v, arm.field) for v in (dot(shift[:2], shift[:2]), shift[2]))
     second = arm.chain.constants[2]
-    zero = a_squared * 0
-    centre = apply(second, (zero, zero, zero))
+    centre = [row[3] for row in second]
     end = tuple(row[3] for row in arm.chain.constants[3])
-    first_squared, second_squared = dot(centre[:2], centre[:2]), dot(end[:2], end[:2])
+    first_squared, second_squared = (dot(v[:2], v[:2]) for v in (centre, end))
     a, r1, r2 = (float(v) ** 0.5 for v in (a_squared, first_squared, second_squared))
     if not (a > abs(r1 - r2) * (1 + 1e-9) and 2 * a + abs(r1 - r2) < (r1 + r2) * (1 - 1e-9)):
         raise Unable(f"the reachable set of {arm.name} has a hole, which has no closed form here")
-    return Torus(a_squared, geometry.shift[2], first_squared, second_squared)
+    return Torus(a_squared, c, first_squared, second_squared)
 
 
-def _check_shape(geometry: Geometry) -> None:
-    """Whether axis 2 is orthogonal to axis 1, axis 3 parallel to axis 2, and all moves in a plane through axis 1."""
-    if not all(geometry.turns):
-        raise Unable(f"{geometry.arm.name}: the closed form is for arms whose joints all turn")
-    parallel = is_zero(geometry.nu[2])
-    is_plane = all(is_zero(f[2]) for f in geometry.v[1:])
-    in_plane = is_zero(geometry.v[0][2] + geometry.gamma[2])
-    if not (parallel and is_plane and in_plane and sign(dot(geometry.shift[:2], geometry.shift[:2])) > 0):
-        raise Unable(f"{geometry.arm.name}: the closed form is for arms that move in a plane through their first axis")
+def _check_shape(geometry: Geometry) -> Triple:
+    """Whether axis 2 is orthogonal to axis 1, axis 3 parallel to axis 2, and all moves in a plane through axis 1. The
+    result is where joint 2 is."""
+    name, chain, f = geometry.arm.name, geometry.chain, geometry.f
+    if not all(chain.turns):
+        raise Unable(f"{name}: the closed form is for arms whose joints all turn")
+    (g, n), shift = rows_of(chain.constants[1], True), chain.constants[1][1]
+    is_plane = not any((n[2], f[1][2], f[2][2], f[0][2] + g[2]))
+    if not (is_plane and (shift[0] or shift[1])):
+        raise Unable(f"{name}: the closed form is for arms that move in a plane through their first axis")
+    return shift
 
 
 PLACE = ("x", "y", "z")

@@ -19,29 +19,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
 
 from bezier.arm.choices import AtPlace, Exact
 from bezier.arm.critical import Number
-from bezier.arm.elimination import Geometry, Vector
+from bezier.arm.elimination import Geometry
 from bezier.arm.inverse import Solution, geometry_of
 from bezier.arm.model import Arm
-from bezier.arm.ratio import Ratio, constant, variable
-from bezier.arm.roots_of_squares import RootPlace, chain_of, roots_of
+from bezier.arm.ratio import Ratio, variable
+from bezier.arm.roots_of_squares import RootPlace, roots_of
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import dot, exactly
+from bezier.curves.scalar import exactly
 from bezier.proofs.joint_motions import SIGNS, Along, Between, Label, Plane, norm_of, target_of
-from bezier.proofs.square_roots import Polynomial
+from bezier.proofs.square_roots import Polynomial, dot
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.proof.entry import Entry
 
 
 @dataclass(frozen=True, eq=False)
 class VerticalArm:
-    """``normal`` h; ``plane``: the rest, in the numbers of the checker."""
+    """``plane``: in the numbers of the checker."""
 
     geometry: Geometry
-    normal: Vector
     plane: Plane
 
     @property
@@ -60,27 +58,22 @@ class VerticalArm:
         first, here, field = exact.known, exact.place.point, self.geometry.arm.field
         point = [variable(here.ring, name, field) for name in "xyz"]
         x, y, _ = self.geometry.based(point)
-        ex, ey = self.normal[1], -self.normal[0]  # e
+        ex, ey = self.plane.outwards
         c, s = (Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in first)
-        return here.sign((c * (ex * x + ey * y) + s * (ex * y - ey * x)).top) * here.sign(first[0].bottom)
+        return here.sign((c * (x.by(ex) + y.by(ey)) + s * (y.by(ex) - x.by(ey))).top) * here.sign(first[0].bottom)
 
     def _elbow(self, exact: Exact | None) -> int:
         if self.turns == (False, False):
             return 1
         if not isinstance(exact, AtPlace):
             return 0
-        third, f, here, field = exact.known, self.geometry.v, exact.place.point, self.geometry.arm.field
+        third, f, here, field = exact.known, self.geometry.f, exact.place.point, self.geometry.arm.field
         values = [Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in third]
         if not self.turns[1]:
-            total = values[0] + constant(here.ring, dot(f[0][:2], f[1][:2]), field) * Ratio(third[0].bottom, 1, field)
+            total = values[0] + Ratio(third[0].bottom, 1, field).by(dot(f[0][:2], f[1][:2]))
         else:
-            across = _column(self.geometry.turn)
-            parts = (
-                [f[0][0] * g[1] - f[0][1] * g[0] for g in f[1:]]
-                if self.turns[0]
-                else [dot(across, _turned(self.geometry.turn, g)) for g in f[1:]]
-            )
-            total = values[0] * parts[0] + values[1] * parts[1]
+            across = [f[0][0] * g[1] - f[0][1] * g[0] if self.turns[0] else g[2] for g in f[1:]]
+            total = values[0].by(across[0]) + values[1].by(across[1])
         return here.sign(total.top) * here.sign(third[0].bottom)
 
 
@@ -90,28 +83,9 @@ def vertical_arm(arm: Arm) -> VerticalArm | None:
     not determined by ``bezier.arm.elimination`` at all."""
     geometry = geometry_of(arm)
     try:
-        plane = Plane.of(chain_of(arm), Entry(None, arm.name))
+        return VerticalArm(geometry, Plane.of(geometry.chain, Entry(None, arm.name)))
     except CertificateRejected:
         return None
-    turn, f, z = geometry.turn, geometry.v, _column(geometry.turn)
-    if geometry.turns[1]:
-        return VerticalArm(geometry, z, plane)
-    first, second = _turned(turn, f[1]), _turned(turn, f[2]) if geometry.turns[2] else z
-    size = dot(f[1], f[1]) if geometry.turns[2] else 1
-    return VerticalArm(geometry, tuple(c / size for c in _cross(first, second)), plane)
-
-
-def _column(turn: Any) -> Vector:
-    """The z axis of the second joint."""
-    return tuple(row[2] for row in turn)
-
-
-def _turned(turn: Any, vector: Vector) -> Vector:
-    return tuple(dot(row, vector) for row in turn)
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +103,7 @@ class SignsAlong:
             raise InputError(f"a path of the arm is in space: dimension 3 expected, {curve.dimension} found")
         points = [tuple(exactly(c) for c in point) for point in curve.points]
         try:
-            along = Along.of(arm.plane, target_of(chain_of(arm.geometry.arm), points), Entry(None, "curve"))
+            along = Along.of(arm.plane, target_of(arm.geometry.chain, points), Entry(None, "curve"))
         except Unable:
             where = "on the axis of the first joint, or along a border of what is reached"
             raise Unable(f"the whole curve is {where}") from None

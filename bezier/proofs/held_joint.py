@@ -41,7 +41,7 @@ class Held:
             parts[joint : joint + 2] = [together(together(parts[joint], motion), parts[joint + 1])]
         first, second = (turn for k, turn in enumerate(turns) if k != joint)
         base, (rows, shift) = parts
-        return Held(base, (first, second), _factors(_moved(rows, shift, end, second), first, second))
+        return Held(base, (first, second), _factors(spread((rows, shift), end, second), first, second))
 
     def relations(self, point: Vector) -> list[Relation]:
         """The relations for this end point; those that tell most where their conditions hold come first."""
@@ -69,11 +69,11 @@ def slid(length: Any, zero: Any, one: Any) -> Rigid:
     return ((one, zero, zero), (zero, one, zero), (zero, zero, one)), (zero, zero, length)
 
 
-def _moved(rows: Any, shift: Any, end: Vector, turns: bool) -> list[Vector]:
+def spread(constant: Rigid, end: Vector, turns: bool) -> list[Vector]:
     """f0, f1, f2 with C M(q_b) e = f0 + cos q_b f1 + sin q_b f2, or f0, f1 with f0 + q_b f1."""
-    x, y, z = end
+    (x, y, z), (rows, shift) = end, constant
     if not turns:
-        return [image((rows, shift), end), [row[2] for row in rows]]
+        return [image(constant, end), [row[2] for row in rows]]
     return [
         [row[2] * z + o for row, o in zip(rows, shift, strict=True)],
         [row[0] * x + row[1] * y for row in rows],

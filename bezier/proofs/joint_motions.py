@@ -55,11 +55,12 @@ SIGNS, FOUR, UNIT = (1, -1), Surd.rational(4), Polynomial((ONE,))
 
 @dataclass(frozen=True, slots=True)
 class Plane:
-    """The last two joints. ``size``: 4 L1² L2², b² or L²; ``rest``: L1² + L2²; ``line``: the direction (along
-    e, up) of the second joint that slides. ``may_fold``: whether D may vanish where a point is reached."""
+    """The last two joints. ``outwards``: e; ``size``: 4 L1² L2², b² or L²; ``rest``: L1² + L2²; ``line``: the direction
+    (along e, up) of the second joint that slides. ``may_fold``: whether D may vanish where a point is reached."""
 
     turns: tuple[bool, ...]
     offset: Surd
+    outwards: tuple[Surd, Surd]
     centre: tuple[Surd, Surd]
     size: Surd
     rest: Surd
@@ -102,6 +103,7 @@ class Plane:
         return Plane(
             chain.turns,
             dot(normal, base),
+            along,
             (dot(along, centre[:2]), centre[2]),
             size,
             rest,

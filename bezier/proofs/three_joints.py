@@ -3,7 +3,8 @@
 With frames A0 M1 A1 M2 A2 M3, e the point seen from there, p' = A0^-1 p, A1 = (R, o), v = A2 M3 e, and M2 v = (u, v_z)
 or v + d e_z, the place is reached iff A1 M2 v has the same length and height as p' (a first joint that turns) or the
 same x and y (one that slides) (D. L. Pieper 1968). These two are linear in u, or in d but for a square, and |u| =
-|(v_x, v_y)|. With θ3 = φ + 2 arctan t, or t the length of the third joint, all over powers of 1 + t² or of 1: either
+|(v_x, v_y)|. With θ3 = φ + 2 arctan t, or t the length of the third joint, all over powers of 1 + t² or of 1 (where θ3
+turns v runs on a circle, so that (1 + t²) |v|² is linear in v): either
 they determine u or d, and the equation E in t is left; or a combination E of the two is free of u or d, and S = m² is
 left for what it does not name. θ2 is the angle from (v_x, v_y) to u, unique where they are not 0, θ1 the one from
 A1 M2 v to p', unique where p' is not on the first axis; where they are not unique every angle will do, as M1 and M2
@@ -17,9 +18,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from bezier.proofs import square_roots as sr
 from bezier.proofs.families import Arcs, Position, not_negative
+from bezier.proofs.held_joint import spread
 from bezier.proofs.nested_roots import JointValue, Nested, Place, angle, nested
 from bezier.proofs.square_roots import (
     ONE,
@@ -38,7 +41,7 @@ from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry
 
-HALF, UNIT = Surd.rational(Fraction(1, 2)), Polynomial((ONE,))
+HALF, TWO, UNIT = Surd.rational(Fraction(1, 2)), ONE + ONE, Polynomial((ONE,))
 Linear = tuple[Polynomial, Surd]
 """A part without m, and the factor of m."""
 
@@ -48,16 +51,16 @@ FREE = "a joint can be chosen here"
 @dataclass(frozen=True, slots=True)
 class Positions:
     """``equation`` (E) and ``square`` (S, or None); ``full``: the degree of E where no angle is missed, 0 where t
-    misses none; ``only_at_roots``: the equation is S, because E vanishes. ``image``: M2 v over norm²; ``second``: what
-    tells the second joint. ``v`` over norm."""
+    misses none; ``only_at_roots``: the equation is S, because E vanishes. ``image``: M2 v over norm; ``second``: what
+    tells the second joint, if it slides. ``v`` over norm."""
 
     equation: Polynomial
     full: int
     square: Polynomial | None
     only_at_roots: bool
-    image: tuple[Linear, Linear, Linear]
-    second: Linear
-    v: list[Polynomial]
+    image: Sequence[Linear]
+    second: Linear | None
+    v: Sequence[Polynomial]
     third: tuple[Polynomial, ...] | None
     norm: Polynomial
     first: Motion
@@ -76,24 +79,22 @@ class Positions:
         """The equations of the derivation above; ``constants``: A0, A1, A2. ``phi`` is None where t is a length, or
         where the point stands still."""
         target = image(back(constants[0]), place)
-        stands = is_still(turns, e)
-        norm, third, v = _last(constants[2], e, phi, stands)
-        parts = _Equations(constants[1], target, norm, v)
-        equation, full, square, moved, second = (
-            parts.second_turns(turns[0]) if turns[1] else parts.second_slides(turns[0])
-        )
-        full = 0 if phi is None else full
+        stands, t = is_still(turns, e), Polynomial((ZERO, ONE))
+        third: tuple[Polynomial, ...] | None = None if stands else (t,) if phi is None else _circle(*phi)
+        factors = (UNIT if phi is None else UNIT + t * t, *(third or ()))
+        f = spread(constants[2], e, turns[2])[: len(factors)]
+        left = Left.of(turns, constants[1], [Polynomial.of([c]) for c in target], f, factors)
+        equation, full, square, moved, second = left.second_turns() if turns[1] else left.second_slides()
         if stands and not equation:
-            equation = Polynomial((ZERO, ONE))
+            equation = t
         only_at_roots = not equation
         if only_at_roots:
-            equation, full = square or Polynomial(), 0 if phi is None else 8
-        while full and len(equation) > 2 and not (divided := sr.divided(equation, norm))[1]:
-            equation, full = divided[0], full - 2
+            equation, full = square or Polynomial(), 4
+        full = 0 if phi is None else full
         if equation and len(equation) <= full:
             raise entry.fail("the equation vanishes at the angle that t misses")
         return Positions(
-            equation, full, square, only_at_roots, moved, second, v, third, norm, constants[1], target, turns
+            equation, full, square, only_at_roots, moved, second, left.v, third, factors[0], constants[1], target, turns
         )
 
     def family(self, marks: Entry, budget: Budget) -> Position:
@@ -149,14 +150,15 @@ class Positions:
             return nested(place.value(p))
 
         norm, v = at(self.norm), [at(p) for p in self.v]
-        norm2 = norm * norm
         moved = [at(p) + m.by(c) for p, c in self.image]
         rows, shift = self.first
-        q = [combined(row, moved) + norm2.by(o) for row, o in zip(rows, shift, strict=True)]
+        q = [combined(row, moved) + norm.by(o) for row, o in zip(rows, shift, strict=True)]
         one, goal = at(UNIT), [at(Polynomial.of([c])) for c in self.target]
-        first = angle(q, goal, (norm2, one)) if self.turns[0] else JointValue(norm2 * goal[2] - q[2], None, norm2)
-        part, factor = self.second
-        second = angle(v, moved, (norm, norm2)) if self.turns[1] else JointValue(at(part) + m.by(factor), None, norm2)
+        first = angle(q, goal, (norm, one)) if self.turns[0] else JointValue(norm * goal[2] - q[2], None, norm)
+        if self.second is None:
+            second = angle(v, moved, (norm, norm))
+        else:
+            second = JointValue(at(self.second[0]) + m.by(self.second[1]), None, norm)
         third = None
         if self.third is not None:
             c, *sine = (at(p) for p in self.third)
@@ -170,81 +172,63 @@ def is_still(turns: tuple[bool, ...], e: Triple) -> bool:
     return turns[2] and not (e[0] or e[1])
 
 
-def _last(
-    constant: Motion, e: Triple, phi: tuple[Fraction, Fraction] | None, stands: bool
-) -> tuple[Polynomial, tuple[Polynomial, ...] | None, list[Polynomial]]:
-    """What all is multiplied by, the third joint, and v."""
-    third: tuple[Polynomial, ...] | None
-    if stands:
-        norm, third = UNIT, None
-        moved = [Polynomial(), Polynomial(), Polynomial.of([e[2]])]
-    elif phi is None:
-        norm, third = UNIT, (Polynomial((ZERO, ONE)),)
-        moved = [Polynomial.of([e[0]]), Polynomial.of([e[1]]), Polynomial((e[2], ONE))]
-    else:
-        cosine, sine = third = _circle(*phi)
-        norm = Polynomial((ONE, ZERO, ONE))
-        moved = [
-            cosine.by(e[0]) + sine.by(-e[1]),
-            sine.by(e[0]) + cosine.by(e[1]),
-            norm.by(e[2]),
-        ]
-    v = [combined(row, moved) + norm.by(o) for row, o in zip(*constant, strict=True)]
-    return norm, third, v
-
-
 def _circle(c: Fraction, s: Fraction) -> tuple[Polynomial, Polynomial]:
     """cos θ3 and sin θ3 times 1 + t²."""
     cosine, sine = (Polynomial.of(map(Surd.rational, row)) for row in ((c, -2 * s, -c), (s, 2 * c, -s)))
     return cosine, sine
 
 
-Found = tuple[Polynomial, int, Polynomial | None, tuple[Linear, Linear, Linear], Linear]
-"""E, its full degree, S, M2 v, and the length of a second joint that slides."""
+def rows_of(second: Motion, first_turns: bool) -> tuple[Triple, Triple]:
+    """What the two equations take of M2 v; ``second``: A1."""
+    rows, shift = second
+    return (tuple(dot(column, shift) for column in zip(*rows, strict=True)), rows[2]) if first_turns else rows[:2]
 
 
 @dataclass(frozen=True, slots=True)
-class _Equations:
-    """``second``: A1; v over norm."""
+class Left:
+    """What is left of the two equations, in numbers of any kind that can be added, multiplied, and multiplied by a
+    ``Surd``: polynomials in t, or in more variables. ``second``: A1; v and ``squared``, |v|², times ``norm``.
 
+    The results: E, its full degree in t where the third joint turns, S or None, M2 v times norm, and the length times
+    norm of a second joint that slides."""
+
+    turns: Sequence[bool]
     second: Motion
-    target: Triple
-    norm: Polynomial
-    v: list[Polynomial]
+    target: Sequence[Any]
+    norm: Any
+    v: Sequence[Any]
+    squared: Any
 
-    def _lifted(self, p: Polynomial) -> Polynomial:
-        return p * self.norm
+    @staticmethod
+    def of(
+        turns: Sequence[bool], second: Motion, target: Sequence[Any], f: Sequence[Any], factors: Sequence[Any]
+    ) -> Left:
+        """v is the sum of f, times ``factors``, over the first of these, the norm."""
+        norm, v = factors[0], [combined(row, factors) for row in zip(*f, strict=True)]
+        if len(f) < 3:
+            squared = dot(v, v)
+        else:  # |v|² = |f0|² + |f1|² + 2 cos θ f0·f1 + 2 sin θ f0·f2: f1 and f2 are orthogonal and equally long
+            squared = combined(f[0], v).by(TWO) + norm.by(dot(f[1], f[1]) - dot(f[0], f[0]))
+        return Left(turns, second, target, norm, v, squared)
 
-    def _rows(self, first_turns: bool) -> tuple[Triple, Triple]:
-        """What the two equations take of M2 v."""
-        rows, shift = self.second
-        return (tuple(dot(column, shift) for column in zip(*rows, strict=True)), rows[2]) if first_turns else rows[:2]
-
-    def _distance(self) -> Polynomial:
-        """(|p'|² - |o|² - |v|²) norm²."""
+    def _distance(self) -> Any:
+        """(|p'|² - |o|² - |v|²) norm."""
         shift = self.second[1]
-        total = (self.norm * self.norm).by(dot(self.target, self.target) - dot(shift, shift))
-        for part in self.v:
-            total = total - part * part
-        return total
+        return self.norm * dot(self.target, self.target) - self.norm.by(dot(shift, shift)) - self.squared
 
-    def _shifted(self, i: int) -> Polynomial:
-        return (self.norm * self.norm).by(self.target[i] - self.second[1][i])
+    def _shifted(self, i: int) -> Any:
+        return self.norm * self.target[i] - self.norm.by(self.second[1][i])
 
-    def second_turns(self, first_turns: bool) -> Found:
+    def second_turns(self) -> tuple[Any, int, Any, Sequence[tuple[Any, Surd]], None]:
         """u from the two equations, and |u|² = |(v_x, v_y)|²."""
-        (g, n), v = self._rows(first_turns), self.v
-        one, two = (self._distance().by(HALF), self._shifted(2)) if first_turns else map(self._shifted, range(2))
-        height = self._lifted(v[2])
-        b1, b2 = one - height.by(g[2]), two - height.by(n[2])
-        radius = v[0] * v[0] + v[1] * v[1]
-        kappa, determinant = self._lifted(self._lifted(radius)), g[0] * n[1] - g[1] * n[0]
+        (g, n), v = rows_of(self.second, self.turns[0]), self.v
+        one, two = (self._distance().by(HALF), self._shifted(2)) if self.turns[0] else map(self._shifted, range(2))
+        b1, b2 = one - v[2].by(g[2]), two - v[2].by(n[2])
+        kappa, determinant = v[0] * v[0] + v[1] * v[1], g[0] * n[1] - g[1] * n[0]
         if determinant:
             over = determinant.inverse()
-            x = b1.by(n[1] * over) - b2.by(g[1] * over)
-            y = b2.by(g[0] * over) - b1.by(n[0] * over)
-            equation = x * x + y * y - kappa
-            return equation, 8, None, ((x, ZERO), (y, ZERO), (height, ZERO)), (Polynomial(), ZERO)
+            x, y = b1.by(n[1] * over) - b2.by(g[1] * over), b2.by(g[0] * over) - b1.by(n[0] * over)
+            return x * x + y * y - kappa, 4, None, ((x, ZERO), (y, ZERO), (v[2], ZERO)), None
         along, d, equation = (b1, g, b2) if g[0] or g[1] else (b2, n, b1)
         length = d[0] * d[0] + d[1] * d[1]
         if not length:
@@ -252,32 +236,27 @@ class _Equations:
         over = length.inverse()
         if g[0] or g[1]:
             equation = equation - b1.by(dot(n[:2], d[:2]) * over)
-        square = kappa.by(length) - along * along
         u = (along.by(d[0] * over), -d[1] * over), (along.by(d[1] * over), d[0] * over)
-        return equation, 4, square, (*u, (height, ZERO)), (Polynomial(), ZERO)
+        return equation, 2, kappa.by(length) - along * along, (*u, (v[2], ZERO)), None
 
-    def second_slides(self, first_turns: bool) -> Found:
+    def second_slides(self) -> tuple[Any, int, Any, Sequence[tuple[Any, Surd]], tuple[Any, Surd]]:
         """d from one of the two equations."""
-        (g, n), v, square = self._rows(first_turns), self.v, None
-        x, y, z = (self._lifted(part) for part in v)
-        full, factor = 8, ZERO
-        if not first_turns:
-            b1, b2 = (self._shifted(i) - self._lifted(combined(row, v)) for i, row in enumerate((g, n)))
+        (g, n), v, square, full, factor = rows_of(self.second, self.turns[0]), self.v, None, 2, ZERO
+        if not self.turns[0]:
+            b1, b2 = (self._shifted(i) - combined(row, v) for i, row in enumerate((g, n)))
             length = g[2] * g[2] + n[2] * n[2]
             if not length:
                 raise Unable("the first two joints move alike")
             d = (b1.by(g[2]) + b2.by(n[2])).by(length.inverse())
-            equation, full = b1.by(n[2]) - b2.by(g[2]), 4
+            equation = b1.by(n[2]) - b2.by(g[2])
         else:
-            height = self._shifted(2) - self._lifted(combined(n, v))
-            middle = z + (self.norm * self.norm).by(g[2])
+            height, middle = self._shifted(2) - combined(n, v), v[2] + self.norm.by(g[2])
             # |A1 (v + d e_z)|² = |v|² + |o|² + 2 g·v + d² + 2 d (v_z + g_z)
-            free = self._distance() - self._lifted(combined(g, v)).by(ONE + ONE)
-            wanted = self._lifted(self._lifted(free))
+            wanted = self.norm * (self._distance() - combined(g, v).by(TWO))
             if n[2]:
-                d = height.by(n[2].inverse())
-                equation = d * d + (d * middle).by(ONE + ONE) - wanted
+                d, full = height.by(n[2].inverse()), 4
+                equation = d * d + (d * middle).by(TWO) - wanted
             else:
                 square, factor = middle * middle + wanted, ONE
-                d, equation, full = -middle, height, 4
-        return equation, full, square, ((x, ZERO), (y, ZERO), (z + d, factor)), (d, factor)
+                d, equation = -middle, height
+        return equation, full, square, ((v[0], ZERO), (v[1], ZERO), (v[2] + d, factor)), (d, factor)

@@ -167,7 +167,7 @@ def test_what_goes_on_is_near(case: str) -> None:
     found, listed, near = motions_by_hand(case), list(curves_of(*curves).values()), F(1, 10**10)
     plane = vertical_arm(arm_of(name))
     assert plane is not None
-    turns = [plane.geometry.turns[0], *plane.turns]
+    turns = [plane.geometry.chain.turns[0], *plane.turns]
     for junction, one, other in zip(found.junctions, found.arcs, found.arcs[1:]):
         ends = []
         for arcs, step in ((one, -near), (other, near)):
