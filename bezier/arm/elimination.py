@@ -21,7 +21,7 @@ from bezier.arm.roots_of_squares import chain_of
 from bezier.proofs.arm_rows import ArmChain
 from bezier.proofs.held_joint import spread
 from bezier.proofs.square_roots import Surd, back, combined, dot
-from bezier.proofs.three_joints import Left, rows_of
+from bezier.proofs.three_joints import Equations, rows_of
 from qe.errors import Unable
 from qe.exact.point_values import Ball, Evaluation
 from qe.exact.ring import Poly, Ring
@@ -117,11 +117,11 @@ class Geometry:
         rows, shift = self.chain.constants[1]
         t, one, m = Ratio(ring.var(T), 1, field), constant(ring, 1, field), Ratio(ring.var(M), 1, field)
         factors = weights(t, one, turn) if turns[2] else (one, t)
-        left = Left.of(turns, (rows, shift), target, self.f, factors)
-        equation, degree, square, parts, slide = left.second_turns() if turns[1] else left.second_slides()
+        both = Equations.of(turns, (rows, shift), target, self.f, factors)
+        equation, degree, square, parts, slide = both.second_turns() if turns[1] else both.second_slides()
         if square is not None:  # m stands for a multiple, whose square has integer coefficients
             m, square = m * square.scale, Ratio(square.top * square.bottom, 1, field)
-        image, norm, v, kappa = [part + m.by(c) for part, c in parts], factors[0], left.v, None
+        image, norm, v, kappa = [part + m.by(c) for part, c in parts], factors[0], both.v, None
         if slide is None:
             kappa = v[0] * v[0] + v[1] * v[1]
             over = image[0] * v[0] + image[1] * v[1], v[0] * image[1] - v[1] * image[0]
@@ -131,7 +131,7 @@ class Geometry:
         q = [combined(row, image) + norm.by(o) for row, o in zip(rows, shift, strict=True)]
         x, y, z = target
         axis = x * x + y * y
-        first = (quotient(norm * z - q[2], norm),)
+        first: tuple[Quotient, ...] = (quotient(norm * z - q[2], norm),)
         if turns[0]:
             first = tuple(quotient(part, axis * norm) for part in (x * q[0] + y * q[1], y * q[0] - x * q[1]))
         shoulder = (axis - one.by(dot(shift[:2], shift[:2])), z - one.by(shift[2])) if all(turns[:2]) else ()

@@ -65,7 +65,7 @@ def value(b: Sequence[Any], t: Any) -> Any:
 def split(b: Sequence[Any], t: Any = HALF) -> tuple[Coefficients, Coefficients]:
     """The Bernstein coefficients on [0, t] and on [t, 1], each mapped to [0, 1]."""
     ends = [(_over(row[0], below), _over(row[-1], below)) for row, below in _rows(b, t)]
-    return tuple(left for left, _ in ends), tuple(right for _, right in reversed(ends))
+    return tuple(first for first, _ in ends), tuple(last for _, last in reversed(ends))
 
 
 def elevate(b: Sequence[Any], degree: int) -> Coefficients:

@@ -83,8 +83,8 @@ class Positions:
         third: tuple[Polynomial, ...] | None = None if stands else (t,) if phi is None else _circle(*phi)
         factors = (UNIT if phi is None else UNIT + t * t, *(third or ()))
         f = spread(constants[2], e, turns[2])[: len(factors)]
-        left = Left.of(turns, constants[1], [Polynomial.of([c]) for c in target], f, factors)
-        equation, full, square, moved, second = left.second_turns() if turns[1] else left.second_slides()
+        both = Equations.of(turns, constants[1], [Polynomial.of([c]) for c in target], f, factors)
+        equation, full, square, moved, second = both.second_turns() if turns[1] else both.second_slides()
         if stands and not equation:
             equation = t
         only_at_roots = not equation
@@ -94,7 +94,7 @@ class Positions:
         if equation and len(equation) <= full:
             raise entry.fail("the equation vanishes at the angle that t misses")
         return Positions(
-            equation, full, square, only_at_roots, moved, second, left.v, third, factors[0], constants[1], target, turns
+            equation, full, square, only_at_roots, moved, second, both.v, third, factors[0], constants[1], target, turns
         )
 
     def family(self, marks: Entry, budget: Budget) -> Position:
@@ -185,7 +185,7 @@ def rows_of(second: Motion, first_turns: bool) -> tuple[Triple, Triple]:
 
 
 @dataclass(frozen=True, slots=True)
-class Left:
+class Equations:
     """What is left of the two equations, in numbers of any kind that can be added, multiplied, and multiplied by a
     ``Surd``: polynomials in t, or in more variables. ``second``: A1; v and ``squared``, |v|², times ``norm``.
 
@@ -202,14 +202,14 @@ class Left:
     @staticmethod
     def of(
         turns: Sequence[bool], second: Motion, target: Sequence[Any], f: Sequence[Any], factors: Sequence[Any]
-    ) -> Left:
+    ) -> Equations:
         """v is the sum of f, times ``factors``, over the first of these, the norm."""
         norm, v = factors[0], [combined(row, factors) for row in zip(*f, strict=True)]
         if len(f) < 3:
             squared = dot(v, v)
         else:  # |v|² = |f0|² + |f1|² + 2 cos θ f0·f1 + 2 sin θ f0·f2: f1 and f2 are orthogonal and equally long
             squared = combined(f[0], v).by(TWO) + norm.by(dot(f[1], f[1]) - dot(f[0], f[0]))
-        return Left(turns, second, target, norm, v, squared)
+        return Equations(turns, second, target, norm, v, squared)
 
     def _distance(self) -> Any:
         """(|p'|² - |o|² - |v|²) norm."""

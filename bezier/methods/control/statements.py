@@ -89,7 +89,7 @@ def total(parts: Sequence[Term]) -> Term:
 
 def product(*factors: Term) -> Term:
     """The product of at least one term."""
-    node = reduce(lambda left, right: surface.Product(left, right, -1), (factor.node for factor in factors))
+    node = reduce(lambda a, b: surface.Product(a, b, -1), (factor.node for factor in factors))
     return Term(node, "*".join(factor.within(Binding.PRODUCT) for factor in factors), Binding.PRODUCT)
 
 
