@@ -65,6 +65,11 @@ class Constraint:
         return sum((c * x**i * y**j * z**k for (i, j, k), c in self.terms), ZERO)
 
     @property
+    def negated(self) -> Constraint:
+        """That it does not hold."""
+        return Constraint(tuple((e, -c) for e, c in self.terms), not self.strict)
+
+    @property
     def relation(self) -> Relation:
         """How f compares with 0."""
         return Relation.GT if self.strict else Relation.GE

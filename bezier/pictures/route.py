@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from bezier.scenes.route import Blocked, Route
 from bezier.scenes.scene import Scene
 from bezier.scenes.solid import Solid
 
-WIDTH = 340.0
+WIDTH, GRID = 340.0, 96
 WAY, TRIED, WALL, SIDE, BODY, START, GOAL = "#175cd3", "#667085", "#b42318", "#fda29b", "#98a2b3", "#067647", "#b42318"
 
 
@@ -48,7 +48,8 @@ def _view(known: Route | Blocked, i: int, j: int) -> tuple[str, float]:
         sides = (np.array(cell.floats) for cell in known.start_side)
         parts += [shape(hull(p), f'fill="{SIDE}" opacity="0.4"') for p in sides if len(p) > 2]
     bodies = (shape(outline(body, i, j), f'fill="{BODY}"') for body in scene.solids)
-    parts.append(f'<g opacity="0.8">{"".join(bodies)}</g>')  # as one: parts of a mesh overlap
+    rows = (shape(row, f'fill="{BODY}"') for body in scene.formulas for row in _shaded(scene, body, i, j))
+    parts.append(f'<g opacity="0.8">{"".join((*bodies, *rows))}</g>')  # as one: parts of a mesh overlap
     if isinstance(known, Route):
         way = at(np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])[:, (i, j)])
         parts.append(f'<polyline points="{way}" fill="none" stroke="{WAY}" stroke-width="2"/>')
@@ -73,6 +74,26 @@ def _workspace(scene: Scene, i: int, j: int) -> list[Array]:
     (a, b), (c, d) = ends
     box = np.array([[a, b], [c, b], [c, d], [a, d]])
     return [box, *(outline(part, i, j) for part in scene.domain if part.corners and not part.is_polytope)]
+
+
+def _shaded(scene: Scene, body: Solid, i: int, j: int) -> Iterator[Array]:
+    """The shadow of conditions in two coordinates, as rectangles in the rows of a grid."""
+    steps = [(float(b - a) / GRID, float(a)) for a, b in zip(scene.low, scene.high, strict=True)]
+    grid = np.meshgrid(*(low + step * (np.arange(GRID) + 0.5) for step, low in steps), indexing="ij")
+    x, y, z = [*grid, np.zeros(())][:3]
+    values = (
+        [sum(float(c) * x**i * y**j * z**k for (i, j, k), c in condition.terms) + 0 * x >= 0 for condition in piece]
+        for piece in body.pieces
+    )
+    (dx, left), (dy, bottom) = steps[i], steps[j]
+    filled = np.any([np.all(piece, axis=0) for piece in values], axis=0).any(
+        axis=tuple(k for k in range(len(steps)) if k not in (i, j))
+    )
+    for k, row in enumerate(filled.T):
+        ends = np.flatnonzero(np.diff(np.concatenate(([0], row.astype(int), [0]))))
+        for a, b in ends.reshape(-1, 2):
+            corners = [(a, k), (b, k), (b, k + 1), (a, k + 1)]
+            yield np.array([(left + dx * x, bottom + dy * y) for x, y in corners])
 
 
 def outline(body: Solid, i: int, j: int) -> Array:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from bezier.curves.scalar import subtract
@@ -51,6 +51,20 @@ def barrier(scene: Scene) -> tuple[Wall, ...]:
     return tuple(_walls(scene, min(walks, key=len))) if walks else ()
 
 
+def longer(scene: Scene, walls: tuple[Wall, ...]) -> tuple[Wall, ...]:
+    """Walls that follow each other in one body as one, where that is seen to be in it and crosses as often, mod 2."""
+    ends, kept = (scene.start, scene.goal), list(walls[:1])
+    for wall in walls[1:]:
+        last, both = kept[-1], replace(kept[-1], end=wall.end)
+        crossings = sum(_crosses((w.start, w.end), ends) for w in (last, wall, both))
+        is_one = (last.bodies, last.end) == (wall.bodies, wall.start) and last.start != wall.end and not crossings % 2
+        if is_one and any(scene.bodies[i].holds(both.start, both.end) for i in wall.bodies):
+            kept[-1] = both
+        else:
+            kept.append(wall)
+    return tuple(kept)
+
+
 def outside_points(scene: Scene, body: Solid) -> Iterator[tuple[Point, Point]]:
     """Points of a body on the boundary of the workspace or beyond it, with a direction that leads away."""
     for part in scene.domain:
@@ -64,9 +78,11 @@ def outside_points(scene: Scene, body: Solid) -> Iterator[tuple[Point, Point]]:
 
 def _meetings(scene: Scene) -> Iterator[_Meeting]:
     bodies, ends = scene.solids, (scene.start, scene.goal)
-    outside = len(bodies)
+    outside, boxes = len(bodies), [body.low_high() for body in bodies]
     for i, one in enumerate(bodies):
         for j in range(i):
+            if any(a > d or c > b for a, b, c, d in zip(*boxes[i], *boxes[j], strict=True)):
+                continue
             if (point := common_point(one, bodies[j])) is not None:
                 is_odd = _crosses((one.centre, point), ends) != _crosses((point, bodies[j].centre), ends)
                 yield _Meeting((i, j), point, is_odd)

@@ -9,7 +9,7 @@ needed, since an open connected set stays connected without a set of codimension
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise, product
@@ -184,21 +184,26 @@ class FreeCells:
                 waiting += [(inner, ahead), (outer, ahead[1:] if not flat[ahead[0]] else ahead)]
             if len(free) + len(waiting) > MOST_CELLS:
                 raise Unable(f"more than {MOST_CELLS} cells")
-        return FreeCells(tuple(free), _doors(free, [b for b, f in zip(obstacles, flat, strict=True) if f]))
+        return FreeCells.linked(free, obstacles)
+
+    @staticmethod
+    def linked(cells: Sequence[Cell], obstacles: Sequence[Cell]) -> FreeCells:
+        """Cells with the doors between them that no flat obstacle covers."""
+        return FreeCells(tuple(cells), _doors(cells, [body for body in obstacles if body.is_flat]))
 
     def holding(self, point: Point) -> int | None:
         """The number of a cell with this point."""
         return next((i for i, cell in enumerate(self.cells) if cell.contains(point)), None)
 
-    def reached(self, start: int) -> dict[int, int]:
-        """The cells that hang together with one, each with the one before it."""
+    def reached(self, start: int, costly: Collection[int] = ()) -> dict[int, int]:
+        """The cells that hang together with one, each with the one before it; ``costly`` ones as late as can be."""
         before, waiting = {start: start}, deque([start])
         while waiting:
             at = waiting.popleft()
             for other in self.doors[at]:
                 if other not in before:
                     before[other] = at
-                    waiting.append(other)
+                    (waiting.appendleft if costly and other not in costly else waiting.append)(other)
         return before
 
     def way(self, before: dict[int, int], goal: int) -> list[int]:
@@ -238,28 +243,34 @@ def _doors(cells: Sequence[Cell], walls: Sequence[Cell]) -> tuple[dict[int, Cell
             turned = next(x for x in plane[0] if x) < 0
             planes.setdefault(opposite(plane) if turned else plane, ([], []))[turned].append((i, k))
     doors: tuple[dict[int, Cell], ...] = tuple({} for _ in cells)
+    boxes = [[(min(c), max(c)) for c in zip(*cell.floats, strict=True)] for cell in cells]
     for ones, others in planes.values():
         for (i, k), (j, _) in product(ones, others):
+            if not _are_near(boxes[i], boxes[j]):
+                continue
             door = common_side(cells[i], k, cells[j])
             if door is not None and not any(wall.contains(door.centre) for wall in walls):
                 doors[i][j] = doors[j][i] = door
     return doors
 
 
+def _are_near(one: Sequence[tuple[float, float]], other: Sequence[tuple[float, float]]) -> bool:
+    """Whether boxes may meet."""
+    for (a, b), (c, d) in zip(one, other, strict=True):
+        if a > d + abs(d) * _SURE or c > b + abs(b) * _SURE:
+            return False
+    return True
+
+
 def common_side(one: Cell, k: int, other: Cell) -> Cell | None:
     """The part of side k of a cell that another one behind it has, too; None where it is no full part of it."""
-    size = len(one.corners[0])
-    for axis in range(size):
-        (a, b), (c, d) = ((min(v), max(v)) for v in ([p[axis] for p in x.floats] for x in (one, other)))
-        if a > d + abs(d) * _SURE or c > b + abs(b) * _SURE:
-            return None
     part: Cell | None = one.face(k)
     for side in other.sides:
         part = part and part.cut(side)[0]
         if part is None:
             return None
     assert part is not None
-    return part if len(set(part.corners)) >= size else None
+    return part if len(set(part.corners)) >= len(one.corners[0]) else None
 
 
 def points_along(free: FreeCells, cells: Sequence[int], start: Point, goal: Point) -> list[Point]:

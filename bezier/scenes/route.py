@@ -21,10 +21,10 @@ import qe
 from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, subtract
 from bezier.obstacles.survey import clearance_certificate, meeting
-from bezier.scenes.barrier import Wall, barrier
+from bezier.scenes.barrier import Wall, barrier, longer
 from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
-from bezier.scenes.outlines import outlines
+from bezier.scenes.region import decomposed
 from bezier.scenes.scene import Scene
 from bezier.scenes.sentences import (
     Curve,
@@ -228,13 +228,13 @@ def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tup
     """A short path in place of one that is known, which stays where passages are too narrow for floating point."""
     scene, is_plane = known.scene, known.scene.dimension == 2
     for fine in (2, 1):
-        domain, bodies = outlines(scene, fine)
-        curves = least_chain(scene, domain, FreeCells.of(domain, bodies, budget), wish.degree, wish.joins)
+        found = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))
+        curves = least_chain(scene, found.domain, found.free, wish.degree, wish.joins)
         if curves is not None:
             break
     if curves is not None and wish.degree == 1:
         corners = (curves[0][0], *(curve[-1] for curve in curves))
-        curves = tuple(pairwise(shortened(corners, scene.solids)))
+        curves = tuple(pairwise(shortened(corners, scene.bodies)))
     if curves is not None:
         known = replace(known, curves=curves)
     bound, proofs = least_length(scene, 2 if is_plane else 0, budget)
@@ -243,23 +243,28 @@ def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tup
 
 def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:
     walls = barrier(scene)
-    if walls:
-        cells = [cell_of(wall) for wall in walls]
-        result: Route | Blocked | None = _separated(scene, Cell.box(scene.low, scene.high), cells, walls, budget)
-    else:
-        result = next(filter(None, (_joined(scene, fine, budget) for fine in PLANE_STEPS)), None)
+    for fine in () if walls else PLANE_STEPS:
+        found = decomposed(scene, fine, budget)
+        if (known := _joined(scene, found.free)) is not None:
+            return known
+        if scene.formulas and (walls := barrier(found.within)):
+            walls = longer(scene, tuple(replace(w, bodies=tuple(found.numbers[i] for i in w.bodies)) for w in walls))
+            break
+    cells = [cell_of(wall) for wall in walls]
+    result = _separated(scene, Cell.box(scene.low, scene.high), cells, walls, budget) if walls else None
     if result is None:
         raise Unable("undecided: a passage that only one point is wide, between a hole and the rim of the workspace")
     return result
 
 
 def _in_space(scene: Scene, budget: Budget) -> Route | Blocked:
-    is_round = any(not body.is_polytope for body in (*scene.solids, *scene.domain))
+    is_round = scene.formulas or any(not body.is_polytope for body in (*scene.solids, *scene.domain))
     for fine in SPACE_STEPS if is_round else (0,):
         normals = directions(3, fine)
-        known: Route | Blocked | None = _joined(scene, fine, budget)
+        found = decomposed(scene, fine, budget)
+        known: Route | Blocked | None = _joined(scene, found.free)
         if known is None:
-            walls = tuple(cell for body in scene.solids if (cell := _within(body, normals)) is not None)
+            walls = tuple(cell for body in found.within.solids if (cell := _within(body, normals)) is not None)
             sides = [side for part in scene.domain for side in part.around(normals)]
             domain = Cell.within(scene.low, scene.high, sides)
             assert domain is not None
@@ -273,16 +278,15 @@ def _within(body: Solid, normals: Sequence[Point]) -> Cell | None:
     return body.cell() if body.is_polytope else body.inside(normals)
 
 
-def _joined(scene: Scene, fine: int, budget: Budget) -> Route | None:
-    """A path outside of polytopes around the obstacles."""
-    free = FreeCells.of(*outlines(scene, fine), budget)
+def _joined(scene: Scene, free: FreeCells) -> Route | None:
+    """A path through free cells."""
     start, goal = free.holding(scene.start), free.holding(scene.goal)
     if start is None or goal is None:
         return None
     before = free.reached(start)
     if goal not in before:
         return None
-    points = shortened(points_along(free, free.way(before, goal), scene.start, scene.goal), scene.solids)
+    points = shortened(points_along(free, free.way(before, goal), scene.start, scene.goal), scene.bodies)
     return Route(scene, tuple(pairwise(_simpler(points, scene))), None)
 
 
@@ -294,7 +298,7 @@ def _simpler(points: Sequence[Point], scene: Scene) -> list[Point]:
             near = tuple(Fraction(round(c * unit), unit) for c in result[k])
             legs = (result[k - 1], near), (near, result[k + 1])
             inside = all(part.contains(near) for part in scene.domain)
-            if inside and not any(body.meets(*leg) for body in scene.solids for leg in legs):
+            if inside and not any(body.meets(*leg) for body in scene.bodies for leg in legs):
                 result[k] = near
                 break
     return result

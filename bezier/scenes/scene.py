@@ -6,6 +6,8 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import product
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +17,7 @@ from bezier.input.toml_table import Table, read_text
 from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.obstacle import Constraint, Obstacle, ball, half_space, pieces_of, slab
 from bezier.obstacles.polyhedron import from_sides, point, segment
-from bezier.obstacles.reader import read_obstacles
+from bezier.obstacles.reader import MAX_PIECES, read_obstacles
 from bezier.scenes.cells import Cell, Point, Side
 from bezier.scenes.mesh import MOST_FACETS, Surface, around_polygons, load_mesh
 from bezier.scenes.solid import ZERO, Solid
@@ -31,6 +33,7 @@ _PLANE = {
     "half_space": ("normal", "offset"),
     "capsule": ("start", "end", "radius"),
     "polyhedron": ("half_spaces", "vertices"),
+    "formula": ("formula",),
 }
 _COMMON = ("kind", "name", "margin")
 
@@ -39,7 +42,8 @@ _COMMON = ("kind", "name", "margin")
 class Scene:
     """``domain``: its intersection is the workspace, but for the open ``holes``. ``obstacles`` are closed, so that
     those that touch leave no passage between them. ``low`` and ``high``: a box around the workspace; one unit.
-    ``surfaces``: of the bodies that are no convex ones; their parts are among the obstacles."""
+    ``surfaces``: of the bodies that are no convex ones; their parts are among the obstacles. ``formulas``: obstacles
+    given by conditions, and what conditions of the workspace leave out, which is open."""
 
     domain: tuple[Solid, ...]
     holes: tuple[Solid, ...]
@@ -49,6 +53,7 @@ class Scene:
     low: Point
     high: Point
     surfaces: tuple[Surface, ...] = ()
+    formulas: tuple[Solid, ...] = ()
 
     @property
     def dimension(self) -> int:
@@ -57,14 +62,20 @@ class Scene:
 
     @property
     def solids(self) -> tuple[Solid, ...]:
-        """What is in the way: obstacles and holes."""
+        """The convex bodies in the way: obstacles and holes."""
         return (*self.obstacles, *self.holes)
+
+    @property
+    def bodies(self) -> tuple[Solid, ...]:
+        """All that is in the way."""
+        return (*self.solids, *self.formulas)
 
     def blocked_at(self, point: Point) -> str | None:
         """What a point is in the way of: an obstacle, or the end of the domain; None where it is free."""
-        if not all(part.contains(point) for part in self.domain) or any(h.contains(point) for h in self.holes):
+        held = [body for body in self.bodies if body.contains(point)]
+        if not all(part.contains(point) for part in self.domain) or any(body.is_open for body in held):
             return "outside the domain"
-        return next((f"in {body.name}" for body in self.obstacles if body.contains(point)), None)
+        return f"in {held[0].name}" if held else None
 
 
 def read_scene(table: Table) -> Scene:
@@ -94,10 +105,12 @@ def read_scene(table: Table) -> Scene:
         if surface is not None:
             surfaces.append(surface)
             margin = _margin(entry, extra)
-            bodies += (_of_cell(f"{surface.name}, part {i}", c, margin) for i, c in enumerate(surface.cores, start=1))
+            bodies += (of_cell(f"{surface.name}, part {i}", c, margin) for i, c in enumerate(surface.cores, start=1))
         elif (body := _solid(entry, k, size, extra, (low, high))) is not None:
             bodies.append(body)
-    return Scene(domain, holes, tuple(bodies), start, goal, low, high, tuple(surfaces))
+    formulas = tuple(body for body in (*bodies, *holes) if body.is_formula)
+    convex, holes = (tuple(b for b in listed if not b.is_formula) for listed in (bodies, holes))
+    return Scene(domain, holes, convex, start, goal, low, high, tuple(surfaces), formulas)
 
 
 def load_scene(file: Path) -> Scene:
@@ -120,7 +133,7 @@ def _domain(table: Table, size: int) -> tuple[tuple[Solid, ...], tuple[Solid, ..
     parts, holes = list[Solid](), list[Solid]()
     for entry in entries:
         kind = _kind(entry, "box")
-        if kind not in ("box", "ball", "polyhedron", "half_space", "cylinder", "half_ball", "annulus"):
+        if kind not in ("box", "ball", "polyhedron", "half_space", "cylinder", "half_ball", "annulus", "formula"):
             raise entry.error("kind", "the kind of a workspace: box, ball, half_ball, polyhedron, ...", describe(kind))
         if "margin" in entry.values:
             raise entry.error("margin", "no margin of a workspace", describe(entry.values["margin"]))
@@ -141,9 +154,19 @@ def _domain(table: Table, size: int) -> tuple[tuple[Solid, ...], tuple[Solid, ..
             whole = _part(replace(entry, values={**entry.values, "kind": "ball"}), size)
             up = tuple(-Fraction(k == size - 1) for k in range(size))
             parts += [whole, _half(up, -whole.corners[0][-1])]
+        elif kind == "formula":
+            holes.append(_beyond(entry, _part(entry, size)))
         else:
             parts.append(_part(replace(entry, values={**entry.values, "kind": kind}), size))
     return tuple(parts), tuple(holes)
+
+
+def _beyond(entry: Table, formula: Solid) -> Solid:
+    """What a formula leaves out."""
+    if prod(map(len, formula.pieces)) > MAX_PIECES:
+        raise entry.error("formula", f"a set whose complement has at most {MAX_PIECES} pieces", "one with more")
+    pieces = product(*([c.negated for c in piece] for piece in formula.pieces))
+    return replace(formula, name="hole", pieces=tuple(pieces), is_open=True)
 
 
 def _part(entry: Table, size: int) -> Solid:
@@ -171,7 +194,7 @@ def _around(table: Table, domain: Sequence[Solid]) -> tuple[Point, Point]:
     """The corners of a box around the workspace."""
     boxes = [part.low_high() for part in domain if part.corners]
     if not boxes:
-        raise table.error("domain", "a bounded workspace", "half-spaces only")
+        raise table.error("domain", "a bounded workspace", "half-spaces and formulas only")
     low = tuple(max(c) for c in zip(*(b[0] for b in boxes), strict=True))
     high = tuple(min(c) for c in zip(*(b[1] for b in boxes), strict=True))
     sides = [side for part in domain if part.is_polytope for side in part.sides]
@@ -224,7 +247,7 @@ def _margin(entry: Table, extra: Fraction) -> Fraction:
     return margin + extra
 
 
-def _of_cell(name: str, cell: Cell, margin: Fraction) -> Solid:
+def of_cell(name: str, cell: Cell, margin: Fraction) -> Solid:
     """A cell with margin."""
     if len(cell.corners[0]) == 2:
         pieces = tuple(_wide_polygon(cell.corners, cell.sides, margin))
@@ -243,6 +266,12 @@ def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, 
         if flat is not None:
             return flat
     obstacle = _obstacle(entry, size, extra)
+    if (
+        size == 2
+        and obstacle.body is None
+        and any(e[2] for piece in obstacle.pieces for c in piece.constraints for e, _ in c.terms)
+    ):
+        raise entry.error("formula", "no free variables but x and y", "z")
     pieces = tuple(_at_level(piece.constraints) if size == 2 else piece.constraints for piece in obstacle.pieces)
     match obstacle.body:
         case HalfSpaceBody(normal, offset, radius):
@@ -267,7 +296,9 @@ def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, 
             if size == 2 and sides:
                 pieces = tuple(_wide_polygon(corners, sides, radius))
             return Solid(name, corners, sides, radius, pieces)
-    raise entry.error("kind", "a convex obstacle", "a formula")
+    if any(c.strict for piece in pieces for c in piece):
+        raise entry.error("formula", "a closed set: conditions with <=, >= and =", "another condition")
+    return Solid(name, (), (), ZERO, pieces)
 
 
 def _obstacle(entry: Table, size: int, extra: Fraction) -> Obstacle:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import comb, lcm
@@ -40,15 +39,18 @@ def covering(
 def enclosing(scene: Scene, around: Cell, walls: Sequence[Cell | Wall]) -> Iterator[tuple[str, Formula]]:
     """That the workspace is in the polytope, and the walls are in obstacles or outside the workspace.
 
-    Of a polytope in one body, which is convex, that is seen at its corners. Raises ``CertificateRejected``."""
+    Of a polytope in one convex body that is seen at its corners. Raises ``CertificateRejected``."""
     at = coordinates(scene)
     yield HELD, every(at, disj((neg(conj(inside(part, at) for part in scene.domain)), of_sides(around.sides, at))))
     for k, wall in enumerate(walls, start=1):
         if isinstance(wall, Wall):
-            bodies = [scene.solids[i] for i in wall.bodies]
+            bodies = [scene.bodies[i] for i in wall.bodies]
             yield f"wall {k}", along((wall.start, wall.end), partial(taken, scene, bodies))
         elif not any(_holds_cell(scene, body, wall) for body in scene.solids):
-            raise CertificateRejected(f"wall {k}", "its corners are not in one body")
+            bodies = [body for body in scene.formulas if body.contains(wall.centre)]
+            if not bodies:
+                raise CertificateRejected(f"wall {k}", "its corners are not in one body")
+            yield f"wall {k}", every(at, disj((neg(of_sides(wall.sides, at)), *(inside(b, at) for b in bodies))))
 
 
 def _holds_cell(scene: Scene, body: Solid, wall: Cell) -> bool:
@@ -103,13 +105,8 @@ def cell_of(wall: Wall | Cell) -> Cell:
 
 def in_the_way(scene: Scene) -> Obstacle:
     """All points that are not free, as one obstacle: of every body, and beyond every side of the workspace."""
-    beyond = (
-        Piece((replace(c, terms=tuple((e, -x) for e, x in c.terms), strict=not c.strict),))
-        for part in scene.domain
-        for (conditions,) in (part.pieces,)
-        for c in conditions
-    )
-    pieces = (Piece(conditions) for body in scene.solids for conditions in body.pieces)
+    beyond = (Piece((c.negated,)) for part in scene.domain for (conditions,) in (part.pieces,) for c in conditions)
+    pieces = (Piece(conditions) for body in scene.bodies for conditions in body.pieces)
     return Obstacle("what is in the way", ObstacleKind.FORMULA, (*pieces, *beyond))
 
 

@@ -14,9 +14,11 @@ from functools import cache
 from itertools import product
 from typing import cast
 
+from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, subtract
-from bezier.obstacles.obstacle import Constraint
+from bezier.obstacles.clearance import Along, Contact, examine
+from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
 from bezier.scenes.cells import Cell, Point, Side, opposite, primitive
 from qe.exact.quadratic_form import solve_linear
 
@@ -29,7 +31,7 @@ ZERO = Fraction(0)
 class Solid:
     """``corners``: of the core; ``sides``: half-spaces around it, all of them where it is a polytope with interior or
     a flat one without margin. ``pieces``: the body as a union of intersections of conditions. ``is_open``: without its
-    boundary (the hole of an annulus), which its conditions say."""
+    boundary (the hole of an annulus), which its conditions say. What a formula gives has conditions only."""
 
     name: str
     corners: tuple[Point, ...]
@@ -43,6 +45,11 @@ class Solid:
     def is_polytope(self) -> bool:
         """Whether the sides are all that is to say."""
         return not self.radius and not self.tube
+
+    @property
+    def is_formula(self) -> bool:
+        """Whether there is nothing but conditions."""
+        return not self.corners and not self.sides
 
     @property
     def centre(self) -> Point:
@@ -69,6 +76,9 @@ class Solid:
 
     def meets(self, start: Point, end: Point) -> bool:
         """Whether it has a point in common with a segment; of a cylinder, whether a prism around it has."""
+        if self.is_formula:
+            whole = Obstacle(self.name, ObstacleKind.FORMULA, tuple(map(Piece, self.pieces)))
+            return isinstance(examine(_leg(start, end), whole), Contact)
         if self.radius and not self.tube:
             p, q = nearest(self.corners, (start, end))
             away = dot(subtract(p, q), subtract(p, q))
@@ -83,6 +93,11 @@ class Solid:
             elif b > 0:
                 last = min(last, a / (a - b))
         return first <= last
+
+    def holds(self, start: Point, end: Point) -> bool:
+        """Whether a segment is in one of its pieces, by the signs of Bernstein coefficients."""
+        leg = _leg(start, end)
+        return any(all(c.holds(min(leg.form(c))) for c in piece) for piece in self.pieces)
 
     def around(self, normals: Iterable[Point]) -> list[Side]:
         """Half-spaces that hold it: its sides moved out, and those with some more normals."""
@@ -110,6 +125,11 @@ class Solid:
         """A polytope as a cell."""
         flat = any(opposite(side) in self.sides for side in self.sides)
         return Cell.of(self.sides, self.corners, is_flat=flat)
+
+
+def _leg(start: Point, end: Point) -> Along:
+    """A segment; the plane is where z = 0."""
+    return Along(Bezier(((*start, ZERO)[:3], (*end, ZERO)[:3])))
 
 
 def _short(normal: Point, level: Fraction) -> Side:
@@ -187,9 +207,6 @@ def _least(points: Sequence[Point]) -> list[Fraction]:
 
 def common_point(one: Solid, other: Solid) -> Point | None:
     """A point of both (of two open bodies: None where they only touch), None where there is none."""
-    ends = one.low_high(), other.low_high()
-    if any(a > d or c > b for a, b, c, d in zip(*ends[0], *ends[1], strict=True)):
-        return None
     p, q = nearest(one.corners, other.corners)
     away, reach = Fraction(dot(subtract(p, q), subtract(p, q))), one.radius + other.radius
     if away > reach**2 or (away == reach**2 and one.is_open and other.is_open):

@@ -348,7 +348,7 @@ def test_formulas_of_bodies_say_what_belongs_to_them() -> None:
     rng, ring = random.Random(7), Ring.of(("x", "y"))
     for _ in range(12):
         for body in mixed(rng).obstacles:
-            for _ in range(8):
+            for _ in range(3):
                 point = tuple(Fraction(rng.randint(0, 80), 8) for _ in range(2))
                 p, q = nearest(body.corners, [point])
                 belongs = dot(subtract(p, q), subtract(p, q)) <= body.radius**2
@@ -483,6 +483,12 @@ def test_both_doors_say_the_same(tmp_path: Path) -> None:
     ({**SCENE, "domain": {"kind": "half_plane", "normal": [0, 1], "offset": 1}}, "bounded"),
     ({**SCENE, "obstacle": [{"kind": "ball", "centre": [1, 1], "radius": 0}]}, "radius"),
     ({**SCENE, "obstacle": [{"kind": "ball", "centre": "here", "radius": 1}]}, "centre"),
+    ({**SCENE, "obstacle": [{"kind": "formula"}]}, "formula in x"),
+    ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x^2 + y^2 < 1"}]}, "closed"),
+    ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x^2 + z^2 <= 1"}]}, "x and y"),
+    ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x <="}]}, "obstacle[0].formula"),
+    ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x <= 1"}], "margin": 1}, "no margin for a formula"),
+    ({**SCENE, "domain": {"kind": "formula", "formula": "x^2 + y^2 <= 1"}}, "bounded"),
 )
 def test_bad_scenes_are_one_line_that_names_the_entry(scene: object, word: str) -> None:
     with pytest.raises(qe.InputError) as caught:

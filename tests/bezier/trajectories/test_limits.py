@@ -234,7 +234,9 @@ def test_the_command_proves_checks_and_rejects(tmp_path: Path, capsys: pytest.Ca
     file, limits, scene = tmp_path / "m.csv", tmp_path / "l.toml", tmp_path / "s.toml"
     file.write_text("time,x,y\n0,0,0\n1,1,0\n2,1,2\n")
     limits.write_text("velocity = [1, 1]\n")
-    scene.write_text('[[obstacle]]\nkind = "ball"\ncentre = [0, 2, 0]\nradius = 0.5\n')
+    ball = 'kind = "ball"\ncentre = [0, 2, 0]\nradius = 0.5'
+    bowl = 'kind = "formula"\nformula = "y >= 1 + 4*(x - %s)^2"'
+    scene.write_text(f"[[obstacle]]\n{ball}\n[[obstacle]]\n{bowl % 0.4}\n")
     proof = tmp_path / "c.json"
     words = ["certify", str(file), "--limits", str(limits), "--scene", str(scene)]
     assert main([*words, "--certificate", str(proof)]) == 0
@@ -246,6 +248,8 @@ def test_the_command_proves_checks_and_rejects(tmp_path: Path, capsys: pytest.Ca
     assert "accepted" in capsys.readouterr().out and "distance from ball 1" in page.read_text()
     limits.write_text("velocity = [1, 1.5]\n")
     assert main([*words, "--check", str(proof)]) == 4
+    scene.write_text(f"[[obstacle]]\n{ball}\n[[obstacle]]\n{bowl % 0.6}\n")  # the corner at (1, 2) is on its boundary
+    assert main(words) == 0 and "formula 2, first at t = " in capsys.readouterr().out
     huge = tmp_path / "huge.csv"
     huge.write_text("time,x,y\n0,0,0\n1,1e400,0\n")
     assert main(["certify", str(huge), "--limits", str(limits)]) == 2
