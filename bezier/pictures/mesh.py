@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -40,30 +39,11 @@ Shape = tuple[str, Array, float]
 """("ball", centre, radius), or ("plane", unit normal, offset) for {p : normal . p + offset >= 0}."""
 
 
-@lru_cache(maxsize=4)
-def icosphere(level: int) -> tuple[Array, Indices]:
-    """Unit directions and triangles of an icosahedron with each face split into 4^level."""
-    g = (1 + 5**0.5) / 2
-    corners: list[tuple[float, float, float]] = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
-    corners += [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
-    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6)]
-    faces += [(7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10)]
-    faces += [(8, 6, 7), (9, 8, 1)]
-    points, triangles = np.array(corners, dtype=float), np.array(faces)
-    for _ in range(level):
-        points, triangles = _subdivided(points, triangles)
-    return points / np.linalg.norm(points, axis=1, keepdims=True), triangles
-
-
-def _subdivided(points: Array, triangles: Indices) -> tuple[Array, Indices]:
-    points = points / np.linalg.norm(points, axis=1, keepdims=True)
-    pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    unique, inverse = np.unique(pairs, axis=0, return_inverse=True)
-    middles = points[unique].mean(axis=1)
-    ab, bc, ca = np.split(inverse.reshape(-1) + len(points), 3)
-    a, b, c = triangles.T
-    split = [np.stack(t, axis=1) for t in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca))]
-    return np.concatenate([points, middles]), np.concatenate(split)
+def directions_around(count: int) -> Array:
+    """Unit vectors that are nearly even on the sphere: a Fibonacci spiral."""
+    k = np.arange(count) + 0.5
+    z, turn = 1 - 2 * k / count, np.pi * (1 + 5**0.5) * k
+    return np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], axis=1)
 
 
 def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh | None:
@@ -75,7 +55,7 @@ def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh |
     depth = min(_margin(s, centre[None, :])[0] for s in shapes)
     if depth <= 1e-6 * max(1.0, float(np.abs(centre).max())):
         return None
-    directions, _ = icosphere(level)
+    directions = directions_around(10 * 4**level + 2)
     boundary = _cast(shapes, centre, directions)
     # a second time with directions stretched to the shape found, so that thin regions are sampled evenly
     spread = np.linalg.cholesky(np.cov((boundary - centre).T))
@@ -264,23 +244,14 @@ def sampled(control: Sequence[Sequence[Any]], count: int = 61) -> Array:
 
 
 def hull(points: Array) -> Array:
-    """The convex hull of points in the plane, counter-clockwise and closed (Andrew's monotone chain)."""
-    ordered = sorted(set(map(tuple, np.round(points, 9).tolist())))
-    if len(ordered) < 3:
-        return np.array(ordered)
-    chains: list[list[tuple[float, ...]]] = []
-    for sequence in (ordered, ordered[::-1]):
-        chain: list[tuple[float, ...]] = []
-        for p in sequence:
-            while len(chain) > 1 and _turn(chain[-2], chain[-1], p) <= 0:
-                chain.pop()
-            chain.append(p)
-        chains.append(chain[:-1])
-    return np.array([*chains[0], *chains[1], chains[0][0]])
+    """The convex hull of points in the plane, counter-clockwise and closed; the points themselves where it is flat."""
+    from scipy.spatial import ConvexHull, QhullError
 
-
-def _turn(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    try:
+        corners = points[ConvexHull(points).vertices]
+    except (QhullError, ValueError):
+        return points
+    return np.concatenate([corners, corners[:1]])
 
 
 def best_view(mesh: RegionMesh) -> tuple[float, float]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.obstacle import Obstacle
-from bezier.pictures.mesh import Array, Indices, hull, hull_faces, icosphere
+from bezier.pictures.mesh import Array, Indices, directions_around, hull, hull_faces
 
 COLOURS = ("#d98a2b", "#8a6fb0", "#3f9aa8", "#8c6239", "#c2a92b", "#6b7785")
 """The colours of obstacles, in turn; none is near a colour of the curves."""
@@ -75,7 +75,7 @@ def _widened(points: Array, radius: float) -> Array:
     """The points with balls around them."""
     if not radius:
         return points
-    directions, _ = icosphere(3 if len(points) < 4 else 2 if len(points) < 20 else 1)
+    directions = directions_around(642 if len(points) < 4 else 162 if len(points) < 20 else 42)
     widened: Array = (points[:, None, :] + radius * directions[None]).reshape(-1, 3)
     return widened
 

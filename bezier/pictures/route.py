@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.pictures.mesh import Array, hull, icosphere, sampled
+from bezier.pictures.mesh import Array, directions_around, hull, sampled
 from bezier.scenes.barrier import Wall
 from bezier.scenes.route import Blocked, Route
 from bezier.scenes.scene import Scene
@@ -101,9 +101,8 @@ def outline(body: Solid, i: int, j: int) -> Array:
     corners = _floats(body.corners)
     wide = np.linspace(0, 2 * np.pi, 73)[:-1]
     ring = np.stack([np.cos(wide), np.sin(wide)] + [0 * wide] * (corners.shape[1] - 2), axis=1)
-    ball = ring if corners.shape[1] == 2 else icosphere(3)[0]
+    ball = ring if corners.shape[1] == 2 else directions_around(642)
     for offsets, radius in ((ring, body.tube), (ball, body.radius)):
         if radius:
             corners = (corners[:, None, :] + float(radius) * offsets[None]).reshape(-1, corners.shape[1])
-    flat = corners[:, (i, j)]
-    return hull(flat) if len(np.unique(flat, axis=0)) > 2 else flat
+    return hull(corners[:, (i, j)])

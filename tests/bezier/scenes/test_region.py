@@ -64,7 +64,7 @@ def test_a_wall_of_formulas_in_space_is_proved_by_sentences() -> None:
     assert isinstance(first, Cell)
     wide = Cell.box(tuple(c - 2 for c in first.corners[0]), tuple(c + 9 for c in first.corners[0]))
     with pytest.raises((qe.CertificateRejected, qe.Unable)):
-        proved(replace(found, walls=(wide, *found.walls[1:])).sentences, Budget(20))  # type: ignore[arg-type]
+        proved(replace(found, walls=(wide, *found.walls[1:])).sentences, Budget(20))
 
 
 @each(("(x-5)^2 + (y-5)^2 = 9", 5), ("(x-5)^2 + (y-2)^2 <= 4 | (x-5)^2 + (y-7)^2 <= 9", 1))

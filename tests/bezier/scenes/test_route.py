@@ -27,6 +27,7 @@ from bezier.scenes.barrier import barrier
 from bezier.scenes.bound import least_length
 from bezier.scenes.cells import Cell, FreeCells
 from bezier.scenes.conic import Conic
+from bezier.scenes.region import decomposed
 from bezier.scenes.route import Blocked, Route, Wish, decided, proved
 from bezier.scenes.scene import Scene, given_scene
 from bezier.scenes.sentences import COVERED, covering, inside
@@ -176,7 +177,7 @@ def decide_twice(scene: Scene) -> Blocked | Route:
     if any(scene.blocked_at(p) for p in (scene.start, scene.goal)):
         assert found.blocked
         return found
-    joined = route_module._joined(scene, 1, Budget(120))
+    joined = route_module._joined(scene, decomposed(scene, 1, Budget(120)).free)
     assert (joined is None) is bool(barrier(scene)) is found.blocked
     found.check()
     return found
