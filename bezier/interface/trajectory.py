@@ -86,7 +86,8 @@ def certify(
     limits = limited_motion(dict(zip(names, values, strict=True)), len(path.names), SOURCE)
     bodies = None
     if obstacles is not None:
-        bodies, _ = scene_of(_table({"obstacle": obstacles}, {"obstacle": "obstacles"}), len(path.names))
+        axes = len(path.names) if robot is None else 3
+        bodies, _ = scene_of(_table({"obstacle": obstacles}, {"obstacle": "obstacles"}), axes)
     largest = arguments.rational(tolerance, "tolerance")
     if largest < 0:
         raise InputError(f"{SOURCE}: tolerance: expected a number of at least 0, found {arguments.shown(tolerance)}")

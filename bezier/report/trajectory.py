@@ -69,11 +69,12 @@ def page(
     findings: Sequence[Finding] = (),
     cards: Sequence[Card] = (),
     along: Along | None = None,
+    point: Trajectory | None = None,
 ) -> Page:
-    """``lines``: what the command says; ``findings``: of each piece and each obstacle; ``cards``: more for the first
-    line."""
+    """``lines``: what the command says; ``findings``: of each piece of ``point`` and each obstacle; ``cards``: more
+    for the first line."""
     quantities = [_limited(verdict.trajectory, outcome) for outcome in verdict.outcomes]
-    quantities += _clearances(verdict.trajectory, findings)
+    quantities += _clearances(point or verdict.trajectory, findings)
     if along is not None:
         distance = _limited(along.verdict.trajectory, along.verdict.outcomes[0])
         quantities.append(replace(distance, words=WORDS, bounds=(None, float(along.within))))

@@ -6,11 +6,13 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import qe
 from bezier.arm.model import Arm
+from bezier.arm.tip import tip_of
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.input import stored
@@ -18,7 +20,7 @@ from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Contact
-from bezier.obstacles.obstacle import Obstacle
+from bezier.obstacles.obstacle import Obstacle, widened
 from bezier.obstacles.reader import read_obstacles
 from bezier.trajectories.along import Along, arm_limits, load_path
 from bezier.trajectories.evidence import compare, members, stated
@@ -29,6 +31,9 @@ from bezier.trajectories.words import in_words, to_json
 from qe.errors import InputError
 from qe.processes.channel import Channel
 
+NEAR = Fraction(1, 1 << 20)
+"""How far (mm) the end point of an arm may be from the polynomials that are proved clear in its place."""
+END = f"part {{}} (the end point within {NEAR} mm of it)"
 KEYS = (*QUANTITIES, *(f"{name}_norm" for name in QUANTITIES[1:]))
 
 
@@ -89,7 +94,7 @@ def _in_space(entry: dict[str, Any]) -> dict[str, Any]:
     return {**entry, **{key: [*value, heights[key]] for key, value in flat.items()}}
 
 
-def curves(trajectory: Trajectory) -> dict[str, Bezier]:
+def curves(trajectory: Trajectory, name: str = "piece {}") -> dict[str, Bezier]:
     """Each piece as a curve in space; a third coordinate that is missing is 0. Raises ``InputError`` for other axes."""
     if len(trajectory.names) not in (2, 3):
         raise InputError(f"--scene: expected a trajectory of 2 or 3 axes, found {len(trajectory.names)}")
@@ -101,7 +106,7 @@ def curves(trajectory: Trajectory) -> dict[str, Bezier]:
             scaled = [c * h**k for k, c in enumerate(p.coefficients())]
             columns.append(bs.from_power([*scaled, *[Fraction(0)] * (degree + 1 - len(scaled))]))
         columns += [(Fraction(0),) * (degree + 1)] * (3 - len(row))
-        result[f"piece {i + 1}"] = Bezier.of(list(zip(*columns, strict=True)))
+        result[name.format(i + 1)] = Bezier.of(list(zip(*columns, strict=True)))
     return result
 
 
@@ -132,7 +137,9 @@ def certify(
     if scene is not None:
         is_json = scene.suffix.lower() == ".json"
         table = Table(stored.table(scene), str(scene)) if is_json else Table.load(scene)
-        obstacles, inside = scene_of(table, len(trajectory.names))
+        obstacles, inside = scene_of(table, len(trajectory.names) if robot is None else 3)
+        if robot is not None and inside:
+            raise InputError(f"{scene}: domain: expected none with --robot (obstacles around it), found one")
         listed = [*listed, *inside]
     path = None if along is None else load_path(along, trajectory)
     try:
@@ -164,6 +171,8 @@ class Certified:
     verdict: Verdict
     findings: tuple[survey.Finding, ...] | None
     along: Along | None = None
+    point: Trajectory | None = None
+    """What the findings are about: with an arm its end point, up to ``NEAR``; obstacles are wider by that."""
 
     @staticmethod
     def of(
@@ -179,13 +188,15 @@ class Certified:
         ``Unable``, and ``OverflowError`` for numbers beyond floats."""
         if robot is not None:
             limits = [*limits, *arm_limits(robot, trajectory)]
-            if obstacles:
-                raise InputError("obstacles: expected a trajectory of a point, found one of the joints of a robot")
-        verdict = decided(trajectory, limits, tolerance)
+        verdict, point, listed = decided(trajectory, limits, tolerance), trajectory, curves
         findings: tuple[survey.Finding, ...] | None = None if obstacles is None else ()
+        if obstacles and robot is not None:
+            point, obstacles = tip_of(robot, trajectory, NEAR), [widened(body, NEAR) for body in obstacles]
+            listed = partial(curves, name=END)
         if obstacles:
-            findings = survey.survey(curves(trajectory), obstacles, distances=False)
-        return Certified(verdict, findings, None if path is None else Along.of(trajectory, path, within, robot))
+            findings = survey.survey(listed(point), obstacles, distances=False)
+        near = None if path is None else Along.of(trajectory, path, within, robot)
+        return Certified(verdict, findings, near, point)
 
     @property
     def kept(self) -> bool:
@@ -207,7 +218,8 @@ class Certified:
     def lines(self) -> list[str]:
         """A line for each limit, each contact, and what follows."""
         lines, contacts = in_words(self.verdict), survey.contacts(self.findings or ())
-        spans = zip(self.verdict.trajectory.breaks, self.verdict.trajectory.lengths, strict=False)
+        moved = self.point or self.verdict.trajectory
+        spans = zip(moved.breaks, moved.lengths, strict=False)
         times = dict(zip(dict.fromkeys(f.name for f in self.findings or ()), spans, strict=False))
         for f in contacts:
             start, length = times[f.name]
@@ -215,6 +227,8 @@ class Certified:
             lines.append(f"{survey.in_words(f)}, at the time {float(time):.10g}")
         if self.findings and not contacts:
             lines.append(f"clear of all obstacles for all t: {len(self.findings)} pairs of pieces and obstacles")
+        if self.findings and moved is not self.verdict.trajectory:
+            lines.append(f"obstacles: of the end point alone, which is known within {NEAR} mm; not of links")
         return lines if self.along is None else [*lines, self.along.line]
 
     def __str__(self) -> str:
@@ -240,7 +254,7 @@ class Certified:
         from bezier.report.html import document
         from bezier.report.trajectory import page
 
-        return document(page(self.verdict, self.lines, title, self.findings or (), along=self.along))
+        return document(page(self.verdict, self.lines, title, self.findings or (), along=self.along, point=self.point))
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""
