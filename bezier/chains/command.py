@@ -11,7 +11,6 @@ from bezier.chains.plan import bundled, planned
 from bezier.chains.reader import load_chain
 from bezier.curves.scalar import described
 from bezier.input import stored
-from qe.errors import InputError
 from qe.processes.channel import Channel
 
 
@@ -20,11 +19,11 @@ def run(
     file: Path,
     *,
     evidence: bool = False,
-    page: Path | None = None,
+    page: bool = False,
     region: str | None = None,
     as_json: bool = False,
-) -> tuple[str, str, bool]:
-    """What to print, the certificate's text where there is ``evidence`` wanted, and whether there is a chain."""
+) -> tuple[str, str, str, bool]:
+    """What to print, the texts of certificate and page where they are wanted, and whether there is a chain."""
     made = planned(load_chain(file)).with_repairs()
     data, lines = made.to_json(), made.lines
     shown = None if region is None else made.region(region)
@@ -34,14 +33,9 @@ def run(
             radius = made.validity(shown.name)
             data["region"]["may move by"] = [described(radius.low), described(radius.high)]
             lines.append(str(radius))
-    if page is not None:
-        try:
-            page.write_text(made.page(file.name, shown), encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"--page {page}: expected a writable file, found: {error.strerror}") from None
     proof = made.proof if shown is None or made.searched else bundled([made.proof, shown.certificate])
     text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
-    return text, proof.to_json() if evidence else "", made.feasible
+    return text, proof.to_json() if evidence else "", made.page(file.name, shown) if page else "", made.feasible
 
 
 def check(channel: Channel, file: Path, against: Path, *, as_json: bool = False) -> str:

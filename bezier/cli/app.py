@@ -262,6 +262,7 @@ def certify(
 
     check_limits(timeout, memory)
     check_writable(certificate)
+    check_writable(page)
     if not any((limits, scene, robot, along)) and (certificate is not None or check is not None):
         raise InputError("--certificate and --check: expected --limits, --scene, --robot or --along, found none")
     if (along is None) != (within is None):
@@ -269,18 +270,24 @@ def certify(
     largest = _number(tolerance, "--tolerance")
     kind = None if interpolation is None else interpolation.value
     work = partial(command.certify, file=file, limits=limits, scene=scene, interpolation=kind, tolerance=largest)
-    work = partial(work, evidence=certificate, against=check, page=page, as_json=json)
+    work = partial(work, evidence=certificate is not None, against=check, page=page is not None, as_json=json)
     if along is not None and within is not None:
         work = partial(work, along=along, within=_number(within, "--within", above=True))
     if robot is not None:
         from bezier.arm.reader import load_arm
 
         work = partial(work, robot=load_arm(robot))
-    text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
-    if certificate is not None:
-        write_file(certificate, evidence)
+    text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
+    _write((certificate, page), files)
     print(text)
     return OK
+
+
+def _write(names: Sequence[Path | None], contents: Sequence[str]) -> None:
+    """Whole files, of what is wanted and is not empty."""
+    for name, content in zip(names, contents, strict=True):
+        if name is not None and content:
+            write_file(name, content)
 
 
 def chain(
@@ -299,17 +306,17 @@ def chain(
 
     check_limits(timeout, memory)
     check_writable(certificate)
+    check_writable(page)
     if check is not None:
         if certificate is not None or page is not None or region is not None:
             raise InputError("--check: expected no --certificate, --page and --region with it, found one")
         work = partial(command.check, file=file, against=check, as_json=json)
         print(limited(work, timeout=timeout, memory=memory, plain=json))
         return OK
-    planning = partial(command.run, file=file, evidence=certificate is not None, page=page, as_json=json)
+    planning = partial(command.run, file=file, evidence=certificate is not None, page=page is not None, as_json=json)
     planning = partial(planning, region=region)
-    text, evidence, is_success = limited(planning, timeout=timeout, memory=memory, plain=json)
-    if certificate is not None:
-        write_file(certificate, evidence)
+    text, *files, is_success = limited(planning, timeout=timeout, memory=memory, plain=json)
+    _write((certificate, page), files)
     print(text)
     return OK if is_success else UNABLE
 
@@ -332,13 +339,13 @@ def route(
 
     check_limits(timeout, memory)
     check_writable(certificate)
+    check_writable(picture)
     if check is not None and certificate is not None:
         raise InputError("--check: expected no --certificate with it, found one")
     wish = Wish(degree, continuity) if shortest else None
-    work = partial(command.run, file=file, against=check, picture=picture, wish=wish, as_json=json)
-    text, evidence, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
-    if certificate is not None and evidence:  # none where the start or the goal itself is in an obstacle
-        write_file(certificate, evidence)
+    work = partial(command.run, file=file, against=check, picture=picture is not None, wish=wish, as_json=json)
+    text, *files, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
+    _write((certificate, picture), files)  # no certificate where the start or the goal itself is in an obstacle
     print(text)
     return OK if is_free else UNABLE
 
@@ -371,9 +378,7 @@ def retime(
     work = partial(command.run, file=file, limits=limits, law=law, accuracy=share, against=check, as_json=json)
     work = partial(work, evidence=certificate is not None, page=page is not None)
     text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
-    for name, content in zip((out, certificate, page), files, strict=True):
-        if name is not None:
-            write_file(name, content)
+    _write((out, certificate, page), files)
     print(text)
     return OK
 

@@ -9,7 +9,6 @@ import qe
 from bezier.input import stored
 from bezier.scenes.route import Wish, decided
 from bezier.scenes.scene import load_scene
-from qe.errors import InputError
 from qe.options import Budget
 from qe.processes.channel import Channel
 
@@ -19,11 +18,11 @@ def run(
     file: Path,
     *,
     against: Path | None = None,
-    picture: Path | None = None,
+    picture: bool = False,
     wish: Wish | None = None,
     as_json: bool = False,
-) -> tuple[str, str, bool]:
-    """What to print, the text of the certificate, and whether there is a way.
+) -> tuple[str, str, str, bool]:
+    """What to print, the texts of the certificate and of the picture, and whether there is a way.
 
     ``against``: the file of a certificate that is checked about this scene, in place of a proof that is made; the way
     or the two sides are looked for again. Raises ``CertificateRejected`` where it is not about them.
@@ -34,12 +33,10 @@ def run(
         known.check(qe.Certificate.from_json(stored.text(against)))
         data["checked"] = True
         lines.append("accepted")
-    if picture is not None:
+    drawn = ""
+    if picture:
         from bezier.pictures.route import drawing
 
-        try:
-            picture.write_text(drawing(known), encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"--picture {picture}: expected a writable file, found: {error.strerror}") from None
+        drawn = drawing(known)
     text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
-    return text, "" if known.certificate is None else known.certificate.to_json(), not known.blocked
+    return text, "" if known.certificate is None else known.certificate.to_json(), drawn, not known.blocked

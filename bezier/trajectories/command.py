@@ -121,15 +121,15 @@ def certify(
     robot: Arm | None = None,
     along: Path | None = None,
     within: Fraction = Fraction(0),
-    evidence: Path | None = None,
+    evidence: bool = False,
     against: Path | None = None,
-    page: Path | None = None,
+    page: bool = False,
     as_json: bool = False,
-) -> tuple[str, str]:
-    """What to print, and the certificate's text where ``evidence`` is wanted.
+) -> tuple[str, str, str]:
+    """What to print, the certificate's text where ``evidence`` is wanted, and the page with a chart of each quantity.
 
-    ``page``: a file for the page with a chart of each quantity. ``against``: a certificate that is checked. Raises
-    ``InputError``, ``Unable``, and ``CertificateRejected`` for that certificate.
+    ``against``: a certificate that is checked. Raises ``InputError``, ``Unable``, and ``CertificateRejected`` for that
+    certificate.
     """
     trajectory = load(file, interpolation)
     listed = [] if limits is None else limits_of(Table.load(limits), len(trajectory.names))
@@ -150,17 +150,9 @@ def certify(
     if against is not None:
         judged.check(qe.Certificate.from_json(stored.text(against)))
         lines.append("the certificate proves it: accepted")
-    proof = "" if evidence is None else judged.certificate.to_json()
-    if page is not None:
-        _write_page(page, judged.page(file.name))
-    return json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines), proof
-
-
-def _write_page(file: Path, page: str) -> None:
-    try:
-        file.write_text(page, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"--page {file}: expected a writable file, found: {error.strerror}") from None
+    proof = judged.certificate.to_json() if evidence else ""
+    text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
+    return text, proof, judged.page(file.name) if page else ""
 
 
 @dataclass(frozen=True)

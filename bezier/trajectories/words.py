@@ -50,7 +50,7 @@ def in_words(verdict: Verdict) -> list[str]:
         place = f"({names[j.axis]} at t = {_decimal(j.time)})"
         lines.append(f"{QUANTITIES[j.order]}: {wrong} of at most {_decimal(j.size)} {place}")
     if verdict.is_kept:
-        return [*lines, "all limits are kept for all t"]
+        return [*lines, "all limits are kept for all t"] if verdict.outcomes else lines
     if worst := verdict.worst:
         when = f"{float(worst.time(trajectory)):.12g}"
         lines.append(f"refuted: {worst.limit.words(names)} is {worst.value:.10g} at t = {when}")
