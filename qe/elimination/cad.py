@@ -12,6 +12,7 @@ from qe.decomposition.follows import follows
 from qe.decomposition.formulas import construct, formula_of_cells
 from qe.decomposition.operators.table import OPERATORS
 from qe.decomposition.order import Prenex
+from qe.decomposition.refined import refined as refined_free_part
 from qe.decomposition.sampled_cells import deciding_point
 from qe.decomposition.sign_table import Columns, free_cells
 from qe.elimination.protocol import Context, Outcome
@@ -63,7 +64,9 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
     first = question.table(budget)
     values: Values | None = None
     if formula.free:
-        answer, proof = question.shortest(first, budget)
+        answer, proof, levels, whole = question.shortest(first, budget)
+        if levels and options.certify:  # what was refined is no proof
+            proof = question.table(budget, levels, whole_free=whole).table
     else:
         truth, proof = first.table.root.truth is True, first.table
         answer = TRUE if truth else FALSE
@@ -163,12 +166,13 @@ class _Question:
         whose derivatives it needs, ``thom_levels`` from the start."""
         levels = thom_levels
 
-        def refined(more: frozenset[int]) -> CellTable:
+        def refine(more: frozenset[int]) -> CellTable:
             nonlocal levels
             levels = more
-            return self.table(budget, levels, whole_free=whole_free).table
+            table = None if self.options.root_atoms else refined_free_part(found, levels, budget)
+            return table or self.table(budget, levels, whole_free=whole_free).table
 
-        answer, proof = construct(found.table, refined, levels)
+        answer, proof = construct(found.table, refine, levels)
         if self.options.root_atoms:
             from qe.decomposition.extended_tarski import extended_formula
 
@@ -176,21 +180,21 @@ class _Question:
         simple = simplify(convert(answer, Ring.of(self.free)), watch=budget.check)
         return simple, proof, levels
 
-    def shortest(self, first: Decomposed, budget: Budget) -> tuple[Formula, CellTable]:
-        """The answer; a small one is compared with that of the whole space of the free variables, for which formula
-        construction knows the signs of all factors everywhere."""
+    def shortest(self, first: Decomposed, budget: Budget) -> tuple[Formula, CellTable, frozenset[int], bool]:
+        """As ``answer``; a small one is compared with that of the whole space of the free variables, for which formula
+        construction knows the signs of all factors everywhere. Last: whether that one is shorter."""
         answer, proof, levels = self.answer(first, budget)
         plain = not self.options.root_atoms and Stage.PARTIAL not in self.options.without
         fewest = WHOLE_ATOMS_BOUND if any(self.prenex.quantifiers) else WHOLE_ATOMS
         if not plain or first.cells > WHOLE_FROM or length(answer)[0] < fewest or not is_small(answer):
-            return answer, proof
+            return answer, proof, levels, False
         part = budget.part(WHOLE_CELLS)
         try:
             whole = self.table(part, levels, whole_free=True)
-            other, table, _ = self.answer(whole, part, levels, whole_free=True)
+            other, table, more = self.answer(whole, part, levels, whole_free=True)
         except BudgetExceeded:
-            return answer, proof
-        return (other, table) if length(other) < length(answer) else (answer, proof)
+            return answer, proof, levels, False
+        return (other, table, more, True) if length(other) < length(answer) else (answer, proof, levels, False)
 
 
 def _figures(found: Decomposed, seconds: float) -> dict[str, object]:

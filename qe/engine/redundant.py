@@ -55,12 +55,18 @@ CLOSE = tuple(map(Fraction, ("0", "1/2", "-1/2", "1/3", "-2/3", "1", "-1", "5/4"
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """An argument of a conjunction or disjunction, its ``place``, and the ``conditions`` under which it matters."""
+    """An argument of a conjunction or disjunction, its ``place``, and the conditions under which it matters: ``those``
+    that hold there, and others that fail."""
 
     place: Place
     formula: Formula
     of_conjunction: bool
-    conditions: tuple[Formula, ...]
+    those: tuple[tuple[Formula, bool], ...]
+
+    @property
+    def conditions(self) -> tuple[Formula, ...]:
+        """The conditions as formulas that hold."""
+        return tuple(f if holds else nnf(f, negate=True) for f, holds in self.those)
 
     @property
     def sentence(self) -> Formula:
@@ -110,14 +116,18 @@ def _without_excluded_parts(formula: Formula, context: Context, points: _Points 
         return formula
     points, kept, terms = points or _Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
-    # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
-    while (part := next((p for p in _by_size(formula, points) if p.formula not in kept), None)) is not None:
-        terms -= sum(length(condition)[1] for condition in part.conditions)
+    parts = iter(_by_size(formula, points))
+    while (part := next(parts, None)) is not None:
+        # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
+        if part.formula in kept:
+            continue
+        terms -= sum(length(condition)[1] for condition, _ in part.those)
         if terms < 0:
             break
         if simplify(conj(part.conditions), watch=context.budget.check) == FALSE:
             nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
             formula = _dropped(formula, part, nested, context)
+            parts = iter(_by_size(formula, points))
         else:
             kept.add(part.formula)
     return formula
@@ -168,9 +178,9 @@ def is_cheap_sentence(sentence: Formula) -> bool:
 
 def _unsettled(formula: Formula, points: _Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:
     """The parts worth a question of which no known point says that they matter, largest first."""
-    parts: list[Part] = []
     for count in (FIRST, COARSE, COARSE + FINE):
-        points.fill(count)
+        if not points.fill(count) and count < COARSE + FINE:
+            continue
         parts = [p for p in _by_size(formula, points, known) if _is_cheap(p)]
         if not parts:
             return
@@ -179,7 +189,7 @@ def _unsettled(formula: Formula, points: _Points, kept: set[Formula], known: For
 
 def _by_size(formula: Formula, points: _Points, known: Formula = TRUE) -> list[Part]:
     """The parts of which no point tells that they matter, largest first."""
-    parts = _silent(formula, points, (), () if known == TRUE else (known,), points.holding(known))
+    parts = _silent(formula, points, (), () if known == TRUE else ((known, True),), points.holding(known))
     return sorted(parts, key=lambda part: length(part.formula), reverse=True)
 
 
@@ -187,25 +197,26 @@ def _is_cheap(part: Part) -> bool:
     """Whether a part may well be redundant, and the sentence be decided with little work."""
     if isinstance(part.formula, Atom) and part.formula.relation is Relation.EQ and part.of_conjunction:
         return False
-    size = len({name for f in part.conditions for name in f.free})
-    degrees = (a.poly.total_degree for f in part.conditions for a in atoms(f))
+    size = len({name for f, _ in part.those for name in f.free})
+    degrees = (a.poly.total_degree for f, _ in part.those for a in atoms(f))
     return max(degrees, default=0) <= DEGREES.get(size, MANY_DEGREE)
 
 
-def _silent(formula: Formula, points: _Points, place: Place, above: tuple[Formula, ...], there: int) -> Iterator[Part]:
+def _silent(
+    formula: Formula, points: _Points, place: Place, above: tuple[tuple[Formula, bool], ...], there: int
+) -> Iterator[Part]:
     """The parts below a place that matters under conditions, at the points ``there``, and that no point tells."""
     if not isinstance(formula, And | Or):
         return
     both = isinstance(formula, And)
     masks = [points.holding(a) for a in formula.args]
     for k, (arg, mask) in enumerate(zip(formula.args, masks, strict=True)):
-        rest = formula.args[:k] + formula.args[k + 1 :]
         here = there
         for j, other in enumerate(masks):
             here = here if j == k else here & other if both else here & ~other
-        conditions = (*above, *(rest if both else (nnf(r, negate=True) for r in rest)))
+        conditions = (*above, *((r, both) for j, r in enumerate(formula.args) if j != k))
         if not here & (~mask if both else mask):
-            yield Part((*place, k), arg, both, (*conditions, nnf(arg, negate=True) if both else arg))
+            yield Part((*place, k), arg, both, (*conditions, (arg, not both)))
         yield from _silent(arg, points, (*place, k), conditions, here)
 
 
@@ -223,9 +234,9 @@ class _Points:
     def everywhere(self) -> int:
         return (1 << len(self.listed)) - 1
 
-    def fill(self, count: int) -> None:
-        """So many points at least, beside those on the axes."""
-        axes = 2 * len(self.names)
+    def fill(self, count: int) -> bool:
+        """So many points at least, beside those on the axes; whether there were fewer."""
+        axes, before = 2 * len(self.names), len(self.listed)
         while len(self.listed) < count + axes:
             k = len(self.listed)
             if k < axes:
@@ -233,6 +244,7 @@ class _Points:
                 continue
             values: Sequence[Fraction | int] = SMALL if k < COARSE + axes else CLOSE
             self.listed.append({name: self.chosen.choice(values) for name in self.names})
+        return len(self.listed) > before
 
     def take(self, witness: Values | None) -> None:
         """One more point, if its coordinates are rational."""

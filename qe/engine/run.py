@@ -77,6 +77,8 @@ class _Run:
     log: RunLog = field(default_factory=RunLog)
     tried: set[Formula] = field(default_factory=set)
     short: set[Formula] = field(default_factory=set)
+    asked: Formula = TRUE
+    """What is asked, prepared: its answer is made shorter as a whole."""
 
     # --- the question as a whole ---------------------------------------------------------------
     def outcome(self, question: Formula) -> Outcome:
@@ -117,7 +119,7 @@ class _Run:
 
     def outcome_of_formula(self, formula: Formula) -> Outcome:
         """A formula with parameters, or one that does not begin with a quantifier."""
-        ready = self.prepared(formula).formula
+        ready = self.asked = self.prepared(formula).formula
         gathered, mark, outcome = gathered_block(ready), self.log.mark(), None
         if gathered is not None:
             self.log.step("independent parts and miniscoping", ready, gathered.formula)
@@ -266,7 +268,7 @@ class _Run:
                 raise alone(name)
             self.log.switch(name, f"{', '.join(features(formula).bound)} left for another method")
             formula = self.without_quantifiers(formula)
-        if attempt.shorten and problem.free:
+        if attempt.shorten and problem.free and problem.formula != self.asked:
             formula = self.shortened(formula)
         simple = self.log.step("simplification", formula, simplify(formula, watch=self.budget.check))
         return outcome if simple == outcome.formula else replace(outcome, formula=simple)

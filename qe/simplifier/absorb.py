@@ -25,6 +25,7 @@ def absorb(members: list[Formula], conjunctive: bool, level: Level) -> list[Form
     sets: dict[Formula, frozenset[Formula]] = {m: frozenset(m.args) for m in members if isinstance(m, inner)}
     if len(sets) < 2:
         return members
+    members = list(dict.fromkeys(members))  # what follows tells them apart by identity
     kept = [m for m in members if m not in sets or not any(o != m and s < sets[m] for o, s in sets.items())]
     merged = _merge_pair(kept, sets, disj if conjunctive else conj, lambda parts: level(parts, conjunctive))
     return absorb(merged, conjunctive, level) if merged is not None else kept
@@ -41,7 +42,7 @@ def _merge_pair(
     for member in members:
         if member not in sets:
             continue
-        for part in sets[member]:
+        for part in member.args:  # type: ignore[union-attr]
             if not isinstance(part, Atom | And | Or):
                 continue
             rest = sets[member] - {part}

@@ -1,7 +1,9 @@
 """The simplifier's rules, one example each; every pair is checked for equivalence by the property tests as well."""
 
+from qe.formula.build import disj
 from qe.formula.traverse import atoms
 from qe.io.text import read
+from qe.simplifier.absorb import absorb
 from qe.simplifier.simplify import simplify
 from tests.tables import each
 
@@ -91,3 +93,9 @@ def test_nothing_to_do(kept: str) -> None:
     result = simplify(given)
     assert len(list(atoms(result))) == len(list(atoms(given)))
     assert str(result) == str(given)
+
+
+def test_an_alternative_that_stands_twice_is_kept() -> None:
+    """One node in two places was merged with itself and lost."""
+    twice, other = read("a > 0 and b > 0"), read("a < 0 and c > 0")
+    assert absorb([twice, twice, other], False, lambda parts, _: simplify(disj(parts))) == [twice, other]

@@ -1,0 +1,58 @@
+"""The space of the free variables by more factors, with the truth values of a table that was made before.
+
+THEOREM. Where the factors of a decomposition of the free variables contain those of another, each of its cells lies in
+one of the other's, and over it the sections of the fewer factors are some of the sections of the more, in their order.
+So what is true on the larger cell is true there, and nothing has to be lifted above the free variables again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import chain
+
+from qe.decomposition.decompose import Decomposed
+from qe.decomposition.projection import factor_lists
+from qe.decomposition.stack import stack_over
+from qe.errors import NotWellOriented
+from qe.exact.ring import Ring
+from qe.exact.sample import Point
+from qe.exact.watch import Watch
+from qe.options import Budget
+from qe.proof.cells import Cell, CellTable, Stack
+
+
+def refined(found: Decomposed, levels: frozenset[int], budget: Budget) -> CellTable | None:
+    """The free part of a decomposition, with the derivatives of the factors of these levels and nothing above it: it
+    says where the formula is true, and is no proof of that. None where a level is restricted by an equational
+    constraint or a factor nullified: the whole is to be decomposed again. Raises ``BudgetExceeded``.
+    """
+    table, operator, size = found.table, found.operator, found.table.free
+    if any(table.constraints[:size]):
+        return None
+    lists = factor_lists(chain.from_iterable(table.factors[:size]), size, operator, budget, levels)
+
+    def inner(point: Point, cell: Cell) -> Cell:
+        if cell.stack is None:
+            return cell
+        factors, known = lists[point.depth], table.factors[point.depth]
+        used = tuple(range(len(factors)))
+        fine = stack_over(point, factors, used, lazard=operator.evaluates)
+        if fine.nullified:
+            raise NotWellOriented("a factor is nullified")
+        budget.spend(len(fine.texts))
+        budget.check("lift")
+        old, place, cells = {factors.index(known[j]) for j in cell.stack.used}, 0, []
+        for position, signs in enumerate(fine.texts):
+            on_old = position % 2 == 1 and not old.isdisjoint(fine.sections[position // 2])
+            below = cell.stack.cells[place + on_old]
+            last = point.depth + 1 == size
+            below = replace(below, stack=None) if last else inner(fine.sample(position), below)
+            cells.append(replace(below, signs=signs))
+            place += 2 * on_old
+        return replace(cell, stack=Stack(used, fine.sectors, fine.sections, tuple(cells)))
+
+    try:
+        root = inner(Point(Ring.of(table.order), watch=Watch(budget.check)), table.root)
+    except NotWellOriented:
+        return None
+    return replace(table, factors=(*lists, *table.factors[size:]), root=root)
