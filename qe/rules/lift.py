@@ -15,8 +15,11 @@ from typing import Protocol
 
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots, real_roots
+from qe.exact.fibre_stack import isolate_over
+from qe.exact.field import NumberField
 from qe.exact.number import simplest
 from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
 
 _DEGREE = 200  # the largest degree of a field in which a value is computed
@@ -51,9 +54,6 @@ def value_at(poly: Poly, assignment: Assignment) -> Value:
 
 def _over_point(poly: Poly, algebraic: list[str], values: Assignment) -> Value:
     """The value where several variables have irrational ones: the root of t - poly over their point."""
-    from qe.exact.fibre_stack import isolate_over  # with all of decomposition that it stands on
-    from qe.exact.sample import Point
-
     degree = prod(value.degree for name in algebraic if isinstance(value := values[name], RealAlgebraic))
     if degree > _DEGREE:
         raise Unable(f"a value in a field of degree up to {degree} is not computed")
@@ -65,8 +65,6 @@ def _over_point(poly: Poly, algebraic: list[str], values: Assignment) -> Value:
 
 def _in_field(poly: Poly, name: str, values: Assignment) -> Value:
     """The value where a single variable has an irrational one: an element of the field that this one generates."""
-    from qe.exact.field import NumberField
-
     ring, theta = poly.ring, values[name]
     assert isinstance(theta, RealAlgebraic)
     known = {v: value for v, value in values.items() if isinstance(value, Fraction)}
@@ -88,8 +86,6 @@ def sign_at(poly: Poly, assignment: Assignment) -> int:
     if all(isinstance(values[i], Fraction) for i in poly.variables):
         result = poly.evaluate(values)  # type: ignore[arg-type]
         return (result > 0) - (result < 0)
-    from qe.exact.sample import Point
-
     return Point.of(ring, values).sign(poly)
 
 

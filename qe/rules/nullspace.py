@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
+from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula
 from qe.formula.traverse import polynomials
@@ -32,8 +33,6 @@ def homogeneous_weights(body: Formula, names: frozenset[str]) -> Weights:
 def _annihilator(body: Formula, names: frozenset[str], rows: Callable[[Poly, Sequence[int]], Iterator[Row]]) -> Weights:
     """The sum of a basis of the vectors whose product with every row is 0, each with one free coordinate 1 and the
     others 0."""
-    from qe.exact.quadratic_form import solve_linear
-
     polys, ring = polynomials(body), body.ring
     if ring is None:
         return {}

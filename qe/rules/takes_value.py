@@ -13,7 +13,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Poly, Ring, format_poly
+from qe.exact.sample import Point
 from qe.formula.build import conj
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import bound_variables, conjuncts
@@ -45,9 +47,6 @@ class TakesValue:
         return trial
 
     def _root(self, assignment: Assignment) -> Value:
-        from qe.exact.fibre_stack import isolate_over
-        from qe.exact.sample import Point
-
         names = self.poly.ring.names
         others = tuple(names[i] for i in self.poly.variables if names[i] != self.variable)
         ring = Ring.of((*others, self.variable))
