@@ -21,12 +21,12 @@ from qe.options import Budget
 from qe.proof.cells import Cell, CellTable, Stack
 
 
-def refined(found: Decomposed, levels: frozenset[int], budget: Budget) -> CellTable | None:
+def refined(coarse: Decomposed, levels: frozenset[int], budget: Budget) -> CellTable | None:
     """The free part of a decomposition, with the derivatives of the factors of these levels and nothing above it: it
     says where the formula is true, and is no proof of that. None where a level is restricted by an equational
     constraint or a factor nullified: the whole is to be decomposed again. Raises ``BudgetExceeded``.
     """
-    table, operator, size = found.table, found.operator, found.table.free
+    table, operator, size = coarse.table, coarse.operator, coarse.table.free
     if any(table.constraints[:size]):
         return None
     lists = factor_lists(chain.from_iterable(table.factors[:size]), size, operator, budget, levels)
