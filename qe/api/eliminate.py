@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Iterable
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Unpack, cast
 
@@ -13,9 +14,13 @@ from qe import arguments
 from qe.api.input import AnyFormula, order_of, read_posed
 from qe.api.limits import limits_of, performed, posed, under
 from qe.api.settings import Elimination, Order, ProvedQuestion, Search, with_settings
-from qe.errors import InputError, Unable
+from qe.errors import InputError, InternalError, Unable
+from qe.exact.number import point_text
 from qe.formula.assumed import Aim, Posed, claimed
+from qe.formula.block import Block
+from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Formula
+from qe.io.sharing import refuse_shared
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
@@ -145,6 +150,25 @@ def _raced(problem: Posed, options: Options, limits: Limits, check: bool, method
         return raced(partial(_answer_by, problem, options, check), methods, limits)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), question=problem.formula)
+
+
+def unproved(sentence: Formula, budget: Budget) -> Answer:
+    """The answer to a sentence, in this process, for those who show no guarantee.
+
+    Rational values are put back into the sentence, which says as much as their certificate and needs no kernel.
+    """
+    from qe.engine.posed import answer_to, answered
+
+    refuse_shared(sentence)
+    answer, block = answer_to(answered(Posed(sentence), Options(), budget)), Block.of(sentence)
+    if answer.witness is None or block is None:
+        return answer
+    rational = {name: value for name, value in answer.witness.items() if isinstance(value, Fraction)}
+    if not block.is_flat or len(rational) < len(answer.witness):
+        return settled(sentence, Options(), budget)
+    if holds_at(block.body, rational) is block.universal:
+        raise InternalError(f"the values that were found do not satisfy the formula: {point_text(rational)}")
+    return answer
 
 
 def settled(sentence: Formula, options: Options, budget: Budget) -> Answer:

@@ -282,15 +282,15 @@ def answered(
     settings = checked({name: value for name, value in given.items() if name not in REPORT})
     check_writable(certificate)
     text = replace(read_source(source, format), total_division=settings.pop("total_division", False))
-    timeout, memory, explain = settings["timeout"], settings.pop("memory"), settings.pop("explain", False)
+    timeout, memory = settings["timeout"], settings.pop("memory")
     if timeout is not None:  # the checks inside the engine can end the work in order
         settings["timeout"] = remaining(timeout)
     wanted = {"certificate": certificate is not None, "check": given["check"], "json": given["json"]}
-    request = Request(source=text, settings=settings, **wanted)
+    request = Request(source=text, explain=settings.pop("explain", False), settings=settings, **wanted)
     worked = partial(work, request=request)
     shown = {"plain": given["plain"], "lines": given["progress"]}
     reply = limited(worked, timeout=timeout, memory=memory, text=text.text, **shown)
-    return deliver(reply, files, explain=explain)
+    return deliver(reply, files)
 
 
 def check_limits(timeout: float | None, memory: int | None) -> None:
@@ -298,7 +298,7 @@ def check_limits(timeout: float | None, memory: int | None) -> None:
     checked({"timeout": timeout, "memory": memory})
 
 
-def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = False) -> int:
+def deliver(reply: Reply, paths: dict[str, Path | None]) -> int:
     """Write the files first, then the answer; the exit status."""
     for key, path in paths.items():
         if path is not None and key in reply.files:  # decided parts may have no certificate: the text says so
@@ -306,9 +306,8 @@ def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = Fals
     typer.echo(reply.text)
     if reply.verdict:
         typer.echo(reply.verdict, err=True)
-    if explain:
-        for line in reply.notes:
-            typer.echo(line, err=True)
+    for line in reply.notes:
+        typer.echo(line, err=True)
     return reply.code
 
 

@@ -8,7 +8,8 @@ from copy import copy
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
-import qe.api.eliminate as api
+from qe.api.eliminate import unproved
+from qe.api.limits import performed
 from qe.cli.smt_values import Number
 from qe.errors import BudgetExceeded, Unable
 from qe.formula.build import exists, forall
@@ -103,7 +104,8 @@ class Checks:
         try:
             if self.is_short(nodes, left):
                 formula = self.script.formula_of(nodes, total)
-                return _result(api.eliminate(close(formula.free, formula)), formula, total)
+                sentence = close(formula.free, formula)
+                return _result(performed(partial(unproved, sentence), sentence, Limits()), formula, total)
             return perform(partial(_attempted, self.sent(), nodes, total, close), self.limits(left), at_once=True)
         except Unable as error:
             return Result("unknown", _reason(str(error)))
@@ -142,8 +144,7 @@ def _formula(script: Script, nodes: Sequence[s.Node], total: Total, budget: Budg
 
 def _attempted(script: Script, nodes: Sequence[s.Node], total: Total, close: Closing, budget: Budget) -> Result:
     formula, total = _formula(script, nodes, total, budget)
-    closed, left = close(formula.free, formula), budget.time_left("reading")
-    return _result(api.eliminate(closed, timeout=left, process=False), formula, total)
+    return _result(unproved(close(formula.free, formula), budget), formula, total)
 
 
 def _whatever(fixed: Sequence[str], varying: Sequence[str], names: Iterable[str], formula: Formula) -> Formula:

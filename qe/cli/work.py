@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """``text`` for stdout, ``notes`` for stderr on request, the content of each asked-for file, the exit ``code``;
+    """``text`` for stdout, ``notes`` for stderr, the content of each asked-for file, the exit ``code``;
     ``verdict``: for stderr, what a check has shown."""
 
     text: str
@@ -47,6 +47,7 @@ class Request:
     certificate: bool = False
     json: bool = False
     check: bool = False
+    explain: bool = False
 
     def keywords(self, channel: Channel, formula: Formula, known: Formula | None = None) -> dict[str, Any]:
         """The keywords for a call of the public functions about a formula that was read from the source, and what that
@@ -75,7 +76,7 @@ class Request:
         if self.certificate:
             files["certificate"] = certificate_text(answer)
         shown = in_json(data) if self.json else text
-        return Reply(shown, () if self.json else notes, files, verdict=self.verdict(answer))
+        return Reply(shown, notes, files, verdict=self.verdict(answer))
 
 
 def in_json(data: Mapping[str, Any]) -> str:
@@ -128,7 +129,7 @@ def eliminate(channel: Channel, request: Request, output: Format, *, shorter: bo
     text = written.rstrip("\n")
     if answer.generic:
         text += f"\nassuming {' and '.join(map(str, answer.generic))}"
-    return request.reply(answer, text, data, notes=_story(answer, seconds))
+    return request.reply(answer, text, data, notes=_story(request, answer, seconds))
 
 
 def _partial_reply(answer: Answer, partial: Partial, request: Request, output: Format) -> Reply:
@@ -144,7 +145,7 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
     lines = [f"{name}: {text}" for name, text in written.items()]
     if request.certificate:
         lines.append("certificate: " + ("checked" if partial.is_checked else partial.reason))
-    return Reply("\n".join(lines), (answer.reason,), files, code=3)
+    return Reply("\n".join(lines), (answer.reason,) if request.explain else (), files, code=3)
 
 
 def decide(channel: Channel, request: Request) -> Reply:
@@ -172,7 +173,7 @@ def decide(channel: Channel, request: Request) -> Reply:
         raise Unable(answer.reason or "no answer")
     text = ("sat" if answer.truth else "unsat") if script else ("true" if answer.truth else "false")
     data = {"status": answer.status.name.lower(), **_summary(answer, seconds)}
-    return request.reply(answer, text, data, notes=_story(answer, seconds))
+    return request.reply(answer, text, data, notes=_story(request, answer, seconds))
 
 
 def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
@@ -269,8 +270,10 @@ def _point(point: Mapping[str, object] | None) -> dict[str, str] | None:
     return None if point is None else {name: str(value) for name, value in point.items()}
 
 
-def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
-    """For people: the witness, the guarantee, and the steps that led to the answer."""
+def _story(request: Request, answer: Answer, seconds: float) -> tuple[str, ...]:
+    """For people who want it: the witness, the guarantee, and the steps that led to the answer."""
+    if request.json or not request.explain:
+        return ()
     lines = []
     if answer.witness:
         kind = "counterexample" if answer.truth is False else "witness"

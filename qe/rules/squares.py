@@ -7,17 +7,19 @@ number, p > 0 holds. The identities are found in ``qe.positivity``.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom
 from qe.formula.syntax import FALSE, TRUE, Atom, Atomic, Formula, Relation
 from qe.formula.traverse import conjuncts, is_quantifier_free, map_atoms, polynomials
-from qe.positivity.cone import bounds_of, positive_on_cone
-from qe.positivity.identity import Identity, Positive
-from qe.positivity.prove import nowhere_negative
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.step import StepKind
 from qe.rules.tree import Leaf, Node, Pending
 from qe.simplifier.facts import generator
+
+if TYPE_CHECKING:
+    from qe.positivity.identity import Identity, Positive
 
 MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
 """Polynomials of one block that are looked at, and variables of each: with fewer, other methods are as quick."""
@@ -30,6 +32,9 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     polys = [p for p in polynomials(body) if len(p.variables) >= FEWEST_VARIABLES and p.total_degree > 1]
     if not polys or len(polys) > MOST_POLYNOMIALS:
         return None
+    from qe.positivity.cone import bounds_of, positive_on_cone  # what finds identities is seldom needed
+    from qe.positivity.prove import nowhere_negative
+
     facts = context.facts.extended([p for p in conjuncts(body) if isinstance(p, Atom) and p.poly.total_degree == 1])
     ring = polys[0].ring
     orthant = frozenset(i for i in range(ring.size) if -1 not in facts.signs(generator(ring, i)))
