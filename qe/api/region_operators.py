@@ -40,7 +40,7 @@ T = TypeVar("T")
 
 
 # --- what the operators of regions do --------------------------------------------------------------------------
-def joined(way: str, left: Region, right: object) -> Region:
+def joined(left: Region, way: str, right: object) -> Region:
     """The set that an operator makes of two."""
     f, g = _operands(left, right, left.limits.begun(time.monotonic()))
     made = {

@@ -9,7 +9,6 @@ everything else.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from importlib.resources import files
@@ -17,21 +16,10 @@ from typing import Any
 
 from qe.coq.derivation import derivation
 from qe.coq.squares import Form, read_form, squares
+from qe.coq.text import identifiers
 from qe.errors import Unable
-from qe.exact.ring import Poly
-from qe.formula.relation import Relation
-from qe.formula.syntax import And, Atom, Constant, Formula, Or
 from qe.proof.certificate import Certificate, Kind
 
-_PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9]*", re.ASCII)
-_RELATION = {
-    Relation.EQ: "=",
-    Relation.NE: "<>",
-    Relation.LT: "<",
-    Relation.LE: "<=",
-    Relation.GT: ">",
-    Relation.GE: ">=",
-}
 _HEADER = """\
 From Coq Require Import Reals Lra.
 Open Scope R_scope.
@@ -66,10 +54,6 @@ def _lemmas(certificate: Certificate, name: str) -> Iterator[str]:
 # --- terms and formulas --------------------------------------------------------------------------------------
 
 
-def _identifiers(names: Sequence[str]) -> list[str]:
-    return [f"v_{name}" if _PLAIN.fullmatch(name) else f"v{k}" for k, name in enumerate(names)]
-
-
 def _number(value: Fraction | int) -> str:
     value = Fraction(value)
     text = str(value.numerator) if value.denominator == 1 else f"{value.numerator} / {value.denominator}"
@@ -83,22 +67,6 @@ def _terms(terms: Iterable[tuple[Sequence[int], Fraction | int]], names: Sequenc
         powers = [n if k == 1 else f"{n} ^ {k}" for n, k in zip(names, exponents, strict=True) if k]
         parts.append(" * ".join([_number(c), *powers]))
     return " + ".join(parts) or "0"
-
-
-def _poly(poly: Poly, names: Sequence[str]) -> str:
-    return _terms(poly.terms(), names)
-
-
-def _formula(formula: Formula, names: Sequence[str]) -> str:
-    match formula:
-        case Constant(value):
-            return "True" if value else "False"
-        case Atom(poly, relation):
-            return f"{_poly(poly, names)} {_RELATION[relation]} 0"
-        case And(args) | Or(args):
-            sign = " /\\ " if isinstance(formula, And) else " \\/ "
-            return sign.join(f"({_formula(a, names)})" for a in args)
-    raise Unable("only and/or combinations of comparisons can be written for Coq")
 
 
 def _all(names: Sequence[str]) -> str:
@@ -119,16 +87,16 @@ def _optimum(payload: dict[str, Any], name: str) -> Iterator[str]:
         raise Unable("only optima with rational points, without faces and links, can be written for Coq")
     if status == "unbounded" or (status == "optimal" and not payload["attained"]):
         raise Unable(f"{'unbounded' if status == 'unbounded' else 'not attained'}: this cannot be written for Coq")
-    names = _identifiers(problem["variables"])
-    forms = [read_form(c["terms"], len(names)) for c in problem["constraints"]]
+    names = identifiers(problem["variables"])
+    forms = [read_form(c["terms"]) for c in problem["constraints"]]
     relations = [c["relation"] for c in problem["constraints"]]
     weights = [Fraction(m[0]) for m in payload["multipliers"]]
     point = [Fraction(v[0]) for v in payload["point"]]
-    objective = read_form(problem["minimise"], len(names))
-    given = [f"{_terms(f.terms(), names)} {r} 0" for f, r in zip(forms, relations, strict=True)]
+    objective = read_form(problem["minimise"])
+    given = [f"{_terms(f.items(), names)} {r} 0" for f, r in zip(forms, relations, strict=True)]
     parts = [(w, f) for w, f in zip(weights, forms, strict=True) if w]
     value = Fraction(payload["value"][0]) if status == "optimal" else Fraction(0)
-    goal = f"{_number(value)} <= {_terms(objective.terms(), names)}" if status == "optimal" else "False"
+    goal = f"{_number(value)} <= {_terms(objective.items(), names)}" if status == "optimal" else "False"
     if status == "optimal":
         parts.append((Fraction(1), objective))
     yield _lemma(
@@ -139,7 +107,7 @@ def _optimum(payload: dict[str, Any], name: str) -> Iterator[str]:
         "lra.",
     )
     if status == "optimal":
-        body = [*given, f"{_terms(objective.terms(), names)} = {_number(value)}"]
+        body = [*given, f"{_terms(objective.items(), names)} = {_number(value)}"]
         together = " /\\ ".join(f"({b})" for b in body)
         statement = f"exists {' '.join(names)} : R, {together}"
         yield _lemma(f"{name}_attained", statement, *(f"exists {_number(v)}." for v in point), "repeat split; lra.")

@@ -10,6 +10,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import exists
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
 from qe.kernel.negation import negation
+from qe.truth import Truth, conjunction, disjunction
 
 NEGATIVE, ZERO, POSITIVE, ANY = 1, 2, 4, 7
 MOST_NODES = 2_000
@@ -79,10 +80,10 @@ class Tree:
             if isinstance(f, And):
                 pending += f.args
             elif isinstance(f, Or):
-                parts = [a for a in f.args if self._possible(a, known)]
+                parts = [a for a in f.args if self._truth(a, known) is not False]
                 if len(parts) <= 1:
                     pending += parts or [Constant(False)]
-                elif not any(self._certain(a, known) for a in parts):
+                elif not any(self._truth(a, known) for a in parts):
                     cases.append(parts)
             elif isinstance(f, Constant):
                 if not f.value:
@@ -133,27 +134,18 @@ class Tree:
                     return _Unit(self.polys[i], kept, f"(By {k})")
         return None
 
-    def _possible(self, f: Formula, known: dict[Poly | Formula, int]) -> bool:
+    def _truth(self, f: Formula, known: dict[Poly | Formula, int]) -> Truth:
+        """What the signs that are possible say of a formula."""
         match f:
             case Constant(value):
                 return value
             case And(args):
-                return all(self._possible(a, known) for a in args)
+                return conjunction(self._truth(a, known) for a in args)
             case Or(args):
-                return any(self._possible(a, known) for a in args)
+                return disjunction(self._truth(a, known) for a in args)
         key, signs = _literal(f)
-        return bool(_now(known, key) & signs)
-
-    def _certain(self, f: Formula, known: dict[Poly | Formula, int]) -> bool:
-        match f:
-            case Constant(value):
-                return value
-            case And(args):
-                return all(self._certain(a, known) for a in args)
-            case Or(args):
-                return any(self._certain(a, known) for a in args)
-        key, signs = _literal(f)
-        return not _now(known, key) & ~signs
+        now = _now(known, key)
+        return None if now & signs and now & ~signs else bool(now & signs)
 
 
 def _now(known: Mapping[Poly | Formula, int], key: Poly | Formula) -> int:

@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-
-@dataclass(frozen=True, slots=True)
-class Form:
-    """Exponents to coefficients, of degree at most 2."""
-
-    coefficients: dict[tuple[int, ...], Fraction]
-
-    def terms(self) -> list[tuple[tuple[int, ...], Fraction]]:
-        """In the order of the certificate."""
-        return list(self.coefficients.items())
+Form = dict[tuple[int, ...], Fraction]
+"""Exponents to coefficients, of degree at most 2, in the order of the certificate."""
 
 
-def read_form(terms: Sequence[Any], size: int) -> Form:
+def read_form(terms: Sequence[Any]) -> Form:
     """The polynomial that an (accepted) certificate writes as [coefficient, exponents]."""
-    return Form({tuple(exponents): Fraction(c) for c, exponents in terms})
+    return {tuple(exponents): Fraction(c) for c, exponents in terms}
 
 
 def squares(parts: Sequence[tuple[Fraction, Form]]) -> Iterator[tuple[Fraction, list[Fraction]]]:
@@ -29,10 +20,10 @@ def squares(parts: Sequence[tuple[Fraction, Form]]) -> Iterator[tuple[Fraction, 
 
     THEOREM (Lagrange): where the form is positive semidefinite, completing squares one variable at a time succeeds.
     """
-    size = max((len(e) for _, form in parts for e in form.coefficients), default=0)
+    size = max((len(e) for _, form in parts for e in form), default=0)
     matrix = [[Fraction(0)] * size for _ in range(size)]
     for weight, form in parts:
-        for exponents, c in form.coefficients.items():
+        for exponents, c in form.items():
             if sum(exponents) == 2:
                 i, j = [k for k, e in enumerate(exponents) for _ in range(e)]
                 matrix[i][j] += weight * c / 2

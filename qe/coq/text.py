@@ -11,22 +11,7 @@ from qe.formula.relation import Relation
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or
 
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9]*", re.ASCII)
-_CODE = {
-    Relation.EQ: "EQ",
-    Relation.NE: "NE",
-    Relation.LT: "LT",
-    Relation.LE: "LE",
-    Relation.GT: "GT",
-    Relation.GE: "GE",
-}
-RELATION = {
-    Relation.EQ: "=",
-    Relation.NE: "<>",
-    Relation.LT: "<",
-    Relation.LE: "<=",
-    Relation.GT: ">",
-    Relation.GE: ">=",
-}
+RELATION = {relation: relation.value for relation in Relation} | {Relation.NE: "<>"}
 
 
 def identifiers(names: Sequence[str]) -> list[str]:
@@ -83,7 +68,7 @@ class Text:
             case Constant(value):
                 return "Tr" if value else "Fa"
             case Atom(poly, relation):
-                return f"At {self.poly(poly)} {_CODE[relation]}"
+                return f"At {self.poly(poly)} {relation.name}"
             case Not(arg):
                 return f"No {self.formula(arg)}"
             case And(args) | Or(args):

@@ -16,7 +16,7 @@ from qe import arguments
 from qe.arguments import shown
 from qe.errors import InputError, Unable
 from qe.exact.algebraic_text import format_root
-from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
+from qe.exact.balls import FIRST_PRECISION, ball_sign, ends, hull, lower_end, precision, upper_end
 from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
 from qe.exact.python_number import PythonNumber, exact, exact_operand
@@ -108,11 +108,8 @@ class RealAlgebraic(PythonNumber):
     def interval(self, bits: int = 0) -> tuple[Fraction, Fraction]:
         """Rational numbers lo <= self <= hi, with hi - lo small when ``bits`` are requested."""
         if arguments.whole(bits, "bits"):
-            x = self.ball(bits)
-            with precision(bits + 16):
-                lo, hi = lower_end(x), upper_end(x)
-        else:
-            lo, hi = self._lo, self._hi
+            return ends(self.ball(bits))
+        lo, hi = self._lo, self._hi
         return Fraction(int(lo.p), int(lo.q)), Fraction(int(hi.p), int(hi.q))
 
     def ball(self, bits: int = FIRST_PRECISION) -> arb:

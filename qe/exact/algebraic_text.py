@@ -10,6 +10,8 @@ from math import gcd, isqrt
 
 from flint import fmpz
 
+from qe.exact.sparse_text import sum_text
+
 _FACTORED_BITS, _TRIED = 110, 3000
 _QUOTIENT = re.compile(r"(?:\(([^()]*(?:\([^()]*\)[^()]*)?)\)|(-?)([^-/]+))/([0-9]+)")
 
@@ -23,15 +25,8 @@ def format_root(coefficients: Sequence[int], index: int) -> str:
         return str(Fraction(-coefficients[0], coefficients[1]))
     if len(coefficients) == 3:
         return _format_quadratic(coefficients, index)
-    terms = []
-    for i, c in reversed(list(enumerate(coefficients))):
-        if c:
-            power = "" if i == 0 else "x" if i == 1 else f"x^{i}"
-            body = power if abs(c) == 1 and power else f"{abs(c)}*{power}" if power else str(abs(c))
-            terms.append(("- " if c < 0 else "+ ") + body)
-    text = " ".join(terms)
-    text = text[2:] if text.startswith("+") else "-" + text[2:]
-    return f"root({index + 1}, {text})"
+    powers = [[], ["x"], *([f"x^{i}"] for i in range(2, len(coefficients)))]
+    return f"root({index + 1}, {sum_text((c, p) for c, p in zip(coefficients[::-1], powers[::-1], strict=True) if c)})"
 
 
 def in_latex(number: object) -> str:

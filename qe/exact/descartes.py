@@ -9,6 +9,7 @@ from math import lcm
 
 from flint import fmpz_poly
 
+from qe.exact.isolate import sign_changes
 from qe.exact.ring import Poly
 
 
@@ -39,5 +40,4 @@ def most_roots_between(coefficients: Sequence[Fraction], low: Fraction, high: Fr
     scale = lcm(low.denominator, high.denominator)
     top, bottom = fmpz_poly([int(high * scale), int(low * scale)]), fmpz_poly([scale, scale])
     parts = (c * top**k * bottom ** (p.degree() - k) for k, c in enumerate(p.coeffs()))
-    signs = [c > 0 for c in sum(parts, fmpz_poly()).coeffs() if c != 0]
-    return sum(a != b for a, b in pairwise(signs))
+    return sign_changes(sum(parts, fmpz_poly()).coeffs())

@@ -54,15 +54,17 @@ class Jet:
 
     def scaled(self, factor: arb) -> Jet:
         """A constant multiple."""
-        slope = None if self.slope is None else tuple(d * factor for d in self.slope)
-        return Jet(self.value * factor, slope, self.centre * factor, self.sides)
+        return Jet(self.value * factor, self._steeper(factor), self.centre * factor, self.sides)
+
+    def _steeper(self, factor: arb) -> tuple[arb, ...] | None:
+        """The partial derivatives times a factor."""
+        return None if self.slope is None else tuple(d * factor for d in self.slope)
 
     def inverse(self) -> Jet | None:
         """1/self, or None when zero is not excluded."""
         if self.value.contains(0):
             return None
-        square = -1 / (self.value * self.value)
-        slope = None if self.slope is None else tuple(d * square for d in self.slope)
+        slope = self._steeper(-1 / (self.value * self.value))
         return Jet(1 / self.value, slope, 1 / self.centre, self.sides)
 
     def root(self) -> Jet:
@@ -70,9 +72,7 @@ class Jet:
         centre = _root(self.centre)
         if self.value > 0:
             value = self.value.sqrt()
-            half = 1 / (2 * value)
-            slope = None if self.slope is None else tuple(d * half for d in self.slope)
-            return Jet(value, slope, centre, self.sides)
+            return Jet(value, self._steeper(1 / (2 * value)), centre, self.sides)
         return Jet(_root(self.value), None, centre, self.sides)
 
     def over(self, divisor: int) -> Jet:
@@ -87,10 +87,7 @@ class Jet:
         """asin of a function known to lie in [-1, 1]."""
         value, centre = _arcsine(self.value), _arcsine(self.centre)
         inside = 1 - self.value * self.value
-        if self.slope is None or not inside > 0:
-            return Jet(value, None, centre, self.sides)
-        scale = inside.rsqrt()
-        return Jet(value, tuple(d * scale for d in self.slope), centre, self.sides)
+        return Jet(value, self._steeper(inside.rsqrt()) if inside > 0 else None, centre, self.sides)
 
     def mean(self) -> arb:
         """A ball around the mean value on the box."""
@@ -132,15 +129,10 @@ def box_sides(box: Sequence[tuple[Fraction, Fraction]]) -> tuple[arb, ...]:
     return tuple(arb(0, 1) * arb(fmpq(h.numerator, h.denominator)) for h in halves)
 
 
-def constant(value: Fraction | RealAlgebraic, sides: tuple[arb, ...]) -> Jet:
+def constant(value: Fraction | int | RealAlgebraic, sides: tuple[arb, ...]) -> Jet:
     """A number as a jet."""
     ball = value.ball(ctx.prec) if isinstance(value, RealAlgebraic) else arb(fmpq(value.numerator, value.denominator))
     return Jet(ball, (arb(0),) * len(sides), ball, sides)
-
-
-def whole_number(value: int, sides: Sides) -> Jet:
-    """An integer as a jet."""
-    return Jet(arb(value), (arb(0),) * len(sides), arb(value), sides)
 
 
 def smooth_side(lo: Fraction, hi: Fraction, side: int, sides: tuple[arb, ...]) -> tuple[Jet, Jet]:
@@ -157,8 +149,7 @@ def smooth_side(lo: Fraction, hi: Fraction, side: int, sides: tuple[arb, ...]) -
 def evaluate(p: Poly, at: Mapping[int, Jet], sides: tuple[arb, ...]) -> Jet:
     """The polynomial at jets for its variables."""
     if p.is_constant:
-        value = arb(p.constant_value())
-        return Jet(value, (arb(0),) * len(sides), value, sides)
+        return constant(p.constant_value(), sides)
     i = p.level
     total: Jet | None = None
     for c in reversed(p.coefficients(i)):

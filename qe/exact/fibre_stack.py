@@ -316,9 +316,7 @@ def _same_number(a: fmpq | RealAlgebraic | FibreRoot, b: fmpq | RealAlgebraic | 
     """Whether two numbers are the same; None where one of them is a root of a fibre."""
     if isinstance(a, FibreRoot) or isinstance(b, FibreRoot):
         return None
-    if isinstance(a, fmpq) or isinstance(b, fmpq):
-        return bool(a == b) if isinstance(a, fmpq) and isinstance(b, fmpq) else False
-    return a.index == b.index and bool(a.poly == b.poly)
+    return type(a) is type(b) and bool(a == b)
 
 
 def _weight(s: Section) -> int:
@@ -369,12 +367,7 @@ def _meet_once(f: Fibre, g: Fibre) -> bool:
     left, right = (Fibre(point, var, h.source).polynomial() for h in (f, g))
     if not isinstance(value, RealAlgebraic) or any(point.vanishes(h.leading(var)) for h in (left, right)):
         return False
-    key = ("resultant", left, right)
-    resultant = point.ring.cache.get(key)
-    if resultant is None:
-        resultant = left.resultant(right, var)
-        point.ring.remember(key, resultant)
-    assert isinstance(resultant, Poly)
+    resultant = point.ring.remembered(("resultant", left, right), lambda: left.resultant(right, var))
     once, rest = divmod(resultant.to_univariate(i), value.poly) if resultant else (resultant, True)
     return not rest and bool(once % value.poly)
 

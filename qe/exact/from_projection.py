@@ -32,24 +32,12 @@ COUNTED_TO = 512
 
 def discriminant(f: Poly, variable: int) -> Poly:
     """The discriminant, remembered."""
-    key = ("discriminant", f, variable)
-    remembered = f.ring.cache.get(key)
-    if remembered is None:
-        remembered = f.discriminant(variable)
-        f.ring.remember(key, remembered)
-    assert isinstance(remembered, Poly)
-    return remembered
+    return f.ring.remembered(("discriminant", f, variable), lambda: f.discriminant(variable))
 
 
 def resultant(f: Poly, g: Poly, variable: int) -> Poly:
     """The resultant, remembered."""
-    key = ("resultant in", f, g, variable)
-    remembered = f.ring.cache.get(key)
-    if remembered is None:
-        remembered = f.resultant(g, variable)
-        f.ring.remember(key, remembered)
-    assert isinstance(remembered, Poly)
-    return remembered
+    return f.ring.remembered(("resultant in", f, g, variable), lambda: f.resultant(g, variable))
 
 
 def most_distinct(sign: SignAt, f: Poly, var: int, degree: int) -> int | None:

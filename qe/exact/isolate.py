@@ -6,6 +6,9 @@ a point (lo = hi: the root itself) or an open interval whose ends are not roots.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from itertools import pairwise
+
 from flint import arb, fmpq, fmpz, fmpz_poly
 
 from qe.errors import InternalError
@@ -15,8 +18,6 @@ Interval = tuple[fmpq, fmpq]
 
 _SHIFT = fmpz_poly([1, 1])
 _HALF = fmpq(1, 2)
-
-
 LONG_DEGREE = 16
 """From this degree on, balls are tried before exact values, whose numerators have the degree times as many digits."""
 
@@ -33,20 +34,14 @@ def sign_at(p: fmpz_poly, value: fmpq) -> int:
     return int(result > 0) - int(result < 0)
 
 
-def _variations(p: fmpz_poly) -> int:
-    count, last = 0, 0
-    for c in p.coeffs():
-        if c:
-            sign = 1 if c > 0 else -1
-            if last and sign != last:
-                count += 1
-            last = sign
-    return count
+def sign_changes(coefficients: Iterable[fmpz | fmpq]) -> int:
+    """How often the sign changes from one coefficient other than 0 to the next."""
+    return sum(a != b for a, b in pairwise([c > 0 for c in coefficients if c]))
 
 
 def _roots_in_unit_bound(p: fmpz_poly) -> int:
     """Sign variations of (x+1)^n p(1/(x+1)): an upper bound, exact at 0 and 1, for roots in (0, 1)."""
-    return _variations(fmpz_poly(p.coeffs()[::-1])(_SHIFT))
+    return sign_changes(fmpz_poly(p.coeffs()[::-1])(_SHIFT).coeffs())
 
 
 def _log2_root_bound(p: fmpz_poly) -> int:
@@ -63,21 +58,12 @@ def _log2_root_bound(p: fmpz_poly) -> int:
 
 def _scaled(p: fmpz_poly, k: int) -> fmpz_poly:
     """A positive multiple of p(2^k x)."""
-    coefficients = p.coeffs()
-    if k >= 0:
-        return fmpz_poly([c * fmpz(2) ** (k * i) for i, c in enumerate(coefficients)])
-    n = len(coefficients) - 1
-    return fmpz_poly([c * fmpz(2) ** (-k * (n - i)) for i, c in enumerate(coefficients)])
-
-
-def _halved(p: fmpz_poly) -> fmpz_poly:
-    n = p.degree()
-    return fmpz_poly([c << (n - i) for i, c in enumerate(p.coeffs())])
+    return fmpz_poly([c << k * i + max(0, -k * p.degree()) for i, c in enumerate(p.coeffs())])
 
 
 def _positive_roots(p: fmpz_poly) -> list[Interval]:
     """Isolating intervals of the positive roots; p(0) != 0."""
-    if _variations(p) == 0:
+    if sign_changes(p.coeffs()) == 0:
         return []
     k = _log2_root_bound(p)
     scale = fmpq(2) ** k
@@ -93,7 +79,7 @@ def _positive_roots(p: fmpz_poly) -> list[Interval]:
         if bound == 1:
             roots.append((width * c, width * (c + 1)))
             continue
-        left = _halved(q)
+        left = _scaled(q, -1)
         right = left(_SHIFT)
         if right[0] == 0:
             middle = width * (2 * c + 1) * _HALF

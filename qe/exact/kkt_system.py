@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from math import gcd, lcm
 
 from flint import arb, arb_mat, fmpq
@@ -20,7 +19,7 @@ from qe.errors import Unable
 from qe.exact.balls import precision
 from qe.exact.field import FieldElement, NumberField, to_fmpq
 from qe.exact.lattice_recognition import SCHEDULE, Digits, FieldLattice, algebraic_candidate, element_candidate
-from qe.exact.quadratic_form import Number, Quadratic, combine, independent_rows, solve_linear
+from qe.exact.quadratic_form import Number, Quadratic, combine, dot, independent_rows, solve_linear
 
 Point = tuple[Number, ...]
 
@@ -70,12 +69,7 @@ class Flat:
     def coordinates(self, point: Sequence[float]) -> list[float]:
         """Coordinates of the point of the flat that is nearest to a point, in floats."""
         from_origin = [p - float(o) for p, o in zip(point, self.origin, strict=True)]
-        rows = [[float(d) for d in direction] for direction in self.basis]
-        size = len(rows)
-        gram = [[sum(a * b for a, b in zip(u, v, strict=True)) for v in rows] for u in rows]
-        rhs = [sum(a * b for a, b in zip(u, from_origin, strict=True)) for u in rows]
-        solution = solve_linear([[Fraction(e) for e in row] for row in gram], [Fraction(r) for r in rhs], size)
-        return [float(z) for z in solution.particular] if solution else [0.0] * size
+        return _least_squares([[float(d) for d in direction] for direction in self.basis], from_origin)
 
 
 def cut_linear_combinations(flat: Flat, equations: Sequence[Quadratic]) -> tuple[Flat, list[Quadratic]] | None:
@@ -252,12 +246,14 @@ def _primitive(q: Quadratic) -> Quadratic:
 def _multipliers(f: Quadratic, rest: Sequence[Quadratic], z: Sequence[float]) -> list[float]:
     """Least-squares multipliers at z."""
     point = [Fraction(v) for v in z]
-    target = f.slope(point)
-    slopes = [q.slope(point) for q in rest]
-    rows = [[sum(a * b for a, b in zip(u, v, strict=True)) for v in slopes] for u in slopes]
-    rhs = [-sum(a * b for a, b in zip(u, target, strict=True)) for u in slopes]
-    solution = solve_linear(rows, rhs, len(rest))
-    return [float(v) for v in solution.particular] if solution else [0.0] * len(rest)
+    return _least_squares([q.slope(point) for q in rest], [-c for c in f.slope(point)])
+
+
+def _least_squares(rows: Sequence[Sequence[Number]], target: Sequence[Number]) -> list[float]:
+    """The factors with which the sum of the rows comes nearest to a target."""
+    gram, rhs = ([[Fraction(dot(u, v)) for v in others] for u in rows] for others in (rows, [target]))
+    solution = solve_linear(gram, [value for (value,) in rhs], len(rows))
+    return [float(z) for z in solution.particular] if solution else [0.0] * len(rows)
 
 
 def _recognise(
@@ -296,14 +292,10 @@ def _recognise(
             nu = _elements(lattice, [combination(unit[i]) for i in range(n, total)])
             if nu is None:
                 continue
-            z = _stationary(f, rest, nu, partial(_guess, lattice, [combination(row) for row in unit[:n]]))
+            z = _stationary(f, rest, nu, lattice, [combination(row) for row in unit[:n]])
             if z is not None:
                 return field, z
     raise HighDegree(f"the exact optimum seems to need a number field of degree above {max_degree}")
-
-
-def _guess(lattice: FieldLattice, unknowns: Sequence[Digits], index: int) -> FieldElement | None:
-    return element_candidate(lattice, unknowns[index])
 
 
 def _elements(lattice: FieldLattice, unknowns: Sequence[Digits]) -> list[FieldElement] | None:
@@ -317,9 +309,9 @@ def _elements(lattice: FieldLattice, unknowns: Sequence[Digits]) -> list[FieldEl
 
 
 def _stationary(
-    f: Quadratic, rest: Sequence[Quadratic], nu: Sequence[FieldElement], guess: Callable[[int], FieldElement | None]
+    f: Quadratic, rest: Sequence[Quadratic], nu: Sequence[FieldElement], lattice: FieldLattice, digits: Sequence[Digits]
 ) -> Point | None:
-    """z with (H_f + sum nu_k H_k) z = -(b_f + sum nu_k b_k); where that leaves z_i free, ``guess(i)``."""
+    """z with (H_f + sum nu_k H_k) z = -(b_f + sum nu_k b_k); where that leaves z_i free, as its digits say."""
     n = f.size
     rows: list[list[Number]] = [list(row) for row in f.hessian]
     rhs: list[Number] = [-b for b in f.gradient]
@@ -334,7 +326,7 @@ def _stationary(
         return None
     z = list(solution.particular)
     for i, direction in zip(solution.free, solution.kernel, strict=True):
-        value = guess(i)
+        value = element_candidate(lattice, digits[i])
         if value is None:
             return None
         z = [a + value * d for a, d in zip(z, direction, strict=True)]

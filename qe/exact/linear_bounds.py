@@ -53,26 +53,22 @@ class Bounds:
 
     def at_least(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
         """x >= bound (>); the reasons of a contradiction with an upper bound, or None."""
-        value = fmpq(bound.numerator, bound.denominator), _ONE if strict else _ZERO
-        if x in self.lower and self.lower[x][0] >= value:
-            return None
-        if x in self.upper and self.upper[x][0] < value:
-            return {reason, self.upper[x][1]}
-        self._changed.append((self.lower, x, self.lower.get(x)))
-        self.lower[x] = value, reason
-        self._rebound(self.lower, x)
-        return None
+        return self._bounded(x, 1, (fmpq(bound.numerator, bound.denominator), _ONE if strict else _ZERO), reason)
 
     def at_most(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
         """x <= bound (<); the reasons of a contradiction with a lower bound, or None."""
-        value = fmpq(bound.numerator, bound.denominator), -_ONE if strict else _ZERO
-        if x in self.upper and self.upper[x][0] <= value:
+        return self._bounded(x, -1, (fmpq(bound.numerator, bound.denominator), -_ONE if strict else _ZERO), reason)
+
+    def _bounded(self, x: int, side: int, value: Value, reason: Hashable) -> set[Hashable] | None:
+        """A lower bound (``side`` 1) or an upper one (-1)."""
+        own, other = (self.lower, self.upper) if side > 0 else (self.upper, self.lower)
+        if x in own and (own[x][0] >= value if side > 0 else own[x][0] <= value):
             return None
-        if x in self.lower and self.lower[x][0] > value:
-            return {reason, self.lower[x][1]}
-        self._changed.append((self.upper, x, self.upper.get(x)))
-        self.upper[x] = value, reason
-        self._rebound(self.upper, x)
+        if x in other and (other[x][0] < value if side > 0 else other[x][0] > value):
+            return {reason, other[x][1]}
+        self._changed.append((own, x, own.get(x)))
+        own[x] = value, reason
+        self._rebound(own, x)
         return None
 
     def contradicted(self, weights: Mapping[int, Fraction | int]) -> list[Term]:

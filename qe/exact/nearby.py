@@ -10,7 +10,7 @@ from flint import arb, fmpq
 
 from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.balls import hull, lower_end, precision, upper_end
+from qe.exact.balls import ends, hull, lower_end, precision, upper_end
 from qe.exact.isolate import simplest_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
@@ -104,8 +104,7 @@ def enclosure(point: Point, i: int, bits: int) -> tuple[Fraction, Fraction]:
         return exact, exact
     with precision(bits):
         ball = point.ball(i, bits)
-    low, high = lower_end(ball), upper_end(ball)
-    return Fraction(int(low.p), int(low.q)), Fraction(int(high.p), int(high.q))
+    return ends(ball)
 
 
 def without_zeros(polys: Sequence[Poly], sides: Sequence[tuple[Fraction, Fraction]], bits: int) -> bool:

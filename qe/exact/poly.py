@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
 from operator import add
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias, TypeVar, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
@@ -26,6 +26,8 @@ from qe.spelling import quoted
 _PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
 _FEW = 8
 MOST_CACHED = 50_000  # values of a ring
+T = TypeVar("T")
+Factors: TypeAlias = "tuple[int, tuple[tuple[Poly, int], ...]]"
 
 
 class Ring:
@@ -116,11 +118,14 @@ class Ring:
         """The hash of a polynomial of the ring: equal for equal values."""
         return hash((self.size, int(p.p(*self._hash_point))))
 
-    def remember(self, key: object, value: object) -> None:
-        """Store in the ring's cache, which is emptied when it has grown past a bound."""
-        if len(self.cache) > MOST_CACHED:
-            self.cache.clear()
-        self.cache[key] = value
+    def remembered(self, key: object, make: Callable[[], T]) -> T:
+        """What is stored under a key of the ring's cache, made where it is not; emptied when grown past a bound."""
+        if (stored := self.cache.get(key)) is None:
+            stored = make()
+            if len(self.cache) > MOST_CACHED:
+                self.cache.clear()
+            self.cache[key] = stored
+        return cast(T, stored)
 
     def __repr__(self) -> str:
         return f"Ring({', '.join(self.names)})"
@@ -338,22 +343,20 @@ class Poly:
         """(u, q) with self = u*q, q primitive with positive leading coefficient; (0, 0) for zero."""
         return self._normal
 
-    def factors(self) -> tuple[int, tuple[tuple[Poly, int], ...]]:
+    def factors(self) -> Factors:
         """(unit, ((irreducible primitive factor, multiplicity), ...)), cached in the ring."""
-        stored = self.ring.cache.get(("factors", self))
-        if stored is None:
-            if self.is_constant:
-                stored = (self.constant_value(), ())
-            else:
-                unit, parts = guarded_factor(self.p)
-                value, listing = int(unit), []
-                for f, e in parts:
-                    u, q = Poly(self.ring, f).normal()
-                    value *= u**e
-                    listing.append((q, e))
-                stored = (value, tuple(listing))
-            self.ring.remember(("factors", self), stored)
-        return stored  # type: ignore[return-value]
+        return self.ring.remembered(("factors", self), self._factored)
+
+    def _factored(self) -> Factors:
+        if self.is_constant:
+            return self.constant_value(), ()
+        unit, parts = guarded_factor(self.p)
+        value, listing = int(unit), []
+        for f, e in parts:
+            u, q = Poly(self.ring, f).normal()
+            value *= u**e
+            listing.append((q, e))
+        return value, tuple(listing)
 
     # --- substitution ----------------------------------------------------------------------
     def at_rational(self, i: int, value: Fraction | int) -> Poly:

@@ -64,14 +64,14 @@ class Quadratic:
 
     def slope(self, x: Vector) -> list[Number]:
         """The gradient H x + b at x."""
-        return [_dot(row, x, start) for row, start in zip(self.hessian, self.gradient, strict=True)]
+        return [dot(row, x, start) for row, start in zip(self.hessian, self.gradient, strict=True)]
 
     def restrict(self, origin: Sequence[Fraction], basis: Sequence[Sequence[Fraction]]) -> Quadratic:
         """z -> q(origin + sum z_k basis_k): again a quadratic polynomial."""
-        images = [[_dot(row, v) for row in self.hessian] for v in basis]
+        images = [[dot(row, v) for row in self.hessian] for v in basis]
         slope = self.slope(origin)
-        hessian = tuple(tuple(_dot(u, image) for u in basis) for image in images)
-        gradient = tuple(_dot(slope, v) for v in basis)
+        hessian = tuple(tuple(dot(u, image) for u in basis) for image in images)
+        gradient = tuple(dot(slope, v) for v in basis)
         return Quadratic(hessian, gradient, Fraction(self.value(origin)))
 
 
@@ -106,7 +106,8 @@ def quadratic(poly: Poly, variables: Sequence[int]) -> Quadratic | None:
     return Quadratic(tuple(map(tuple, hessian)), tuple(gradient), constant)
 
 
-def _dot(u: Vector, v: Vector, start: Number = Fraction(0)) -> Number:
+def dot(u: Vector, v: Vector, start: Number = Fraction(0)) -> Number:
+    """The scalar product, and ``start``."""
     total = start
     for a, b in zip(u, v, strict=True):
         if a and b:

@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from flint import acb, acb_poly, arb, fmpq
+from flint import acb, acb_poly, arb
 
 from qe.errors import Unable
-from qe.exact.balls import hull, lower_end, precision, upper_end
+from qe.exact.balls import ends as ends_of
+from qe.exact.balls import hull, precision
+from qe.exact.field import to_fmpq
 
 FIRST_BITS = 96
 MAX_BITS = 768
@@ -47,13 +49,13 @@ def _attempt(
         def value(z: acb, analytic: bool) -> acb:
             return _value(f, z) * _value(q, z).sqrt(analytic=analytic)
 
-        ends = [acb(arb(_rational(t))) for t in over]
-        integral = acb.integral(value, *ends, rel_tol=arb(_rational(rel)), abs_tol=arb(2) ** (-8 * bits)).real
+        ends = [acb(arb(to_fmpq(t))) for t in over]
+        integral = acb.integral(value, *ends, rel_tol=arb(to_fmpq(rel)), abs_tol=arb(2) ** (-8 * bits)).real
         total = abs(integral)
         if not total.is_finite():
             return Fraction(0), Fraction(1)
-        low, high = lower_end(total), upper_end(total)
-    return max(Fraction(int(low.p), int(low.q)), Fraction(0)), Fraction(int(high.p), int(high.q))
+        low, high = ends_of(total)
+    return max(low, Fraction(0)), high
 
 
 def _value(polynomial: acb_poly, z: acb) -> acb:
@@ -63,8 +65,4 @@ def _value(polynomial: acb_poly, z: acb) -> acb:
 
 
 def _polynomial(coefficients: Sequence[Interval]) -> acb_poly:
-    return acb_poly([acb(hull(_rational(low), _rational(high))) for low, high in coefficients])
-
-
-def _rational(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)
+    return acb_poly([acb(hull(to_fmpq(low), to_fmpq(high))) for low, high in coefficients])

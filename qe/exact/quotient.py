@@ -9,14 +9,16 @@ Szpirglas 1993).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import combinations
+from operator import le
 
 from flint import fmpq, fmpq_mat, fmpq_poly
 
 from qe.errors import InternalError, Unable
 from qe.exact.groebner import Basis
+from qe.exact.isolate import sign_changes
 from qe.exact.ring import Poly
 from qe.exact.zeros import Zero, zeros_of
 
@@ -78,28 +80,14 @@ class Quotient:
         return len(self.monomials)
 
     def _standard(self) -> tuple[Exponents, ...]:
-        size = len(self.basis.variables)
-        free = next(independent_sets(self._leads, size), None)
+        free = next(independent_sets(self._leads, len(self.basis.variables)), None)
         if free is None:
             return ()
         if free:
             names = self.basis.ring.names
             raise PositiveDimensional([names[self.basis.variables[k]] for k in free])
-        standard = {(0,) * size}
-        pending = list(standard)
-        while pending:
-            monomial = pending.pop()
-            for k in range(size):
-                larger = _times(monomial, k)
-                if larger not in standard and not self._is_leading(larger):
-                    standard.add(larger)
-                    pending.append(larger)
-            if len(standard) > MOST_DIMENSIONS:
-                raise Unable(f"the system has more than {MOST_DIMENSIONS} complex solutions")
+        standard = standard_monomials(self._leads, len(self.basis.variables), MOST_DIMENSIONS, "the system")
         return tuple(sorted(standard, key=self.basis.rank))
-
-    def _is_leading(self, monomial: Exponents) -> bool:
-        return any(all(a <= b for a, b in zip(lead, monomial, strict=True)) for lead in self._leads)
 
     def _products(self) -> list[dict[Exponents, Sparse]]:
         """Normal forms of x_k times every basis monomial, found from small to large without further divisions.
@@ -110,20 +98,19 @@ class Quotient:
         size = len(self.basis.variables)
         tails = dict(zip(self._leads, self.basis.tails(), strict=True))
         known: dict[Exponents, Sparse] = {m: {k: fmpq(1)} for k, m in enumerate(self.monomials)}
-        border = {_times(m, k) for m in self.monomials for k in range(size)} - self._place.keys()
+        border = {shifted(m, k, 1) for m in self.monomials for k in range(size)} - self._place.keys()
         for monomial in sorted(border, key=self.basis.rank):
             if monomial in tails:
                 known[monomial] = {self._place[m]: c for m, c in tails[monomial].items()}
                 continue
-            k = next(
-                k for k, e in enumerate(monomial) if e and (below := _over(monomial, k)) in border and below in known
-            )
+            smaller = ((k, shifted(monomial, k, -1)) for k, e in enumerate(monomial) if e)
+            k, below = next((k, m) for k, m in smaller if m in border and m in known)
             total: Sparse = {}
-            for j, c in known[_over(monomial, k)].items():
-                for i, d in known[_times(self.monomials[j], k)].items():
+            for j, c in known[below].items():
+                for i, d in known[shifted(self.monomials[j], k, 1)].items():
                     total[i] = total.get(i, fmpq(0)) + c * d
             known[monomial] = {i: c for i, c in total.items() if c}
-        return [{m: known[_times(m, k)] for m in self.monomials} for k in range(size)]
+        return [{m: known[shifted(m, k, 1)] for m in self.monomials} for k in range(size)]
 
     @cached_property
     def matrices(self) -> tuple[fmpq_mat, ...]:
@@ -143,7 +130,7 @@ class Quotient:
         known: dict[Exponents, fmpq_mat] = {}
         for monomial in self.monomials:
             k = next((k for k, e in enumerate(monomial) if e), None)
-            known[monomial] = _identity(self.size) if k is None else self.matrices[k] * known[_over(monomial, k)]
+            known[monomial] = _identity(self.size) if k is None else self.matrices[k] * known[shifted(monomial, k, -1)]
         return tuple(known[m] for m in self.monomials)
 
     @cached_property
@@ -212,26 +199,29 @@ def signature(matrix: fmpq_mat) -> int:
 
     Its characteristic polynomial has real roots only, for which Descartes' rule counts exactly.
     """
-    signs = [(c > 0) - (c < 0) for c in matrix.charpoly().coeffs()]
-    mirrored = [-s if k % 2 else s for k, s in enumerate(signs)]
-    return _changes(signs) - _changes(mirrored)
-
-
-def _changes(signs: Sequence[int]) -> int:
-    kept = [s for s in signs if s]
-    return sum(a != b for a, b in pairwise(kept))
+    coefficients = matrix.charpoly().coeffs()
+    return sign_changes(coefficients) - sign_changes([-c if k % 2 else c for k, c in enumerate(coefficients)])
 
 
 def _identity(size: int) -> fmpq_mat:
     return fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
 
 
-def _times(monomial: Exponents, k: int) -> Exponents:
-    return (*monomial[:k], monomial[k] + 1, *monomial[k + 1 :])
+def standard_monomials(leads: Iterable[Exponents], size: int, most: int, what: str) -> set[Exponents]:
+    """The monomials in so many variables that none of the leading ones divides. Raises ``Unable`` beyond ``most``."""
+    standard, listed = {(0,) * size}, list(leads)
+    pending = list(standard)
+    while pending:
+        monomial = pending.pop()
+        larger = {shifted(monomial, k, 1) for k in range(size)} - standard
+        new = [m for m in larger if not any(all(map(le, lead, m)) for lead in listed)]
+        standard.update(new)
+        pending += new
+        if len(standard) > most:
+            raise Unable(f"{what} has more than {most} complex solutions")
+    return standard
 
 
-def _over(monomial: Exponents, k: int) -> Exponents:
-    return (*monomial[:k], monomial[k] - 1, *monomial[k + 1 :])
-
-
-__all__ = ["PositiveDimensional", "Quotient", "dimension", "independent_sets", "signature"]
+def shifted(monomial: Exponents, k: int, by: int) -> Exponents:
+    """The monomial with another power of one variable."""
+    return (*monomial[:k], monomial[k] + by, *monomial[k + 1 :])

@@ -16,12 +16,10 @@ from math import lcm
 from flint import fmpz_mpoly, fmpz_poly
 
 from qe.errors import InternalError
-from qe.exact.poly import Poly, Ring, SparseTerm
+from qe.exact.poly import Factors, Poly, Ring, SparseTerm
 
 WIDE = 24
 """In rings with more variables, polynomials keep track of the few that they contain."""
-
-
 _FEW = 8
 """Variables that are looked for one by one."""
 
@@ -210,14 +208,10 @@ class WidePoly(Poly):
         own, f = self._alone
         return self._expanded(own, f.discriminant(own.index(i)))
 
-    def factors(self) -> tuple[int, tuple[tuple[Poly, int], ...]]:
-        stored = self.ring.cache.get(("factors", self))
-        if stored is None:
-            own, f = self._alone
-            unit, parts = f.factors()
-            stored = unit, tuple((self._expanded(own, q), e) for q, e in parts)
-            self.ring.remember(("factors", self), stored)
-        return stored  # type: ignore[return-value]
+    def _factored(self) -> Factors:
+        own, f = self._alone
+        unit, parts = f.factors()
+        return unit, tuple((self._expanded(own, q), e) for q, e in parts)
 
     # --- substitution -----------------------------------------------------------------------
     def at_rational(self, i: int, value: Fraction | int) -> Poly:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -17,7 +17,7 @@ from qe.groebner import files
 from qe.groebner.question import ParametricSystem
 from qe.groebner.segment import Segment
 from qe.groebner.signs import SignatureConditions, signatures_sum_to
-from qe.groebner.system import ComprehensiveGroebnerSystem, outside, within
+from qe.groebner.system import ComprehensiveGroebnerSystem, Numbers, outside, within
 from qe.groebner.trace_form import ParametricQuotient
 from qe.options import Budget
 from qe.proof.certificate import Certificate, certificate_from
@@ -127,7 +127,7 @@ class RealRootClassification:
                 return found.condition
         raise arguments.wrong("count", f"one of {', '.join(str(c.count) for c in self.classes)}", count)
 
-    def at(self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None) -> int | None:
+    def at(self, point: Numbers, *, timeout: float | None = None) -> int | None:
         """The number of distinct real solutions at a point, exactly; ``BudgetExceeded`` after ``timeout`` seconds."""
         return within(timeout, self._at, self.system.place(point))
 
@@ -137,9 +137,7 @@ class RealRootClassification:
                 return found.count
         raise outside()
 
-    def certificate_at(
-        self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
-    ) -> Certificate:
+    def certificate_at(self, point: Numbers, *, timeout: float | None = None) -> Certificate:
         """A certificate of the solutions at a point, as many as ``at`` says there are, for ``qe.verify``.
 
         ``timeout`` in seconds. Raises ``PositiveDimensional`` where there are infinitely many complex ones, ``Unable``.

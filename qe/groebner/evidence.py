@@ -10,6 +10,7 @@ from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.polynomial_system import solutions, system_basis
 from qe.exact.ring import Poly, Ring
+from qe.exact.univariate import from_univariate
 from qe.exact.zeros import Zero, linear_forms
 from qe.expert.solutions import sentence
 from qe.formula.syntax import Relation
@@ -52,7 +53,7 @@ def solutions_certificate(
     names = [ring.names[i] for i in places]
     intervals = _intervals([z.values[names[0]].field.theta for z in found])
     own = Ring.of(names)
-    given = [*equations, *(_minimal_polynomial(ring, i, fixed[i]) for i in used)]
+    given = [*equations, *(from_univariate(ring, i, fixed[i].poly) for i in used)]
     payload: dict[str, Json] = {
         "order": list(names),
         "equations": [poly_to_text(p.convert(own).normal()[1]) for p in given if p],
@@ -62,11 +63,6 @@ def solutions_certificate(
         "solutions": [_solution(z, names, ends) for z, ends in zip(found, intervals, strict=True)],
     }
     return Certificate.step("solutions", names, *sentence(Entry(payload, "evidence"), Budget()), payload)
-
-
-def _minimal_polynomial(ring: Ring, i: int, number: RealAlgebraic) -> Poly:
-    terms = {tuple(k if j == i else 0 for j in range(ring.size)): c for k, c in enumerate(number.minimal_polynomial)}
-    return ring.from_terms({e: c for e, c in terms.items() if c})
 
 
 def _between(ring: Ring, i: int, number: RealAlgebraic) -> list[Condition]:

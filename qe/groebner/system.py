@@ -34,6 +34,8 @@ from qe.proof.entry import Json
 Result = TypeVar("Result")
 
 _WHAT = "comprehensive Gröbner system"
+Numbers = Mapping[str, object] | Sequence[object]
+"""A point: exact numbers for the parameters, by name or in order."""
 
 
 def outside() -> InputError:
@@ -80,13 +82,12 @@ class ComprehensiveGroebnerSystem:
         return iter(self.segments)
 
     # --- at a point --------------------------------------------------------------------------
-    def at(self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None) -> Segment:
+    def at(self, point: Numbers, *, timeout: float | None = None) -> Segment:
         """The segment of a point: exact numbers for the parameters, by name or in order. ``InputError`` otherwise.
 
         ``timeout`` in seconds: ``BudgetExceeded`` at the limit, here and below.
         """
-        values = self._values(point)
-        return within(timeout, self._at, values)
+        return within(timeout, self._at, self._values(point))
 
     def _at(self, values: Mapping[str, Number]) -> Segment:
         place = self._place(values)
@@ -95,16 +96,13 @@ class ComprehensiveGroebnerSystem:
                 return segment
         raise outside()
 
-    def basis_at(
-        self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
-    ) -> tuple[Poly, ...]:
+    def basis_at(self, point: Numbers, *, timeout: float | None = None) -> tuple[Poly, ...]:
         """The reduced Groebner basis of the ideal at a point, over the field of the constants.
 
         Irrational numbers of the point join the constants: the names of their parameters stay in the basis and stand
         for them. ``timeout`` in seconds. Raises ``BudgetExceeded``, and ``Unable`` where the basis grows too large.
         """
-        values = self._values(point)
-        return within(timeout, self._basis_at, values)
+        return within(timeout, self._basis_at, self._values(point))
 
     def _basis_at(self, values: Mapping[str, Number]) -> tuple[Poly, ...]:
         ring, tower = self.polys[0].ring, self._place(values).tower
@@ -114,16 +112,13 @@ class ComprehensiveGroebnerSystem:
         found = parametric_basis([*special, *moduli], self.block)
         return tuple(p for p in found if not self.block.is_free(p) or p.is_constant)
 
-    def solutions_at(
-        self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
-    ) -> list[Zero]:
+    def solutions_at(self, point: Numbers, *, timeout: float | None = None) -> list[Zero]:
         """All real solutions at a point, exactly, with multiplicities; see ``qe.exact.polynomial_system``.
 
         ``timeout`` in seconds. Raises ``PositiveDimensional`` where infinitely many complex solutions exist, and as
         ``basis_at``.
         """
-        values = self._values(point)
-        return within(timeout, self._solutions_at, values)
+        return within(timeout, self._solutions_at, self._values(point))
 
     def _solutions_at(self, values: Mapping[str, Number]) -> list[Zero]:
         basis = self._basis_at(values)
@@ -135,11 +130,7 @@ class ComprehensiveGroebnerSystem:
         return [Zero({n: z.values[n] for n in self.variables}, z.multiplicity) for z in found]
 
     def certificate_at(
-        self,
-        point: Mapping[str, object] | Sequence[object],
-        positive: Sequence[Poly] = (),
-        *,
-        timeout: float | None = None,
+        self, point: Numbers, positive: Sequence[Poly] = (), *, timeout: float | None = None
     ) -> Certificate:
         """A certificate of the real solutions at a point (with all of ``positive`` positive): these, and no others.
 
@@ -168,12 +159,9 @@ class ComprehensiveGroebnerSystem:
         irrational = {n: v for n, v in values.items() if isinstance(v, RealAlgebraic)}
         return {index[n]: v for n, v in {**self.constants, **irrational}.items()}
 
-    def contains(
-        self, poly: Poly | str, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
-    ) -> bool:
+    def contains(self, poly: Poly | str, point: Numbers, *, timeout: float | None = None) -> bool:
         """Whether a polynomial in variables and parameters is in the ideal at a point, exactly."""
-        values, read = self._values(point), self._read(poly)
-        return within(timeout, self._contains, read, values)
+        return within(timeout, self._contains, self._read(poly), self._values(point))
 
     def _contains(self, poly: Poly, values: Mapping[str, Number]) -> bool:
         _, rest = self._at(values).reduce(poly)
@@ -192,11 +180,11 @@ class ComprehensiveGroebnerSystem:
             raise InputError(f"poly: variables and parameters of the system expected, {unknown[0]} found")
         return found.convert(ring)
 
-    def place(self, point: Mapping[str, object] | Sequence[object]) -> Point:
+    def place(self, point: Numbers) -> Point:
         """A point of the parameters, with the constants, for exact signs."""
         return self._place(self._values(point))
 
-    def _values(self, point: Mapping[str, object] | Sequence[object]) -> dict[str, Number]:
+    def _values(self, point: Numbers) -> dict[str, Number]:
         names = self.parameters
         if isinstance(point, Mapping):
             given = arguments.by_name(point, "point")

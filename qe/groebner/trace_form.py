@@ -16,8 +16,8 @@ from math import lcm, prod
 from qe.errors import Unable
 from qe.exact.block_order import Exponents
 from qe.exact.hermite import leading_minors
+from qe.exact.quotient import shifted, standard_monomials
 from qe.exact.ring import Poly
-from qe.groebner.reduction import divides
 from qe.groebner.segment import Segment
 from qe.groebner.signs import SignatureConditions
 from qe.options import Budget
@@ -49,7 +49,8 @@ class ParametricQuotient:
         self.segment, self.block, self.budget = segment, segment.block, budget
         self.ring = segment.basis[0].ring
         self._rows = {lead: self.block.terms(p) for p, lead in zip(segment.basis, segment.leads, strict=True)}
-        self.monomials = self._standard()
+        standard = standard_monomials(self._rows, len(self.block.variables), MOST_MONOMIALS, "a segment")
+        self.monomials = tuple(sorted(standard, key=self.block.order.key))
         self._place = {m: k for k, m in enumerate(self.monomials)}
         self._known: dict[Exponents, Vector] = {}
 
@@ -57,20 +58,6 @@ class ParametricQuotient:
     def size(self) -> int:
         """The number of complex solutions, with multiplicities, over every point of the segment."""
         return len(self.monomials)
-
-    def _standard(self) -> tuple[Exponents, ...]:
-        width = len(self.block.variables)
-        found, pending = {(0,) * width}, [(0,) * width]
-        while pending:
-            monomial = pending.pop()
-            for k in range(width):
-                larger = _shifted(monomial, k, 1)
-                if larger not in found and not any(divides(lead, larger) for lead in self._rows):
-                    found.add(larger)
-                    pending.append(larger)
-            if len(found) > MOST_MONOMIALS:
-                raise Unable(f"a segment has more than {MOST_MONOMIALS} complex solutions")
-        return tuple(sorted(found, key=self.block.order.key))
 
     # --- normal forms ------------------------------------------------------------------------
     def _unit(self, k: int) -> Vector:
@@ -96,10 +83,10 @@ class ParametricQuotient:
                 tops[self._place[exponents]] = -c
             unit, factors = bottom.factors()
             return self._tidy([t * (1 if unit > 0 else -1) for t in tops], self._with_unit(factors, abs(unit)))
-        k = next(k for k, e in enumerate(monomial) if e and _shifted(monomial, k, -1) not in self._place)
-        below = self.normal_form(_shifted(monomial, k, -1))
+        k = next(k for k, e in enumerate(monomial) if e and shifted(monomial, k, -1) not in self._place)
+        below = self.normal_form(shifted(monomial, k, -1))
         return self._combined(
-            [(c, self.normal_form(_shifted(m, k, 1))) for c, m in zip(below.tops, self.monomials, strict=True) if c],
+            [(c, self.normal_form(shifted(m, k, 1))) for c, m in zip(below.tops, self.monomials, strict=True) if c],
             below.bottom,
         )
 
@@ -309,10 +296,6 @@ def _divides(factor: Poly, poly: Poly) -> bool:
     return factor.normal()[1] == factor.gcd(poly).normal()[1] and (
         not factor.is_constant or poly.normal()[0] % factor.constant_value() == 0
     )
-
-
-def _shifted(monomial: Exponents, k: int, by: int) -> Exponents:
-    return (*monomial[:k], monomial[k] + by, *monomial[k + 1 :])
 
 
 def _product(a: Exponents, b: Exponents) -> Exponents:

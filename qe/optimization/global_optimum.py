@@ -209,17 +209,19 @@ def _place(goal: Goal, value: Number) -> Formula:
 
 def number_conditions(ring: Ring, name: str, value: Number) -> list[Formula]:
     """That a variable is this number: the only root of its minimal polynomial between two rational numbers."""
-    number = ring.var(name)
+    root, between = _being(ring.var(name), 1, value)
+    return [atom(root, Relation.EQ), *between]
+
+
+def _being(top: Poly, bottom: int, value: Number) -> tuple[Poly, list[Formula]]:
+    """A polynomial that vanishes where top/bottom is this number, and bounds between which it does so there only."""
     if isinstance(value, Fraction):
-        return [atom(number * value.denominator - value.numerator, Relation.EQ)]
-    low, high = value.interval()
-    own = Ring.of((name,))
-    minimal = own.from_terms({(k,): c for k, c in enumerate(value.minimal_polynomial) if c})
-    return [
-        atom(minimal.convert(ring), Relation.EQ),
-        atom(number * low.denominator - low.numerator, Relation.GE),
-        atom(number * high.denominator - high.numerator, Relation.LE),
-    ]
+        return top * value.denominator - value.numerator * bottom, []
+    root, power = top.ring.constant(0), 1
+    for c in reversed(value.minimal_polynomial):
+        root, power = root * top + c * power, power * bottom
+    ends = zip(value.interval(), (Relation.GE, Relation.LE), strict=True)
+    return root, [atom(top * end.denominator - end.numerator * bottom, side) for end, side in ends]
 
 
 def level_set(goal: Goal, value: Number, budget: Budget) -> Formula:
@@ -234,19 +236,9 @@ def level_set(goal: Goal, value: Number, budget: Budget) -> Formula:
         return solve(having, Options(), budget).formula
     ring = Ring.of(tuple(name for name in goal.ring.names if name != goal.value))
     (objective, scale), conditions = goal.polynomial, convert(goal.conditions, ring)
-    objective = objective.convert(ring)
-    if isinstance(value, Fraction):
-        wanted = value / scale
-        return conj((conditions, atom(objective * wanted.denominator - wanted.numerator, Relation.EQ)))
-    scaled, bottom = objective * scale.numerator, scale.denominator
-    low, high = value.interval()
-    root, power = ring.constant(0), 1
-    for c in reversed(value.minimal_polynomial):
-        root, power = root * scaled + c * power, power * bottom
-    between = (
-        atom(scaled * low.denominator - low.numerator * bottom, Relation.GE),
-        atom(scaled * high.denominator - high.numerator * bottom, Relation.LE),
-    )
+    root, between = _being(objective.convert(ring) * scale.numerator, scale.denominator, value)
+    if not between:
+        return conj((conditions, atom(root, Relation.EQ)))
     return disj(_on_factor(factor, conditions, conj(between), budget) for factor, _ in root.factors()[1])
 
 

@@ -101,8 +101,7 @@ def moved(formula: Formula, ring: Ring) -> Formula:
         there = negated(moved(formula.arg, ring))
     else:
         there = map_children(formula, lambda part: moved(part, ring))
-    ring.remember(key, there)
-    return there
+    return ring.remembered(key, lambda: there)
 
 
 def negated(formula: Formula) -> Formula:

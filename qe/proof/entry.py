@@ -131,27 +131,21 @@ class Entry:
     def polynomial(self, ring: Ring) -> Poly:
         """A polynomial in the text form of ``poly_to_text``, in exactly that form."""
         text = self.text()
-        known = ring.cache.get(("text", text))
-        if isinstance(known, Poly):
-            return known
+        return ring.remembered(("text", text), lambda: self._parsed(text, ring))
+
+    def _parsed(self, text: str, ring: Ring) -> Poly:
         try:
             poly = parse_poly(text, ring)
         except (ValueError, KeyError):
             raise self.fail(f"expected a polynomial in {', '.join(ring.names)}") from None
         if poly_to_text(poly) != text:
             raise self.fail("the polynomial is not in normal form")
-        ring.remember(("text", text), poly)
         return poly
 
 
 def poly_to_text(poly: Poly) -> str:
     """The polynomial as certificates hold it: names that are no plain words stand between backquotes."""
-    known = poly.ring.cache.get(("text of", poly))
-    if isinstance(known, str):
-        return known
-    text = format_poly(poly, _spelled)
-    poly.ring.remember(("text of", poly), text)
-    return text
+    return poly.ring.remembered(("text of", poly), lambda: format_poly(poly, _spelled))
 
 
 def _spelled(name: str) -> str:

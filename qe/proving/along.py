@@ -4,24 +4,23 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import FALSE, Atomic, Exists, Formula, Not
 from qe.formula.traverse import map_atoms
 from qe.kernel.block import existential
 from qe.kernel.negation import negation, normal
 from qe.kernel.step import Claim, Context, Limits, only
-from qe.kernel.terms import Quotient
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json
 from qe.proving.made import Made
+from qe.proving.scaling import along, moves
 
 
 def constant_along(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """Neither side holds where the other does not: parameters at 0, to which the others are moved, show it."""
     directions, steps = only(claim, "directions", "steps")
-    moves = [_move(direction, claim) for direction in directions.items()]
-    start, end = (_at_zero(side, [name for name, _ in moves]) for side in (claim.before, claim.after))
+    moved = [_move(direction, claim) for direction in directions.items()]
+    start, end = (_at_zero(side, [name for name, _ in moved]) for side in (claim.before, claim.after))
     if limits.replay(steps, start, (), claim.ring) != end:
         raise steps.fail("the steps do not lead there")
     before, after = existential(claim)
@@ -31,11 +30,11 @@ def constant_along(claim: Claim, context: Context, limits: Limits) -> list[Json]
         if wrong == FALSE:
             continue
         made = Made(claim, limits, exists(wrong.free, wrong))
-        for name, vector in moves:
+        for name, vector in moved:
             block = made.current
             if isinstance(block, Exists) and name in block.variables:
                 rest = [v for v in block.variables if v != name]
-                others = {v: _along(made.ring, v, -by, name) for v, by in vector.items() if v in rest}
+                others = {v: along(made.ring, v, -by, name) for v, by in vector.items() if v in rest}
                 zero = {name: (made.ring.constant(0), made.ring.constant(1))}
                 made.terms(block, exists(rest, _at_zero(block.body, [name])), zero, others)
         if made.current != FALSE:
@@ -51,11 +50,8 @@ def constant_along(claim: Claim, context: Context, limits: Limits) -> list[Json]
 
 def _move(direction: Entry, claim: Claim) -> tuple[str, dict[str, Fraction]]:
     """A variable that moves, and how the others do where it moves by 1."""
-    variable, along = direction.row("variable", "vector")
-    by = {row[0].text(): row[1].rational() for row in (e.row("name", "number") for e in along.items())}
-    if not by.get(variable.text()) or not by.keys() <= claim.ring.index.keys():
-        raise direction.fail("no variable that moves")
-    return variable.text(), {v: w / by[variable.text()] for v, w in by.items() if v != variable.text()}
+    variable, weights = direction.row("variable", "vector")
+    return variable.text(), moves(weights, variable.text(), claim)
 
 
 def _at_zero(formula: Formula, names: list[str]) -> Formula:
@@ -64,8 +60,3 @@ def _at_zero(formula: Formula, names: list[str]) -> Formula:
         return atom(given.poly.compose({ring.index[v]: ring.constant(0) for v in names}), given.relation)
 
     return map_atoms(formula, change)
-
-
-def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
-    bottom = ring.constant(by.denominator)
-    return ring.var(name) * bottom + ring.var(variable) * by.numerator, bottom

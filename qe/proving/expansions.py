@@ -20,8 +20,7 @@ def as_squares(theory: Lemmas, poly: Poly) -> None:
         if least is not None:
             scale = lcm(least.value.denominator, *(weight.denominator for weight, _ in least.squares))
             squares: list[Term] = [(int(weight * scale), _squared(root)) for weight, root in least.squares]
-            constant: list[Term] = [(int(least.value * scale), ())] if least.value else []
-            theory.identity([(-scale * sign, ((poly, 1),)), *squares, *constant])
+            theory.identity([(-scale * sign, ((poly, 1),)), *squares, (int(least.value * scale), ())])
 
 
 def _squared(root: Poly) -> tuple[tuple[Poly, int], ...]:
@@ -30,9 +29,9 @@ def _squared(root: Poly) -> tuple[tuple[Poly, int], ...]:
     return ((root, 2),) if more else tuple((root.ring.gen(i), 2 * k) for i, k in enumerate(exponents) if k)
 
 
-def _monomials(poly: Poly) -> list[Term]:
-    ring = poly.ring
-    return [(c, tuple((ring.gen(i), k) for i, k in enumerate(exponents) if k)) for exponents, c in poly.terms()]
+def monomials(poly: Poly) -> list[Term]:
+    """The terms of a polynomial, which add up to it."""
+    return [(c, tuple((poly.ring.gen(i), k) for i, k in powers)) for powers, c in poly.sparse_terms()]
 
 
 def ranges(theory: Lemmas, polys: Iterable[Poly]) -> None:
@@ -40,7 +39,7 @@ def ranges(theory: Lemmas, polys: Iterable[Poly]) -> None:
     for poly in dict.fromkeys((*theory.numbers, *polys)):
         count = poly.term_count()
         if 1 < count <= MOST_MONOMIALS or (count <= MOST_ALIKE and len({c > 0 for _, c in poly.terms()}) == 1):
-            theory.identity([(-1, ((poly, 1),)), *_monomials(poly)])
+            theory.identity([(-1, ((poly, 1),)), *monomials(poly)])
 
 
 def shifted(theory: Lemmas, polys: dict[Poly, bool]) -> None:

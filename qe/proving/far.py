@@ -10,7 +10,8 @@ from qe.kernel.negation import negation
 from qe.kernel.step import Claim, Context, Limits, only, outside
 from qe.kernel.virtual_substitution import TestPoint, put
 from qe.proof.entry import Json, formula_from_json
-from qe.proving.lemma_list import Term, identities
+from qe.proving.expansions import monomials
+from qe.proving.lemma_list import identities
 from qe.proving.made import Made, by_signs
 
 
@@ -65,8 +66,5 @@ def zeros(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     only(claim)
     (before, after), ring = existential(claim), claim.ring
     polys = dict.fromkeys(a.poly for side in (before, after) for a in atoms(side) if isinstance(a, Atom))
-    listed: list[list[Term]] = []
-    for poly in polys:
-        terms = [(-c, tuple((ring.gen(i), e) for i, e in powers)) for powers, c in poly.sparse_terms()]
-        listed.append([(1, ((poly, 1),)), *terms])
-    return [by_signs(claim, limits, before, after, context, identities(listed, ring))]
+    lemmas = identities(([(-1, ((poly, 1),)), *monomials(poly)] for poly in polys), ring)
+    return [by_signs(claim, limits, before, after, context, lemmas)]

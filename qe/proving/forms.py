@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import Atom, Atomic, Exists, Formula, Relation
-from qe.formula.traverse import conjuncts, map_atoms
+from qe.formula.build import conj, exists
+from qe.formula.syntax import Atom, Exists, Relation
+from qe.formula.traverse import conjuncts
 from qe.kernel.block import existential
 from qe.kernel.statements import theorem
 from qe.kernel.step import Claim, Context, Limits, only
@@ -80,7 +79,7 @@ def seen_along(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     variables = {f"x{k}": name for k, name in enumerate(names)}
     inner, answer = (used.formula(side, letters, variables, ring) for side in ("block", "answer"))
     naming = equal(ring.var(t), form)
-    final = map_atoms(after.body, partial(_renamed, by={first: ring.var(t)}, made=made))
+    final = made.mapped(after.body, lambda p: p.compose({first: ring.var(t)}))
     rest = [f for f in conjuncts(final) if f not in conjuncts(answer)]
     whole = exists((t, *before.variables), conj((naming, before.body)))
     seen = exists((t, *before.variables), conj((part, naming, *rest)))
@@ -120,9 +119,3 @@ def _radius(letters: Mapping[str, Poly], size: int, ring: Ring) -> Json:
 
 def _texts(letters: Mapping[str, Poly]) -> Json:
     return {name: poly_to_text(poly) for name, poly in letters.items()}
-
-
-def _renamed(given: Atomic, by: Mapping[int, Poly], made: Made) -> Formula:
-    if not isinstance(given, Atom):
-        raise made.claim.fail("no root atoms")
-    return atom(given.poly.compose(dict(by)), given.relation)

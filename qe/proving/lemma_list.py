@@ -39,7 +39,7 @@ class Lemmas:
         return self.numbers.setdefault(poly, len(self.numbers))
 
     def identity(self, terms: Iterable[Term]) -> None:
-        """That the terms add up to 0, unless it has been said."""
+        """That the terms, of which some may be 0, add up to 0, unless it has been said."""
         listed: list[Json] = []
         signs: list[tuple[int, tuple[tuple[int, bool], ...]]] = []
         for coefficient, powers in terms:
@@ -51,6 +51,8 @@ class Lemmas:
                 content, primitive = poly.normal()
                 coefficient *= content**exponent
                 exponents[primitive] = exponents.get(primitive, 0) + exponent
+            if not coefficient:
+                continue
             numbered = [(self.number(p), e) for p, e in exponents.items()]
             listed.append([digits(coefficient), [[i, e] for i, e in numbered]])
             signs.append((sign_bit(coefficient), tuple((i, e % 2 == 1) for i, e in numbered)))

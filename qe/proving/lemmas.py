@@ -120,7 +120,7 @@ def _combined_bounds(theory: Lemmas, polys: Sequence[Poly], squares: bool) -> No
     terms = [(int(w * scale), powers) for w, powers in zip(weights, members, strict=True) if w]
     constants = [dict(p.sparse_terms()).get((), 0) for p in (first, *others)]
     total = sum((w * c for w, c in zip(weights, constants)), Fraction(0)) * scale
-    theory.identity([*terms, (-int(total), ())] if total else terms)
+    theory.identity([*terms, (-int(total), ())])
 
 
 def _factors(theory: Lemmas, polys: Iterable[Poly], pool: dict[Poly, None]) -> None:
@@ -180,7 +180,7 @@ def _values(theory: Lemmas, goals: Sequence[Goal], polys: dict[Poly, bool]) -> N
                 terms.append((-1, (((image * power - reduced).exact_divide(line), 1), (line, 1))))
                 image, scale = reduced, scale * power
         if terms:
-            theory.identity([(scale, ((poly, 1),)), *terms, *([(-1, ((image, 1),))] if image else [])])
+            theory.identity([(scale, ((poly, 1),)), *terms, (-1, ((image, 1),))])
             if not image.is_constant:
                 _factored(theory, image.normal()[1])
     for poly in list(polys) if lines else ():
@@ -232,9 +232,7 @@ def _reduced(theory: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
     image = poly.at_quotient(x, -rest, lead)
     scale = lead.constant_value() ** poly.degree(x)
     quotient = (poly * scale - image).exact_divide(equation)
-    powers: tuple[tuple[Poly, int], ...] = ((image, 1),) if image else ()
-    terms: list[Term] = [(scale, ((poly, 1),)), (-1, ((quotient, 1), (equation, 1)))]
-    theory.identity([*terms, (-1, powers)] if image else terms)
+    theory.identity([(scale, ((poly, 1),)), (-1, ((quotient, 1), (equation, 1))), (-1, ((image, 1),))])
     if image.is_constant:
         return []
     primitive = image.normal()[1]

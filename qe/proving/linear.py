@@ -26,8 +26,8 @@ def guarded(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     image = conj((atom(lead, Relation.NE), substituted(replace(pivot, sign=0), claim)))
     after = exists([v for v in block if v != pivot.name], image)
     x = claim.ring.gen(pivot.x)
-    sum_of: list[Term] = [(1, ((pivot.equation, 1),)), (-1, ((lead, 1), (x, 1)))]
-    lemmas = identities([[*sum_of, (-1, ((rest, 1),))] if rest else sum_of], claim.ring)
+    sum_of: list[Term] = [(1, ((pivot.equation, 1),)), (-1, ((lead, 1), (x, 1))), (-1, ((rest, 1),))]
+    lemmas = identities([sum_of], claim.ring)
     made.signs(claim.before, disj((regular, vanishing)), lemmas)
     solved: Json = {"solved": [[pivot.name, poly_to_text(pivot.equation), 0]], "theory": EMPTY}
     made.step("linear equation solved", regular, after, solved)

@@ -10,7 +10,7 @@ from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
 from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import children, conjuncts, map_atoms
+from qe.formula.traverse import atoms, children, conjuncts, map_atoms
 from qe.kernel.block import block_goals
 from qe.kernel.boolean import Goal, equivalence
 from qe.kernel.derivation import replaced
@@ -103,6 +103,12 @@ class Made:
         """An equation that gives a new variable a value."""
         back = written("linear equation solved", (), after, before, (), solved(equation, name))
         self.step("converse", before, after, {"steps": [back]})
+
+    def mapped(self, formula: Formula, change: Callable[[Poly], Poly]) -> Formula:
+        """A formula with its polynomials changed. ``CertificateRejected`` where it has root atoms."""
+        if not all(isinstance(a, Atom) for a in atoms(formula)):
+            raise self.claim.fail("no root atoms expected")
+        return map_atoms(formula, lambda a: atom(change(a.poly), a.relation))
 
     def finished(self, after: Formula) -> list[Json]:
         """The steps, with one to the order in which the formula after has its parts."""

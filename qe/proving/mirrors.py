@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 
 from qe.exact.ring import Poly
-from qe.formula.build import atom, conj, exists, forall
-from qe.formula.syntax import Atom, Atomic, Exists, ForAll, Formula
-from qe.formula.traverse import atoms, conjuncts, map_atoms
+from qe.formula.build import conj, exists, forall
+from qe.formula.syntax import Atom, Exists, ForAll, Formula
+from qe.formula.traverse import atoms, conjuncts
 from qe.kernel.block import existential
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.terms import Quotient, at_terms
@@ -88,20 +87,13 @@ def _follow(
         if image != poly:
             value = at_terms(poly, {index[v]: q for v, q in centre.items()})
             twice = next((n for n in (1, 2) if (poly + image) * n == value * 2), None)
-            terms: list[Term] = [(twice or 1, ((poly, 1),)), (twice or 1, ((image, 1),))]
-            listed.append([*terms, (-2, ((value, 1),))] if value else terms)
+            listed.append([(twice or 1, ((poly, 1),)), (twice or 1, ((image, 1),)), (-2, ((value, 1),))])
     made.signs(before, after, identities(listed, made.ring))
 
 
 def _put(formula: Formula, terms: Mapping[str, Quotient], made: Made) -> Formula:
     by = {made.ring.index[v]: q for v, q in terms.items()}
-    return map_atoms(formula, partial(_at, by=by, made=made))
-
-
-def _at(given: Atomic, by: Terms, made: Made) -> Formula:
-    if not isinstance(given, Atom):
-        raise made.claim.fail("no mirror images of root atoms")
-    return atom(at_terms(given.poly, by), given.relation)
+    return made.mapped(formula, lambda p: at_terms(p, by))
 
 
 def _images(entry: Entry, claim: Claim) -> Images:

@@ -5,9 +5,10 @@ Nothing here is trusted: a step counts as proved when the checker of its rule ac
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import TypeVar
 
 from qe.certify.registry import RULES
 from qe.elimination.cad import certificate_for
@@ -38,6 +39,7 @@ from qe.proving.remembering import Accepted, remembering, step_key
 from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
 
+T = TypeVar("T")
 TABLE_WORK, TABLE_SHARE = 3_000, 0.25
 """Units of work for a decomposition that proves a single step, and the share of the time left that it may take."""
 
@@ -54,33 +56,6 @@ SIMPLIFYING = (
 CRITICAL = "critical values"
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
 REDUNDANT = "redundant part"
-ELABORATED = (
-    "comprehensive Gröbner system",
-    "critical values of a universal block",
-    "affine coordinates",
-    "conditions on zeros that follow",
-    "constant along directions",
-    "degenerate truth set",
-    "degree shift",
-    "infinity first",
-    "linear equation solved under a guard",
-    "linear form named",
-    "roots by signs",
-    "roots counted",
-    "rotation of the axes",
-    "ranges that exclude each other",
-    "mirror images of a convex set",
-    "disjuncts with equations apart",
-    "homogeneous scaling",
-    "linear form as a variable",
-    "sphere seen along a form",
-    "square of a variable alone",
-    "translation of the origin",
-    "two variables exchanged",
-    "value that is taken",
-    "witness in the parameters",
-)
-
 UNRECORDED = "steps that are not recorded"
 
 
@@ -245,7 +220,7 @@ class Prover:
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
         if step.rule == SEARCH:
             return self._searched(step, evidence)
-        if step.rule in ELABORATED:
+        if step.rule in ELABORATORS:
             elaborated = self._elaborated(step, context, evidence)
             if elaborated is not None or step.rule not in RULES:
                 return elaborated
@@ -267,30 +242,27 @@ class Prover:
         return None if own is None else (rule, own)
 
     def _tried(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
-        checker = RULES.get(rule)
-        if checker is None:
+        return self._found(lambda: self._completed(rule, step, context, evidence))
+
+    def _completed(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
+        """The evidence with its derivations and lemmas, accepted."""
+        if (checker := RULES.get(rule)) is None:
             return None
-        try:
-            check_names(self._claim(rule, step, evidence), context)
-            if any(derivations_within(evidence)):
-                given = self._claim(rule, step, evidence)
-                inside = proved_inside(lambda own: _checked(checker, given, context, own), self.limits, self.nested)
-                assert isinstance(inside, dict)  # the checker has read it
-                evidence = inside
-            if isinstance(checker, ByLemmas):
-                evidence = {**evidence, "theory": EMPTY}
-                goals = checker.obligations(self._claim(rule, step, evidence), context)
-                ideal = step.rule == IDEAL
-                theory = refuting(goals, self.ring, self.limits, ideal) if goals else EMPTY
-                if theory is None:
-                    return None
-                evidence = {**evidence, "theory": theory}
-            self._check(self._claim(rule, step, evidence), context)
-        except CertificateRejected:
-            return None
-        except Unable:
-            self.budget.check("prove")
-            return None
+        check_names(self._claim(rule, step, evidence), context)
+        if any(derivations_within(evidence)):
+            given = self._claim(rule, step, evidence)
+            inside = proved_inside(lambda own: _checked(checker, given, context, own), self.limits, self.nested)
+            assert isinstance(inside, dict)  # the checker has read it
+            evidence = inside
+        if isinstance(checker, ByLemmas):
+            evidence = {**evidence, "theory": EMPTY}
+            goals = checker.obligations(self._claim(rule, step, evidence), context)
+            ideal = step.rule == IDEAL
+            theory = refuting(goals, self.ring, self.limits, ideal) if goals else EMPTY
+            if theory is None:
+                return None
+            evidence = {**evidence, "theory": theory}
+        self._check(self._claim(rule, step, evidence), context)
         return evidence
 
     def _elaborated(self, step: Step, context: Context, evidence: Json) -> tuple[str, Json] | None:
@@ -308,48 +280,47 @@ class Prover:
         own = self._tried(STEPS, step, context, {"steps": made})
         return None if own is None else (STEPS, own)
 
+    def _found(self, search: Callable[[], T | None]) -> T | None:
+        """What a search for evidence gives; None where there is none, or it is out of reach."""
+        try:
+            return search()
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+
     def _positive(self, step: Step, given: object, context: Context) -> tuple[str, Json] | None:
         """Signs that follow from identities, which the rule has found."""
         assert isinstance(given, Mapping)
         lemmas = identities([*given["identities"]], self.ring)
-        try:
-            goals = block_goals(self._claim(SIGNS, step, {"theory": lemmas}), context)
-            theory = with_cases(lemmas, goals, self.ring, self.limits)
-        except CertificateRejected:
-            return None
+        claim = self._claim(SIGNS, step, {"theory": lemmas})
+        theory = self._found(lambda: with_cases(lemmas, block_goals(claim, context), self.ring, self.limits))
         return None if theory is None else (SIGNS, {"theory": theory})
 
     def _substituted(self, step: Step, trace: Eliminated) -> Json | None:
         """The steps of virtual substitution, all of them accepted."""
         claim = self._claim("virtual substitution", step, {})
         before, after = existential(claim)
-        try:
+
+        def evidence() -> Json | None:
             if not isinstance(before, Exists):
                 return None
-            evidence: Json = {"steps": steps(before, trace, after, self.ring, self._simplified, self.limits)}
-            self._check(self._claim(claim.rule, step, evidence), ())
-        except CertificateRejected:
-            return None
-        except Unable:
-            self.budget.check("prove")
-            return None
-        return evidence
+            made: Json = {"steps": steps(before, trace, after, self.ring, self._simplified, self.limits)}
+            self._check(self._claim(claim.rule, step, made), ())
+            return made
+
+        return self._found(evidence)
 
     def _critical(self, step: Step) -> Json | None:
         """The evidence for a step by critical values, accepted."""
         from qe.proving.critical import critical_evidence
 
         order, claim = step.evidence.get("order"), self._claim(step.rule, step, {})
-        try:
-            if not isinstance(order, tuple):
-                return None
-            evidence = critical_evidence(claim, order, self.options, self.budget)
-        except CertificateRejected:
+        if not isinstance(order, tuple):
             return None
-        except Unable:
-            self.budget.check("prove")
-            return None
-        return self._tried(step.rule, step, (), evidence)
+        evidence = self._found(lambda: critical_evidence(claim, order, self.options, self.budget))
+        return None if evidence is None else self._tried(step.rule, step, (), evidence)
 
     def _replayed(self, step: Step, log: RunLog) -> Json | None:
         """The steps of which one step is made, all of them accepted."""
@@ -367,16 +338,14 @@ class Prover:
         """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""
         from qe.proving.search import with_clauses
 
-        try:
+        def completed() -> Json:
             claim = self._claim(SIGNS, step, with_clauses(self._claim(step.rule, step, evidence), self.limits))
-            completed = proved_inside(lambda own: _checked(RULES[SIGNS], claim, (), own), self.limits, self.nested)
-            self._check(replace(claim, evidence=Entry(completed, "evidence")), ())
-        except CertificateRejected:
-            return None
-        except Unable:
-            self.budget.check("prove")
-            return None
-        return SIGNS, completed
+            found = proved_inside(lambda own: _checked(RULES[SIGNS], claim, (), own), self.limits, self.nested)
+            self._check(replace(claim, evidence=Entry(found, "evidence")), ())
+            return found
+
+        found = self._found(completed)
+        return None if found is None else (SIGNS, found)
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""
@@ -398,15 +367,9 @@ class Prover:
         known = set(step.before.free)
         if not self.tables or not step.after.is_quantifier_free or not known >= set(step.after.free):
             return None
-        try:
-            budget = self.budget.share(TABLE_SHARE).part(TABLE_WORK)
-            certificate = certificate_for(step.before, step.after, self.options, budget)
-        except Unable:
-            self.budget.check("prove")
-            return None
-        if certificate is None:
-            return None
-        return self._by_method(step, (), certificate)
+        budget = self.budget.share(TABLE_SHARE).part(TABLE_WORK)
+        certificate = self._found(lambda: certificate_for(step.before, step.after, self.options, budget))
+        return None if certificate is None else self._by_method(step, (), certificate)
 
     def _plain(self, value: Mapping[str, object]) -> dict[str, Json]:
         return {name: self._json(part) for name, part in value.items()}

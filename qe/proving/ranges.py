@@ -91,9 +91,7 @@ class _Ranges:
         factors = [(f, e) for f, e in factor_list(poly.normal()[1]) if not f.is_constant]
         self.lines.setdefault(poly.variables[0], {}).update(dict.fromkeys(f for f, _ in factors))
         if sum(e for _, e in factors) > 1:
-            whole = poly.ring.constant(1)
-            for factor, e in factors:
-                whole = whole * factor**e
+            whole = prod((f**e for f, e in factors), start=poly.ring.constant(1))
             self.lemmas.identity([(1, ((whole, 1),)), (-1, tuple(factors))])
             linear = [f for f, e in factors if e == 1 and f.total_degree == 1]
             for f, g in permutations(linear, 2) if len(factors) == 2 == len(linear) else ():
@@ -117,7 +115,7 @@ class _Ranges:
         scale = lcm(number.denominator, *(least.denominator for _, _, least in rest))
         left = kept * scale + int(number * scale)
         self.about(left)
-        terms: list[Term] = [(scale, ((poly, 1),)), (-1, ((left, 1),))] if left else [(scale, ((poly, 1),))]
+        terms: list[Term] = [(scale, ((poly, 1),)), (-1, ((left, 1),))]
         terms += [(-c * scale // least.denominator, ((_less(p, least)[0], 1),)) for c, p, least in rest]
         self.lemmas.identity(terms)
 
@@ -185,9 +183,7 @@ Product = tuple[Fraction, list[tuple[Poly, int]], Powers]
 
 def _less(powers: Powers, end: Fraction) -> tuple[Poly, int]:
     """The product of powers less a number, times the denominator of that, and the denominator."""
-    whole = powers[0][0].ring.constant(1)
-    for poly, e in powers:
-        whole = whole * poly**e
+    whole = prod((poly**e for poly, e in powers), start=powers[0][0].ring.constant(1))
     return whole * end.denominator - end.numerator, end.denominator
 
 

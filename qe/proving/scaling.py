@@ -26,7 +26,7 @@ def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """The cases of the sign of a variable, in each of which the others are measured in powers of it, or of its root."""
     variable, weights, values, _ = only(claim, "variable", "weights", "values", optional=("theory",))
     (block, name, x), ring = claim.variable(variable), claim.ring
-    powers = _moves(weights, name, claim)
+    powers = moves(weights, name, claim)
     root = lcm(*(power.denominator for power in powers.values()))
     rest, one = [v for v in block.variables if v != name], ring.constant(1)
     cases = [(s, exists(block.variables, conj((atom(ring.gen(x), _SIDE[s]), block.body)))) for s in (1, 0, -1)]
@@ -72,9 +72,9 @@ def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """A variable at 0, the others moved along; those bound inside first."""
     variable, weights = only(claim, "variable", "weights")
     (block, name, x), ring = claim.variable(variable), claim.ring
-    steps, moves = list[Json](), _moves(weights, name, claim)
-    there = {v: _along(ring, v, by, name) for v, by in moves.items()}
-    back = {v: _along(ring, v, -by, name) for v, by in moves.items()}
+    steps, others = list[Json](), moves(weights, name, claim)
+    there = {v: along(ring, v, by, name) for v, by in others.items()}
+    back = {v: along(ring, v, -by, name) for v, by in others.items()}
     moved = moved_inside(block, (), there, back, (), steps, claim, limits, start=True)
     rest = [v for v in block.variables if v != name]
     after = exists(rest, at_number(block.body, x, 0))
@@ -83,7 +83,7 @@ def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [*steps, terms(moved, after, zero, outer, (), claim, limits)]
 
 
-def _moves(weights: Entry, name: str, claim: Claim) -> dict[str, Fraction]:
+def moves(weights: Entry, name: str, claim: Claim) -> dict[str, Fraction]:
     """How the other variables move where this one moves by 1."""
     rows = [entry.row("name", "weight") for entry in weights.items()]
     by_name = {row[0].text(): row[1].rational() for row in rows}
@@ -136,7 +136,7 @@ def _with(formula: Formula, x: int, value: Poly) -> Formula:
     return map_atoms(formula, lambda a: atom(a.poly.compose({x: value}), a.relation))
 
 
-def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
+def along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
     """name + by * variable, as a quotient."""
     bottom = ring.constant(by.denominator)
     return ring.var(name) * bottom + ring.var(variable) * by.numerator, bottom

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import TRUE, Atom, Atomic, Exists, Formula, Relation
-from qe.formula.traverse import atoms, conjuncts, map_atoms
+from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
+from qe.formula.traverse import atoms, conjuncts
 from qe.kernel.open_block import generic
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.proof.certificate import written
@@ -79,11 +79,11 @@ def lower(made: Made, block: Exists, low: Formula, name: str, power: int) -> Non
     x, place = ring.gen(ring.index[name]), ring.var(y)
     if not isinstance(low, Exists) or name not in low.variables:
         raise made.claim.fail("a block with the variable expected")
-    at_y = map_atoms(low.body, lambda a: _put(a, made, {ring.index[name]: place}))
+    at_y = made.mapped(low.body, lambda p: p.compose({ring.index[name]: place}))
     signs = {a.relation for a in atoms(block.body) if isinstance(a, Atom) and a.poly == x}
     bound = atom(x, Relation.GE) if power % 2 == 0 and signs & {Relation.GT, Relation.GE} else TRUE
     equation = equal(place, x**power)
-    image = exists(block.variables, conj((bound, map_atoms(at_y, lambda a: _put(a, made, {ring.index[y]: x**power})))))
+    image = exists(block.variables, conj((bound, made.mapped(at_y, lambda p: p.compose({ring.index[y]: x**power})))))
     names = [y if v == name else v for v in low.variables]
     whole = exists((*names, name), conj((equation, bound, at_y)))
     root = Exists((name,), conj((equation, bound)))
@@ -93,9 +93,3 @@ def lower(made: Made, block: Exists, low: Formula, name: str, power: int) -> Non
     made.moved(whole, below)
     made.root(root, None if power % 2 else ring.constant(0))
     made.moved(exists(names, at_y), low)
-
-
-def _put(given: Atomic, made: Made, by: dict[int, object]) -> Formula:
-    if not isinstance(given, Atom):
-        raise made.claim.fail("no degree shift in root atoms")
-    return atom(given.poly.compose(by), given.relation)  # type: ignore[arg-type]

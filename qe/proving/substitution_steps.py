@@ -28,7 +28,7 @@ from qe.formula.traverse import conjuncts
 from qe.kernel.elimination_set import block_of, start
 from qe.kernel.open_block import inside, shows_open
 from qe.kernel.step import Claim, Limits
-from qe.proof.certificate import Certificate, Root
+from qe.proof.certificate import Certificate, Root, written
 from qe.proof.derivation import moved
 from qe.proof.entry import Entry, Json, formula_to_json
 from qe.proving.apart import Part, by_alternatives, by_independent_parts
@@ -66,19 +66,7 @@ class _Steps:
         return [] if before == after else [self.by(before, after)]
 
     def step(self, rule: str, before: Formula, after: Formula, evidence: Json) -> list[Json]:
-        return [
-            {
-                "rule": rule,
-                "at": [],
-                "before": self.json(before),
-                "after": self.json(after),
-                "context": [],
-                "evidence": evidence,
-            }
-        ]
-
-    def json(self, formula: Formula) -> Json:
-        return formula_to_json(formula, quantified=True)
+        return [written(rule, (), before, after, (), evidence)]
 
     # --- the trace, node by node ---------------------------------------------------------------
     def traced(self, names: Collection[str], body: Formula, answer: Formula, trace: Trace) -> list[Json]:
@@ -207,7 +195,7 @@ class _Steps:
         evidence: Json = {
             "variable": points.name,
             "steps": self.step("elimination set", one, disj(results), points.evidence(kept)),
-            "pieces": [self.json(r) for r in results],
+            "pieces": [formula_to_json(r, quantified=True) for r in results],
             "parts": lists,
         }
         return self.step("open block", before, disj(answers), evidence)

@@ -132,8 +132,8 @@ class _Turn:
                 left = r**m * p - total
                 if not left or left.gcd(length) in (length, -length):
                     terms: list[Term] = [(1, ((r, m), (p, 1)) if m else ((p, 1),))]
-                    terms += [(-s, ((i, 1), (f, 1))) for (i, f), s in zip(images, signs, strict=True) if i]
-                    yield [*terms, (-1, ((length, 1), (left.exact_divide(length), 1)))] if left else terms
+                    terms += [(-s, ((i, 1), (f, 1))) for (i, f), s in zip(images, signs, strict=True)]
+                    yield [*terms, (-1, ((length, 1), (left.exact_divide(length), 1)))]
 
     def along(self, p: Poly) -> Poly:
         """How fast it changes along the turn."""
@@ -149,8 +149,7 @@ class _Turn:
         for p in dict.fromkeys(polynomials(body)):
             flat = p.at_rational(self.v, Fraction(0))
             if p != flat:
-                terms: list[Term] = [(1, ((p, 1),)), (-1, ((v, 1), ((p - flat).exact_divide(v), 1)))]
-                yield [*terms, (-1, ((flat, 1),))] if flat else terms
+                yield [(1, ((p, 1),)), (-1, ((v, 1), ((p - flat).exact_divide(v), 1))), (-1, ((flat, 1),))]
 
     def unhalved(self, made: Made, half: Exists) -> None:
         """Steps to the block without u >= 0, which half a turn around 0 makes of itself."""

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.arguments import name, seconds
 from qe.convex.optimum import OptimumStatus, decide, exact, maximize, minimize
 from qe.convex.system import NotConvex, read_system
 from qe.decomposition.decompose import decompose
@@ -156,13 +155,6 @@ class ConvexRegion(Region):
             return {} if conditions == TRUE else None
         values = decide(conditions, budget=self._current()).values
         return None if values is None else dict(values)
-
-    def bounds(self, variable: str, *, timeout: float | None = None) -> Interval:
-        """The exact infimum and supremum of a variable, whether they are attained, and the certificates of both."""
-        variable, timeout = name(variable, "variable"), seconds(timeout)
-        if variable not in self.order:
-            raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
-        return super().bounds(variable, timeout=timeout)
 
     def _bounded(self, variable: str) -> Interval:
         try:

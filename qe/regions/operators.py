@@ -28,25 +28,23 @@ class SetOperations(SymPyForm):
 
     def __and__(self, other: object) -> Self:
         """The intersection."""
-        return self._joined("and", other)
+        return self._made("joined", "and", other)
 
-    def __rand__(self, other: object) -> Self:
-        return self._joined("and", other)
+    __rand__ = __and__
 
     def __or__(self, other: object) -> Self:
         """The union."""
-        return self._joined("or", other)
+        return self._made("joined", "or", other)
 
-    def __ror__(self, other: object) -> Self:
-        return self._joined("or", other)
+    __ror__ = __or__
 
     def __sub__(self, other: object) -> Self:
         """The points that are not in the other set."""
-        return self._joined("minus", other)
+        return self._made("joined", "minus", other)
 
     def __xor__(self, other: object) -> Self:
         """The points of just one of both sets."""
-        return self._joined("xor", other)
+        return self._made("joined", "xor", other)
 
     def __contains__(self, point: Any) -> bool:
         """Whether a point lies in it, as ``contains`` takes it; on a line the number alone may be given."""
@@ -63,8 +61,7 @@ class SetOperations(SymPyForm):
 
     def __ge__(self, other: object) -> bool:
         """Whether the other set is a subset of it."""
-        answer: bool = _ways().compared("superset", self, other, None)
-        return answer
+        return bool(_ways().compared("superset", self, other, None))
 
     def __eq__(self, other: object) -> bool:
         """Whether both are the same set of points; regions in other variables are not. The engine decides it."""
@@ -102,18 +99,15 @@ class SetOperations(SymPyForm):
 
     def is_subset(self, other: object, *, timeout: float | None = None) -> bool:
         """Whether all points of the set are in the other one; so says ``a <= b``."""
-        answer: bool = _ways().compared("subset", self, other, timeout)
-        return answer
+        return bool(_ways().compared("subset", self, other, timeout))
 
     def is_disjoint(self, other: object, *, timeout: float | None = None) -> bool:
         """Whether the sets have no common point."""
-        answer: bool = _ways().compared("disjoint", self, other, timeout)
-        return answer
+        return bool(_ways().compared("disjoint", self, other, timeout))
 
     def equals(self, other: object, *, timeout: float | None = None) -> bool:
         """Whether both sets have the same points; so says ``a == b``."""
-        answer: bool = _ways().compared("equal", self, other, timeout)
-        return answer
+        return bool(_ways().compared("equal", self, other, timeout))
 
     def bounding_box(self, *, timeout: float | None = None) -> dict[str, Interval]:
         """The exact bounds of every variable; ``InputError`` for an empty set."""
@@ -122,13 +116,11 @@ class SetOperations(SymPyForm):
 
     def project(self, variables: Any, *, timeout: float | None = None) -> Self:
         """The set of all values of some of the variables (in the order given) with which points of the set begin."""
-        shadow: Self = _ways().project(self, variables, timeout)
-        return shadow
+        return self._made("project", variables, timeout)
 
     def section(self, values: Mapping[Any, Coordinate], *, timeout: float | None = None) -> Self:
         """The points of the set with these values of some variables, in the space of the other variables."""
-        part: Self = _ways().section(self, values, timeout)
-        return part
+        return self._made("section", values, timeout)
 
     def distance(
         self, point: Mapping[Any, Coordinate] | Sequence[Coordinate], *, timeout: float | None = None
@@ -162,12 +154,8 @@ class SetOperations(SymPyForm):
         points: list[dict[str, Number]] = _ways().instances(self, n, seed, timeout)
         return points
 
-    def _joined(self, way: str, other: object) -> Self:
-        joined: Self = _ways().joined(way, self, other)
-        return joined
-
-    def _made(self, way: str, timeout: float | None) -> Self:
-        made: Self = getattr(_ways(), way)(self, timeout)
+    def _made(self, way: str, *given: Any) -> Self:
+        made: Self = getattr(_ways(), way)(self, *given)
         return made
 
 

@@ -12,7 +12,7 @@ from qe.extras import wanted
 from qe.formula.evaluate import holds_at
 from qe.options import Budget
 from qe.proof.partial import Partial
-from qe.regions.picture import FLAT, check_ending
+from qe.regions.picture import FLAT, check_ending, written
 
 TRUE_COLOUR, FALSE_COLOUR, OPEN_COLOUR = "#4c78a8", "#e8e8e8", "#f2b84b"
 REACH = 5
@@ -36,7 +36,9 @@ def plotted(partial: Partial, order: tuple[str, ...], path: str | Path | None, a
             raise InputError("a picture of the parts: a flat file or axes expected, not both")
     values = kinds(partial, order, Budget(arguments.seconds(timeout)))
     with wanted():
-        return _painted(values, order, target, axes)
+        if target is not None:
+            return written(lambda own: _painted(values, order, own), target)
+        return _painted(values, order, axes)
 
 
 def kinds(partial: Partial, order: tuple[str, ...], budget: Budget) -> list[list[int]]:
@@ -54,16 +56,11 @@ def kinds(partial: Partial, order: tuple[str, ...], budget: Budget) -> list[list
     return rows
 
 
-def _painted(rows: list[list[int]], order: tuple[str, ...], target: Path | None, axes: Any) -> Any:
+def _painted(rows: list[list[int]], order: tuple[str, ...], axes: Any) -> Any:
     from matplotlib.colors import ListedColormap
-    from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    figure = None
-    if target is not None:
-        figure = Figure(figsize=(6.4, 5.2), dpi=150)
-        axes = figure.add_subplot()
-    elif axes is None:
+    if axes is None:
         from matplotlib import pyplot
 
         axes = pyplot.figure().add_subplot()
@@ -77,6 +74,4 @@ def _painted(rows: list[list[int]], order: tuple[str, ...], target: Path | None,
         axes.set_ylabel(order[1])
     else:
         axes.set_yticks([])
-    if figure is not None and target is not None:
-        figure.savefig(target)
     return axes

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -28,15 +30,8 @@ def inline(sketch: Sketch) -> str:
     from base64 import b64encode
     from io import BytesIO
 
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(3.6, 2.9), dpi=100)
-    FigureCanvasAgg(figure)
-    paint(sketch, figure.add_subplot(projection=_projection(sketch)))
-    figure.tight_layout()
     content = BytesIO()
-    figure.savefig(content, format="png")
+    written(partial(paint, sketch), content, "png", projection=_projection(sketch), figsize=(3.6, 2.9), dpi=100)
     names = escape(", ".join(sketch.order))
     return f'<img alt="the region in {names}" src="data:image/png;base64,{b64encode(content.getvalue()).decode()}">'
 
@@ -48,30 +43,28 @@ def write(sketch: Sketch, path: Path) -> Any:
 
         path.write_text(page(sketch, "" if len(sketch.order) == 3 else _drawing(sketch)), encoding="utf-8")
         return None
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(6.4, 5.2), dpi=150)
-    FigureCanvasAgg(figure)
-    axes = paint(sketch, figure.add_subplot(projection=_projection(sketch)))
-    figure.tight_layout()
-    figure.savefig(path)
-    return axes
+    return written(partial(paint, sketch), path, projection=_projection(sketch))
 
 
 def _drawing(sketch: Sketch) -> str:
     """The picture as SVG."""
     from io import StringIO
 
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    content = StringIO()
+    written(partial(paint, sketch), content, "svg")
+    return content.getvalue()
+
+
+def written(painted: Callable[[Any], Any], target: Any, kind: str | None = None, **look: Any) -> Any:
+    """Paint on the axes of a new figure, and write it to a file or a buffer; the axes. ``look``: of ``Figure``."""
     from matplotlib.figure import Figure
 
-    figure, content = Figure(figsize=(6.4, 5.2)), StringIO()
-    FigureCanvasSVG(figure)
-    paint(sketch, figure.add_subplot())
+    projection = look.pop("projection", None)
+    figure = Figure(**{"figsize": (6.4, 5.2), "dpi": 150, **look})
+    axes = painted(figure.add_subplot(projection=projection))
     figure.tight_layout()
-    figure.savefig(content, format="svg")
-    return content.getvalue()
+    figure.savefig(target, format=kind)
+    return axes
 
 
 def show(sketch: Sketch, axes: Any) -> Any:

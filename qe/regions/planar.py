@@ -194,16 +194,10 @@ def _limits(table: CellTable, sector: int, section: int) -> list[int]:
     beyond = stack_at(table, ()).sectors[sector // 2]
     samples = stack_at(table, (section,)).sectors
     factors = table.factors[1]
-    x = nearer(end, beyond, [_at_height(f, y) for f in factors for y in samples])
+    x = nearer(end, beyond, [f.at_rational(1, y) for f in factors for y in samples])
     stack = isolate_over(Point.of(Ring.of(table.order), [x]), factors)
     roots = [stack.sample(2 * k + 1).number(1) for k in range(len(stack.sections))]
     return [2 * sum(y < root for y in samples) - 1 for root in roots]
-
-
-def _at_height(factor: Poly, y: Fraction) -> Poly:
-    """The factor for a rational value of the second variable."""
-    ring = factor.ring
-    return factor.at_quotient(1, ring.constant(y.numerator), ring.constant(y.denominator))
 
 
 def nearer(end: Number, beyond: Fraction, polys: Iterable[Poly]) -> Fraction:

@@ -20,7 +20,7 @@ from qe.decomposition.pieces import Piece, merge
 from qe.decomposition.sampled_cells import Place, any_true, coordinates, first_shadow, free_part, leaves
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.number import ExactPoint
+from qe.exact.number import ExactPoint, simplest
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.extras import wanted
@@ -246,7 +246,8 @@ class Region(SetOperations):
         return points
 
     def bounds(self, variable: str, *, timeout: float | None = None) -> Interval:
-        """The exact infimum and supremum of a variable over the region, and whether they are attained."""
+        """The exact infimum and supremum of a variable over the region, and whether they are attained; of regions that
+        are answered by convex optimisation with the certificates of both."""
         variable, timeout = name(variable, "variable"), seconds(timeout)
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
@@ -265,9 +266,8 @@ class Region(SetOperations):
             shadow = free_part(decompose(self.formula, order, quantifiers, budget=self._current()).table)
         pieces = merge(shadow, budget=self._current())
         first, last = pieces[0].ranges[0], pieces[-1].ranges[0]
-        lower = None if first.lower is None else _value(first.lower.value)
-        upper = None if last.upper is None else _value(last.upper.value)
-        return Interval(lower, upper, first.lower_closed, last.upper_closed)
+        ends = (None if end is None or end.value is None else simplest(end.value) for end in (first.lower, last.upper))
+        return Interval(*ends, first.lower_closed, last.upper_closed)
 
     def volume(self, rel_error: float = 0.01, *, timeout: float | None = None) -> tuple[Fraction, Fraction]:
         """Rational numbers lo <= volume <= hi with hi - lo <= rel_error * hi (area in 2-D, length in 1-D).
@@ -375,9 +375,3 @@ def _are_irrational(values: Sequence[Number]) -> bool:
 def is_true(cell: Cell) -> bool:
     """Whether a cell is an undecomposed one on which the formula is true."""
     return cell.stack is None and cell.truth is True
-
-
-def _value(number: RealAlgebraic | None) -> Number | None:
-    if number is None:
-        return None
-    return number.as_fraction() if number.is_rational else number

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from qe.decomposition.pieces import Piece, RootFunction
-from qe.exact.enclosure import Jet, Sides, evaluate, whole_number
+from qe.exact.enclosure import Jet, Sides, constant, evaluate
 from qe.exact.ring import Poly
 
 Y, Z = 1, 2
@@ -75,7 +75,7 @@ def _integral(bound: RootFunction | None, ends: tuple[_End, _End], at: Mapping[i
 
 def _polynomial(f: Poly, ends: tuple[_End, _End], at: Mapping[int, Jet], sides: Sides) -> Jet:
     low, high = ends[0].y, ends[1].y
-    total, low_power, high_power = whole_number(0, sides), low, high
+    total, low_power, high_power = constant(0, sides), low, high
     for j, c in enumerate(f.coefficients(Y)):
         total = total + evaluate(c, at, sides) * (high_power - low_power).over(j + 1)
         low_power, high_power = low_power * low, high_power * high
@@ -83,10 +83,10 @@ def _polynomial(f: Poly, ends: tuple[_End, _End], at: Mapping[int, Jet], sides: 
 
 
 def _root(q: Poly, ends: tuple[_End, _End], at: Mapping[int, Jet], sides: Sides) -> Jet | None:
-    constant, linear, leading = q.coefficients(Y)
+    lowest, linear, leading = q.coefficients(Y)
     lead = leading.constant_value()
     b = evaluate(linear, at, sides)
-    d = b * b - evaluate(constant, at, sides).scaled_by(4 * lead)
+    d = b * b - evaluate(lowest, at, sides).scaled_by(4 * lead)
     scale = d.root().inverse()
     if scale is None:
         return None
@@ -98,10 +98,10 @@ def _primitive(
     end: _End, q: Poly, lead: int, b: Jet, d: Jet, scale: Jet, at: Mapping[int, Jet], sides: Sides
 ) -> Jet | None:
     """The antiderivative at one end; where the end is a root of q itself, asin is exactly ±pi/2 there."""
-    radical = whole_number(-lead, sides).root().inverse()
+    radical = constant(-lead, sides).root().inverse()
     assert radical is not None
     if end.root.poly == q.normal()[1]:
-        angle = whole_number(1 if end.root.k == 1 else -1, sides).arcsine()
+        angle = constant(1 if end.root.k == 1 else -1, sides).arcsine()
         return (d * angle * radical).over(8 * lead)
     slope = end.y.scaled_by(2 * lead) + b
     value = evaluate(q, {**at, Y: end.y}, sides).root()

@@ -139,12 +139,8 @@ class Space:
         """The factors at the heights of the rational samples over a cell."""
         stored = self._at_heights.get(near)
         if stored is None:
-            ring = Ring.of(self.table.order)
-            stored = self._at_heights[near] = [
-                f.at_quotient(2, ring.constant(s.numerator), ring.constant(s.denominator))
-                for s in stack_at(self.table, near).sectors
-                for f in self.table.factors[2]
-            ]
+            heights = stack_at(self.table, near).sectors
+            stored = self._at_heights[near] = [f.at_rational(2, s) for s in heights for f in self.table.factors[2]]
         return stored
 
     def _way(self, near: Place, cell: Place, bits: int) -> Way:
@@ -168,11 +164,7 @@ class Space:
         low, high = self._around(near, bits) if near[1] % 2 else (point.number(1),) * 2
         assert isinstance(low, Fraction) and isinstance(high, Fraction)
         factors, ring = self.table.factors[1], Ring.of(self.table.order)
-        crossed = [
-            f.at_quotient(1, ring.constant(y.numerator), ring.constant(y.denominator))
-            for f in factors
-            for y in {low, high}
-        ]
+        crossed = [f.at_rational(1, y) for f in factors for y in {low, high}]
         x = nearer(start, self._beyond(near, cell, start, bits), crossed)
         line = Point(ring).extend(rational(x))
         left, right = enclosure(point, 0, bits + 64)

@@ -16,7 +16,6 @@ from qe.exact.enclosure import (
     evaluate,
     root_jet,
     smooth_side,
-    whole_number,
 )
 from qe.exact.ring import Poly, Ring
 from tests.strategies import polynomials
@@ -133,7 +132,7 @@ def test_numbers_and_ends() -> None:
     assert contains(constant(RealAlgebraic.from_root([-2, 0, 1], 1, 2), sides).value, sqrt(2))
     low, high = ends(constant(Fraction(1, 3), sides).value)
     assert low <= Fraction(1, 3) <= high and high - low < Fraction(1, 10**12)
-    assert ends(whole_number(-4, sides).value) == (-4, -4)
+    assert ends(constant(-4, sides).value) == (-4, -4)
 
 
 def test_the_substitution_that_removes_square_root_ends() -> None:

@@ -163,5 +163,5 @@ def test_text_and_limits() -> None:
     with pytest.raises(BudgetExceeded, match="grows too large"):
         wide.at_quotient(0, Z + Y, Z - 2, most_terms=20)
     stored = RING.cache
-    RING.remember("a key", 1)
+    assert RING.remembered("a key", lambda: 1) == RING.remembered("a key", lambda: 2) == 1
     assert stored["a key"] == 1

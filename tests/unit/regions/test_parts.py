@@ -241,9 +241,9 @@ def test_operators_ask_in_one_place(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(operators, "_ways", Ways)
     a, b = Set(), Set()
     _ = (a & b, 1 & a, a | b, 1 | a, a - b, a ^ b, ~a, a <= b, a >= b, a == b)
-    assert ["complement" if entry[0] == "complement" else entry[:2] for entry in asked] == [
+    assert [(entry[0], *(part for part in entry if isinstance(part, str) and part != entry[0])) for entry in asked] == [
         *(("joined", way) for way in ("and", "and", "or", "or", "minus", "xor")),
-        "complement",
+        ("complement",),
         *(("compared", way) for way in ("subset", "superset", "equal")),
     ]
     assert all(entry[2] is a and entry[3] is b for entry in asked if entry[0] == "compared")
