@@ -35,40 +35,30 @@ def atom(poly: Poly, relation: Relation) -> Formula:
 
 def conj(args: Iterable[Formula]) -> Formula:
     """Conjunction, flattened, without duplicates; FALSE absorbs; of nothing: TRUE."""
-    seen: dict[Formula, None] = {}
-    whole: And | None = None
-    for arg in args:
-        if isinstance(arg, Constant):
-            if not arg.value:
-                return FALSE
-        elif isinstance(arg, And):
-            whole = whole or arg
-            seen.update(dict.fromkeys(arg.args))
-        else:
-            seen[arg] = None
-    if len(seen) <= 1:
-        return next(iter(seen), TRUE)
-    joined = tuple(seen)
-    return whole if whole is not None and whole.args == joined else And(joined)  # a node knows more than a new one
+    return _joined(args, And, TRUE, FALSE)
 
 
 def disj(args: Iterable[Formula]) -> Formula:
     """Disjunction, flattened, without duplicates; TRUE absorbs; of nothing: FALSE."""
+    return _joined(args, Or, FALSE, TRUE)
+
+
+def _joined(args: Iterable[Formula], kind: type[And] | type[Or], nothing: Constant, all_of_it: Constant) -> Formula:
     seen: dict[Formula, None] = {}
-    whole: Or | None = None
+    whole: And | Or | None = None
     for arg in args:
         if isinstance(arg, Constant):
-            if arg.value:
-                return TRUE
-        elif isinstance(arg, Or):
+            if arg.value is all_of_it.value:
+                return all_of_it
+        elif isinstance(arg, kind):
             whole = whole or arg
             seen.update(dict.fromkeys(arg.args))
         else:
             seen[arg] = None
     if len(seen) <= 1:
-        return next(iter(seen), FALSE)
+        return next(iter(seen), nothing)
     joined = tuple(seen)
-    return whole if whole is not None and whole.args == joined else Or(joined)
+    return whole if whole is not None and whole.args == joined else kind(joined)  # a node knows more than a new one
 
 
 def neg(arg: Formula) -> Formula:
@@ -95,22 +85,21 @@ def iff(left: Formula, right: Formula) -> Formula:
 
 def exists(variables: Iterable[str], body: Formula) -> Formula:
     """Existential closure over ``variables``; adjacent blocks are joined."""
-    names = tuple(dict.fromkeys(variables))
-    if not names or isinstance(body, Constant):
-        return body
-    if isinstance(body, Exists):
-        return Exists(tuple(v for v in names if v not in body.variables) + body.variables, body.body)
-    return Exists(names, body)
+    return _closed(variables, body, Exists)
 
 
 def forall(variables: Iterable[str], body: Formula) -> Formula:
     """Universal closure over ``variables``; adjacent blocks are joined."""
+    return _closed(variables, body, ForAll)
+
+
+def _closed(variables: Iterable[str], body: Formula, kind: type[Exists] | type[ForAll]) -> Formula:
     names = tuple(dict.fromkeys(variables))
     if not names or isinstance(body, Constant):
         return body
-    if isinstance(body, ForAll):
-        return ForAll(tuple(v for v in names if v not in body.variables) + body.variables, body.body)
-    return ForAll(names, body)
+    if isinstance(body, kind):
+        return kind(tuple(v for v in names if v not in body.variables) + body.variables, body.body)
+    return kind(names, body)
 
 
 def root_atom(variable: str, relation: Relation, poly: Poly, k: int) -> Formula:

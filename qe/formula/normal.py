@@ -97,9 +97,7 @@ class _Renaming:
 
     def _plan(self, formula: Formula, chosen: list[str]) -> None:
         if isinstance(formula, Exists | ForAll):
-            occurring = _occurring(formula)
-            for name in formula.variables:
-                chosen.append(self._choose(name) if name in occurring else "")
+            chosen += [self._choose(name) if name in formula.body.free else "" for name in formula.variables]
         for child in children(formula):
             self._plan(child, chosen)
 
@@ -156,11 +154,6 @@ def _renamed(poly: Poly, target: Ring, names: Mapping[int, str]) -> Poly:
     return target.from_terms(moved)
 
 
-def _occurring(formula: Exists | ForAll) -> set[str]:
-    """The variables of a quantifier that are free in its body."""
-    return set(formula.body.free) & set(formula.variables)
-
-
 def rename(formula: Formula, names: Mapping[str, str]) -> Formula:
     """A quantifier-free formula with variables renamed; the new names must not be in use.
 
@@ -192,12 +185,8 @@ def prenex(formula: Formula) -> tuple[tuple[PrefixBlock, ...], Formula]:
     renamed = rename_apart(nnf(formula))
     if isinstance(renamed, Constant):
         return (), renamed
-    prefix = min((_blocks(renamed, first) for first in Quantifier), key=_cost)
+    prefix = min((_blocks(renamed, first) for first in Quantifier), key=len)
     return prefix, matrix_of(renamed)
-
-
-def _cost(blocks: tuple[PrefixBlock, ...]) -> int:
-    return len(blocks)
 
 
 def _blocks(formula: Formula, first: Quantifier) -> tuple[PrefixBlock, ...]:

@@ -16,7 +16,8 @@ from itertools import pairwise
 
 from qe.formula.build import atom, conj, disj, exists, forall, implies, neg
 from qe.formula.normal import nnf
-from qe.formula.syntax import Atom, Atomic, Formula, Relation
+from qe.formula.openness import thinned
+from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import has_root_atoms, map_atoms, ring_of
 
 MOST = 20
@@ -38,20 +39,10 @@ def infinitely_many(name: str, body: Formula, spare: list[str]) -> Formula:
     if ring is None or name not in ring.index or name not in body.free:
         return body
     if body.is_quantifier_free and not has_root_atoms(body):
-        return exists((name,), map_atoms(nnf(body), lambda a: _inside(a, ring.index[name])))
+        return exists((name,), thinned(nnf(body), (ring.index[name],)))
     x, low, high = (ring.var(n) for n in (name, *spare[:2]))
     between = conj((atom(low - x, Relation.LT), atom(x - high, Relation.LT)))
     return exists(spare[:2], conj((atom(low - high, Relation.LT), forall((name,), implies(between, body)))))
-
-
-def _inside(a: Atomic, x: int) -> Formula:
-    assert isinstance(a, Atom)
-    if a.relation in (Relation.LT, Relation.GT, Relation.NE):
-        return a
-    zero = conj(atom(c, Relation.EQ) for c in a.poly.coefficients(x))
-    if a.relation is Relation.EQ:
-        return zero
-    return disj((atom(a.poly, Relation.GT if a.relation is Relation.GE else Relation.LT), zero))
 
 
 def almost_all(name: str, body: Formula, spare: list[str]) -> Formula:

@@ -40,27 +40,7 @@ class Relation(Enum):
         return _SIGNS[self]
 
 
-_SIGNS = {
-    Relation.EQ: frozenset((0,)),
-    Relation.NE: frozenset((-1, 1)),
-    Relation.LT: frozenset((-1,)),
-    Relation.LE: frozenset((-1, 0)),
-    Relation.GT: frozenset((1,)),
-    Relation.GE: frozenset((0, 1)),
-}
-_NEGATED = {
-    Relation.EQ: Relation.NE,
-    Relation.NE: Relation.EQ,
-    Relation.LT: Relation.GE,
-    Relation.GE: Relation.LT,
-    Relation.GT: Relation.LE,
-    Relation.LE: Relation.GT,
-}
-_FLIPPED = {
-    Relation.EQ: Relation.EQ,
-    Relation.NE: Relation.NE,
-    Relation.LT: Relation.GT,
-    Relation.GT: Relation.LT,
-    Relation.LE: Relation.GE,
-    Relation.GE: Relation.LE,
-}
+_SIGNS = dict(zip(Relation, map(frozenset, ((0,), (-1, 1), (-1,), (-1, 0), (1,), (0, 1))), strict=True))
+BY_SIGNS = {signs: relation for relation, signs in _SIGNS.items()}
+_NEGATED = {relation: BY_SIGNS[frozenset((-1, 0, 1)) - signs] for relation, signs in _SIGNS.items()}
+_FLIPPED = {relation: BY_SIGNS[frozenset(-sign for sign in signs)] for relation, signs in _SIGNS.items()}

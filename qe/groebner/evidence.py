@@ -17,6 +17,7 @@ from qe.formula.syntax import Relation
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proof.multipliers import number_texts
 
 Condition = tuple[Poly, Relation]
 
@@ -91,12 +92,7 @@ def _generates(zero: Zero, form: Sequence[int], names: Sequence[str]) -> bool:
 
 def _solution(zero: Zero, names: Sequence[str], ends: tuple[Fraction, Fraction]) -> Json:
     theta = zero.values[names[0]].field.theta
-    numbers: list[Json] = []
-    for name in names:
-        coefficients = list(zero.values[name].coefficients)
-        while len(coefficients) > 1 and not coefficients[-1]:
-            coefficients.pop()
-        numbers.append([str(c) for c in coefficients])
+    numbers: list[Json] = [list[Json](number_texts(zero.values[name])) for name in names]
     minimal: list[Json] = [str(c) for c in theta.minimal_polynomial]
     interval: list[Json] = [str(end) for end in ends]
     return {"field": {"minimal_polynomial": minimal, "interval": interval}, "values": numbers}

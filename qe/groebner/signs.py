@@ -27,6 +27,7 @@ from qe.exact.hermite import added_signature
 from qe.exact.ring import Poly
 from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj, disj
+from qe.formula.relation import BY_SIGNS
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import atoms
 
@@ -152,20 +153,10 @@ def _chosen(poly: Poly, cases: dict[int, Formula | None]) -> Formula | None:
     free = [sign for sign in cases if sign not in possible]
     parts = []
     for f, signs in groups.items():
-        chosen = [*signs, *free] if _RELATIONS.get(frozenset([*signs, *free])) else signs
-        parts.append(conj([atom(poly, _RELATIONS[frozenset(chosen)]), f]))
+        chosen = [*signs, *free] if BY_SIGNS.get(frozenset([*signs, *free])) else signs
+        parts.append(conj([atom(poly, BY_SIGNS[frozenset(chosen)]), f]))
         free = [] if chosen is not signs else free
     return disj(parts)
-
-
-_RELATIONS = {
-    frozenset((1,)): Relation.GT,
-    frozenset((0,)): Relation.EQ,
-    frozenset((-1,)): Relation.LT,
-    frozenset((1, 0)): Relation.GE,
-    frozenset((-1, 0)): Relation.LE,
-    frozenset((1, -1)): Relation.NE,
-}
 
 
 def signatures_sum_to(matrices: Sequence[tuple[int, SignatureConditions]], wanted: Collection[int]) -> Formula:

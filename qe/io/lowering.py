@@ -20,9 +20,8 @@ from qe.formula.build import atom, conj, convert, disj, exists, forall, iff, imp
 from qe.formula.quantity import almost_all, connected, exactly, infinitely_many
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import has_root_atoms
-from qe.io import cases, terms
+from qe.io import terms
 from qe.io.auxiliaries import Exhausted
-from qe.io.cases import Cases
 from qe.io.collecting import Names
 from qe.io.radicals import Place
 from qe.io.sharing import ordered, refuse_long
@@ -208,7 +207,7 @@ class Lowering:
         b = self.values.term(right)
         if isinstance(a, Value) and isinstance(b, Value):
             return terms.compare(a, relation, b)
-        return self.values.compared(cases_of(a), relation, cases_of(b), place)
+        return self.values.compared(self.values.listed(a), relation, self.values.listed(b), place)
 
     def root_comparison(self, side: Name, relation: Relation, root: Root) -> Formula:
         k = self.values.constant(root.number, "the first argument of root must be an integer", root.at)
@@ -229,11 +228,6 @@ class Lowering:
             return FALSE
         value = self.values.term(side)
         return TRUE if isinstance(value, Value) else self.values.defined(value, place)
-
-
-def cases_of(value: Value | Cases) -> Cases:
-    """A polynomial is one case."""
-    return cases.plain(value) if isinstance(value, Value) else value
 
 
 def _infinite(term: Term) -> int | None:

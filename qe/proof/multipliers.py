@@ -12,7 +12,7 @@ from enum import Enum
 from fractions import Fraction
 
 from qe.exact.field import FieldElement, NumberField
-from qe.exact.quadratic_form import Quadratic
+from qe.exact.quadratic_form import Quadratic, dot
 
 Number = Fraction | FieldElement
 Point = tuple[Number, ...]
@@ -82,14 +82,10 @@ def derived_equations(
         if relation is FormRelation.EQ or weight <= 0:
             continue
         for row in form.hessian:
-            found.append(LinearEquation(row, _dot(row, face.point)))
+            found.append(LinearEquation(row, dot(row, face.point)))
         slope = tuple(Fraction(s) for s in form.slope(face.point))
-        found.append(LinearEquation(slope, _dot(slope, face.point) - Fraction(form.value(face.point))))
+        found.append(LinearEquation(slope, dot(slope, face.point) - Fraction(form.value(face.point))))
     return found
-
-
-def _dot(u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:
-    return sum((a * b for a, b in zip(u, v, strict=True)), Fraction(0))
 
 
 def tangents(
@@ -179,7 +175,7 @@ def _terms(form: Quadratic) -> list[list[object]]:
     return out
 
 
-def _number(value: Number) -> list[str]:
+def number_texts(value: Number) -> list[str]:
     """Coefficients of 1, theta, theta^2, …, without trailing zeros."""
     coefficients = list(value.coefficients) if isinstance(value, FieldElement) else [Fraction(value)]
     while len(coefficients) > 1 and not coefficients[-1]:
@@ -201,17 +197,17 @@ def to_payload(evidence: OptimumEvidence) -> dict[str, object]:
         payload["direction"] = [str(d) for d in evidence.direction]
         return payload
     point = evidence.point
-    payload["multipliers"] = [_number(m) for m in evidence.multipliers]
-    payload["derived"] = [_number(m) for m in evidence.derived]
-    payload["values"] = [_number(form.value(point)) for form in evidence.forms]
+    payload["multipliers"] = [number_texts(m) for m in evidence.multipliers]
+    payload["derived"] = [number_texts(m) for m in evidence.derived]
+    payload["values"] = [number_texts(form.value(point)) for form in evidence.forms]
     if evidence.status is OptimumStatus.OPTIMAL:
-        payload["value"] = _number(evidence.objective.value(point))
+        payload["value"] = number_texts(evidence.objective.value(point))
         payload["attained"] = bool(evidence.attained)
         payload["unique"] = bool(evidence.unique)
         if evidence.inner_field is not None:
             payload["inner"] = {
                 "field": _field(evidence.inner_field),
-                "point": [_number(c) for c in evidence.inner_point],
+                "point": [number_texts(c) for c in evidence.inner_point],
             }
     return payload
 
@@ -237,11 +233,11 @@ def _setting(evidence: OptimumEvidence) -> dict[str, object]:
             }
             for face in evidence.faces
         ],
-        "point": [_number(c) for c in evidence.point],
+        "point": [number_texts(c) for c in evidence.point],
     }
     if evidence.links:
         payload["links"] = [
-            {"weights": [_number(w) for w in link.weights], "derived": [_number(w) for w in link.derived]}
+            {"weights": [number_texts(w) for w in link.weights], "derived": [number_texts(w) for w in link.derived]}
             for link in evidence.links
         ]
     return payload

@@ -280,7 +280,7 @@ class Prover:
         own = self._tried(STEPS, step, context, {"steps": made})
         return None if own is None else (STEPS, own)
 
-    def _found(self, search: Callable[[], T | None]) -> T | None:
+    def _found(self, search: Callable[[], T]) -> T | None:
         """What a search for evidence gives; None where there is none, or it is out of reach."""
         try:
             return search()

@@ -267,7 +267,8 @@ class Region(SetOperations):
         pieces = merge(shadow, budget=self._current())
         first, last = pieces[0].ranges[0], pieces[-1].ranges[0]
         ends = (None if end is None or end.value is None else simplest(end.value) for end in (first.lower, last.upper))
-        return Interval(*ends, first.lower_closed, last.upper_closed)
+        lower, upper = ends
+        return Interval(lower, upper, first.lower_closed, last.upper_closed)
 
     def volume(self, rel_error: float = 0.01, *, timeout: float | None = None) -> tuple[Fraction, Fraction]:
         """Rational numbers lo <= volume <= hi with hi - lo <= rel_error * hi (area in 2-D, length in 1-D).

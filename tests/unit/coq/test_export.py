@@ -62,7 +62,7 @@ def test_names_are_made_into_identifiers() -> None:
 
 
 def test_squares_make_up_the_quadratic_part() -> None:
-    form = read_form([["2", [2, 0]], ["-2", [1, 1]], ["3", [0, 2]], ["5", [1, 0]]], 2)
+    form = read_form([["2", [2, 0]], ["-2", [1, 1]], ["3", [0, 2]], ["5", [1, 0]]])
     total = [[Fraction(0)] * 2 for _ in range(2)]
     for factor, row in squares([(Fraction(3), form)]):
         assert factor > 0
