@@ -165,13 +165,13 @@ def unproved(sentence: Formula, budget: Budget) -> Answer:
         return answer
     rational = {name: value for name, value in answer.witness.items() if isinstance(value, Fraction)}
     if not block.is_flat or len(rational) < len(answer.witness):
-        return settled(sentence, Options(), budget)
+        return decided(sentence, Options(), budget)
     if holds_at(block.body, rational) is block.universal:
         raise InternalError(f"the values that were found do not satisfy the formula: {point_text(rational)}")
     return answer
 
 
-def settled(sentence: Formula, options: Options, budget: Budget) -> Answer:
+def decided(sentence: Formula, options: Options, budget: Budget) -> Answer:
     """The answer to a sentence that has been read, in this process."""
     answer = _answer(Posed(sentence), options, options.certify, None, budget)
     if answer.truth is None:

@@ -63,7 +63,7 @@ def read_posed(given: AnyFormula, format: str = "text", total_division: bool = F
         return formats.read_posed(given, chosen, total_division=total_division)
     if isinstance(given, list | tuple):  # conditions that hold together
         if not given:
-            raise InputError("a list of formulas is empty")
+            raise InputError("formula: at least one condition expected, an empty list found")
         parts, known = zip(*(read_posed(part, format, total_division) for part in given), strict=True)
         return conj(over_one_ring(*parts)), conj(over_one_ring(*known))
     package = type(given).__module__.partition(".")[0]

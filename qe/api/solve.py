@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from qe import arguments
-from qe.api.eliminate import settled
+from qe.api.eliminate import decided
 from qe.api.input import AnyFormula, read_block
 from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
@@ -79,16 +79,12 @@ def _solutions(
     return replace(solutions, answer=_compared(str(solutions), given, known, budget)) if check else solutions
 
 
-def _answer(sentence: Formula, check: bool, budget: Budget) -> Answer:
-    return settled(sentence, Options(certify=check), budget)
-
-
 def _compared(text: str, given: Formula, known: Formula, budget: Budget) -> Answer:
     """The answer to the question whether a text says the same as a formula."""
     written, question, assumed = over_one_ring(read(text), given, known)
     claim = implies(assumed, iff(written, question))
     try:
-        answer = _answer(forall(claim.free, claim), True, budget.part(TEXT_WORK))
+        answer = decided(forall(claim.free, claim), Options(certify=True), budget.part(TEXT_WORK))
     except Unable as error:
         budget.check("compare the text")
         return Answer(Status.UNABLE, None, question=claim, reason=str(error))
@@ -137,7 +133,7 @@ def _found(given: Formula, count: int, seed: int, check: bool, inner: Limits, bu
         if check and region.guarantee is not Guarantee.CHECKED:
             raise Unable(f"the points are not proved: {region.reason}")
         return different_points(region, count, seed, budget)
-    answer = _answer(exists(given.free, given), check, budget)
+    answer = decided(exists(given.free, given), Options(certify=check), budget)
     if answer.truth is False:
         return []
     if answer.witness is None and given.free:

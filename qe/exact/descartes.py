@@ -9,8 +9,8 @@ from math import lcm
 
 from flint import fmpz_poly
 
-from qe.exact.isolate import sign_changes
 from qe.exact.ring import Poly
+from qe.exact.univariate import sign_changes
 
 
 def most_real_roots(poly: Poly, i: int) -> int:

@@ -6,13 +6,11 @@ a point (lo = hi: the root itself) or an open interval whose ends are not roots.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from itertools import pairwise
-
 from flint import arb, fmpq, fmpz, fmpz_poly
 
 from qe.errors import InternalError
 from qe.exact.balls import ball_sign, precision
+from qe.exact.univariate import sign_changes
 
 Interval = tuple[fmpq, fmpq]
 
@@ -32,11 +30,6 @@ def sign_at(p: fmpz_poly, value: fmpq) -> int:
                 return sign
     result = p(value)
     return int(result > 0) - int(result < 0)
-
-
-def sign_changes(coefficients: Iterable[fmpz | fmpq]) -> int:
-    """How often the sign changes from one coefficient other than 0 to the next."""
-    return sum(a != b for a, b in pairwise([c > 0 for c in coefficients if c]))
 
 
 def _roots_in_unit_bound(p: fmpz_poly) -> int:

@@ -61,14 +61,14 @@ class Bounds:
 
     def _bounded(self, x: int, side: int, value: Value, reason: Hashable) -> set[Hashable] | None:
         """A lower bound (``side`` 1) or an upper one (-1)."""
-        own, other = (self.lower, self.upper) if side > 0 else (self.upper, self.lower)
-        if x in own and (own[x][0] >= value if side > 0 else own[x][0] <= value):
+        bounds, other = (self.lower, self.upper) if side > 0 else (self.upper, self.lower)
+        if x in bounds and (bounds[x][0] >= value if side > 0 else bounds[x][0] <= value):
             return None
         if x in other and (other[x][0] < value if side > 0 else other[x][0] > value):
             return {reason, other[x][1]}
-        self._changed.append((own, x, own.get(x)))
-        own[x] = value, reason
-        self._rebound(own, x)
+        self._changed.append((bounds, x, bounds.get(x)))
+        bounds[x] = value, reason
+        self._rebound(bounds, x)
         return None
 
     def contradicted(self, weights: Mapping[int, Fraction | int]) -> list[Term]:

@@ -18,8 +18,8 @@ from flint import fmpq, fmpq_mat, fmpq_poly
 
 from qe.errors import InternalError, Unable
 from qe.exact.groebner import Basis
-from qe.exact.isolate import sign_changes
 from qe.exact.ring import Poly
+from qe.exact.univariate import sign_changes
 from qe.exact.zeros import Zero, zeros_of
 
 Exponents = tuple[int, ...]

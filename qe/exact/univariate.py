@@ -1,8 +1,11 @@
-"""FLINT's univariate polynomials as polynomials of a ring."""
+"""FLINT's univariate polynomials as polynomials of a ring, and the changes of sign in their coefficients."""
 
 from __future__ import annotations
 
-from flint import fmpz_poly
+from collections.abc import Iterable
+from itertools import pairwise
+
+from flint import fmpq, fmpz, fmpz_poly
 
 from qe.exact.ring import Poly, Ring
 
@@ -16,3 +19,8 @@ def from_univariate(ring: Ring, i: int, p: fmpz_poly) -> Poly:
             unit[i] = k
             terms[tuple(unit)] = int(c)
     return ring.from_terms(terms)
+
+
+def sign_changes(coefficients: Iterable[fmpz | fmpq]) -> int:
+    """How often the sign changes from one coefficient other than 0 to the next."""
+    return sum(a != b for a, b in pairwise([c > 0 for c in coefficients if c]))

@@ -192,7 +192,7 @@ def forall(variables: object, body: object) -> Statement:
 def _bound(variables: object) -> tuple[str, ...]:
     names = arguments.names(variables, "variables")
     if not names:
-        raise InputError("a quantifier needs at least one variable")
+        raise InputError("variables: a quantifier needs at least one variable")
     return tuple(check_name(name) for name in names)
 
 

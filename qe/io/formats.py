@@ -55,7 +55,7 @@ def read(
     """
     chosen = checked(format)
     if not isinstance(text, str):
-        raise InputError(f"text expected, {type(text).__name__} found")
+        raise arguments.wrong("text", "a text", text)
     if not chosen.readable:
         raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
     if arguments.flag(total_division, "total_division") and chosen is Format.TEXT:
@@ -84,7 +84,7 @@ def write(formula: Formula, format: str | Format = Format.TEXT) -> str:
 
     chosen = checked(format)
     if not isinstance(formula, Formula):
-        raise InputError(f"a formula expected, {type(formula).__name__} found")
+        raise arguments.wrong("formula", "a Formula", formula)
     text: str = _module(chosen).write(formula)
     return text
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from qe.arguments import wrong
 from qe.errors import InputError
 from qe.formula.syntax import Atom, Formula
 from qe.formula.traverse import atoms, bound_variables, ring_of
@@ -18,7 +19,7 @@ def check_name(name: object) -> str:
     Raises ``InputError`` for anything else.
     """
     if not isinstance(name, str):
-        raise InputError(f"the name of a variable expected, {type(name).__name__} found")
+        raise wrong("name", "the name of a variable", name)
     if not name or _FORBIDDEN.search(name):
         reason = "it holds a bar, a backslash or half a character" if name else "it is empty"
         raise InputError(f"{name!r} cannot be the name of a variable: {reason}")

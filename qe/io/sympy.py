@@ -160,7 +160,7 @@ def _variables(variables: object) -> tuple[tuple[str, ...], dict[str, Formula]]:
     assumed = _assumptions(symbols)
     names = arguments.names(variables, "variables")
     if not names:
-        raise InputError("a quantifier needs at least one variable")
+        raise InputError("variables: a quantifier needs at least one variable")
     return tuple(check_name(name) for name in names), assumed
 
 
@@ -207,7 +207,7 @@ def _parts(expression: object) -> tuple[Formula, Mapping[str, Formula]]:
     if isinstance(expression, bool):
         hint = "== compares SymPy expressions at once, an equation is written Eq(left, right)"
         raise InputError(f"a SymPy Boolean expected, Python's {expression} found; {hint}")
-    whole = _basic(expression, "a formula (text, Formula, or a SymPy Boolean)")
+    whole = _basic(expression, "formula: text, a Formula or a SymPy Boolean")
     symbols = sorted(getattr(whole, "free_symbols", ()), key=str)
     try:
         node = Reader(sympy).boolean(whole)
@@ -282,7 +282,7 @@ def _basic(given: object, expected: str) -> Any:
     if isinstance(given, sympy.Basic):
         return given
     if not hasattr(given, "_sympy_") and not isinstance(given, int | Fraction):
-        raise InputError(f"{expected} expected, {type(given).__name__} found")
+        raise InputError(f"{expected} expected, {arguments.shown(given)} found")
     return sympy.sympify(given)
 
 

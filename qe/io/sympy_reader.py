@@ -100,7 +100,7 @@ class Reader:
             if relation is not None and len(e.arguments) == 1:
                 return s.Comparison([self.real(e.arguments[0]), s.Number(0)], [relation], -1)
         hint = f"; a truth value may be written {shown(e)} > 0" if isinstance(e, sp.Symbol) else ""
-        raise InputError(f"a Boolean combination of relations expected, {shown(e)} found{hint}")
+        raise InputError(f"formula: a Boolean combination of relations expected, {shown(e)} found{hint}")
 
     def member(self, term: s.Term, e: Any) -> s.Node:
         """``term in e`` for a set of real numbers."""

@@ -72,6 +72,12 @@ COMPARE Eq Equal Ne Unequal Lt Less Le LessEqual Gt Greater Ge GreaterEqual Ineq
 CHOICE If ITE ite
 ELEMENT Element
 """)
+NOT_REAL = frozenset(
+    ("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Int", "int", "Nat", "Bool")
+    + ("Integer", "Integers", "Rationals", "Complexes", "Naturals")
+)
+ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
+_TYPE = re.compile(rf"\s*(?:{'|'.join((*NOT_REAL, *ALSO_REALS))}|Reals|ℝ)\s*[.,]")
 _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*|[Tt]here\s+(?=exists\b))"
     rf"|(?P<QUANTITY>(?:[Tt]here\s+(?:are|is|exists?)\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{_LIST}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈)))"
@@ -127,7 +133,8 @@ def tokens(text: str) -> Iterator[Token]:
         if kind == "NAME":
             yield from state.put(KEYWORDS.get(value, "NAME"), value, at)
         elif kind == "OPERATOR":
-            yield from state.put(_operator(value, at), value, at)
+            typed = value == ":" and state.header and _TYPE.match(text, at + 1)
+            yield from state.put("IN" if typed else _operator(value, at), value, at)
         elif kind == "NUMBER":
             if value[0] == "." and state.header and state.last != "RELATION":  # the dot ends the quantifier
                 yield from state.put("DOT", ".", at)

@@ -32,8 +32,6 @@ from qe.io.tokens import Token
 
 _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
 
-_NO_REALS = frozenset(("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Integers", "Rationals", "Complexes", "Naturals"))
-_ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
 
 Within: TypeAlias = Callable[[s.Term, int], s.Node]
 """A set: the formula that a term, at an offset, is in it."""
@@ -151,9 +149,11 @@ class TextParser(Parser):
         return value
 
     def simple_set(self) -> Within:
-        if self.token.text in _NO_REALS:
-            raise SyntaxFailure(f"all variables are real, {self.token.text} cannot be asked for", self.token.at)
-        if self.token.text in _ALSO_REALS:
+        if self.token.text in text_lexer.NOT_REAL:
+            raise SyntaxFailure(
+                f"all variables are real (as in ex x. …), {self.token.text} cannot be asked for", self.token.at
+            )
+        if self.token.text in text_lexer.ALSO_REALS:
             self.token = self.token._replace(kind="REALS")
         kind = self.take("OPEN", "LEFT", "BEGIN", "REALS").kind
         if kind == "REALS":

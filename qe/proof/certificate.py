@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from qe.arguments import whole as whole_number
+from qe.arguments import wrong
 from qe.errors import CertificateRejected, InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
@@ -219,7 +220,7 @@ class Certificate:
         checker, which reports it when it finds nothing worse.
         """
         if not isinstance(text, str):
-            raise InputError(f"certificate: text in JSON expected, {type(text).__name__} found")
+            raise wrong("text", "a certificate in JSON", text)
         try:
             whole = read_json(text)
         except (ValueError, RecursionError) as error:

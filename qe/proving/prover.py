@@ -225,12 +225,11 @@ class Prover:
             if elaborated is not None or step.rule not in RULES:
                 return elaborated
         if step.rule in SIMPLIFYING and _may_be_quantifiers(step):
-            moved_only = self._tried(QUANTIFIERS, step, (), {})
+            moved_only = self._named(QUANTIFIERS, step, (), {})
             if moved_only is not None:
-                return QUANTIFIERS, moved_only
+                return moved_only
         rule = PRIMITIVE_OF.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
-        own = self._tried(rule, step, context, evidence)
-        return None if own is None else (rule, own)
+        return self._named(rule, step, context, evidence)
 
     def _by_method(self, step: Step, context: Context, made: Certificate) -> tuple[str, Json] | None:
         """The one step of a certificate that a method made of this very step."""
@@ -238,8 +237,11 @@ class Prover:
         assert isinstance(evidence, dict)
         if RULES.get(step.rule) is RULES[rule]:
             rule = step.rule  # which says more
-        own = self._tried(rule, step, context, evidence)
-        return None if own is None else (rule, own)
+        return self._named(rule, step, context, evidence)
+
+    def _named(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> tuple[str, Json] | None:
+        accepted = self._tried(rule, step, context, evidence)
+        return None if accepted is None else (rule, accepted)
 
     def _tried(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
         return self._found(lambda: self._completed(rule, step, context, evidence))
@@ -251,7 +253,7 @@ class Prover:
         check_names(self._claim(rule, step, evidence), context)
         if any(derivations_within(evidence)):
             given = self._claim(rule, step, evidence)
-            inside = proved_inside(lambda own: _checked(checker, given, context, own), self.limits, self.nested)
+            inside = proved_inside(lambda limits: _checked(checker, given, context, limits), self.limits, self.nested)
             assert isinstance(inside, dict)  # the checker has read it
             evidence = inside
         if isinstance(checker, ByLemmas):
@@ -277,8 +279,7 @@ class Prover:
         except Unable:
             self.budget.check("prove")
             return None
-        own = self._tried(STEPS, step, context, {"steps": made})
-        return None if own is None else (STEPS, own)
+        return self._named(STEPS, step, context, {"steps": made})
 
     def _found(self, search: Callable[[], T]) -> T | None:
         """What a search for evidence gives; None where there is none, or it is out of reach."""
@@ -340,7 +341,7 @@ class Prover:
 
         def completed() -> Json:
             claim = self._claim(SIGNS, step, with_clauses(self._claim(step.rule, step, evidence), self.limits))
-            found = proved_inside(lambda own: _checked(RULES[SIGNS], claim, (), own), self.limits, self.nested)
+            found = proved_inside(lambda limits: _checked(RULES[SIGNS], claim, (), limits), self.limits, self.nested)
             self._check(replace(claim, evidence=Entry(found, "evidence")), ())
             return found
 

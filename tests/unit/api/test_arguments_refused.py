@@ -54,7 +54,8 @@ def test_a_wrong_value_is_named_in_one_line(door: Door, argument: str) -> None:
         try:
             door.call(**given, **{argument: wrap(value)})
         except qe.InputError as error:
-            assert "\n" not in str(error) and 10 < len(str(error)) < 420, error
+            assert "\n" not in str(error) and 10 < len(str(error)) < 420 and "NoneType" not in str(error), error
+            assert kind not in ("none", "object") or argument in str(error) or ": " in str(error), error
         else:
             pytest.fail(f"{kind} was taken")
 

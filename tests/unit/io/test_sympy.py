@@ -60,7 +60,7 @@ def test_reading(given: object, printed: str) -> None:
     (lambda: x**2 == y, "Eq"),
     (lambda: Exists(x, x**2 == y), "Eq"),
     (lambda: sp.Dummy("x") > 0, "Dummy"),
-    (lambda: 1.5, "float found"),
+    (lambda: 1.5, "1.5 found"),
     (lambda: x**99999999 > 0, "limit"),
     (lambda: sp.Symbol("n", integer=True) < 1, "integer"),
     (lambda: sp.Symbol("a|b") > 0, "name of a variable"),
