@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import reduce
 from itertools import combinations, pairwise
 from typing import Any, cast
 
@@ -19,7 +18,7 @@ MOST_STEPS = 1_000_000
 """Terms of one command, definitions written out."""
 
 _RELATIONS = {"<": Relation.LT, "<=": Relation.LE, ">": Relation.GT, ">=": Relation.GE, "=": Relation.EQ}
-_CONNECTIVES = frozenset(("not", "and", "or", "xor", "=>", "implies"))
+_CONNECTIVES = {"not": "Not", "and": "And", "or": "Or", "xor": "Xor", "=>": "Implies", "implies": "Implies"}
 _ARITHMETIC = frozenset(("+", "-", "*", "/", "^"))
 _INFIX = frozenset((*_RELATIONS, *_CONNECTIVES, *_ARITHMETIC))
 _WITHOUT_ARGUMENTS = frozenset(("exists", "forall", "!"))
@@ -236,8 +235,7 @@ class Terms(Words):
         self.expect(other, "Real" if is_real(then) else "Bool", listing[3])
         if is_real(then):
             return self.share(s.Choice(condition, cast(s.Term, then), cast(s.Term, other), place(listing)))
-        yes, no = cast(s.Node, then), cast(s.Node, other)
-        return s.Every([s.Implication(condition, yes), s.Some([condition, no])])
+        return cast(s.Node, s.connected("ITE", [condition, cast(s.Node, then), cast(s.Node, other)]))
 
     def relation(self, head: str, listing: list[Expression], scope: Scope) -> Meaning:
         arguments = listing[1:]
@@ -263,25 +261,13 @@ class Terms(Words):
 
     def connective(self, head: str, listing: list[Expression], scope: Scope) -> Meaning:
         parts = [self.formula(expression, scope) for expression in listing[1:]]
-        return self.once(self.joined(head, parts), (head, *map(id, parts)))
+        if (node := s.connected(_CONNECTIVES[head], parts)) is None:
+            self.error("not takes one argument", head)
+        return self.once(node, (head, *map(id, parts)))
 
     def once(self, node: s.Node, form: tuple[object, ...] = ()) -> Meaning:
         """A formula that is shared, unless it may have bound variables."""
         return node if self.inside else self.share(node, form)
-
-    def joined(self, operator: str, parts: list[s.Node]) -> s.Node:
-        match operator:
-            case "not":
-                if len(parts) != 1:
-                    self.error("not takes one argument", operator)
-                return s.Negation(parts[0])
-            case "and":
-                return s.Every(parts)
-            case "or":
-                return s.Some(parts)
-            case "xor":
-                return reduce(lambda result, part: s.Negation(s.Equivalence(result, part)), parts)
-        return reduce(lambda result, part: s.Implication(part, result), reversed(parts))
 
 
 _READERS: Mapping[str, Callable[[Terms, str, list[Expression], Scope], Meaning]] = {

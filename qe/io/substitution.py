@@ -9,7 +9,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, exists, with_polynomial
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import rename_apart
-from qe.formula.syntax import Atom, Atomic, Formula, Relation
+from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import atoms, bound_variables, map_atoms, ring_of
 from qe.io import surface as s
 from qe.io.collecting import Names
@@ -66,10 +66,7 @@ def trimmed(formula: Formula) -> Formula:
 def _put(formula: Formula, i: int, top: Poly, bottom: Poly) -> Formula:
     """The formula with top/bottom in the place of variable ``i``, for a positive constant ``bottom``."""
 
-    def put(a: Atomic) -> Formula:
-        return with_polynomial(a, a.poly.at_quotient(i, top, bottom))
-
-    return map_atoms(formula, put)
+    return map_atoms(formula, lambda a: with_polynomial(a, a.poly.at_quotient(i, top, bottom)))
 
 
 def _names(term: s.Term) -> list[str]:

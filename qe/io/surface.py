@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, get_args
 
 from qe.errors import InputError
@@ -199,9 +200,21 @@ TERMS, NODES = frozenset(get_args(Term)), frozenset(get_args(Node))
 """Their classes: whether one is among them is known faster than whether something is an instance."""
 
 
-def odd(parts: list[Node]) -> Node:
-    """Whether an odd number of parts holds."""
-    result: Node = Truth(False)
-    for part in parts:
-        result = Negation(Equivalence(result, part))
-    return result
+def connected(name: str, parts: list[Node]) -> Node | None:
+    """What a connective makes of these parts; None for one of another name, or another number of parts."""
+    match name, parts:
+        case "And", _:
+            return Every(parts)
+        case "Or", _:
+            return Some(parts)
+        case "Not", [part]:
+            return Negation(part)
+        case "Implies", [*conditions, conclusion]:
+            return reduce(lambda result, part: Implication(part, result), reversed(conditions), conclusion)
+        case "Equivalent", [first, *rest]:
+            return Every([Equivalence(first, part) for part in rest])
+        case "Xor", [first, *rest]:
+            return reduce(lambda result, part: Negation(Equivalence(result, part)), rest, first)
+        case "ITE", [condition, then, other]:
+            return Every([Implication(condition, then), Some([condition, other])])
+    return None

@@ -18,24 +18,16 @@ from typing import Any
 from qe import arguments
 from qe.errors import InputError, NoTruthValue
 from qe.exact.field import FieldElement
-from qe.exact.ring import Poly, Ring
-from qe.formula.build import conj, convert, disj, exists, forall, implies, neg
-from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Not, Or, Relation
-from qe.formula.traverse import ring_of
+from qe.exact.ring import Poly
+from qe.formula.build import conj, disj, exists, forall, implies, neg
+from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Not, Or
 from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
 from qe.io.names import check_name, names_in
+from qe.io.substitution import over_one_ring
 from qe.io.sympy_numbers import number_to_sympy
 from qe.io.sympy_reader import Reader, shown, signs
 
-_CLASSES = {
-    Relation.EQ: "Eq",
-    Relation.NE: "Ne",
-    Relation.LT: "Lt",
-    Relation.LE: "Le",
-    Relation.GT: "Gt",
-    Relation.GE: "Ge",
-}
 _FUNCTIONS = {"abs": "Abs", "sign": "sign", "sqrt": "sqrt", "min": "Min", "max": "Max"}
 
 
@@ -52,7 +44,7 @@ class _Operators:
 
     def formula(self) -> Formula:
         """The formula that this stands for."""
-        return conj(_over_one_ring(*self.assumed.values(), self.raw))
+        return conj(over_one_ring(*self.assumed.values(), self.raw))
 
     def __and__(self, other: object) -> Combined:
         return _combined(conj, self, other)
@@ -106,7 +98,7 @@ class _Quantified(_Operators):
         assumed = {**assumed, **given}
         inside = [assumed[name] for name in self.names if name in assumed]
         self.assumed = {name: sign for name, sign in assumed.items() if name not in self.names}
-        *conditions, kept = _over_one_ring(*inside, self.body)
+        *conditions, kept = over_one_ring(*inside, self.body)
         condition = conj(conditions)
         if isinstance(self, ForAll):
             self.raw = forall(self.names, implies(condition, kept))
@@ -140,13 +132,7 @@ def outermost(given: object) -> tuple[bool, tuple[str, ...]] | None:
 
 def _combined(join: Callable[[tuple[Formula, ...]], Formula], left: object, right: object) -> Combined:
     (a, first), (b, second) = _parts(left), _parts(right)
-    return Combined(join(_over_one_ring(a, b)), {**first, **second})
-
-
-def _over_one_ring(*parts: Formula) -> tuple[Formula, ...]:
-    names = [name for f in parts if (ring := ring_of(f)) is not None for name in ring.names]
-    ring = Ring.of(dict.fromkeys(names))
-    return tuple(convert(f, ring) for f in parts)
+    return Combined(join(over_one_ring(a, b)), {**first, **second})
 
 
 def _variables(variables: object) -> tuple[tuple[str, ...], dict[str, Formula]]:
@@ -188,7 +174,7 @@ def posed_from_sympy(expression: object) -> tuple[Formula, Formula]:
     raw, assumed = _parts(expression)
     if not assumed:
         return raw, TRUE
-    raw, *known = _over_one_ring(raw, *assumed.values())
+    raw, *known = over_one_ring(raw, *assumed.values())
     return raw, conj(known)
 
 
@@ -329,11 +315,9 @@ def _boolean(formula: Formula, symbols: Mapping[str, Any], sp: Any) -> Any:
         case Constant(value):
             return sp.true if value else sp.false
         case Atom(poly, relation):
-            return getattr(sp, _CLASSES[relation])(polynomial_to_sympy(poly, symbols), 0)
-        case And(args):
-            return sp.And(*(_boolean(arg, symbols, sp) for arg in args))
-        case Or(args):
-            return sp.Or(*(_boolean(arg, symbols, sp) for arg in args))
+            return getattr(sp, relation.name.title())(polynomial_to_sympy(poly, symbols), 0)
+        case And(args) | Or(args):
+            return getattr(sp, type(formula).__name__)(*(_boolean(arg, symbols, sp) for arg in args))
         case Not(arg):
             return sp.Not(_boolean(arg, symbols, sp))
     raise InputError("SymPy has no quantifiers and no root atoms; eliminate the quantifiers first")

@@ -74,22 +74,10 @@ class Reader:
             return s.Every([self.boolean(sp.Eq(a, b, evaluate=False)) for a, b in zip(e.lhs, e.rhs)])
         if isinstance(e, sp.core.relational.Relational):
             return s.Comparison([self.real(e.lhs), self.real(e.rhs)], [_RELATIONS[e.rel_op]], -1)
-        if isinstance(e, sp.And):
-            return s.Every([self.boolean(a) for a in e.args])
-        if isinstance(e, sp.Or):
-            return s.Some([self.boolean(a) for a in e.args])
-        if isinstance(e, sp.Not):
-            return s.Negation(self.boolean(e.args[0]))
-        if isinstance(e, sp.Implies):
-            return s.Implication(self.boolean(e.args[0]), self.boolean(e.args[1]))
-        if isinstance(e, sp.Equivalent):
-            parts = [self.boolean(a) for a in e.args]
-            return s.Every([s.Equivalence(parts[0], part) for part in parts[1:]])
-        if isinstance(e, sp.Xor):
-            return s.odd([self.boolean(a) for a in e.args])
-        if isinstance(e, sp.ITE):
-            condition, then, other = (self.boolean(a) for a in e.args)
-            return s.Every([s.Implication(condition, then), s.Some([condition, other])])
+        if isinstance(e, sp.logic.boolalg.BooleanFunction):
+            node = s.connected(type(e).__name__, [self.boolean(a) for a in e.args])
+            if node is not None:
+                return node
         if isinstance(e, sp.Contains):
             element, within = e.args
             if isinstance(element, sp.Tuple) and isinstance(within, sp.ProductSet) and len(element) == len(within.args):

@@ -218,8 +218,7 @@ class TextParser(Parser):
         then = self.expression(EITHER if last.wants & FORMULA else TERM, "ELSE")
         self.advance()
         if isinstance(then, s.Node):
-            either = s.Implication(condition, then)
-            make: Callable[[Any], Any] = lambda other: s.Every([either, s.Some([condition, other])])  # noqa: E731
+            make: Callable[[Any], Any] = lambda other: s.connected("ITE", [condition, then, other])  # noqa: E731
             self.stack.append(Waiting(BODY, FORMULA, FORMULA, make))
         else:
             self.stack.append(Waiting(ELSE, TERM, TERM, lambda other: s.Choice(condition, then, other, at)))
@@ -355,19 +354,10 @@ def _intersection(one: Within, other: Within) -> Within:
 
 def _connected(token: Token, parts: list[s.Node]) -> s.Node:
     name = token.text
-    if name == "Not" and len(parts) == 1:
-        return s.Negation(parts[0])
-    if name == "And":
-        return s.Every(parts)
-    if name == "Or":
-        return s.Some(parts)
-    if name == "Implies" and len(parts) == 2:
-        return s.Implication(*parts)
-    if name == "Equivalent":
-        return s.Every([s.Equivalence(parts[0], part) for part in parts[1:]])
-    if name == "Xor":
-        return s.odd(parts)
-    raise SyntaxFailure(f"{name} takes {'one formula' if name == 'Not' else 'two formulas'}", token.at)
+    node = None if name == "Implies" and len(parts) != 2 else s.connected(name, parts)
+    if node is None:
+        raise SyntaxFailure(f"{name} takes {'one formula' if name == 'Not' else 'two formulas'}", token.at)
+    return node
 
 
 def _compared(token: Token, sides: list[s.Term]) -> s.Node:

@@ -11,9 +11,10 @@ Cells over which the same is said are put together, and the condition that it ho
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cache, partial
 from itertools import groupby, product
 
 from qe.decomposition.formulas import Undistinguished, formula_of_cells
@@ -21,6 +22,9 @@ from qe.decomposition.pieces import RootFunction, Sections, merge, range_text
 from qe.decomposition.radicals import radicals
 from qe.decomposition.sampled_cells import Place, any_true, child, leaves
 from qe.decomposition.sign_table import Columns, placed_signs
+from qe.elimination.rootsigns.forms import minors
+from qe.elimination.rootsigns.theory import minors as signs_of_minors
+from qe.errors import Unable
 from qe.exact.algebraic import real_roots
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.build import conj, convert
@@ -34,6 +38,9 @@ from qe.spelling import quoted
 MOST_CELLS = 2_000
 """Cells of the parameters; more are described as pieces. (Two linear equations with six parameters have 700.)"""
 
+Factors = Sequence[Sequence[Poly]]
+Columned = dict[Poly, dict[tuple[int, ...], str]]
+Signs = Callable[[Place], Iterable[str]]
 Terms = tuple[str, ...]
 """What each of the last variables is."""
 
@@ -107,10 +114,11 @@ def _lines(
     if new := free - {i for i in free if _begins(bases[i].path, everything)}:
         holding[new, free - new] = [()]
     ordered = sorted(holding.items(), key=lambda pair: min(pair[0][0]))
+    columns = partial(_columns, table.factors[:depth], cache(partial(said.counted, bases)), bases)
     return [
         line
         for (cells, open_), terms in ordered
-        for line in _cases(_condition(table, bases, cells, (open_ | outside) - cells, budget), terms)
+        for line in _cases(_condition(table, bases, cells, (open_ | outside) - cells, columns, budget), terms)
     ]
 
 
@@ -206,6 +214,37 @@ class _Said:
             self.needs[text] = [(poly.ring.constant(1), frozenset())]
             yield text
 
+    def counted(self, bases: Sequence[Place]) -> Columned:
+        """Minors of Hermite's forms of factors whose roots are solutions, with those of their signs on cells that the
+        number of real roots over them and what else is known there leave."""
+        level, listed = bases[0].depth, Columned()
+        for j, poly in enumerate(self.table.factors[level]):
+            c = poly.coefficients(level)
+            if len(c) < 4 or not c[-1].is_constant:
+                continue
+            try:
+                forms = minors(c, [poly.ring.constant(1)], self.sections.budget)
+            except Unable:
+                continue
+            for base in bases:
+                for form, signs in zip(forms, zip(*self.possible(forms, j, base), strict=True)):
+                    unit, plain = form.normal()
+                    known = listed.setdefault(plain, {})
+                    if len({*signs}) == 1 and not plain.is_constant:
+                        known[base.path] = CHARACTER_OF[signs[0] if unit > 0 else -signs[0]]
+        return {poly: signs for poly, signs in listed.items() if not poly.is_constant}
+
+    def possible(self, forms: Sequence[Poly], j: int, base: Place) -> Iterator[tuple[int, ...]]:
+        """The signs that these minors, of factor ``j``, may have over a cell."""
+        if (stack := base.cell.stack) is None:
+            return
+        count = sum(j in members for members in stack.sections)
+        known = [self.sign(form, base) for form in forms]
+        for rank in range(max(count, 1), len(forms) + 1):
+            for row in signs_of_minors(len(forms), rank, count):
+                if all(sign in (None, other) for sign, other in zip(known, row, strict=True)):
+                    yield row
+
     def is_defined(self, terms: Terms, base: Place) -> bool:
         """Whether the texts have values over a cell of the parameters, as far as signs that are known there tell."""
         needs = (need for text in terms for need in self.needs[text])
@@ -256,19 +295,29 @@ def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Term
 
 
 def _condition(
-    table: CellTable, bases: list[Place], chosen: frozenset[int], open_: frozenset[int], budget: Budget
+    table: CellTable,
+    bases: list[Place],
+    chosen: frozenset[int],
+    open_: frozenset[int],
+    columns: Callable[[], Iterator[tuple[Factors, Signs]]],
+    budget: Budget,
 ) -> tuple[str, bool]:
     """The condition on the parameters that says which cells: the ``chosen`` ones, and perhaps some of those that are
-    open; and whether it is a disjunction. It is a formula, or what pieces say whose ends are numbers and polynomials,
-    if that is shorter."""
-    factors = table.factors[: max((base.depth for base in bases), default=0)]
+    open; and whether it is a disjunction. It is a formula in the signs of the first ``columns`` that tell them, or what
+    pieces say whose ends are numbers and polynomials, if that is shorter."""
     places = [(base, i in chosen) for i, base in enumerate(bases) if i not in open_]
-    try:
-        cells = [FreeCell(base.path, tuple(map(placed_signs, base.used, base.signs)), true) for base, true in places]
-        formula = formula_of_cells(factors, cells)
-    except Undistinguished:
-        cells = [FreeCell(base.path, tuple(_signs_with_derivatives(factors, base)), true) for base, true in places]
-        formula = formula_of_cells([_with_derivatives(polys) for polys in factors], cells)
+    formula, unlike = None, None
+    for factors, signs in columns():
+        try:
+            formula = formula_of_cells(
+                factors, [FreeCell(base.path, tuple(signs(base)), true) for base, true in places]
+            )
+            break
+        except Undistinguished as pair:
+            unlike = pair
+    if formula is None:
+        assert unlike is not None
+        raise unlike
     formula = simplify(formula)
     if formula == TRUE:
         return "", False
@@ -279,27 +328,40 @@ def _condition(
     return said
 
 
-def _with_derivatives(polys: Sequence[Poly]) -> list[Poly]:
-    """Factors of a level with their derivatives in its variable."""
-    return [*polys, *(d for poly in polys for d in _derivatives(poly) if d not in polys)]
+def _columns(
+    factors: Factors, counted: Callable[[], Columned], bases: Sequence[Place]
+) -> Iterator[tuple[Factors, Signs]]:
+    """Polynomials by levels, with their signs on cells: the factors, then what is ``counted``, then derivatives."""
+    more = Columned()
+    for listed in (dict, counted, partial(_derivatives, factors, bases)):
+        new = {poly: signs for poly, signs in listed().items() if poly not in more and poly not in factors[poly.level]}
+        if not (new or listed is dict):
+            continue
+        more |= new
+        levels = [[poly for poly in more if poly.level == level] for level in range(len(factors))]
+
+        def signs(base: Place, levels: Factors = levels, more: Columned = more) -> Iterator[str]:
+            for polys, used, known, added in zip(factors, base.used, base.signs, levels, strict=False):
+                yield placed_signs(used, known).ljust(len(polys), "?") + "".join(
+                    more[poly].get(base.path, "?") for poly in added
+                )
+
+        yield [[*polys, *added] for polys, added in zip(factors, levels, strict=True)], signs
 
 
-def _derivatives(poly: Poly) -> Iterator[Poly]:
-    for _ in range(1, poly.degree(level := poly.level)):
-        poly = poly.derivative(level)
-        yield poly
-
-
-def _signs_with_derivatives(factors: Sequence[Sequence[Poly]], place: Place) -> Iterator[str]:
-    """The signs of factors and derivatives on a cell. Over a cell a root of a factor has one multiplicity: where it
+def _derivatives(factors: Factors, bases: Sequence[Place]) -> Columned:
+    """Derivatives of the factors, each in its variable. Over a cell a root of a factor has one multiplicity: where it
     vanishes, so do its derivatives below that, and the next one has the same sign everywhere."""
-    for polys, used, signs in zip(factors, place.used, place.signs, strict=False):  # of fewer levels, perhaps
-        known = placed_signs(used, signs).ljust(len(polys), "?")
-        for poly, character in zip(polys, known):
-            for derivative in _derivatives(poly):
-                character = CHARACTER_OF[place.point.sign(derivative)] if character == "0" else "?"
-                known += "" if derivative in polys else character
-        yield known.rstrip("?")
+    listed: Columned = {}
+    for base in bases:
+        for polys, used, signs in zip(factors, base.used, base.signs, strict=False):  # of fewer levels, perhaps
+            for poly, character in zip(polys, placed_signs(used, signs)):
+                for _ in range(1, poly.degree(poly.level)):
+                    poly = poly.derivative(poly.level)
+                    known = listed.setdefault(poly, {})
+                    if character == "0":
+                        known[base.path] = character = CHARACTER_OF[base.point.sign(poly)]
+    return listed
 
 
 def _is_plain(end: RootFunction) -> bool:
