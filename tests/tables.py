@@ -7,21 +7,24 @@ from collections.abc import Callable
 from typing import TypeVar, cast
 
 import pytest
+from _pytest.mark import ParameterSet
 
 Test = TypeVar("Test", bound=Callable[..., object])
 
 
-def each(*rows: object) -> Callable[[Test], Test]:
+def each(*rows: object, daily: int = 1) -> Callable[[Test], Test]:
     """The test once for each row: its entries are the first parameters that no decorator below gives.
 
     A row that is no tuple is one value. Rows may be given with names, as one dictionary. What the entries are stands in
-    the signature alone.
+    the signature alone. With ``daily`` every so manyth row is one of every day, beginning with the first; the others
+    are deep ones, since all of them ask the same of other cases.
     """
     names: list[str] | None = None
     if len(rows) == 1 and isinstance(rows[0], dict):
         names, rows = list(rows[0]), tuple(rows[0].values())
     first = getattr(rows[0], "values", rows[0])  # of a row with marks: its entries
     width = len(first) if isinstance(first, tuple | list) and isinstance(rows[0], tuple) else 1
+    rows = tuple(_deep(row, width) if k % daily else row for k, row in enumerate(rows))
 
     def repeated(test: Test) -> Test:
         marks = (mark for mark in getattr(test, "pytestmark", ()) if mark.name == "parametrize")
@@ -31,6 +34,12 @@ def each(*rows: object) -> Callable[[Test], Test]:
         return cast(Test, repeat(test))
 
     return repeated
+
+
+def _deep(row: object, width: int) -> object:
+    if isinstance(row, ParameterSet):
+        return pytest.param(*row.values, marks=[*row.marks, pytest.mark.deep], id=row.id)
+    return pytest.param(*cast(tuple[object, ...], row if width > 1 else (row,)), marks=pytest.mark.deep)
 
 
 def _listed(names: str | list[str] | tuple[str, ...]) -> list[str]:

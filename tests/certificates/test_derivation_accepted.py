@@ -16,9 +16,10 @@ from tests.certificates.coverings import QUESTIONS as COVERINGS
 from tests.certificates.derivations import CASES, certificate
 from tests.certificates.test_steps_of_methods import FORMS
 from tests.certificates.test_witnesses_and_equations import CONTROL
+from tests.tables import each
 
 
-@pytest.mark.parametrize("name", list(CASES)[::2])
+@pytest.mark.parametrize("name", list(CASES)[::4])
 def test_it_is_about_the_question(name: str) -> None:
     text = CASES[name]
     assert qe.verify(certificate(text), formula=text).accepted
@@ -45,7 +46,7 @@ def test_universal_sentences_are_claimed_as_asked(text: str) -> None:
     assert words[1] == f"is {answer.formula}"
 
 
-@pytest.mark.parametrize("text", list(CASES.values())[::3])
+@pytest.mark.parametrize("text", list(CASES.values())[::6])
 def test_the_answer_is_the_one_without_the_check(text: str) -> None:
     checked, plain = qe.eliminate(text, check=True), qe.eliminate(text)
     assert checked.formula == plain.formula
@@ -132,7 +133,7 @@ QUESTIONS: list[tuple[dict[str, str], str | None, tuple[str, ...]]] = [
 """Options, a rule that is used with them, and questions."""
 
 
-@pytest.mark.parametrize(("options", "rule", "text"), [(o, r, text) for o, r, texts in QUESTIONS for text in texts])
+@each(*((options, rule, text) for options, rule, texts in QUESTIONS for text in texts), daily=2)
 def test_every_step_of_an_answer_is_checked(options: dict[str, str], rule: str | None, text: str) -> None:
     """And the answer is the one without the check, and the certificate, read again, is about the question."""
     answer = qe.eliminate(text, check=True, process=False, **options)

@@ -33,6 +33,7 @@ from tests.bezier.arm.test_pose import BACKWARDS, SIX, SKEW_FREE, arm_of, at_the
 from tests.bezier.arm.test_prismatic import ARMS, IDS
 from tests.certificates.mutation import at, leaves
 from tests.certificates.restated import evidence_of, verdict_by
+from tests.tables import each
 
 POINT = ("599/66", "824/33", "323/10")
 EDGES = {
@@ -216,7 +217,7 @@ POINTS = {
 EACH = [*((arm, solve_pose) for arm in POSES.values()), *((arm, solve) for arm in POINTS.values())]
 
 
-@pytest.mark.parametrize(("arm", "by"), EACH, ids=[*POSES, *POINTS])
+@each(dict(zip((*POSES, *POINTS), EACH, strict=True)), daily=2)
 @settings(max_examples=settings.default.max_examples // 5)
 @given(TANGENTS, st.sampled_from((0, 0, 0, 1, -1)))
 def test_the_joints_that_led_there_are_found(

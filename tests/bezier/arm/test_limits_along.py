@@ -220,7 +220,7 @@ def close_passes(rng: random.Random) -> int:
     return 2
 
 
-@each((4, 4), *(pytest.param(100 + part, 50, marks=pytest.mark.deep) for part in range(8)))
+@each((4, 2), *(pytest.param(100 + part, 50, marks=pytest.mark.deep) for part in range(8)))
 def test_closeness_to_a_limit_is_decided(seed: int, paths: int) -> None:
     rng, tried = random.Random(seed), 0
     while tried < paths:
@@ -265,6 +265,7 @@ TANGENT: Points = [(-100, 30, 100), (100, 30, 100)]
     ((1, 2), 0),
     ((0, 7), 4),
     ((-20, -10), 4),
+    daily=2,
 )
 def test_a_side_of_the_axis_is_allowed_or_forbidden(limits: Limits, kept: int) -> None:
     plan = joint_plan(limited(load_arm(E), limits), curves_of(THROUGH), TimeLaw.of(Law.QUINTIC), F(10), 11)
@@ -295,9 +296,10 @@ def test_limits_were_left_aside_through_the_axis() -> None:
 @each(
     (0, "6.2831", 0),
     (0, "6.2832", 2),
-    ("-3.1416", "3.1416", 2),
-    (-7, 7, 4),
-    *(pytest.param(*row, marks=pytest.mark.deep) for row in ((0, 7, 2), ("-6.2832", 0, 2), (-3, 4, 0))),
+    *(
+        pytest.param(*row, marks=pytest.mark.deep)
+        for row in (("-3.1416", "3.1416", 2), (-7, 7, 4), (0, 7, 2), ("-6.2832", 0, 2), (-3, 4, 0))
+    ),
 )
 def test_a_turn_round_the_axis_and_into_it(low: str, high: str, kept: int) -> None:
     """θ1 turns from 0 to 2π for one sign of the distance, from -π to π for the other one: every angle may be allowed
@@ -449,6 +451,6 @@ def check_random(seed: int) -> int:
     return sum(verdict is not None for verdict in verdicts)
 
 
-@each((range(1, len(PATHS), 2), 20), pytest.param(range(500), 1000, marks=pytest.mark.deep))
+@each((range(1, len(PATHS), 5), 6), pytest.param(range(500), 1000, marks=pytest.mark.deep))
 def test_motions_within_random_limits_are_those_of_samples(seeds: range, judged_at_least: int) -> None:
     assert sum(check_random(seed) for seed in seeds) >= judged_at_least

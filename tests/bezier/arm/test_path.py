@@ -101,7 +101,7 @@ def test_the_number_of_solutions_between_the_places(points: list[tuple[int, ...]
 
 
 @each(
-    Bezier.of([(-1, 5, 357), (11, -63, 420), (-5, -60, 411)]),
+    pytest.param(Bezier.of([(-1, 5, 357), (11, -63, 420), (-5, -60, 411)]), marks=pytest.mark.deep),
     Bezier.of([(-100, Fraction(1, 10), 100), (100, Fraction(1, 10), 100)]),
 )
 def test_a_curve_close_to_the_axis_takes_few_boxes(curve: Bezier) -> None:

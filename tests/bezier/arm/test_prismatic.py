@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from math import pi
+from typing import Any
 
 import numpy as np
 import pytest
@@ -158,15 +159,15 @@ def test_a_joint_sequence_of_a_cylindrical_arm() -> None:
     assert any("q1: at most" in line and "mm/s^2" in line for line in plan_in_words(plan))
 
 
-def test_a_length_that_grows_beyond_all_bounds_ends_the_path() -> None:
+@each(([(0, -50, 3), (7, 60, 8)], Fraction(5, 11)), ([(30, -90, 3), (31, 90, 8)], Fraction(1, 2)), daily=2)
+def test_a_length_that_grows_beyond_all_bounds_ends_the_path(points: Any, place: Fraction) -> None:
     """The hand slides along the lift's direction for one angle between: there the solution is at infinity."""
     rows = '[[row]]\njoint = "{}"\nkind = "{}"\na = {}\nalpha = "pi/4"\n'
     lift = '[[row]]\njoint = "lift"\nkind = "prismatic"\n'
     text = lift + rows.format("theta2", "revolute", 10) + rows.format("out", "prismatic", 20)
     arm = read_arm(f'name = "lift and boom"\nconvention = "modified"\n{text}')
-    for points, place in (([(0, -50, 3), (7, 60, 8)], Fraction(5, 11)), ([(30, -90, 3), (31, 90, 8)], Fraction(1, 2))):
-        found = joint_path(arm, {"line": Bezier.of(points)})
-        (special,) = (p for p in found.studies[0].specials if p.reasons)
-        assert special.s == place and special.inverse.count == 0
-        assert [p.count for p in found.studies[0].stretches] == [1, 1]
-        assert not found.is_reachable and found.count == 0
+    found = joint_path(arm, {"line": Bezier.of(points)})
+    (special,) = (p for p in found.studies[0].specials if p.reasons)
+    assert special.s == place and special.inverse.count == 0
+    assert [p.count for p in found.studies[0].stretches] == [1, 1]
+    assert not found.is_reachable and found.count == 0

@@ -40,10 +40,10 @@ def sampled(curve: Bezier, count: int = 4001) -> tuple[float, float]:
 
 @each(
     (PLANE, {"max_length": 9.2}),
-    (PLANE, {"max_length": 9.1, "degree": 5}),
-    (PLANE, {"max_curvature": 2, "degree": 5}),
-    (PLANE, {"max_curvature": "3/2", "max_length": 10, "degree": 5}),
-    (SPACE, {"max_curvature": 2, "degree": 5}),
+    (PLANE[:4], {"max_curvature": "3/2", "max_length": 8, "degree": 5}),
+    pytest.param(PLANE, {"max_length": 9.1, "degree": 5}, marks=pytest.mark.deep),
+    pytest.param(PLANE, {"max_curvature": 2, "degree": 5}, marks=pytest.mark.deep),
+    pytest.param(SPACE, {"max_curvature": 2, "degree": 5}, marks=pytest.mark.deep),
 )
 def test_bounds_hold_for_all_t_and_the_value_has_two_sides(points: Any, given: Any) -> None:
     made, free = chain(points, **given), chain(points, **{k: v for k, v in given.items() if k == "degree"})
@@ -92,9 +92,9 @@ def test_a_broken_proposer_breaks_no_bound(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(proposals, "_solved", broken)
     accepted = 0
     for k in range(5):
-        most = 9.12 + k / 50
+        most = 6.9 + k / 50
         try:
-            made = chain(max_length=most, max_curvature=3, degree=5)
+            made = chain(PLANE[:4], max_length=most, max_curvature=3, degree=5)
         except Unable:
             continue
         accepted += 1

@@ -20,7 +20,7 @@ from tests.bezier.folder_mutation import EXAMPLES, Memory, alterations, not_cert
 from tests.tables import each
 
 QUICK = ("tight_radius", "single_leaves", "no_control_point", "obstacle_motion")
-SAMPLE = 5
+SAMPLE = 3
 """So many alterations of each file, about, in the quick test."""
 
 
@@ -126,7 +126,7 @@ def changed_bundles(folder: Path, step: int) -> list[str]:
     return accepted
 
 
-@each("tight_radius", "single_leaves", "no_control_point")
+@each("tight_radius", "single_leaves", "no_control_point", daily=3)
 def test_members_dropped_relabelled_doubled_or_swapped_are_refused(name, copied):
     assert not changed_bundles(copied(name), 7)
 
@@ -234,7 +234,7 @@ def test_malformed_files_get_one_line(copied, monkeypatch, what):
     assert "summary.json: expected UTF-8" in (rejection(folder) or "")
 
 
-@each("single_leaves", "tight_radius")
+@each("single_leaves", "tight_radius", daily=2)
 def test_wrong_types_get_one_line(name, copied, monkeypatch):
     """Every entry replaced by values of other types, some for each, in every file that states something."""
     kinds: tuple[Any, ...] = (None, True, -1, 10**400, "x", "1/0", [], {}, [[]], {"a": []}, [None])
@@ -252,7 +252,7 @@ def test_wrong_types_get_one_line(name, copied, monkeypatch):
 
 
 @each(0, 2, 4)
-@each("single_leaves", "tight_radius")
+@each("single_leaves", "tight_radius", daily=2)
 def test_a_point_with_another_number_of_coordinates_is_refused(name, count, copied):
     folder = copied(name)
     found = json.loads((folder / "path.json").read_text())

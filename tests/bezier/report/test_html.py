@@ -201,7 +201,7 @@ def opened(page: Path, folder: Path, width: int, dark: bool) -> dict[str, object
 
 
 @needs_browser
-@each((1400, False), (420, True))
+@each((420, True), (1400, False), daily=2)
 def test_the_page_in_a_browser(width: int, dark: bool, page: Path, tmp_path: Path) -> None:
     found = opened(page, tmp_path, width, dark)
     assert found["inside"], "nothing is wider than the screen"

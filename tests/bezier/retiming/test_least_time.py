@@ -71,7 +71,8 @@ def kept(motion: bezier.LeastTime, limits: dict[str, float]) -> None:
         "q' = 0 on the way": (path([HERMITE], [[1, 0, 3, -2]]), {"velocity": 2, "acceleration": 4}, 2.0),
         "q' = 0 inside": (path([[0, 3, -3, 1]], breaks=(0, 2)), {"velocity": 2, "acceleration": 4}, 2.0),
         "tiny": (path([[0, F(1, 10**12)]]), {"velocity": 1, "acceleration": 4}, 1e-6),
-    }
+    },
+    daily=3,
 )
 def test_the_least_time_lies_between_both_sides(along: Trajectory, limits: dict[str, float], seconds: float) -> None:
     motion = bezier.retime(along, **limits)  # type: ignore[arg-type]
@@ -84,7 +85,7 @@ def test_the_least_time_lies_between_both_sides(along: Trajectory, limits: dict[
         assert checked(along, listed, motion.certificate).duration == motion.duration
 
 
-@each((3, "axes"), (6, "axes"), (3, "norms"))
+@each((3, "norms"), (6, "axes"), (3, "axes"), daily=3)
 def test_paths_are_as_fast_as_those_of_toppra_and_keep_their_limits(axes: int, kind: str) -> None:
     curve = spline(np.random.default_rng(axes).uniform(-1, 1, (7, axes)))
     limits = {"velocity": 1, "acceleration": 2}
@@ -158,7 +159,7 @@ def test_arguments_that_make_no_sense_are_one_line() -> None:
 # --- proofs -----------------------------------------------------------------------------------------------------------
 
 
-@each({"axes": ((1, 1), None, (2, 2), None), "norms": (None, 1, None, 2), "all": ((1, 1), 1, (2, 2), 2)})
+@each({"all": ((1, 1), 1, (2, 2), 2), "axes": ((1, 1), None, (2, 2), None), "norms": (None, 1, None, 2)}, daily=3)
 def test_whatever_is_proposed_no_bound_is_above_a_motion(
     velocity: Any, velocity_norm: Any, acceleration: Any, acceleration_norm: Any
 ) -> None:

@@ -23,6 +23,7 @@ from bezier.trajectories.readers import load
 from qe.errors import CertificateRejected, InputError, QEError
 from qe.exact.rational_poly import RationalPoly
 from tests.bezier.trajectories.timed import least_time_law, spline, timed
+from tests.tables import each
 
 F, TOLERANCE = Fraction, Fraction(1, 10**9)
 
@@ -46,7 +47,7 @@ def samples(path: CubicSpline, law: tuple[Any, ...], breaks: Any, count: int) ->
     return np.array([np.abs(velocity).max((0, 1)), np.abs(bend + path(s, 1) * force[..., None]).max((0, 1))]).ravel()
 
 
-@pytest.mark.parametrize(("axes", "count"), [(3, 100), (6, 100), (3, 1000), (6, 1000)])
+@each((3, 100), (6, 100), (6, 1000), (3, 1000), daily=3)
 def test_paths_timed_by_toppra_break_their_limits_between_grid_points(axes: int, count: int) -> None:
     pytest.importorskip("toppra")
     path = spline(np.random.default_rng(axes).uniform(-1, 1, (7, axes)))

@@ -115,7 +115,7 @@ def agrees(value, printed):
     return sign(value - (Fraction(printed) - unit)) > 0 > sign(value - (Fraction(printed) + unit))
 
 
-@pytest.mark.parametrize("row", ROWS, ids=[f"{row[0]}-{row[1]}-{row[2]}" for row in ROWS])
+@each(*(pytest.param(row, id=f"{row[0]}-{row[1]}-{row[2]}") for row in ROWS), daily=2)
 def test_the_printed_optima(row):
     q0, r0, squared, value, q1, q2, active = row
     plan = make_plan(problem(embedded(*q0), embedded(*r0), Fraction(squared)))
