@@ -11,11 +11,12 @@ import pytest
 from paper_repro import tex
 from paper_repro.claim import Claim, Evidence, Fact, Picture, Verdict, claim, examine, examine_all
 from paper_repro.claims import CLAIMS
+from tests.tables import each
 
 KEYS = [c.key for c in CLAIMS]
 
 
-@pytest.mark.parametrize("given", CLAIMS, ids=KEYS)
+@each(*(pytest.param(given, id=given.key) for given in CLAIMS), daily=3)
 def test_the_check_bears_out_the_verdict(given: Claim) -> None:
     entry = examine(given)
     assert not entry.failures

@@ -14,6 +14,7 @@ from qe.formula.syntax import FALSE, TRUE
 from qe.options import Budget
 from qe.proof.on_demand import OnDemand, completed
 from qe.proof.step import Step
+from tests.tables import each
 
 pytestmark = pytest.mark.faults
 
@@ -46,7 +47,7 @@ QUESTIONS: dict[str, Callable[[], qe.Answer]] = {
 
 
 @pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize("name", QUESTIONS)
+@each(*QUESTIONS, daily=2)
 def test_whatever_breaks_while_a_proof_is_made_or_checked_leaves_the_answer(name, place, monkeypatch):
     plain = QUESTIONS[name]()
     for error in ERRORS:

@@ -96,7 +96,7 @@ AFRESH = {"Region": partial(qe.region, DISC), "ConvexRegion": partial(qe.region,
 """Objects that keep what they have learned: others than those of the table, which may know the answer."""
 
 
-@each(*STUCK_IN.items())
+@each(*STUCK_IN.items(), daily=2)
 def test_the_limit_holds(title: str, place: str):
     door = DOORS[title]
     given = {name: door.around.get(name, lambda value: value)(v) for name, v in door.given.items()}
