@@ -144,6 +144,14 @@ def trim(p: Sequence[Any]) -> Coefficients:
     return tuple(p[:end])
 
 
+def power_value(p: Sequence[Any], t: Any) -> Any:
+    """p(t) by Horner's rule."""
+    total: Any = Fraction(0)
+    for c in reversed(p):
+        total = total * t + c
+    return total
+
+
 def power_multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     """The product of two polynomials in power form."""
     if not a or not b:

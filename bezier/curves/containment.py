@@ -6,7 +6,7 @@ Three tests, each finer than the one before:
 2. Bernstein: all Bernstein coefficients of margin(P(t)) are nonnegative, on [0, 1] or after bisection. For a
    ball, c_k = sum_{i+j=k} C(n,i) C(n,j) / C(2n,k) P_i . P_j <= r^2 follows from |P_i| <= r by Cauchy-Schwarz,
    so this test accepts strictly more curves;
-3. roots: the square-free decomposition of margin(P(t)) (``bezier.curves.nonnegative``), which decides contact too.
+3. roots: the signs of margin(P(t)) between its roots (``bezier.curves.nonnegative``), which decide contact too.
 
 The certificate is a derivation: no point of the curve, for 0 <= t <= 1, is outside the condition
 (``bezier.curves.sentences``).
@@ -90,7 +90,7 @@ def examine_closely(curve: Bezier, condition: Condition) -> Outcome:
     outcome = decide(condition.margin_along(curve))
     if isinstance(outcome, Negative):
         return Leaves(condition, outcome.t, curve.point(outcome.t), outcome.value)
-    return Inside(condition, Argument.ROOTS if outcome.is_factored else Argument.BERNSTEIN, outcome)
+    return Inside(condition, Argument.BERNSTEIN if outcome.boxes else Argument.ROOTS, outcome)
 
 
 def examine_all(curve: Bezier, conditions: Iterable[Condition]) -> tuple[Outcome, ...]:
@@ -117,7 +117,7 @@ def containment(curve: Bezier, inside: Inside) -> Certificate | None:
 def _breaks(curve: Bezier, inside: Inside) -> list[Fraction] | None:
     if inside.proof is None:
         return [Fraction(0), Fraction(1)]
-    if not inside.proof.is_factored:
+    if inside.proof.boxes:
         return sorted({end for box in inside.proof.boxes for end in box})
     margin = inside.condition.margin_along(curve)
     touches = {low for low, high in inside.touches if low == high}

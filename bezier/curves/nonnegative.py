@@ -1,10 +1,7 @@
 """Proof or refutation of p >= 0 on [0, 1], complete over any ordered field with exact signs.
 
-Bernstein coefficients decide most polynomials. The rest touch zero: there the square-free decomposition
-p = t^a (1-t)^b s^2 q is split off, with q square-free and non-zero at both ends. Then p >= 0 on [0, 1] iff
-q has no root in (0, 1) and q(0) > 0, because every root of a square-free q changes its sign. Either q > 0 on
-[0, 1], and the Bernstein coefficients become positive after finitely many bisections (quadratic convergence,
-Farouki 2012, section 5), or q < 0 on an interval, and a bisection point falls into it.
+Bernstein coefficients decide most polynomials. The rest come near zero or touch it: between their neighbouring roots
+one sign each decides.
 
 Where several polynomials along one curve change their signs: all roots in [0, 1], in order, with all exact signs.
 
@@ -18,12 +15,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from math import lcm
 from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.scalar import is_zero, sign
-from qe.errors import InternalError, Unable
+from qe.errors import Unable
+from qe.exact.nearby import rational_between
 
 Interval = tuple[Fraction, Fraction]
 UNIT: Interval = (Fraction(0), Fraction(1))
@@ -31,29 +30,21 @@ QUICK_DEPTH = 5
 """Bisections before roots are split off. Over Q, where bisecting is cheap and long numbers make gcds slow: 16."""
 QUICK_DEPTH_RATIONAL = 16
 MAX_BOXES = 20_000
+NEAR = Fraction(1, 2**40)
+"""To what width a place is refined where a curve touches."""
 
 
 @dataclass(frozen=True, slots=True)
 class Nonnegative:
     """p >= 0 on [0, 1].
 
-    ``at_start``, ``at_end``: exponents a, b of t and 1-t; ``square``: s and ``rest``: q in Bernstein form, with
-    p = t^a (1-t)^b s^2 q; ``boxes``: intervals covering [0, 1] on each of which all Bernstein coefficients of
-    q are >= 0. ``touches``: where p is zero, as intervals (equal ends: exactly there) holding one root each;
-    the unit interval when p is zero everywhere.
+    ``boxes``: intervals covering [0, 1] on each of which all Bernstein coefficients are >= 0; none where roots had to
+    be isolated. ``touches``: where p is zero, as intervals (equal ends: exactly there) holding one root each; the unit
+    interval when p is zero everywhere.
     """
 
-    at_start: int
-    at_end: int
-    square: bs.Coefficients
-    rest: bs.Coefficients
     boxes: tuple[Interval, ...]
     touches: tuple[Interval, ...]
-
-    @property
-    def is_factored(self) -> bool:
-        """Whether roots had to be split off, i.e. subdivision alone did not decide."""
-        return len(self.square) > 1 or self.at_start > 0 or self.at_end > 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,17 +62,21 @@ def decide(b: Sequence[Any]) -> Nonnegative | Negative:
     """
     whole = tuple(b)
     if all(map(is_zero, whole)):
-        return Nonnegative(0, 0, (Fraction(1),), whole, (UNIT,), (UNIT,))
+        return Nonnegative((UNIT,), (UNIT,))
     is_rational = all(isinstance(c, (int, Fraction)) for c in whole)
     outcome = _subdivide(whole, QUICK_DEPTH_RATIONAL if is_rational else QUICK_DEPTH)
     if isinstance(outcome, Negative):
         return outcome
     if outcome is not None:
-        return Nonnegative(0, 0, (Fraction(1),), whole, outcome, _end_touches(whole, outcome))
-    return _factored(whole)
+        return Nonnegative(outcome, _end_touches(whole, outcome))
+    events = events_of((whole,), NEAR)
+    for t in (rational_between(one.t[1], two.t[0]) for one, two in pairwise(events)):
+        if sign(here := bs.value(whole, t)) < 0:
+            return Negative(t, here)
+    return Nonnegative((), tuple(event.t for event in events if event.signs == (0,)))
 
 
-def _subdivide(b: bs.Coefficients, depth: int | None) -> tuple[Interval, ...] | Negative | None:
+def _subdivide(b: bs.Coefficients, depth: int) -> tuple[Interval, ...] | Negative | None:
     """Boxes with nonnegative coefficients covering [0, 1]; a negative point; None when ``depth`` is reached."""
     done: list[Interval] = []
     todo = [(b, Fraction(0), Fraction(1), 0)]
@@ -112,39 +107,6 @@ def _end_touches(b: bs.Coefficients, boxes: Sequence[Interval]) -> tuple[Interva
     return tuple((t, t) for t in ends if is_zero(bs.value(b, t)))
 
 
-def _factored(b: bs.Coefficients) -> Nonnegative | Negative:
-    """The complete test by the square-free decomposition."""
-    power, at_start, at_end = bs.to_power(b), 0, 0
-    while is_zero(power[0]):
-        power, at_start = power[1:], at_start + 1
-    while is_zero(sum(power, Fraction(0))):
-        power, at_end = bs.divide(power, (Fraction(1), Fraction(-1)))[0], at_end + 1
-    square: bs.Coefficients = (Fraction(1),)
-    for exponent, part in enumerate(bs.square_free_parts(power), start=1):
-        for _ in range(exponent // 2):
-            square = bs.power_multiply(square, part)
-    rest = bs.from_power(bs.divide(power, bs.power_multiply(square, square))[0])
-    outcome = _subdivide(rest, None)
-    if isinstance(outcome, Negative):
-        return _negative_of_product(b, rest, outcome.t)
-    if outcome is None:
-        raise InternalError("unlimited subdivision stopped early")
-    touches = [(Fraction(0), Fraction(0))] if at_start else []
-    touches += [located(bs.from_power(square), interval) for interval in isolate(bs.from_power(square))]
-    touches += [(Fraction(1), Fraction(1))] if at_end else []
-    return Nonnegative(at_start, at_end, bs.from_power(square), rest, outcome, tuple(touches))
-
-
-def _negative_of_product(b: bs.Coefficients, rest: bs.Coefficients, t: Fraction) -> Negative:
-    """A point with p < 0 near a point with q < 0: p = (nonnegative) * q, and p has finitely many roots."""
-    step = Fraction(1, 8)
-    while True:
-        for candidate in (t, t + step, t - step):
-            if 0 <= candidate <= 1 and sign(bs.value(rest, candidate)) < 0 and sign(bs.value(b, candidate)) < 0:
-                return Negative(candidate, bs.value(b, candidate))
-        step /= 2
-
-
 def isolate(b: Sequence[Any]) -> list[Interval]:
     """Disjoint intervals with one root each, for all distinct roots in the open interval (0, 1).
 
@@ -154,7 +116,7 @@ def isolate(b: Sequence[Any]) -> list[Interval]:
     """
     if _keeps_sign(tuple(b), QUICK_DEPTH):  # this spares the square-free part, which is slow in large number fields
         return []
-    return isolate_simple(_square_free(b))
+    return isolate_simple(_simple(tuple(b)))
 
 
 def isolate_simple(b: bs.Coefficients) -> list[Interval]:
@@ -187,31 +149,16 @@ def _keeps_sign(b: bs.Coefficients, depth: int) -> bool:
     return all(_keeps_sign(part, depth - 1) for part in bs.split(b))
 
 
-def _square_free(b: Sequence[Any]) -> bs.Coefficients:
-    """The square-free part, without a root at 0."""
-    power = bs.to_power(b)
-    while len(power) > 1 and is_zero(power[0]):
-        power = power[1:]
-    common = bs.gcd(power, bs.power_derivative(power))
-    return bs.from_power(bs.divide(power, common)[0])
-
-
-def located(b: bs.Coefficients, interval: Interval) -> Interval:
-    """An isolating interval of a root, made narrow; equal ends for a rational root of moderate size."""
-    low, high = refine(_square_free(b), interval, Fraction(1, 2**40))
-    guess = ((low + high) / 2).limit_denominator(10**5)
-    return (guess, guess) if low <= guess <= high and is_zero(bs.value(b, guess)) else (low, high)
-
-
 def refine(b: Sequence[Any], interval: Interval, width: Fraction) -> Interval:
     """Bisect an isolating interval of a simple root down to at most ``width``."""
     low, high = interval
     if 0 <= low < high <= 1 and all(isinstance(c, (int, Fraction)) for c in b):
         return _refined(bs.to_power(bs.restrict(b, low, high)), low, high, width)
-    below = sign(bs.value(b, low))
+    power = bs.to_power(b)
+    below = sign(bs.power_value(power, low))
     while high - low > width:
         middle = (low + high) / 2
-        here = sign(bs.value(b, middle))
+        here = sign(bs.power_value(power, middle))
         if here == 0:
             return middle, middle
         low, high = (middle, high) if here == below else (low, middle)
@@ -258,7 +205,7 @@ class Event:
     signs: tuple[int, ...]
 
 
-def events_of(forms: Sequence[bs.Coefficients]) -> tuple[Event, ...]:
+def events_of(forms: Sequence[bs.Coefficients], width: Fraction = WIDTH) -> tuple[Event, ...]:
     """The ends 0 and 1 and all roots of the polynomials (in Bernstein form) between, ascending and disjoint.
 
     Between two neighbouring events no polynomial changes its sign. Zero polynomials have no roots here.
@@ -267,7 +214,7 @@ def events_of(forms: Sequence[bs.Coefficients]) -> tuple[Event, ...]:
     simple = [_simple(form) for form in forms]
     for i, form in enumerate(simple):
         for interval in isolate_simple(form):
-            event = _located(i, interval, simple, forms)
+            event = _located(i, interval, simple, forms, width)
             if not any(event.signs[j] == 0 and len(simple[j]) > 1 for j in range(i)):  # else it is listed with j
                 result.append((i, event))
     return tuple(_disjoint(result, simple))
@@ -300,9 +247,11 @@ def _has_multiple_root(power: bs.Coefficients) -> bool:
     return True
 
 
-def _located(i: int, t: Interval, simple: Sequence[bs.Coefficients], forms: Sequence[bs.Coefficients]) -> Event:
+def _located(
+    i: int, t: Interval, simple: Sequence[bs.Coefficients], forms: Sequence[bs.Coefficients], width: Fraction
+) -> Event:
     """The root of polynomial ``i`` in ``t`` with all signs, refined."""
-    low, high = refine(simple[i], t, WIDTH) if t[0] < t[1] else t
+    low, high = refine(simple[i], t, width) if t[0] < t[1] else t
     if low < high:
         guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)
         if low <= guess <= high and is_zero(bs.value(simple[i], guess)):

@@ -75,12 +75,13 @@ class TimeLaw:
         pieces = zip(self.breaks[1:], self.polynomials, strict=True)
         polynomial = next(p for high, p in pieces if tau <= high)
         slope = bs.power_derivative(polynomial)
-        return _value(polynomial, tau), _value(slope, tau), _value(bs.power_derivative(slope), tau)
+        value, first, second = (bs.power_value(p, tau) for p in (polynomial, slope, bs.power_derivative(slope)))
+        return value, first, second
 
     def passage(self, share: Fraction) -> tuple[Fraction, Fraction]:
         """Rational numbers around the tau with s(tau) = share, equal where that is found exactly, as at breaks."""
         for tau, polynomial in zip(self.breaks, self.polynomials, strict=False):
-            if _value(polynomial, tau) == share:
+            if bs.power_value(polynomial, tau) == share:
                 return tau, tau
         low, high = ZERO, ONE
         while high - low > PASSAGE_WIDTH:
@@ -95,13 +96,6 @@ class TimeLaw:
 def _falling(factor: Fraction) -> Power:
     """1 - factor (1 - tau)^2."""
     return (1 - factor, 2 * factor, -factor)
-
-
-def _value(polynomial: Power, t: Fraction) -> Any:
-    total: Any = ZERO
-    for c in reversed(polynomial):
-        total = total * t + c
-    return total
 
 
 @dataclass(frozen=True, slots=True)

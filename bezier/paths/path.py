@@ -11,7 +11,7 @@ from typing import Any
 from bezier.curves.containment import Inside, Leaves, Outcome, containment, examine_all
 from bezier.curves.curve import Bezier, Join, Smoothness, join
 from bezier.curves.enclosure import Enclosure, maximum, root_above, root_below
-from bezier.curves.nonnegative import UNIT, Interval, isolate, located
+from bezier.curves.nonnegative import UNIT, Interval, events_of
 from bezier.curves.scalar import Vector, is_zero, scale
 from bezier.curves.workspace import Condition, Workspace
 from qe.proof.certificate import Certificate
@@ -139,9 +139,7 @@ def slowest(curve: Bezier, duration: Fraction = Fraction(1)) -> Slowest:
     zero = Enclosure(Fraction(0), Fraction(0))
     if all(map(is_zero, squared)):
         return Slowest(zero, (UNIT,))
-    ends = [(t, t) for t, value in zip(UNIT, (squared[0], squared[-1]), strict=True) if is_zero(value)]
-    stops = sorted([*ends, *(located(squared, interval) for interval in isolate(squared))])
-    if stops:
+    if stops := [event.t for event in events_of((squared,)) if event.signs == (0,)]:
         return Slowest(zero, tuple(stops))
     # the least of p > 0 is one over the largest of 1/p
     top = maximum((Fraction(1),), squared, REL)
