@@ -193,28 +193,6 @@ def power_derivative(p: Sequence[Any]) -> Coefficients:
     return tuple(k * c for k, c in enumerate(p))[1:]
 
 
-def square_free_parts(p: Sequence[Any]) -> list[Coefficients]:
-    """Monic pairwise coprime square-free f_1, f_2, ... with p = c * f_1 * f_2^2 * ... (Yun 1976)."""
-    parts: list[Coefficients] = []
-    slope = power_derivative(p)
-    common = gcd(p, slope)
-    b, c = divide(p, common)[0], divide(slope, common)[0]
-    d = _minus(c, power_derivative(b))
-    while len(b) > 1:
-        part = gcd(b, d)
-        parts.append(part)
-        b, c = divide(b, part)[0], divide(d, part)[0]
-        d = _minus(c, power_derivative(b))
-    return parts
-
-
-def _minus(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
-    size = max(len(a), len(b))
-    pad = Fraction(0)
-    x, y = [*a, *[pad] * (size - len(a))], [*b, *[pad] * (size - len(b))]
-    return trim([u - v for u, v in zip(x, y, strict=True)])
-
-
 Numbers = tuple[Any, ...]
 
 

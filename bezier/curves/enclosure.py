@@ -208,13 +208,11 @@ def _square_split(squared: bs.Coefficients) -> tuple[bs.Coefficients, bs.Coeffic
     one: bs.Coefficients = (Fraction(1),)
     if not _has_root(squared):
         return one, squared, one
-    power, factor, stopping = bs.to_power(squared), one, one
-    for exponent, part in enumerate(bs.square_free_parts(power), start=1):
-        for _ in range(exponent // 2):
-            factor = bs.power_multiply(factor, part)
-        if exponent > 1:
-            stopping = bs.power_multiply(stopping, part)
-    radicand = bs.divide(power, bs.power_multiply(factor, factor))[0]
+    radicand, factor, stopping = bs.to_power(squared), one, one
+    while len(common := bs.gcd(radicand, bs.power_derivative(radicand))) > 1:
+        part = bs.divide(common, bs.gcd(common, bs.power_derivative(common)))[0]  # every multiple factor once
+        factor, stopping = bs.power_multiply(factor, part), part if stopping == one else stopping
+        radicand = bs.divide(radicand, bs.power_multiply(part, part))[0]
     return bs.from_power(factor), bs.from_power(radicand), bs.from_power(stopping)
 
 

@@ -214,7 +214,7 @@ def events_of(forms: Sequence[bs.Coefficients], width: Fraction = WIDTH) -> tupl
     simple = [_simple(form) for form in forms]
     for i, form in enumerate(simple):
         for interval in isolate_simple(form):
-            event = _located(i, interval, simple, forms, width)
+            event = located(i, interval, simple, forms, width)
             if not any(event.signs[j] == 0 and len(simple[j]) > 1 for j in range(i)):  # else it is listed with j
                 result.append((i, event))
     return tuple(_disjoint(result, simple))
@@ -247,10 +247,10 @@ def _has_multiple_root(power: bs.Coefficients) -> bool:
     return True
 
 
-def _located(
+def located(
     i: int, t: Interval, simple: Sequence[bs.Coefficients], forms: Sequence[bs.Coefficients], width: Fraction
 ) -> Event:
-    """The root of polynomial ``i`` in ``t`` with all signs, refined."""
+    """The root of polynomial ``i`` in ``t``, a simple one of ``simple[i]``, with all signs, refined."""
     low, high = refine(simple[i], t, width) if t[0] < t[1] else t
     if low < high:
         guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)

@@ -28,8 +28,8 @@ from bezier.curves import bernstein as bs
 from bezier.curves.bernstein import Numbers, exact, halves
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds
-from bezier.curves.nonnegative import MAX_DENOMINATOR, WIDTH, Interval, events_of
-from bezier.curves.scalar import Vector, is_zero, sign
+from bezier.curves.nonnegative import UNIT, WIDTH, Interval, events_of, located
+from bezier.curves.scalar import Vector, sign
 from bezier.obstacles.obstacle import Box, Constraint, Exponents, Obstacle, Piece
 from qe.errors import InputError
 
@@ -262,22 +262,8 @@ def _crosses_up(form: Numbers) -> bool:
 
 def _crossing(part: _Part, *, attained: bool) -> Hit:
     """The contact where the only open constraint crosses zero once."""
-    form = piece = part.open[0][1]
-    low, high = Fraction(0), Fraction(1)
-    while high - low > WIDTH:
-        middle = (low + high) / 2
-        left, right = halves(piece)
-        here = sign(right[0])
-        if here == 0:
-            low = high = middle
-        elif here > 0:
-            piece, high = left, middle
-        else:
-            piece, low = right, middle
-    if low < high:
-        guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)
-        low, high = (guess, guess) if low <= guess <= high and is_zero(bs.value(exact(form), guess)) else (low, high)
-    return _on_curve(part, (low, high), attained)
+    form = exact(part.open[0][1])
+    return _on_curve(part, located(0, UNIT, [form], [form], WIDTH).t, attained)
 
 
 def _halved(part: _Part) -> list[_Part]:
