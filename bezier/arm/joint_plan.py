@@ -16,9 +16,10 @@ from bezier.arm import path_report
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.kinematics import jacobians, positions, skeleton
 from bezier.arm.model import Arm, JointKind
-from bezier.arm.motion import Extreme, JointMotion, joint_motion
+from bezier.arm.motion import JointMotion, joint_motion
 from bezier.arm.sequence import JointSequence, joint_sequence, samples_of
 from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import Enclosure
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import Unable
 
@@ -156,8 +157,9 @@ def _extremes(motion: JointMotion) -> dict[str, Any]:
     return {j.name: {"velocity": _bounds(v), "acceleration": _bounds(a)} for j, v, a in parts}
 
 
-def _bounds(value: Extreme) -> list[float]:
-    return [float(f"{float(value.low):.6g}"), float(f"{float(value.high) * (1 + 1e-5):.6g}")]
+def _bounds(value: Enclosure) -> list[float]:
+    low, high = map(float, value.finite)
+    return [float(f"{low:.6g}"), float(f"{high * (1 + 1e-5):.6g}")]
 
 
 def animation(plan: JointPlan) -> str:
@@ -199,7 +201,7 @@ def in_words(plan: JointPlan) -> list[str]:
     if plan.motion is not None:
         for joint, v, a in zip(plan.motion.joints, plan.motion.speeds, plan.motion.accelerations, strict=True):
             unit = "rad" if joint.motion is JointKind.REVOLUTE else "mm"
-            speed, push = f"{float(v.high):.4g} {unit}/s", f"{float(a.high):.4g} {unit}/s^2"
+            speed, push = f"{float(v.finite[1]):.4g} {unit}/s", f"{float(a.finite[1]):.4g} {unit}/s^2"
             lines.append(f"  {joint.name}: at most {speed} and {push} at all times (proved)")
         words = {True: "kept (proved)", False: "EXCEEDED", None: "closer than the bounds can tell"}
         lines += [f"  limit of {name}: {words[kept]}" for name, kept in plan.motion.kept.items()]

@@ -17,6 +17,7 @@ from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Joint
 from bezier.arm.motion_chain import ProvedPiece
 from bezier.curves import bernstein as bs
+from bezier.curves.enclosure import Enclosure
 from bezier.motion.timelaw import TICK, TimeLaw
 from qe.errors import Unable
 
@@ -26,32 +27,14 @@ UNIT = 1 << 30
 
 
 @dataclass(frozen=True, slots=True)
-class Extreme:
-    """The largest absolute value of something over the whole time lies between ``low`` and ``high``."""
-
-    low: Fraction
-    high: Fraction
-
-    def over(self, divisor: Fraction) -> Extreme:
-        """Divided by a positive number."""
-        return Extreme(self.low / divisor, self.high / divisor)
-
-    def keeps(self, limit: Fraction | None) -> bool | None:
-        """Whether a limit is kept at all times: proved, refuted, or (None) closer than the bounds."""
-        if limit is None or self.high <= limit:
-            return True
-        return False if self.low > limit else None
-
-
-@dataclass(frozen=True, slots=True)
 class JointMotion:
     """``speeds`` and ``accelerations``: one extreme for each joint (rad/s, rad/s²), for a motion that takes
     ``duration`` s."""
 
     joints: tuple[Joint, ...]
     duration: Fraction
-    speeds: tuple[Extreme, ...]
-    accelerations: tuple[Extreme, ...]
+    speeds: tuple[Enclosure, ...]
+    accelerations: tuple[Enclosure, ...]
 
     @property
     def kept(self) -> dict[str, bool | None]:
@@ -75,9 +58,9 @@ class JointMotion:
         factors = [Fraction(0)]
         for joint, v, a in zip(self.joints, self.speeds, self.accelerations, strict=True):
             if joint.max_velocity is not None:
-                factors.append(v.high / joint.max_velocity)
+                factors.append(v.finite[1] / joint.max_velocity)
             if joint.max_acceleration is not None:
-                ratio = a.high / joint.max_acceleration
+                ratio = a.finite[1] / joint.max_acceleration
                 factors.append(Fraction(isqrt(ceil(ratio * 10**12)) + 1, 10**6))
         return ceil(self.duration * max(factors) / TICK) * TICK
 
@@ -96,8 +79,8 @@ def joint_motion(path: JointPath, run: Run, law: TimeLaw, duration: Fraction, en
             for k, value in enumerate((speed, push)):
                 high[j][k] = max(high[j][k], *map(abs, value))
                 low[j][k] = max(low[j][k], value[0], -value[1])
-    speeds = tuple(Extreme(low[j][0], high[j][0]).over(duration) for j in range(count))
-    pushes = tuple(Extreme(low[j][1], high[j][1]).over(duration**2) for j in range(count))
+    speeds = tuple(Enclosure(low[j][0], high[j][0]).scaled(1 / duration) for j in range(count))
+    pushes = tuple(Enclosure(low[j][1], high[j][1]).scaled(1 / duration**2) for j in range(count))
     return JointMotion(path.arm.joints, duration, speeds, pushes)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial, reduce
+from operator import mul
 from typing import Any, TypeVar, cast
 
 import qe
@@ -293,10 +294,9 @@ def _region(question: Statement, plane: Plane, clock: Clock, seconds: float) -> 
         return PlanarRegion(str(question), cast("qe.Region", found), None, f"area not found: {error}", answer)
     finally:
         end_idle()  # the processor time of a worker is known when it has ended
-    unit = plane.unit_area
-    assert area.high is not None and unit.high is not None
+    low, high = map(mul, area.finite, plane.unit_area.finite)
     answer = cast("qe.Answer | None", known.facts.get("answer"))
-    return PlanarRegion(str(question), region, Enclosure(area.low * unit.low, area.high * unit.high), answer=answer)
+    return PlanarRegion(str(question), region, Enclosure(low, high), answer=answer)
 
 
 class _Spent(Exception):

@@ -48,6 +48,22 @@ class Enclosure:
         high = None if self.high is None or other.high is None else self.high + other.high
         return Enclosure(self.low + other.low, high)
 
+    @property
+    def finite(self) -> tuple[Fraction, Fraction]:
+        """Both ends of a number that is known to be finite."""
+        assert self.high is not None
+        return self.low, self.high
+
+    def scaled(self, factor: Fraction) -> Enclosure:
+        """The number times a positive one."""
+        return Enclosure(self.low * factor, None if self.high is None else self.high * factor)
+
+    def keeps(self, limit: Fraction | None) -> bool | None:
+        """Whether the number is at most a limit, if there is one: proved, refuted, or (None) closer than the ends."""
+        if limit is None or (self.high is not None and self.high <= limit):
+            return True
+        return False if self.low > limit else None
+
     def __float__(self) -> float:
         """The middle, rounded; infinite beyond the range of floating point."""
         if self.high is None:
@@ -232,9 +248,7 @@ def curvature_enclosure(curve: Bezier, rel: Fraction = REL) -> Enclosure:
         squared = _reduced(squared)
         if _has_root(squared.denominator):
             return Enclosure(Fraction(0), None)
-    top = maximum(squared.numerator, squared.denominator, rel)
-    assert top.high is not None
-    return root_enclosure(top.low, top.high)
+    return root_enclosure(*maximum(squared.numerator, squared.denominator, rel).finite)
 
 
 def is_regular(curve: Bezier) -> bool:

@@ -105,7 +105,7 @@ class Motion:
     def kept(self) -> dict[str, bool | None]:
         """Whether each limit is kept at all times: proved, refuted, or (None) closer than the enclosure."""
         values = {"max_speed": self.extremes.speed, "max_acceleration": self.extremes.acceleration}
-        return {key: _at_most(values[key], limit) for key, limit in self.timing.limits.items()}
+        return {key: values[key].keeps(limit) for key, limit in self.timing.limits.items()}
 
     @property
     def keeps_limits(self) -> bool:
@@ -116,7 +116,7 @@ class Motion:
     def enough(self) -> Fraction:
         """A duration with which the same motion is proved to keep all limits."""
         t, result = self.duration, self.extremes
-        return least_duration(Extremes(_times(result.speed, t), _times(result.acceleration, t * t)), self.timing.limits)
+        return least_duration(result.lasting(1 / t), self.timing.limits)
 
     @property
     def reason(self) -> str:
@@ -139,16 +139,6 @@ class Motion:
     def suggestion(self) -> str:
         """A line of the problem file with which all limits are kept."""
         return f'duration = "{self.enough}"'
-
-
-def _times(value: Enclosure, factor: Fraction) -> Enclosure:
-    return Enclosure(value.low * factor, None if value.high is None else value.high * factor)
-
-
-def _at_most(value: Enclosure, limit: Fraction) -> bool | None:
-    if value.high is not None and value.high <= limit:
-        return True
-    return False if value.low > limit else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -135,11 +135,7 @@ class Extremes:
 
     def lasting(self, duration: Fraction) -> Extremes:
         """The same for a motion that takes this time."""
-        return Extremes(_over(self.speed, duration), _over(self.acceleration, duration * duration))
-
-
-def _over(value: Enclosure, divisor: Fraction) -> Enclosure:
-    return Enclosure(value.low / divisor, None if value.high is None else value.high / divisor)
+        return Extremes(self.speed.scaled(1 / duration), self.acceleration.scaled(1 / duration**2))
 
 
 def extremes(path: Path, law: TimeLaw, rel: Fraction = REL) -> Extremes:
@@ -174,14 +170,11 @@ def _largest_norm(vector: list[Power], stretch: TimeStretch, rel: Fraction) -> E
         square = bs.add(square, bs.multiply(moved, moved))
     if not stretch.certain:
         return root_enclosure(ZERO, max(bounds(c)[1] for c in square))
-    top = maximum(square, (ONE,), rel)
-    assert top.high is not None
-    return root_enclosure(top.low, top.high)
+    return root_enclosure(*maximum(square, (ONE,), rel).finite)
 
 
 def _larger(a: Enclosure, b: Enclosure) -> Enclosure:
-    assert a.high is not None and b.high is not None
-    return Enclosure(max(a.low, b.low), max(a.high, b.high))
+    return Enclosure(*map(max, a.finite, b.finite))
 
 
 def least_duration(unit: Extremes, limits: Mapping[str, Fraction]) -> Fraction:
@@ -189,10 +182,9 @@ def least_duration(unit: Extremes, limits: Mapping[str, Fraction]) -> Fraction:
 
     Speed scales with 1/T and acceleration with 1/T^2. ``unit``: the extremes for T = 1.
     """
-    assert unit.speed.high is not None and unit.acceleration.high is not None
     times = [ZERO]
     if "max_speed" in limits:
-        times.append(unit.speed.high / limits["max_speed"])
+        times.append(unit.speed.finite[1] / limits["max_speed"])
     if "max_acceleration" in limits:
-        times.append(root_above(unit.acceleration.high / limits["max_acceleration"], bits=64))
+        times.append(root_above(unit.acceleration.finite[1] / limits["max_acceleration"], bits=64))
     return ceil(max(times) / TICK) * TICK

@@ -10,7 +10,7 @@ from typing import Any
 
 from bezier.curves.containment import Inside, Leaves, Outcome, containment, examine_all
 from bezier.curves.curve import Bezier, Join, Smoothness, join
-from bezier.curves.enclosure import Enclosure, maximum, root_above, root_below
+from bezier.curves.enclosure import Enclosure, maximum, root_enclosure
 from bezier.curves.nonnegative import UNIT, Interval, events_of
 from bezier.curves.scalar import Vector, is_zero, scale
 from bezier.curves.workspace import Condition, Workspace
@@ -142,9 +142,8 @@ def slowest(curve: Bezier, duration: Fraction = Fraction(1)) -> Slowest:
     if stops := [event.t for event in events_of((squared,)) if event.signs == (0,)]:
         return Slowest(zero, tuple(stops))
     # the least of p > 0 is one over the largest of 1/p
-    top = maximum((Fraction(1),), squared, REL)
-    assert top.high is not None
-    return Slowest(Enclosure(root_below(1 / top.high) / duration, root_above(1 / top.low) / duration), ())
+    low, high = maximum((Fraction(1),), squared, REL).finite
+    return Slowest(root_enclosure(1 / high, 1 / low).scaled(1 / duration), ())
 
 
 def slowest_of(path: Path) -> Mapping[str, Slowest]:

@@ -106,7 +106,7 @@ def _extremes(motion: JointMotion) -> list[tuple[Text, ...]]:
         worst = next((k for k in (False, None) if k in kept), True)
         said = toned(WORDS[worst], worst is True) if kept else "none given"
         unit = "rad" if joint.motion is JointKind.REVOLUTE else "mm"
-        tops = (float(bound.high) * (1 + 1e-5) for bound in (v, a))
+        tops = (float(bound.finite[1]) * (1 + 1e-5) for bound in (v, a))
         bounds = (f"at most {top:.5g} {unit}/{per}" for top, per in zip(tops, ("s", "s²"), strict=True))
         rows.append((joint.name, *bounds, said))
     return rows

@@ -13,11 +13,12 @@ import pytest
 from bezier.arm.joint_path import joint_path
 from bezier.arm.joint_plan import JointPlan, joint_plan, to_csv, to_json
 from bezier.arm.kinematics import positions
-from bezier.arm.motion import Extreme, joint_motion
+from bezier.arm.motion import joint_motion
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.sequence import joint_sequence, samples_of
 from bezier.cli.app import main
 from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import Enclosure
 from bezier.motion.timelaw import Law, TimeLaw
 from bezier.planner.arm import render
 from qe.errors import InputError, Unable
@@ -111,7 +112,7 @@ def test_limits_of_acceleration() -> None:
 
 
 def test_a_limit_between_the_bounds_is_not_decided() -> None:
-    assert Extreme(Fraction(1), Fraction(3)).keeps(Fraction(2)) is None
+    assert Enclosure(Fraction(1), Fraction(3)).keeps(Fraction(2)) is None
 
 
 def test_limits_of_angles_choose_the_branch() -> None:
