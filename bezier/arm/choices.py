@@ -176,6 +176,12 @@ class Edge:
             return float(self.end.value()) + self.turns * 2 * pi
         return None if self.limit is None else float(self.limit)
 
+    def side(self, limit: Fraction, motion: JointKind, infinite: int) -> int:
+        """The sign of the number minus a limit; ``infinite`` where there is none."""
+        if self.end is None:
+            return infinite
+        return self.end.length_side(limit) if motion is JointKind.PRISMATIC else side(self.end, self.turns, limit)
+
 
 Span = tuple[Edge, Edge]
 
@@ -209,22 +215,21 @@ def spans(joint: Joint, choice: Choice) -> tuple[Span, ...]:
 
 
 def _lengths(joint: Joint, choice: Choice) -> Iterator[Span]:
-    least, most = joint.limits or (None, None)
     for low, high in ((None, None),) if choice.arcs is None else choice.arcs:
-        ends = [Edge(low), Edge(high)]
-        if least is not None and most is not None:
-            over, under = _length(high, least, 1), _length(low, most, -1)
-            if over < 0 or under > 0:
-                continue
-            ends = [
-                Edge(low) if _length(low, least, -1) >= 0 else Edge(limit=least),
-                Edge(high) if _length(high, most, 1) <= 0 else Edge(limit=most),
-            ]
-        yield ends[0], ends[1]
+        yield from _clipped(joint, Edge(low), Edge(high))
 
 
-def _length(end: Exact | None, limit: Fraction, infinite: int) -> int:
-    return infinite if end is None else end.length_side(limit)
+def _clipped(joint: Joint, low: Edge, high: Edge) -> Iterator[Span]:
+    """What the limits of the joint leave of a range."""
+    if joint.limits is None:
+        yield low, high
+        return
+    least, most = joint.limits
+    if high.side(least, joint.motion, 1) >= 0 >= low.side(most, joint.motion, -1):
+        yield (
+            low if low.side(least, joint.motion, -1) >= 0 else Edge(limit=least),
+            high if high.side(most, joint.motion, 1) <= 0 else Edge(limit=most),
+        )
 
 
 def _angles(joint: Joint, choice: Choice) -> Iterator[Span]:
@@ -234,18 +239,9 @@ def _angles(joint: Joint, choice: Choice) -> Iterator[Span]:
         return
     arcs = sorted(((a, b) for a, b in choice.arcs if a and b), key=lambda arc: float(arc[0].value()))
     wraps = [int(_is_before(high, low)) for low, high in arcs]
-    if joint.limits is None:
-        yield from ((Edge(low), Edge(high, k)) for (low, high), k in zip(arcs, wraps, strict=True))
-        return
-    least, most = joint.limits
-    for turns in full_turns(joint.limits):
+    for turns in (0,) if joint.limits is None else full_turns(joint.limits):
         for (low, high), wrap in zip(arcs, wraps, strict=True):
-            if side(low, turns, most) > 0 or side(high, turns + wrap, least) < 0:
-                continue
-            yield (
-                Edge(low, turns) if side(low, turns, least) >= 0 else Edge(limit=least),
-                Edge(high, turns + wrap) if side(high, turns + wrap, most) <= 0 else Edge(limit=most),
-            )
+            yield from _clipped(joint, Edge(low, turns), Edge(high, turns + wrap))
 
 
 def _is_before(one: Exact, other: Exact) -> bool:

@@ -96,16 +96,20 @@ def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
     return result
 
 
-def positions(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
-    """The points (mm) for many joint positions: ``q`` of shape (N, joints), rad or mm; the result has shape (N, 3)."""
+def _frames(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> list[Floats]:
+    """What stands before each joint, and the end, shape of each (N, 4, 4)."""
     import numpy as np
 
-    angles = _rows(arm, q)
-    whole, constants = np.broadcast_to(_constants(arm)[0], (len(angles), 4, 4)), _constants(arm)
+    angles, constants = _rows(arm, q), _constants(arm)
+    result = [np.broadcast_to(constants[0], (len(angles), 4, 4))]
     for m, constant in zip(_motions(arm, angles), constants[1:], strict=True):
-        whole = whole @ m @ constant
-    result: Floats = whole[:, :3, 3]
+        result.append(result[-1] @ m @ constant)
     return result
+
+
+def positions(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
+    """The points (mm) for many joint positions: ``q`` of shape (N, joints), rad or mm; the result has shape (N, 3)."""
+    return _frames(arm, q)[-1][:, :3, 3]
 
 
 def jacobians(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
@@ -115,16 +119,10 @@ def jacobians(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
     """
     import numpy as np
 
-    angles = _rows(arm, q)
-    whole, constants = np.broadcast_to(_constants(arm)[0], (len(angles), 4, 4)), _constants(arm)
-    axes = []
-    for m, constant in zip(_motions(arm, angles), constants[1:], strict=True):
-        axes.append((whole[:, :3, 2], whole[:, :3, 3]))
-        whole = whole @ m @ constant
-    tip = whole[:, :3, 3]
+    *axes, tip = (frame[:, :3, 2:] for frame in _frames(arm, q))
     columns = [
-        np.cross(z, tip - o) if joint.motion is JointKind.REVOLUTE else z
-        for (z, o), joint in zip(axes, arm.joints, strict=True)
+        np.cross(axis[..., 0], tip[..., 1] - axis[..., 1]) if joint.motion is JointKind.REVOLUTE else axis[..., 0]
+        for axis, joint in zip(axes, arm.joints, strict=True)
     ]
     return np.stack(columns, axis=2)
 

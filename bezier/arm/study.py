@@ -27,11 +27,12 @@ from bezier.arm.elimination import M, T
 from bezier.arm.inverse import Inverse, solve, solve_at
 from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.ratio import Ratio, constant, variable
+from bezier.arm.roots_of_squares import chain_of
 from bezier.curves.curve import Bezier
-from bezier.proofs.held_joint import Held, Rigid, slid, turned
+from bezier.proofs.held_joint import Held
 from qe.errors import Unable
 from qe.exact.nearby import rational_between
-from qe.exact.ring import Poly, Ring
+from qe.exact.ring import Poly
 from qe.exact.zeros_at_angle import zeros_at_angle
 
 
@@ -217,17 +218,10 @@ def _joined(group: list[Item]) -> Place:
 
 def _relation(along: AlongCurve, joint: int) -> Poly:
     """H(s, q), with the variables t, m for the cosine and the sine, or t for the length."""
-    ring, arm = Ring.of(along.point[0].top.ring.names), along.arm
-    t, m = (variable(ring, name, arm.field) for name in (T, M))
-    zero, one = constant(ring, 0, arm.field), constant(ring, 1, arm.field)
-
-    def lifted(matrix: tuple[tuple[object, ...], ...]) -> Rigid:
-        rows = [[constant(ring, v, arm.field) for v in row] for row in matrix]
-        return [row[:3] for row in rows], [row[3] for row in rows]
-
-    turns = [j.motion is JointKind.REVOLUTE for j in arm.joints]
-    motion = turned(t, m, zero, one) if turns[joint] else slid(t, zero, one)
-    held = Held.of([lifted(c) for c in arm.chain.constants], turns, joint, motion)
+    arm, one = along.arm, constant(along.point[0].top.ring, 1, along.arm.field)
+    value = [variable(one.top.ring, name, arm.field) for name in (T, M)]
+    chain = chain_of(arm)
+    held = Held.of(chain, joint, value if chain.turns[joint] else value[:1], one.by)
     for result, needs in held.relations(along.point):
         if not any(_on_circle(need) for need in needs) and (p := _on_circle(result)):
             return p

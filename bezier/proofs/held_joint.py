@@ -9,11 +9,12 @@ added, subtracted and multiplied: polynomials along a curve, balls with derivati
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from bezier.proofs.square_roots import dot, image, together
+from bezier.proofs.arm_rows import ArmChain
+from bezier.proofs.square_roots import ONE, ZERO, Surd, dot, image, together
 
 Vector = Sequence[Any]
 Rigid = Any
@@ -32,9 +33,12 @@ class Held:
     rows: tuple[Vector, Vector]
 
     @staticmethod
-    def of(constants: Sequence[Rigid], turns: Sequence[bool], joint: int, motion: Rigid) -> Held:
-        """The arm constants[0] M(q_1) constants[1] … constants[3] with M of one joint (0, 1, 2) the given motion."""
-        parts, end = list(constants[:3]), constants[3][1]
+    def of(chain: ArmChain, joint: int, value: Sequence[Any], lift: Callable[[Surd], Any]) -> Held:
+        """The arm with one joint (0, 1, 2) at a cosine and a sine, or at a length; ``lift`` makes numbers of this kind
+        of its constants."""
+        turns, (zero, one) = chain.turns, map(lift, (ZERO, ONE))
+        motion = turned(*value, zero, one) if turns[joint] else slid(*value, zero, one)
+        *parts, (_, end) = (([list(map(lift, row)) for row in rows], list(map(lift, o))) for rows, o in chain.constants)
         if joint == 2:
             end = image(parts.pop(), image(motion, end))
         else:

@@ -20,11 +20,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
 from bezier.proofs import duals
 from bezier.proofs.arm_rows import ArmChain
-from bezier.proofs.held_joint import Held, Rigid, slid, turned
+from bezier.proofs.held_joint import Held
 from bezier.proofs.square_roots import ONE, ZERO, Polynomial, Surd, primes
 from qe.exact.balls import precision
 from qe.exact.descartes import most_roots_between
@@ -97,22 +96,10 @@ class KeptLimits:
         """The coefficients of a polynomial that vanishes wherever the joint can be at its limit; none if that is
         everywhere."""
         point = [Polynomial.of(map(Surd.rational, row)) for row in self._curves[curve]]
-        value = Surd.rational(limit)
-        parts = (ONE, ZERO) if self._chain.turns[joint] else (value,)
-        held = self._held(joint, parts, lambda c: Polynomial.of([c]))
+        value = (ONE, ZERO) if self._chain.turns[joint] else (Surd.rational(limit),)
+        held = Held.of(self._chain, joint, [Polynomial.of([c]) for c in value], lambda c: Polynomial.of([c]))
         holding = (relation for relation, needs in held.relations(point) if not any(needs))
         return rational_product(next((p for p in holding if p), Polynomial()))
-
-    def _held(self, joint: int, value: tuple[Any, ...], lift: Any) -> Held:
-        """With a joint held at a length, or at a cosine and a sine, which ``lift`` makes numbers of another kind."""
-
-        def lifted(motion: Rigid) -> Rigid:
-            return [[lift(c) for c in row] for row in motion[0]], [lift(c) for c in motion[1]]
-
-        zero, one = lift(ZERO), lift(ONE)
-        parts = [lift(v) if isinstance(v, Surd) else v for v in value]
-        motion = turned(parts[0], parts[1], zero, one) if len(parts) == 2 else slid(parts[0], zero, one)
-        return Held.of([lifted(c) for c in self._chain.constants], self._chain.turns, joint, motion)
 
     def _stands(self, part: JointStretch, limit: Fraction) -> bool:
         """Whether the joint is at its limit all along: it is halfway, by a relation that holds for all its values."""
@@ -120,15 +107,16 @@ class KeptLimits:
         if abs(middle - limit) > part.radius:
             return False
         turns, rows = self._chain.turns[joint], self._curves[part.curve]
-        probes = [self._held(joint, _circle(k) if turns else (Surd.rational(k),), lambda c: c) for k in PROBES]
+        probes = [
+            Held.of(self._chain, joint, _circle(k) if turns else (Surd.rational(k),), lambda c: c) for k in PROBES
+        ]
         point = [sum((c * s**k for k, c in enumerate(row)), Fraction(0)) for row in rows]
         listed = [[not any(needs) for _, needs in held.relations(list(map(Surd.rational, point)))] for held in probes]
         with precision(duals.BITS):
             value = duals.seed(duals.ball(middle) + duals.around(part.radius), 0, 1)
             parts = value.sine_cosine()[::-1] if turns else (value,)
-            relations = self._held(joint, parts, lambda c: duals.root_sum(c.terms, 1)).relations(
-                [duals.number(c, 1) for c in point]
-            )
+            held = Held.of(self._chain, joint, parts, lambda c: duals.root_sum(c.terms, 1))
+            relations = held.relations([duals.number(c, 1) for c in point])
             return any(
                 not relation.slope[0].contains(0)
                 for (relation, _), holds in zip(relations, zip(*listed, strict=True), strict=True)
