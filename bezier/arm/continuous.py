@@ -113,11 +113,8 @@ class ContinuousMotions:
         assert plane is not None, "only such arms have arcs"
         label = plane.label(solution)
         here = [k for k, a in enumerate(self.arcs) if a.curve == curve and a.low <= s <= a.high]
-        return frozenset(m.number for m in self.motions if any(_agree(label, m.labels[k]) for k in here))
-
-
-def _agree(one: Label, other: Label) -> bool:
-    return all(0 in (a, b) or a == b for a, b in zip(one, other, strict=True))
+        pairs = ((m.number, zip(label, m.labels[k], strict=True)) for m in self.motions for k in here)
+        return frozenset(number for number, sides in pairs if all(0 in (a, b) or a == b for a, b in sides))
 
 
 def continuous_motions(arm: Arm, curves: Mapping[str, Bezier]) -> ContinuousMotions | None:

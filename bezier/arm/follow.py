@@ -15,7 +15,6 @@ from fractions import Fraction
 from functools import lru_cache
 from operator import attrgetter
 
-from bezier.arm.choices import Value
 from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, JointKind
@@ -75,7 +74,8 @@ class Branch:
         for k, (value, other, size) in enumerate(zip(solution.values, near, piece.radius, strict=True)):
             if value is None:
                 return False
-            gap = abs(_gap(value, other))
+            gap = float(value) - other
+            gap = abs(gap if value.pair is None else wrapped(gap))
             lost = ROUNDING * (1 + abs(piece.centre[k]) + abs(piece.slope[k]) + abs(float(value)))
             if gap > size + lost:
                 return False
@@ -182,7 +182,3 @@ def _turned(solution: Solution, near: Sequence[float]) -> Box:
         low, high = pi_ends(96) if turns >= 0 else pi_ends(96)[::-1]
         result.append((value.ends[0] + 2 * turns * low, value.ends[1] + 2 * turns * high))
     return tuple(result)
-
-
-def _gap(value: Value, other: float) -> float:
-    return float(value) - other if value.pair is None else wrapped(float(value) - other)

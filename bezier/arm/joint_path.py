@@ -189,8 +189,9 @@ def _runs(branches: Sequence[tuple[Branch, ...]]) -> list[Run]:
         still: list[list[tuple[int, Branch]]] = []
         taken: set[int] = set()
         for run in open_runs:
-            last = run[-1][1]
-            following = next((i for i, b in enumerate(level) if i not in taken and _follows(last, b)), None)
+            last = run[-1][1].pieces[-1]
+            begun = (i for i, b in enumerate(level) if i not in taken and b.low == ZERO and joined(last, b.pieces[0]))
+            following = next(begun, None)
             if following is None:
                 closed.append(run)
             else:
@@ -244,7 +245,3 @@ def _check_joined(studied: Study, curve: int, runs: Sequence[Run], plane: Vertic
                 shown = not all(near)
             if not shown:
                 raise Unable(f"near s = {float(low):.12g} it is not decided which joint passes its limit first")
-
-
-def _follows(one: Branch, other: Branch) -> bool:
-    return one.high == ONE and other.low == ZERO and joined(one.pieces[-1], other.pieces[0])

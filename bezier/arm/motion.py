@@ -74,8 +74,9 @@ def joint_motion(path: JointPath, run: Run, law: TimeLaw, duration: Fraction, en
     low, high = ([[ZERO, ZERO] for _ in range(count)] for _ in range(2))
     for piece, first, second in _timed(run, law, ends):
         for j in range(count):
-            v, a = (_exact(bounds[j]) for bounds in (piece.velocity, piece.acceleration))
-            speed, push = _times(v, first), _plus(_times(a, _square(first)), _times(v, second))
+            v, a = ((Fraction(b[j][0]), Fraction(b[j][1])) for b in (piece.velocity, piece.acceleration))
+            (low_push, high_push), (below, above) = _times(a, _square(first)), _times(v, second)
+            speed, push = _times(v, first), (low_push + below, high_push + above)
             for k, value in enumerate((speed, push)):
                 high[j][k] = max(high[j][k], *map(abs, value))
                 low[j][k] = max(low[j][k], value[0], -value[1])
@@ -126,17 +127,9 @@ def _range(p: Sequence[Fraction], low: Fraction, high: Fraction, factor: Fractio
     return min(values), max(values)
 
 
-def _exact(bounds: tuple[float, float]) -> Range:
-    return Fraction(bounds[0]), Fraction(bounds[1])
-
-
 def _times(a: Range, b: Range) -> Range:
     products = [x * y for x in a for y in b]
     return min(products), max(products)
-
-
-def _plus(a: Range, b: Range) -> Range:
-    return a[0] + b[0], a[1] + b[1]
 
 
 def _square(a: Range) -> Range:

@@ -216,7 +216,7 @@ class MotionChain:
             high,
             tuple(centre),
             tuple(slope),
-            tuple(_below(r) for r in size),
+            tuple(-_above(-r) for r in size),
             tuple(_above(x.abs_upper()) for x in image),
             (_range(velocity[0] + rate), *map(_range, velocity[1:])),
             tuple(map(_range, acceleration)),
@@ -273,7 +273,3 @@ def _range(x: arb) -> Range:
 
 def _above(x: arb) -> float:
     return nextafter(float(x.upper()), inf)
-
-
-def _below(x: arb) -> float:
-    return nextafter(float(x.lower()), -inf)

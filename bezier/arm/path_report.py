@@ -84,11 +84,6 @@ def number_in_words(path: JointPath) -> str:
     return f"{text}, {f'at least {len(path.whole_runs)}' if kept is None else kept or 'none'} within the limits"
 
 
-def _motions_in_words(path: JointPath) -> list[str]:
-    """The same for people."""
-    return [*_numbers(path), *(f"  {line}" for line in excesses_in_words(path)), *_details(path)]
-
-
 def _numbers(path: JointPath) -> list[str]:
     count, kept = path.count, path.allowed_count
     boxes = f"boxes (which bound the velocities) hold {len(path.covering_runs)} of them"
@@ -246,7 +241,7 @@ def in_words(path: JointPath) -> list[str]:
             ]
         lines += [f"  at s = {short(p.s)}: {_special(p)}" for p in studied.specials if p.reasons]
         lines += [f"  at s = {short(s)}: {Reason.SINE.value} (nothing happens to the arm)" for s in studied.shared]
-    return lines + _motions_in_words(path)
+    return [*lines, *_numbers(path), *(f"  {line}" for line in excesses_in_words(path)), *_details(path)]
 
 
 def _verdict(studied: Study) -> str:

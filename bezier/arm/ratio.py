@@ -25,9 +25,6 @@ class Ratio:
     bottom: int
     field: NumberField
 
-    def _with(self, top: Poly, bottom: int) -> Ratio:
-        return Ratio(reduced(top, self.field), bottom, self.field)
-
     def _coerce(self, other: Any) -> Ratio:
         return other if isinstance(other, Ratio) else constant(self.top.ring, other, self.field)
 
@@ -55,7 +52,7 @@ class Ratio:
             number = Fraction(other)
             return Ratio(self.top * number.numerator, self.bottom * number.denominator, self.field)
         second = self._coerce(other)
-        return self._with(self.top * second.top, self.bottom * second.bottom)
+        return Ratio(reduced(self.top * second.top, self.field), self.bottom * second.bottom, self.field)
 
     __rmul__ = __mul__
 

@@ -142,9 +142,5 @@ class SignsAlong:
 
 
 def _zeros(p: Polynomial) -> dict[Number, RootPlace]:
-    places = roots_of(p) if p else []
-    return {_number(place): place for place in places if 0 <= place.root <= 1}
-
-
-def _number(place: RootPlace) -> Number:
-    return place.root.as_fraction() if place.root.is_rational else place.root
+    places = [place for place in (roots_of(p) if p else []) if 0 <= place.root <= 1]
+    return {p.root.as_fraction() if p.root.is_rational else p.root: p for p in places}

@@ -107,7 +107,7 @@ def _derivations(comparison: Comparison) -> list[Section]:
     if not comparison.derivations:
         return []
     rows: list[tuple[Text, Text]] = [
-        (derivation_title(name), _link(comparison, name)) for name in comparison.derivations
+        (derivation_title(name), parts.derivation_link(comparison, name)) for name in comparison.derivations
     ]
     rows += [
         (f"{name[0].upper()}{name[1:]}", f"not every step checked: {why}") for name, why in comparison.unproved.items()
@@ -120,10 +120,6 @@ def _derivations(comparison: Comparison) -> list[Section]:
 def derivation_title(name: str) -> str:
     """What a derivation is about, in the table and on its page."""
     return f"The elimination of {name}" if "formula" in name else f"{name[0].upper()}{name[1:]}"
-
-
-def _link(comparison: Comparison, name: str) -> Markup:
-    return parts.derivation_link(comparison.derivations[name], comparison.derivation_pages[name])
 
 
 def _problem(comparison: Comparison) -> Section:

@@ -167,7 +167,8 @@ def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fals
     parts = _Parts(watch)
     regions = _Regions(problem, parts)
     polygon, cubic_region = regions.part("(8)"), regions.part("(7)")
-    answers = parts.take("(8) lies in (8*)", 3, lambda seconds: _contained(problem, regions.plane, seconds))
+    implied = partial(whole_curve.implications, for_method(problem, METHODS[0]), regions.plane)
+    answers = parts.take("(8) lies in (8*)", 3, lambda seconds: implied(timeout=seconds))
     plan = sides[PlanMethod.QUADRATIC].plan
     volume = parts.take("volume of the region of (8)", 2, lambda seconds: _volume(plan, seconds))
     theorem = parts.take("existence theorem of (7)", 2, lambda seconds: existence(timeout=seconds))
@@ -259,10 +260,6 @@ class _Regions:
         step, question = f"planar region of {name}", planar_statements(self.problem, self.plane)[name]
         result = self.parts.take(step, SHARES[name], partial(_region, question, self.plane, self.parts.clock))
         return result or PlanarRegion(str(question), reason=self.parts.unfinished[step])
-
-
-def _contained(problem: Problem, plane: Plane, seconds: float) -> dict[str, Any]:
-    return whole_curve.implications(for_method(problem, METHODS[0]), plane, timeout=seconds)
 
 
 def planar_statements(problem: Problem, plane: Plane) -> dict[str, Statement]:

@@ -251,17 +251,16 @@ def summary_lines(quality: Quality | None) -> list[str]:
         return []
     bent = {name: value for name, value in quality.curvatures.items() if value is not None}
     name = max(bent, key=lambda n: float(bent[n]), default=None)
-    most = "" if name is None else f", largest curvature {_curvature_words(bent[name])} ({name})"
+    most = ""
+    if name is not None:
+        worst = f"{bent[name].shown()} 1/mm" if bent[name].is_bounded else "unbounded at a cusp"
+        most = f", largest curvature {worst} ({name})"
     lines = [f"length {quality.length.shown()} mm{most}"]
     if quality.motion is not None:
         lines.append(_motion_words(quality.motion))
         if not quality.motion.keeps_limits:
             lines.append(f"{quality.motion.reason}; kept at all times with {quality.motion.suggestion}")
     return lines
-
-
-def _curvature_words(value: Enclosure) -> str:
-    return f"{value.shown()} 1/mm" if value.is_bounded else "unbounded at a cusp"
 
 
 def _motion_words(motion: Motion) -> str:

@@ -20,7 +20,6 @@ from math import ceil
 from typing import Any
 
 from bezier.curves import bernstein as bs
-from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds, maximum, root_above, root_enclosure
 from bezier.paths.path import Path
 from qe.errors import InputError
@@ -65,7 +64,8 @@ class TimeLaw:
         if not 0 < ramp <= Fraction(1, 2):
             raise InputError("the ramp of a trapezoid takes more than 0 and at most 1/2 of the time")
         top = 1 / (1 - ramp)
-        rise, fall = (ZERO, ZERO, top / (2 * ramp)), _falling(top / (2 * ramp))
+        bend = top / (2 * ramp)
+        rise, fall = (ZERO, ZERO, bend), (1 - bend, 2 * bend, -bend)  # 1 - bend (1 - tau)^2
         if ramp == Fraction(1, 2):
             return TimeLaw((ZERO, ramp, ONE), (rise, fall))
         return TimeLaw((ZERO, ramp, 1 - ramp, ONE), (rise, (-top * ramp / 2, top), fall))
@@ -91,11 +91,6 @@ class TimeLaw:
                 return middle, middle
             low, high = (middle, high) if value < share else (low, middle)
         return low, high
-
-
-def _falling(factor: Fraction) -> Power:
-    """1 - factor (1 - tau)^2."""
-    return (1 - factor, 2 * factor, -factor)
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,15 +137,12 @@ def extremes(path: Path, law: TimeLaw, rel: Fraction = REL) -> Extremes:
     """Enclosures of max |X'| and max |X''| over the whole motion, for T = 1."""
     speed = acceleration = Enclosure(ZERO, ZERO)
     for stretch in stretches(path, law):
-        position = [composed(bs.to_power(c), stretch.parameter) for c in _coordinates(path.curves[stretch.curve])]
+        rows = zip(*path.curves[stretch.curve].points, strict=True)
+        position = [composed(bs.to_power(row), stretch.parameter) for row in rows]
         velocity = [bs.power_derivative(p) for p in position]
         speed = _larger(speed, _largest_norm(velocity, stretch, rel))
         acceleration = _larger(acceleration, _largest_norm([bs.power_derivative(v) for v in velocity], stretch, rel))
     return Extremes(speed, acceleration)
-
-
-def _coordinates(curve: Bezier) -> list[bs.Coefficients]:
-    return [curve.coordinate(i) for i in range(curve.dimension)]
 
 
 def composed(outer: Power, inner: Power) -> Power:

@@ -49,7 +49,7 @@ class Along:
         self.scale = lcm(*(c.denominator for c in known)) if rational else 1
         n = curve.degree
         self.coordinates = tuple(
-            tuple(_times(p[i], self.scale, rational) * comb(n, k) for k, p in enumerate(curve.points))
+            tuple((int(p[i] * self.scale) if rational else p[i]) * comb(n, k) for k, p in enumerate(curve.points))
             for i in range(curve.dimension)
         )
         self._monomials: dict[Exponents, Numbers] = {(0, 0, 0): (1,)}
@@ -85,10 +85,6 @@ class Along:
             found = _convolved(self._monomial(lower), self.coordinates[axis])
             self._monomials[exponents] = found
         return found
-
-
-def _times(value: Any, scale: int, rational: bool) -> Any:
-    return int(value * scale) if rational else value
 
 
 def _convolved(a: Sequence[Any], b: Sequence[Any]) -> Numbers:

@@ -58,10 +58,6 @@ class Path:
         """The time that a curve takes."""
         return self.durations.get(curve, Fraction(1))
 
-    def with_proofs(self, more: tuple[Proof, ...]) -> Path:
-        """The path with further containment proofs."""
-        return replace(self, proofs=self.proofs + more)
-
     @property
     def is_inside(self) -> bool:
         """Whether every whole curve is proved to lie in the workspace."""

@@ -15,6 +15,7 @@ from bezier.pictures.picture import COLOURS, GRID, INK, PALE, Chart
 from bezier.pictures.plot import VIEWS, new_figure, place, svg_text
 from bezier.report import html
 from bezier.report.html import Card, Page, Section
+from bezier.report.parts import decimal_point
 
 BAD = "#c0392b"
 _CURVES = tuple(COLOURS.values())
@@ -31,7 +32,7 @@ def page(
     """``lines``: what the command says; without curves the given points alone are drawn."""
     drawn = html.figures(pictures(chain, curves, shown), wide=True)
     rows = [
-        (f"C{k + 1}", str(chain.times[k]), html.joined(*(_point(p) for p in curve.points)))
+        (f"C{k + 1}", str(chain.times[k]), html.joined(*(decimal_point(p, 6) for p in curve.points)))
         for k, curve in enumerate(curves)
     ]
     said = Section("proved", "What is proved", html.bullets(lines), short="proved")
@@ -39,10 +40,6 @@ def page(
     sections = [Section("picture", "Picture", html.joined(drawn, listed), short="picture"), said]
     note = "Pictures are floating point; what is said of the chain is proved in exact arithmetic."
     return Page(title=f"Chain {title}", lead=lines[0], sections=sections, footer=note, cards=cards)
-
-
-def _point(point: Any) -> str:
-    return f"({', '.join(f'{float(c):.6g}' for c in point)})"
 
 
 def pictures(chain: Chain, curves: tuple[Bezier, ...], shown: PointRegion | None = None) -> list[Chart]:

@@ -35,7 +35,8 @@ CURVES = {"P": "first curve", "Q": "second curve", "R": "third curve"}
 
 def cards(plan: Plan) -> list[Card]:
     """Whether it is proved, and length, clearance, least time and curvature where the problem has them."""
-    result = [Card("result", RESULTS[plan.outcome], html.tone(plan.outcome.is_success), _proved(plan))]
+    proved = "proved, and accepted by the checker" if plan.certified else "NOT everything is proved"
+    result = [Card("result", RESULTS[plan.outcome], html.tone(plan.outcome.is_success), proved)]
     if plan.path is None:
         result.append(Card("radius", f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
     if plan.quality is not None:
@@ -53,10 +54,6 @@ def cards(plan: Plan) -> list[Card]:
         said = "kept on all curves" if kept else "not kept on all curves"
         result.append(Card(f"heights for {brief(strip.low)} ≤ x ≤ {brief(strip.high)}", said, html.tone(kept)))
     return [*result, _computed(plan)]
-
-
-def _proved(plan: Plan) -> str:
-    return "proved, and accepted by the checker" if plan.certified else "NOT everything is proved"
 
 
 def _computed(plan: Plan) -> Card:

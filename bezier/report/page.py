@@ -17,7 +17,7 @@ from bezier.obstacles import survey
 from bezier.obstacles.clearance import Clear
 from bezier.paths import heights
 from bezier.paths.path import Path, Proof, speed_at_joins
-from bezier.plans import Attempt, Method, Outcome, Plan
+from bezier.plans import Method, Outcome, Plan
 from bezier.report import first, html, joints, mathml, parts
 from bezier.report.first import duration
 from bezier.report.html import Page, Section, Text, toned
@@ -104,7 +104,8 @@ def obstacles(plan: Plan, drawing: Drawing | None) -> Section | None:
     content += [html.paragraph(said), html.table(head, map(_finding, plan.findings))]
     content.append(html.figures(drawing.clearance if drawing else (), wide=True))
     if len(plan.attempts) > 1:
-        content += [html.heading("What was tried"), html.table(("problem", "result"), map(_attempt, plan.attempts))]
+        rows = [(a.what, toned(a.detail, a.outcome is not None and a.outcome.is_success)) for a in plan.attempts]
+        content += [html.heading("What was tried"), html.table(("problem", "result"), rows)]
     return Section("obstacles", "Obstacles", html.joined(*content))
 
 
@@ -119,10 +120,6 @@ def _finding(finding: survey.Finding) -> tuple[Text, ...]:
     return (*first, toned(where, False), distance, "roots of the conditions along the curve")
 
 
-def _attempt(item: Attempt) -> tuple[Text, ...]:
-    return item.what, toned(item.detail, item.outcome is not None and item.outcome.is_success)
-
-
 def certificates(plan: Plan, claims: Mapping[str, str]) -> Section:
     """What was checked by whom; ``claims``: what each certificate of the method says."""
     words = {**CLAIMS, **claims}
@@ -131,8 +128,7 @@ def certificates(plan: Plan, claims: Mapping[str, str]) -> Section:
         result = "accepted" if verdict.accepted else f"rejected at {verdict.step}: {verdict.reason}"
         rows.append((words.get(name, name), CHECKER, toned(result, verdict.accepted)))
     for name in plan.derivations:
-        link = derivation_link(plan.derivations[name], plan.derivation_pages[name])
-        said = html.joined(f"The elimination of {name}:", link)
+        said = html.joined(f"The elimination of {name}:", derivation_link(plan, name))
         rows.append((said, CHECKER, toned("accepted", True)))
     for name, why in plan.unproved.items():
         rows.append((f"The elimination of {name}, step by step", "nobody", toned(f"not checked: {why}", None)))
@@ -159,8 +155,9 @@ def quality(plan: Plan, drawing: Drawing | None) -> Section | None:
     """Lengths, curvatures and the motion in time."""
     if plan.quality is None:
         return None
+    bends = plan.quality.curvatures
     rows = [
-        (curve_name(name), between(length), _bend(plan.quality.curvatures[name]))
+        (curve_name(name), between(length), "one point" if (bend := bends[name]) is None else between(bend))
         for name, length in plan.quality.lengths.items()
     ]
     content: list[Text] = [
@@ -170,10 +167,6 @@ def quality(plan: Plan, drawing: Drawing | None) -> Section | None:
     if plan.quality.motion is not None:
         content += _motion(plan.quality.motion)
     return Section("quality", "Length, curvature and motion", html.joined(*content), short="quality")
-
-
-def _bend(value: Enclosure | None) -> str:
-    return "one point" if value is None else between(value)
 
 
 def between(value: Enclosure) -> str:

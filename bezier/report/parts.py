@@ -16,7 +16,7 @@ from bezier.curves.workspace import Condition, HalfSpace, root_text
 from bezier.methods.control.system import Combination, OnPoint, System
 from bezier.methods.control.terms import named_multipliers
 from bezier.paths.path import Path
-from bezier.plans import Derived, Plan
+from bezier.plans import Plan
 from bezier.report import html, mathml
 from bezier.report.html import Section, Text
 
@@ -264,13 +264,12 @@ def derived(plan: Plan, name: str) -> Markup | None:
     """The line that links to the derivation of an answer; None where there is none."""
     if name not in plan.derivations:
         return None
-    link = derivation_link(plan.derivations[name], plan.derivation_pages[name])
-    return html.paragraph(html.joined("How it was found:", link))
+    return html.paragraph(html.joined("How it was found:", derivation_link(plan, name)))
 
 
-def derivation_link(item: Derived, file: str) -> Markup:
-    """A link to the page with the derivation of an answer."""
-    count = len(item.rules)
+def derivation_link(made: Any, name: str) -> Markup:
+    """A link to the page with the derivation of an answer of a plan or a comparison."""
+    count, file = len(made.derivations[name].rules), made.derivation_pages[name]
     few = ("no step was needed, checked", "1 step, with its theorem, checked")
     words = few[count] if count < len(few) else f"{count} steps, each with its theorem, all checked"
     return Markup('<a href="{}">{}</a>').format(file, words)

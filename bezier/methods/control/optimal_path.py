@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -166,7 +166,7 @@ def restored(fields: Mapping[str, Any], certified: Certified, members: Members) 
 def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
     """The curves with what is proved about them: workspace, joins, and the half-spaces that hold a whole curve."""
     path = assemble(system.curves(points), points, problem.workspace, durations=durations(problem))
-    return path.with_proofs(_whole_curves(problem, system, path))
+    return replace(path, proofs=path.proofs + _whole_curves(problem, system, path))
 
 
 def durations(problem: Problem) -> dict[str, Fraction]:

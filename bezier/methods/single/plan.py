@@ -11,7 +11,6 @@ from typing import Any
 import qe
 from bezier.curves.containment import Inside, Leaves, containment, examine_closely
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import Vector
 from bezier.curves.workspace import HalfSpace
 from bezier.input.task import Task, Values
 from bezier.methods.control.optimal_path import answered, verified
@@ -242,12 +241,8 @@ def printed_of(
 def path_of(problem: Problem, given: Task, values: Mapping[str, Values]) -> Path:
     """The path of one curve with its proofs."""
     drawn = curve(given, values)
-    return assemble({NAME: drawn}, points_of(drawn), problem.workspace)
-
-
-def points_of(drawn: Bezier) -> dict[str, Vector]:
-    """The control points by name."""
-    return {f"{NAME}{i}": point for i, point in enumerate(drawn.points)}
+    points = {f"{NAME}{i}": point for i, point in enumerate(drawn.points)}
+    return assemble({NAME: drawn}, points, problem.workspace)
 
 
 def heights_proved(given: Task, drawn: Bezier) -> dict[str, Inside]:
