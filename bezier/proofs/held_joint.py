@@ -36,9 +36,10 @@ class Held:
     def of(chain: ArmChain, joint: int, value: Sequence[Any], lift: Callable[[Surd], Any]) -> Held:
         """The arm with one joint (0, 1, 2) at a cosine and a sine, or at a length; ``lift`` makes numbers of this kind
         of its constants."""
-        turns, (zero, one) = chain.turns, map(lift, (ZERO, ONE))
-        motion = turned(*value, zero, one) if turns[joint] else slid(*value, zero, one)
-        *parts, (_, end) = (([list(map(lift, row)) for row in rows], list(map(lift, o))) for rows, o in chain.constants)
+        turns, zero, one = chain.turns, lift(ZERO), lift(ONE)
+        motion = turned(value[0], value[1], zero, one) if turns[joint] else slid(value[0], zero, one)
+        parts: list[Rigid] = [([[*map(lift, row)] for row in rows], [*map(lift, o)]) for rows, o in chain.constants]
+        _, end = parts.pop()
         if joint == 2:
             end = image(parts.pop(), image(motion, end))
         else:
