@@ -10,7 +10,7 @@ from math import ceil, floor, tau
 
 from bezier.arm.continuous import ContinuousMotions
 from bezier.arm.critical import Number
-from bezier.arm.follow import SPARE, Branch, chain_of, curve_powers
+from bezier.arm.follow import SPARE, Branch, chain_of
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Arm
 from bezier.arm.motion_chain import ProvedPiece
@@ -48,7 +48,7 @@ def limited_pieces(
         return
     points = [[tuple(exactly(c) for c in p) for p in curve.points] for curve in curves]
     tubes = checked.Tubes(Entry(arm_json(arm), "arm"), points, [joint.limits for joint in arm.joints])
-    tracks = [chain_of(arm).track(curve_powers(curve)) for curve in curves]
+    tracks = [chain_of(arm).track(checked.coefficients(curve.points)) for curve in curves]
     for k, branch in parts:
         open_ones = [_turned(piece, turns) for piece in reversed(branch.pieces)]
         while open_ones:

@@ -20,8 +20,7 @@ from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, JointKind
 from bezier.arm.motion_chain import MotionChain, ProvedPiece
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import exactly
-from bezier.proofs.branch import powers
+from bezier.proofs.branch import coefficients
 from qe.exact.point_values import pi_ends
 
 FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
@@ -89,11 +88,6 @@ def chain_of(arm: Arm) -> MotionChain:
     return MotionChain(arm.chain.constants, [j.motion is JointKind.REVOLUTE for j in arm.joints])
 
 
-def curve_powers(curve: Bezier) -> list[list[Fraction]]:
-    """The coefficients of 1, s, s², … of each coordinate of a curve with rational control points."""
-    return [powers([exactly(p[i]) for p in curve.points]) for i in range(curve.dimension)]
-
-
 def follow(
     arm: Arm,
     curve: Bezier,
@@ -110,7 +104,7 @@ def follow(
     goes on from): the first piece is linked to it. ``stops``: about where solutions meet, where steps get small.
     """
     chain = chain_of(arm)
-    track = chain.track(curve_powers(curve))
+    track = chain.track(coefficients(curve.points))
     forwards = end > at
     pieces: list[ProvedPiece] = []
     here, step = at, FIRST

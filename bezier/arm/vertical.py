@@ -29,7 +29,7 @@ from bezier.arm.ratio import Ratio, variable
 from bezier.arm.roots_of_squares import RootPlace, roots_of
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
-from bezier.proofs.joint_motions import SIGNS, Along, Between, Label, Plane, norm_of, target_of
+from bezier.proofs.joint_motions import Along, Between, Label, Plane, target_of
 from bezier.proofs.square_roots import Polynomial, dot
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.proof.entry import Entry
@@ -129,15 +129,12 @@ class SignsAlong:
 
     def between(self, s: Number) -> Between:
         """What holds there. Raises ``Unable`` if the second joint is free."""
-        (has_no_square, is_empty), quality, here = self.vanishes(s), self.signs.quality, self.at(s)
-        order, w, empty = 0, self.signs.w, frozenset[int]()
+        has_no_square, here, order, w = self.vanishes(s)[0], self.at(s), 0, self.signs.w
         while has_no_square and not here.value(w).sign():
             order, w = order + 1, w.derivative
-        if is_empty and quality is not None:
-            if self.arm.plane.may_fold and not here.value(norm_of(self.signs.distance, self.signs.w)).sign():
-                raise Unable(f"at s = {float(s):.9g} the second joint is free: which motions go on is not decided")
-            even, odd = (here.value(part).sign() for part in quality)
-            empty = frozenset({-even * odd} if even else SIGNS)
+        empty = self.signs.empty(lambda p: here.value(p).sign())
+        if empty is None:
+            raise Unable(f"at s = {float(s):.9g} the second joint is free: which motions go on is not decided")
         return Between(has_no_square, empty, (-1) ** (order // 2))
 
 

@@ -14,7 +14,6 @@ The certificate is a derivation: no point of the curve, for 0 <= t <= 1, is outs
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -70,17 +69,12 @@ class Leaves:
 Outcome = Inside | Leaves
 
 
-def polygon_inside(points: Iterable[Sequence[Any]], condition: Condition) -> bool:
-    """Whether every control point satisfies the (convex) condition, exactly."""
-    return all(sign(condition.margin(p)) >= 0 for p in points)
-
-
 def examine(curve: Bezier, condition: Condition) -> Outcome:
     """Prove the whole curve inside one convex condition, or find a parameter where it leaves.
 
     Complete: one of the two is always returned (``Unable`` only past the subdivision limit).
     """
-    if polygon_inside(curve.points, condition):
+    if all(sign(condition.margin(p)) >= 0 for p in curve.points):  # the condition is convex
         return Inside(condition, Argument.POLYGON, None)
     return examine_closely(curve, condition)
 
@@ -91,16 +85,6 @@ def examine_closely(curve: Bezier, condition: Condition) -> Outcome:
     if isinstance(outcome, Negative):
         return Leaves(condition, outcome.t, curve.point(outcome.t), outcome.value)
     return Inside(condition, Argument.BERNSTEIN if outcome.boxes else Argument.ROOTS, outcome)
-
-
-def examine_all(curve: Bezier, conditions: Iterable[Condition]) -> tuple[Outcome, ...]:
-    """``examine`` for each condition."""
-    return tuple(examine(curve, condition) for condition in conditions)
-
-
-def all_inside(outcomes: Iterable[Outcome]) -> bool:
-    """Whether no outcome is a violation."""
-    return all(isinstance(outcome, Inside) for outcome in outcomes)
 
 
 MAX_DEPTH = 14

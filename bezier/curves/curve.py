@@ -95,23 +95,11 @@ class Bezier:
         return total
 
 
-@dataclass(frozen=True, slots=True)
-class RationalFunction:
-    """numerator / denominator, both in Bernstein form on [0, 1]."""
+def curvature_squared(curve: Bezier) -> tuple[bs.Coefficients, bs.Coefficients]:
+    """kappa^2 = (|P'|^2 |P''|^2 - (P'.P'')^2) / |P'|^6, the squared curvature in any dimension (per length^2): both
+    sides in Bernstein form on [0, 1].
 
-    numerator: bs.Coefficients
-    denominator: bs.Coefficients
-
-    def at(self, t: Any) -> Any | None:
-        """The value at t, or None where the denominator is zero."""
-        below = bs.value(self.denominator, t)
-        return None if is_zero(below) else bs.value(self.numerator, t) / below
-
-
-def curvature_squared(curve: Bezier) -> RationalFunction:
-    """kappa^2 = (|P'|^2 |P''|^2 - (P'.P'')^2) / |P'|^6, the squared curvature in any dimension (per length^2).
-
-    Lagrange's identity makes the numerator |P' x P''|^2 in space. Undefined (None) where P' = 0.
+    Lagrange's identity makes the numerator |P' x P''|^2 in space. Undefined where P' = 0.
     """
     first = curve.hodograph()
     second = first.hodograph()
@@ -121,7 +109,7 @@ def curvature_squared(curve: Bezier) -> RationalFunction:
         mixed = bs.add(mixed, bs.multiply(first.coordinate(i), second.coordinate(i)))
     product = bs.multiply(speed, second.norm_squared())
     numerator = bs.add(product, bs.negate(bs.multiply(mixed, mixed)))
-    return RationalFunction(numerator, bs.multiply(speed, bs.multiply(speed, speed)))
+    return numerator, bs.multiply(speed, bs.multiply(speed, speed))
 
 
 class Smoothness(IntEnum):

@@ -18,7 +18,7 @@ from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.bernstein import Numbers, halves
-from bezier.curves.curve import Bezier, RationalFunction, curvature_squared
+from bezier.curves.curve import Bezier, curvature_squared
 from bezier.curves.nonnegative import isolate, refine
 from bezier.curves.scalar import is_zero, rational, sign
 from qe.errors import InputError, Unable
@@ -239,16 +239,16 @@ def curvature_enclosure(curve: Bezier, rel: Fraction = REL) -> Enclosure:
     kappa^2 are divided out; a root of the denominator that remains makes the curvature unbounded.
     Raises ``InputError`` for a curve that is one point, ``Unable`` when the width is not reached.
     """
-    squared = curvature_squared(curve)
-    if all(map(is_zero, squared.denominator)):
+    top, bottom = curvature_squared(curve)
+    if all(map(is_zero, bottom)):
         raise InputError("a curve that is one point has no curvature")
-    if all(map(is_zero, squared.numerator)):
+    if all(map(is_zero, top)):
         return Enclosure(Fraction(0), Fraction(0))
     if not is_regular(curve):
-        squared = _reduced(squared)
-        if _has_root(squared.denominator):
+        top, bottom = _reduced(top, bottom)
+        if _has_root(bottom):
             return Enclosure(Fraction(0), None)
-    return root_enclosure(*maximum(squared.numerator, squared.denominator, rel).finite)
+    return root_enclosure(*maximum(top, bottom, rel).finite)
 
 
 def is_regular(curve: Bezier) -> bool:
@@ -261,12 +261,12 @@ def _has_root(b: bs.Coefficients) -> bool:
     return is_zero(b[0]) or is_zero(b[-1]) or (bs.sign_changes(b) > 0 and bool(isolate(b)))
 
 
-def _reduced(function: RationalFunction) -> RationalFunction:
-    """The same function without common factors, the denominator nonnegative on [0, 1]."""
-    top, bottom = bs.to_power(function.numerator), bs.to_power(function.denominator)
-    common = bs.gcd(top, bottom)
-    sides = [bs.from_power(bs.divide(side, common)[0]) for side in (top, bottom)]
+def _reduced(*quotient: bs.Coefficients) -> list[bs.Coefficients]:
+    """Numerator and denominator without common factors, the denominator nonnegative on [0, 1]."""
+    powers = list(map(bs.to_power, quotient))
+    common = bs.gcd(*powers)
+    sides = [bs.from_power(bs.divide(side, common)[0]) for side in powers]
     # a gcd with an odd power of 1 - t or with negative sign would turn both signs around
     if sign(sides[1][0]) < 0:
         sides = [bs.negate(side) for side in sides]
-    return RationalFunction(sides[0], sides[1])
+    return sides

@@ -31,7 +31,7 @@ from bezier.curves.scalar import Vector, add, dot, exactly, scale, subtract
 from bezier.input.numbers import Literal, NotANumber, describe, read, shorten
 from bezier.input.toml_table import POINT, Table
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
-from bezier.obstacles.obstacle import Box, Constraint, Exponents, Obstacle, ObstacleKind, Piece, from_body
+from bezier.obstacles.obstacle import Box, Constraint, Obstacle, ObstacleKind, Piece, from_body
 from bezier.obstacles.polyhedron import (
     MAX_PARTS,
     Point,
@@ -43,6 +43,7 @@ from bezier.obstacles.polyhedron import (
     segment,
 )
 from qe.errors import InputError, Unable
+from qe.exact.ring import Ring
 from qe.formula.normal import nnf
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import is_quantifier_free
@@ -90,6 +91,7 @@ def _shadow(start: Vector, along: Vector, box: Box) -> tuple[Fraction, Fraction]
 
 
 NAMES = ("x", "y", "z")
+SPACE = Ring.of(NAMES)
 MAX_PIECES = 200
 ELIMINATION_SECONDS = 20.0
 Constraints = tuple[Constraint, ...]
@@ -155,7 +157,7 @@ def _check_number(pieces: list[Constraints]) -> None:
 
 
 def _of_atom(atom: Atom) -> list[Constraints]:
-    up = _terms(atom)
+    up = dict(atom.poly.convert(SPACE).terms())
     down = {e: -c for e, c in up.items()}
     match atom.relation:
         case Relation.GE | Relation.GT:
@@ -165,16 +167,6 @@ def _of_atom(atom: Atom) -> list[Constraints]:
         case Relation.EQ:
             return [(Constraint.of(up), Constraint.of(down))]
     return [(Constraint.of(up, True),), (Constraint.of(down, True),)]
-
-
-def _terms(atom: Atom) -> dict[Exponents, Fraction]:
-    names = atom.poly.ring.names
-    result: dict[Exponents, Fraction] = {}
-    for exponents, coefficient in atom.poly.terms():
-        powers = dict(zip(names, exponents, strict=True))
-        key = powers.get("x", 0), powers.get("y", 0), powers.get("z", 0)
-        result[key] = result.get(key, Fraction(0)) + coefficient
-    return result
 
 
 COMMON = ("kind", "name", "margin", "above")

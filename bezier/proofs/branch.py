@@ -99,9 +99,9 @@ def sentence(evidence: Entry) -> Sentence:
     return with_roots(ring, listed, conj(parts)), TRUE
 
 
-def coefficients(points: Points) -> list[list[Fraction]]:
+def coefficients(points: Sequence[Sequence[Any]]) -> list[list[Fraction]]:
     """Of the coordinates of a curve, as polynomials in its parameter."""
-    return [powers([p[i] for p in points]) for i in range(3)]
+    return [powers([Fraction(p[i]) for p in points]) for i in range(3)]
 
 
 def read_curve(entry: Entry) -> Points:

@@ -28,7 +28,7 @@ number of chains from start to goal.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -164,6 +164,15 @@ class Along:
         even, odd, norm = (p.at(s).sign() for p in (*self.quality, self.norm or Polynomial()))
         # |A| > |B √W| or less: the sign of A + σ √W B is that of the larger one
         return [(side, end) for side in SIGNS if (even if norm > 0 else side * odd) > 0 for end in SIGNS]
+
+    def empty(self, sign: Callable[[Polynomial], int]) -> frozenset[int] | None:
+        """The σ with Q = 0 where polynomials have these signs; None where the second joint is free."""
+        if self.quality is None or self.norm is None or sign(self.norm):
+            return frozenset()
+        if self.plane.may_fold and not sign(norm_of(self.distance, self.w)):
+            return None
+        even, odd = map(sign, self.quality)
+        return frozenset({-even * odd} if even else SIGNS)  # N = A² - W B², so that A = 0 where W = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -331,15 +340,9 @@ def _place(along: Along, entry: Entry) -> tuple[Fraction, Fraction, Between]:
 def joined(one: Along, other: Along, entry: Entry) -> Between:
     """What holds where the next curve begins."""
     end = Fraction(1)
-    if one.quality is None:
-        empty = frozenset[int]()
-    else:
-        even, odd, w = (p.at(end) for p in (*one.quality, one.w))
-        is_empty = one.norm is not None and not one.norm.at(end)
-        if is_empty and one.plane.may_fold and not norm_of(one.distance, one.w).at(end):
-            raise entry.fail("the second joint is free where the curve begins")
-        sides = SIGNS if not even or not w else (-even.sign() * odd.sign(),)
-        empty = frozenset(sides if is_empty else ())
+    empty = one.empty(lambda p: p.at(end).sign())
+    if empty is None:
+        raise entry.fail("the second joint is free where the curve begins")
     if one.w.at(end):
         return Between(False, empty, 1)
     turn = 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -11,7 +11,9 @@ from typing import Any
 from hypothesis import strategies as st
 
 from bezier.arm.model import Arm
+from bezier.curves.containment import Inside, examine
 from bezier.curves.curve import Bezier
+from bezier.curves.workspace import Condition
 from bezier.input.task import Axis, Task, index_pair, task
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.obstacle import Obstacle, ObstacleKind, from_body
@@ -113,6 +115,11 @@ def curves_of(*curves: Points) -> dict[str, Bezier]:
     """The curves with these control points."""
     exact = ([tuple(Fraction(str(c)) for c in p) for p in points] for points in curves)
     return {f"curve {k}": Bezier.of(points) for k, points in enumerate(exact)}
+
+
+def stays(curve: Bezier, conditions: Iterable[Condition]) -> bool:
+    """Whether the whole curve is proved to satisfy the conditions."""
+    return all(isinstance(examine(curve, condition), Inside) for condition in conditions)
 
 
 def at(*values: Any) -> Point:

@@ -21,7 +21,6 @@ from bezier.compare.output import NOT_REACHED, bracket, duration, notes, rows, t
 from bezier.compare.pictures import outline
 from bezier.compare.planar import Plane
 from bezier.curves.area import convex_area
-from bezier.curves.containment import all_inside, examine_all
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.scalar import dot
@@ -31,6 +30,7 @@ from bezier.methods.quadratic import formula as quadratic
 from bezier.plans import Clock
 from bezier.problem import PlanMethod, Problem, read_problem
 from qe.errors import BudgetExceeded, InputError, Unable
+from tests.bezier.made import stays
 from tests.tables import each
 
 CUBIC = """\
@@ -250,7 +250,7 @@ def inside(given: Problem, plane: Plane, u: Fraction, v: Fraction) -> bool:
     """Whether the whole curves stay in the workspace, by ``bezier.curves.containment``."""
     system = quadratic.system(given)
     curves = system.curves(system.points([plane.point(u, v)]))
-    return all(all_inside(examine_all(curve, given.workspace.conditions)) for curve in curves.values())
+    return all(stays(curve, given.workspace.conditions) for curve in curves.values())
 
 
 def test_region_is_where_the_curves_stay_inside(solved: tuple[Problem, Plane, qe.Region]) -> None:
@@ -325,7 +325,7 @@ def test_cubic_curves_by_the_engine_and_by_subdivision(name: str) -> None:
     points, square = CURVES[name]
     curve = Bezier.of(points)
     for condition in (Ball((Fraction(0),) * 3, Fraction(square)), HalfSpace((0, 1, 0), Fraction(1, 4))):
-        expected = all_inside(examine_all(curve, [condition]))
+        expected = stays(curve, [condition])
         assert whole_curve.curve_inside(curve, [condition], timeout=120) == expected
     assert whole_curve.curve_inside(curve, [Ball((Fraction(0),) * 3, Fraction(square))]) == (name != "leaves")
 

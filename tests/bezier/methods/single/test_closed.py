@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 import qe
-from bezier.curves.containment import all_inside, examine_all
 from bezier.curves.scalar import dot
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.task import Task, task
@@ -24,7 +23,7 @@ from bezier.methods.single.formula import VALUE
 from bezier.methods.single.program import choose, curve, dips, weights_at
 from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, LinearRow, certificate, solve
 from qe.errors import InputError, InternalError, Unable
-from tests.bezier.made import FLAT, axis, tasks, unit_task
+from tests.bezier.made import FLAT, axis, stays, tasks, unit_task
 from tests.tables import each
 
 F = Fraction
@@ -47,7 +46,7 @@ def check_curve(given_task, workspace, found):
         between = found.curve.point(low + F(k, 128) * (high - low))
         for of in given_task.raised:
             assert between[1 + given_task.axes.index(of)] >= of.height
-    assert not dips(given_task, found.curve) and all_inside(examine_all(found.curve, workspace.conditions))
+    assert not dips(given_task, found.curve) and stays(found.curve, workspace.conditions)
     for of in given_task.raised:
         row = found.curve.coordinate(1 + given_task.axes.index(of))
         assert all(row[i] >= given_task.lower_bound(of, i) for i in range(1, given_task.degree))
@@ -114,7 +113,7 @@ def test_the_ball_moves_the_optimum():
     given_task = task(6, (F(-3), F(3)), (F(-1), F(1)), [axis("y", 0, 0, 2), axis("z", 0, 0, 2)])
     workspace = Workspace(WorkspaceKind.HEMISPHERE, F(9))
     printed = curve(given_task, {of.name: choose(given_task, of).values for of in given_task.raised})
-    assert not dips(given_task, printed) and not all_inside(examine_all(printed, workspace.conditions))
+    assert not dips(given_task, printed) and not stays(printed, workspace.conditions)
     found = close(given_task, workspace)
     check_curve(given_task, workspace, found)
     assert found.is_optimal and found.value == F(2027, 160)
