@@ -14,6 +14,7 @@ The certificate is a derivation: no point of the curve, for 0 <= t <= 1, is outs
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -85,6 +86,11 @@ def examine_closely(curve: Bezier, condition: Condition) -> Outcome:
     if isinstance(outcome, Negative):
         return Leaves(condition, outcome.t, curve.point(outcome.t), outcome.value)
     return Inside(condition, Argument.BERNSTEIN if outcome.boxes else Argument.ROOTS, outcome)
+
+
+def examine_all(curve: Bezier, conditions: Iterable[Condition]) -> tuple[Outcome, ...]:
+    """``examine`` for each condition."""
+    return tuple(examine(curve, condition) for condition in conditions)
 
 
 MAX_DEPTH = 14

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from bezier.curves.containment import Inside, Leaves, Outcome, containment, examine
+from bezier.curves.containment import Inside, Leaves, Outcome, containment, examine_all
 from bezier.curves.curve import Bezier, Join, Smoothness, join
 from bezier.curves.enclosure import Enclosure, maximum, root_enclosure
 from bezier.curves.nonnegative import UNIT, Interval, events_of
@@ -91,7 +91,7 @@ def assemble(
 
 def prove(curves: Mapping[str, Bezier], conditions: tuple[Condition, ...]) -> tuple[Proof, ...]:
     """The containment of each curve in each condition."""
-    return tuple(Proof(name, examine(curve, condition)) for name, curve in curves.items() for condition in conditions)
+    return tuple(Proof(name, outcome) for name, curve in curves.items() for outcome in examine_all(curve, conditions))
 
 
 def speed_at_joins(path: Path) -> dict[str, Vector]:

@@ -121,7 +121,7 @@ def joint_sequence() -> Iterator[Evidence]:
     yield Fact("every point of the curve is reached, one motion is kept from start to goal", plan.is_proved)
     assert plan.motion is not None, "it is proved"
     rows = [
-        (joint.name, f"{float(v.high):.4f}", f"{float(a.high):.4f}")
+        (joint.name, f"{float(v.finite[1]):.4f}", f"{float(a.finite[1]):.4f}")
         for joint, v, a in zip(plan.motion.joints, plan.motion.speeds, plan.motion.accelerations, strict=True)
     ]
     yield Table(("joint", "at most, rad/s", "at most, rad/s²"), rows)

@@ -11,7 +11,7 @@ from typing import Any
 from hypothesis import strategies as st
 
 from bezier.arm.model import Arm
-from bezier.curves.containment import Inside, examine
+from bezier.curves.containment import Inside, examine_all
 from bezier.curves.curve import Bezier
 from bezier.curves.workspace import Condition
 from bezier.input.task import Axis, Task, index_pair, task
@@ -119,7 +119,7 @@ def curves_of(*curves: Points) -> dict[str, Bezier]:
 
 def stays(curve: Bezier, conditions: Iterable[Condition]) -> bool:
     """Whether the whole curve is proved to satisfy the conditions."""
-    return all(isinstance(examine(curve, condition), Inside) for condition in conditions)
+    return all(isinstance(outcome, Inside) for outcome in examine_all(curve, conditions))
 
 
 def at(*values: Any) -> Point:

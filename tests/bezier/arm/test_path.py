@@ -261,11 +261,12 @@ def test_another_branch_does_not_join(straight: JointPath) -> None:
 
 def test_the_producer_refuses_wide_steps(straight: JointPath) -> None:
     """The whole line in one piece cannot be proved."""
-    from bezier.arm.follow import chain_of, curve_powers
+    from bezier.arm.follow import chain_of
+    from bezier.proofs.branch import coefficients
 
     branch = straight.branches[0][0]
     chain = chain_of(ARM)
-    assert chain.piece(chain.track(curve_powers(STRAIGHT)), ZERO, ONE, branch.at(Fraction(1, 2))) is None
+    assert chain.piece(chain.track(coefficients(STRAIGHT.points)), ZERO, ONE, branch.at(Fraction(1, 2))) is None
 
 
 def test_the_command() -> None:
