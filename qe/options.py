@@ -154,7 +154,7 @@ class Helpers(Protocol):
     width: int
 
     def ready(self) -> bool:
-        """Whether they run. They are started beside the work when that has taken long; nothing waits for them."""
+        """Whether they run. They are started next to the work when that has taken long; nothing waits for them."""
         ...
 
     def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
@@ -166,16 +166,16 @@ class Helpers(Protocol):
 
 
 def lost(value: object) -> None:
-    """Puts nothing by."""
+    """Keeps nothing."""
 
 
 class Budget:
     """Soft limits, checked between FLINT calls: ``check`` raises ``BudgetExceeded``.
 
-    ``seconds`` counts from construction. ``work`` bounds what ``spend`` is told: one unit is a cell of a decomposition,
+    ``seconds`` counts from construction. ``work`` bounds what ``spend`` gets: one unit is a cell of a decomposition,
     or about the time of one; unlike seconds it is the same on every machine, so what depends on it is too.
     A budget for a part of the work (``share``, ``part``) sees the deadline, the limit on work and the cancellation of
-    the budget that it came from, and has its ``helpers``. ``keep`` puts by what the work has found, in case that a
+    the budget that it came from, and has its ``helpers``. ``keep`` stores what the work has found, in case that a
     limit ends it before it is done: then that is its result.
     """
 

@@ -148,14 +148,6 @@ def _names(symbols: Any) -> list[str]:
     return [arguments.name(symbol, "symbols") for symbol in _listed(symbols)]
 
 
-def _boolean(part: Any) -> Any:
-    import sympy
-
-    if isinstance(part, bool):  # what SymPy's own functions return for a relation that is decided
-        return sympy.true if part else sympy.false
-    return part
-
-
 def _symbols_of(given: Condition) -> dict[str, Any]:
     return {s.name: s for part in _conditions(given) for s in getattr(part, "free_symbols", ())}
 
@@ -183,7 +175,8 @@ class _Question:
     def _of(given: Condition) -> _Question:
         import sympy
 
-        parts, symbols = [_boolean(part) for part in _conditions(given)], _symbols_of(given)
+        parts, symbols = _conditions(given), _symbols_of(given)
+        parts = [sympy.sympify(part) if isinstance(part, bool) else part for part in parts]  # decided by SymPy
         constants: dict[str, Any] = {}
         try:
             formulas = [from_sympy(part) for part in parts]

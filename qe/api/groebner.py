@@ -34,11 +34,7 @@ class Order(Enum):
     LEX = "lex"
 
 
-_ORDERS = {
-    Order.GREVLEX: MonomialOrder.DEGREVLEX,
-    Order.GRLEX: MonomialOrder.DEGLEX,
-    Order.LEX: MonomialOrder.LEX,
-}
+_ORDERS = dict(zip(Order, (MonomialOrder.DEGREVLEX, MonomialOrder.DEGLEX, MonomialOrder.LEX), strict=True))
 
 
 @with_settings(Limited)
@@ -130,7 +126,9 @@ def read_system(
     lists = [_polynomials(given, what, known) for what, given in offers.items()]
     if not lists[0]:
         raise InputError("polys: at least one polynomial expected, none found")
-    occurring = {what: {n for p in group for n in _names(p)} for what, group in zip(offers, lists, strict=True)}
+    occurring = {
+        what: {p.ring.names[i] for p in group for i in p.variables} for what, group in zip(offers, lists, strict=True)
+    }
     others = tuple(sorted(set[str]().union(*occurring.values()) - {*largest, *fixed})) if named is None else named
     _check_names(largest, others, fixed, occurring)
     ring = Ring.of((*fixed, *reversed(others), *reversed(largest)))
@@ -171,10 +169,6 @@ def _polynomials(given: object, what: str, known: Container[str]) -> list[Poly]:
         read_polynomial(p, f"{what}: entry {k}", known=known)[0]
         for k, p in enumerate(arguments.by_place(given, what), 1)
     ]
-
-
-def _names(poly: Poly) -> list[str]:
-    return [poly.ring.names[i] for i in poly.variables]
 
 
 def algebraic(value: object, what: str) -> RealAlgebraic:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, Unpack, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, Unpack, overload
 
 from qe import arguments
 from qe.api.input import AnyFormula, names_typed, note_doubts, read_objective, read_posed_constraints, warned
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 Names = str | Iterable[Any]
 Way = Literal["auto", "convex", "elimination"]
 Kind = TypeVar("Kind")
+AnyOptimum: TypeAlias = "Optimum | GlobalOptimum | ParametricOptimum"
 
 
 @overload
@@ -55,7 +56,7 @@ def minimize(
     parameters: Names | None = None,
     method: Way = "auto",
     **settings: Unpack[Optimisation],
-) -> Optimum | GlobalOptimum | ParametricOptimum:
+) -> AnyOptimum:
     """The exact global minimum of a term where it has a value and the constraints hold.
 
     ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; a polynomial, or made
@@ -87,7 +88,7 @@ def maximize(
     parameters: Names | None = None,
     method: Way = "auto",
     **settings: Unpack[Optimisation],
-) -> Optimum | GlobalOptimum | ParametricOptimum:
+) -> AnyOptimum:
     """The exact global maximum; see ``minimize``."""
     return _best(-1, objective, constraints, parameters, method, settings)
 
@@ -96,10 +97,10 @@ def maximize(
 class Extremes:
     """The ``least`` and the ``greatest`` value, each as ``minimize`` and ``maximize`` give it."""
 
-    least: Optimum | GlobalOptimum | ParametricOptimum
-    greatest: Optimum | GlobalOptimum | ParametricOptimum
+    least: AnyOptimum
+    greatest: AnyOptimum
 
-    def __iter__(self) -> Iterator[Optimum | GlobalOptimum | ParametricOptimum]:
+    def __iter__(self) -> Iterator[AnyOptimum]:
         return iter((self.least, self.greatest))
 
     def __str__(self) -> str:
@@ -127,7 +128,7 @@ def _best(
     parameters: Names | None,
     method: Way,
     settings: Optimisation,
-) -> Optimum | GlobalOptimum | ParametricOptimum:
+) -> AnyOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     limits = limits_of(settings)
     read = read_under(limits, partial(read_posed_constraints, constraints), constraints)
@@ -160,39 +161,36 @@ def _optimum(
     method: Way,
     check: bool,
     budget: Budget,
-) -> Optimum | GlobalOptimum | ParametricOptimum:
-    optimum: Optimum | GlobalOptimum | ParametricOptimum
+) -> AnyOptimum:
+    solved: AnyOptimum | None = None
     if parameters is not None:
         from qe.optimization.parametric_optimum import optimum_of
 
-        optimum = optimum_of(sign, Goal.of(term, conditions, parameters), budget=budget, check=check)
-    else:
-        optimum = _free_optimum(sign, term, conditions, method, check, budget)
-    return _with_guarantee(optimum, budget) if check else optimum
+        solved = optimum_of(sign, Goal.of(term, conditions, parameters), budget=budget, check=check)
+    elif method != "elimination":
+        solved = _convex(sign, term, conditions, method == "convex", budget)
+    if solved is None:
+        from qe.optimization.global_optimum import best
+
+        solved = best(sign, Goal.of(term, conditions), budget=budget, check=check)
+    return _with_guarantee(solved, budget) if check else solved
 
 
-def _free_optimum(
-    sign: int, term: Objective, conditions: Formula, method: Way, check: bool, budget: Budget
-) -> Optimum | GlobalOptimum:
-    """The optimum without parameters."""
-    if term.polynomial is not None and method != "elimination":
+def _convex(sign: int, term: Objective, conditions: Formula, only: bool, budget: Budget) -> Optimum | None:
+    """The optimum of a convex problem; None for any other, unless it is to be solved as one ``only``."""
+    try:
+        if term.polynomial is None:
+            raise NotConvex("the objective is no polynomial")
         poly, scale = term.polynomial
-        try:
-            solved = convex.minimize if sign > 0 else convex.maximize
-            return solved(poly, conditions, scale=scale, budget=budget, near=True)
-        except NotConvex:
-            if method == "convex":
-                raise
-    elif method == "convex":
-        raise NotConvex("the objective is no polynomial")
-    from qe.optimization.global_optimum import best
-
-    return best(sign, Goal.of(term, conditions), budget=budget, check=check)
+        solved = convex.minimize if sign > 0 else convex.maximize
+        return solved(poly, conditions, scale=scale, budget=budget, near=True)
+    except NotConvex:
+        if only:
+            raise
+        return None
 
 
-def _with_guarantee(
-    optimum: Optimum | GlobalOptimum | ParametricOptimum, budget: Budget
-) -> Optimum | GlobalOptimum | ParametricOptimum:
+def _with_guarantee(optimum: AnyOptimum, budget: Budget) -> AnyOptimum:
     """The optimum with what the checker says of its certificate."""
     from qe.api.verify import judged
     from qe.optimization.global_optimum import POINT, GlobalOptimum

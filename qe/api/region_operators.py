@@ -19,7 +19,7 @@ from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import simplest, square_root
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import conj, convert, disj, exists, forall, iff, implies, neg
+from qe.formula.build import JOINS, conj, convert, exists, forall, iff, implies, neg
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import Constant, Formula, Relation
@@ -43,12 +43,7 @@ T = TypeVar("T")
 def joined(left: Region, way: str, right: object) -> Region:
     """The set that an operator makes of two."""
     f, g = _operands(left, right, left.limits.begun(time.monotonic()))
-    made = {
-        "and": lambda: conj((f, g)),
-        "or": lambda: disj((f, g)),
-        "minus": lambda: conj((f, neg(g))),
-        "xor": lambda: neg(iff(f, g)),
-    }[way]()
+    made = conj((f, neg(g))) if way == "minus" else JOINS[way](f, g)
     return _region(left, made, left.order, None)
 
 
@@ -159,7 +154,7 @@ def exact_volume(region: Region, timeout: float | None) -> Any:
 def sample(region: Region, seed: int, timeout: float | None) -> dict[str, Number]:
     """A random point of a region."""
     start = arguments.integers([seed], "seed")[0]
-    point = _under(region, region.condition, timeout, partial(_walked, region, start))
+    point = _under(region, region.condition, timeout, partial(walked, region, random.Random(start)))
     if point is None:
         raise InputError("an empty region has no points")
     return point
@@ -187,12 +182,11 @@ def _components(region: Region, budget: Budget) -> list[Region]:
     return [Region.of(part, region.order, budget=budget, limits=region.limits) for part in parts]
 
 
-def _of_formula(make: topology.Operation, f: Formula, order: tuple[str, ...], limits: Limits, budget: Budget) -> Region:
-    return described(make(f, order, budget), order, budget, limits)
-
-
-def _of_cells(choose: planar.Choice, f: Formula, order: tuple[str, ...], limits: Limits, budget: Budget) -> Region:
-    return Region.of(planar.formula_of(f, order, choose, budget), order, budget=budget, limits=limits)
+def _made(region: Region, chosen: planar.Choice, formula: topology.Operation, budget: Budget) -> Region:
+    f, order = nnf(region.formula), region.order
+    if len(order) > planar.DIMENSIONS:
+        return described(formula(f, order, budget), order, budget, region.limits)
+    return Region.of(planar.formula_of(f, order, chosen, budget), order, budget=budget, limits=region.limits)
 
 
 def _distance(square: Poly, factor: Fraction, conditions: Formula, budget: Budget) -> Number:
@@ -214,10 +208,6 @@ def _distance(square: Poly, factor: Fraction, conditions: Formula, budget: Budge
     if value is None:
         raise InternalError("a sum of squares has no infimum")
     return square_root(simplest(value))
-
-
-def _walked(region: Region, seed: int, budget: Budget) -> dict[str, Number] | None:
-    return walked(region, random.Random(seed), budget)
 
 
 # --- parts -------------------------------------------------------------------------------------------------------
@@ -255,10 +245,7 @@ def _operands(left: Region, right: object, limits: Limits) -> tuple[Formula, For
 
 def _topological(region: Region, chosen: planar.Choice, formula: topology.Operation, timeout: float | None) -> Region:
     """The union of ``chosen`` cells where there are few variables, else what a formula says."""
-    f, order = nnf(region.formula), region.order
-    if len(order) > planar.DIMENSIONS:
-        return _under(region, f, timeout, partial(_of_formula, formula, f, order, region.limits))
-    return _under(region, f, timeout, partial(_of_cells, chosen, f, order, region.limits))
+    return _under(region, region.formula, timeout, partial(_made, region, chosen, formula))
 
 
 def _numbers(region: Region, given: Mapping[str, Coordinate], what: str) -> dict[str, Number]:
@@ -269,8 +256,7 @@ def _numbers(region: Region, given: Mapping[str, Coordinate], what: str) -> dict
 
 def _equal(name: str, number: RealAlgebraic) -> Formula:
     """That a variable has this value."""
-
-    def fail(message: str, at: int) -> InputError:
-        return InputError(message)
-
-    return lower(s.Comparison([s.Name(name, -1), s.Algebraic(number, -1)], [Relation.EQ], -1), fail)
+    return lower(
+        s.Comparison([s.Name(name, -1), s.Algebraic(number, -1)], [Relation.EQ], -1),
+        lambda message, _: InputError(message),
+    )

@@ -180,7 +180,7 @@ def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
     """What the JSON of every answer says."""
     return {
         "truth": answer.truth,
-        "witness": _point(answer.witness),
+        "witness": None if answer.witness is None else {name: str(value) for name, value in answer.witness.items()},
         "guarantee": answer.guarantee.name.lower(),
         "trusts": list(answer.trusts),
         "stats": plain(answer.stats),
@@ -266,10 +266,6 @@ def certificate_text(answer: object) -> str:
     return str(certificate.to_json())
 
 
-def _point(point: Mapping[str, object] | None) -> dict[str, str] | None:
-    return None if point is None else {name: str(value) for name, value in point.items()}
-
-
 def _story(request: Request, answer: Answer, seconds: float) -> tuple[str, ...]:
     """For people who want it: the witness, the guarantee, and the steps that led to the answer."""
     if request.json or not request.explain:
@@ -283,7 +279,7 @@ def _story(request: Request, answer: Answer, seconds: float) -> tuple[str, ...]:
 
 
 def _rests(trusts: Sequence[str]) -> Iterator[str]:
-    """What has to be believed beside the kernel, a line each."""
+    """What has to be believed besides the kernel, a line each."""
     from qe.certify.registry import RULES
     from qe.kernel.statements import rows
 

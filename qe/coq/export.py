@@ -69,10 +69,6 @@ def _terms(terms: Iterable[tuple[Sequence[int], Fraction | int]], names: Sequenc
     return " + ".join(parts) or "0"
 
 
-def _all(names: Sequence[str]) -> str:
-    return f"forall {' '.join(names)} : R, " if names else ""
-
-
 def _lemma(name: str, statement: str, *proof: str) -> str:
     lines = "\n".join(f"  {line}" for line in proof)
     return f"Lemma {name} :\n  {statement}.\nProof.\n{lines}\nQed.\n"
@@ -101,7 +97,7 @@ def _optimum(payload: dict[str, Any], name: str) -> Iterator[str]:
         parts.append((Fraction(1), objective))
     yield _lemma(
         name,
-        _all(names) + "".join(f"({h}) -> " for h in given) + f"({goal})",
+        (f"forall {' '.join(names)} : R, " if names else "") + "".join(f"({h}) -> " for h in given) + f"({goal})",
         f"intros {' '.join([*names, *(f'h{k}' for k in range(len(given)))])}.",
         *_positive(parts, point, names),
         "lra.",

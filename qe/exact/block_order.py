@@ -110,16 +110,12 @@ def _plain_basis(given: list[Poly], variables: tuple[int, ...], order: MonomialO
 
 def _agrees(basis: Basis, block: BlockOrder) -> bool:
     """Whether every element has the leading monomial that the order of the block gives it."""
-    size, places = len(block.variables), (*block.variables, *block.parameters)
+    order, size, places = block.order, len(block.variables), (*block.variables, *block.parameters)
     for poly, lead in zip(basis.polys, basis.leads, strict=True):
         exponents = ([e[i] for i in places] for e, _ in poly.terms())
-        if max(exponents, key=lambda e: _key(block, e, size)) != list(lead):
+        if max(exponents, key=lambda e: (order.key(e[:size]), MonomialOrder.DEGREVLEX.key(e[size:]))) != list(lead):
             return False
     return True
-
-
-def _key(block: BlockOrder, exponents: list[int], size: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    return block.order.key(exponents[:size]), MonomialOrder.DEGREVLEX.key(exponents[size:])
 
 
 def _weights(order: MonomialOrder, size: int, most: int, scale: int) -> list[int]:

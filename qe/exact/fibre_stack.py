@@ -336,7 +336,8 @@ def _equal(point: Point, a: Section, b: Section) -> bool:
     bits = EXACT_FROM
     if _meet_once(left.fibre, right.fibre):
         while True:
-            pairs = _overlaps(left.fibre.roots(bits), right.fibre.roots(bits))
+            one, other = (list(enumerate(side.fibre.roots(bits))) for side in (left, right))
+            pairs = [(i, j) for i, x in one for j, y in other if x.overlaps(y)]
             if len(pairs) == 1:
                 return pairs[0] == (left.index, right.index)
             bits *= 2
@@ -370,10 +371,6 @@ def _meet_once(f: Fibre, g: Fibre) -> bool:
     resultant = point.ring.remembered(("resultant", left, right), lambda: left.resultant(right, var))
     once, rest = divmod(resultant.to_univariate(i), value.poly) if resultant else (resultant, True)
     return not rest and bool(once % value.poly)
-
-
-def _overlaps(left: list[arb], right: list[arb]) -> list[tuple[int, int]]:
-    return [(i, j) for i, x in enumerate(left) for j, y in enumerate(right) if x.overlaps(y)]
 
 
 def _matches(common: list[arb], left: list[arb], right: list[arb]) -> set[tuple[int, int]] | None:

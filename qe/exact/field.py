@@ -226,7 +226,8 @@ class FieldElement(PythonNumber):
             return RealAlgebraic.rational(self.value[0])
         p = self._minimal_polynomial()
         if p.degree() == 2:
-            return _quadratic(p, self)
+            is_smaller = (self * int(2 * p[2]) + int(p[1])).sign() < 0  # as 2a*x + b < 0 says
+            return irreducible_roots(p)[0 if is_smaller else 1]
         return select_root(p, self.ball)
 
     def _products(self) -> list[list[fmpq]]:
@@ -260,13 +261,4 @@ class FieldElement(PythonNumber):
         return f"FieldElement({self} ≈ {float(self):.6g})"
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        return _restore, (self.field, self.coefficients)
-
-
-def _quadratic(p: fmpz_poly, element: FieldElement) -> RealAlgebraic:
-    """The root of an irreducible quadratic polynomial that the element is: the smaller iff 2a*x + b < 0."""
-    return irreducible_roots(p)[0 if (element * int(2 * p[2]) + int(p[1])).sign() < 0 else 1]
-
-
-def _restore(field: NumberField, coefficients: tuple[Fraction, ...]) -> FieldElement:
-    return field.element(coefficients)
+        return self.field.element, (self.coefficients,)

@@ -67,10 +67,6 @@ def algebraic_candidate(digits: Digits, degree: int, bits: int) -> RealAlgebraic
     return _nearest_root(fmpz_poly(unscaled), x, bits - abs(shift))
 
 
-def _size(field: NumberField) -> int:
-    return max(0, _magnitude(field.theta.ball()))
-
-
 def _magnitude(x: arb) -> int:
     middle = x.mid()
     if middle.is_zero():
@@ -126,7 +122,7 @@ def element_candidate(lattice: FieldLattice, digits: Digits) -> FieldElement | N
     degree, slope = p.degree(), p.derivative()
     for _ in range(4):
         bits = lattice.bits
-        full = bits + 2 * bits // (degree + 1) + degree * _size(field) + _EXTRA
+        full = bits + 2 * bits // (degree + 1) + degree * max(0, _magnitude(field.theta.ball())) + _EXTRA
         x = digits(full)
         with precision(2 * full + 32):
             theta = field.theta.ball(full)

@@ -164,7 +164,7 @@ class Poly:
         return bool(self.p)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        return _rebuild, (self.ring.names, tuple((e, int(c)) for e, c in self.terms()))
+        return self.ring.from_terms, ({e: int(c) for e, c in self.terms()},)
 
     def __repr__(self) -> str:
         return f"Poly({format_poly(self)})"
@@ -431,10 +431,6 @@ class Poly:
         for exponents, c in self.p.terms():
             coefficients[int(exponents[slot])] = c
         return fmpz_poly(coefficients)
-
-
-def _rebuild(names: tuple[str, ...], terms: tuple[tuple[tuple[int, ...], int], ...]) -> Poly:
-    return Ring.of(names).from_terms(dict(terms))
 
 
 def format_poly(p: Poly, spelled: Callable[[str], str] = quoted) -> str:

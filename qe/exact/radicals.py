@@ -40,14 +40,10 @@ def _biquadratic(a: RealAlgebraic) -> str | None:
     squares = irreducible_roots(fmpz_poly([k0, k2, k4] if k4 > 0 else [-k0, -k2, -k4]))
     if len(squares) != 2 or squares[1].sign() <= 0:
         return None
-    largest_magnitude = a.index in (0, _real_count(squares) - 1)
+    largest_magnitude = a.index in (0, 2 * sum(u.sign() > 0 for u in squares) - 1)
     u = squares[1] if largest_magnitude else squares[0]
     body = _square_root_text(u, positive)
     return _combine(shift, body, denominator)
-
-
-def _real_count(squares: list[RealAlgebraic]) -> int:
-    return 2 * sum(1 for u in squares if u.sign() > 0)
 
 
 def _square_root_text(u: RealAlgebraic, positive: bool) -> str:

@@ -76,7 +76,9 @@ class _Elimination:
                 del self.rows[r]
                 continue
             j = min(unknowns, key=lambda j: (len(self.using[j]), abs(row[j]), j))
-            if (len(unknowns) - 1) * (len(self.using[j]) - 1) > _FILL or _length(row) > _BITS:
+            if (len(unknowns) - 1) * (len(self.using[j]) - 1) > _FILL or max(
+                map(abs, row.values())
+            ).bit_length() > _BITS:
                 continue
             for other in self._pivot(r, j):
                 heappush(waiting, (len(self.rows[other]), other))
@@ -130,10 +132,6 @@ class _Elimination:
             self.rows[other] = {k: c // content for k, c in row.items()} if content > 1 else row
         self.pivots.append((pivot, j))
         return changed
-
-
-def _length(row: Mapping[int, int]) -> int:
-    return max(abs(c) for c in row.values()).bit_length()
 
 
 def _independent(table: Sequence[Sequence[int]]) -> list[int]:

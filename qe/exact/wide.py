@@ -94,7 +94,7 @@ class WidePoly(Poly):
         return WidePoly.of(self.ring, p, self.support | more)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        return _rebuild, (self.ring, tuple(self.sparse_terms()))
+        return self.ring.from_sparse, (tuple(self.sparse_terms()),)
 
     # --- arithmetic -------------------------------------------------------------------------
     def __add__(self, other: Poly | int) -> Poly:
@@ -248,7 +248,3 @@ class WidePoly(Poly):
 def _plain(count: int) -> Ring:
     """The ring of so many variables that keeps track of none, however many they are: a polynomial may contain all."""
     return Ring(tuple(f"x{j}" for j in range(count)))
-
-
-def _rebuild(ring: Ring, terms: tuple[SparseTerm, ...]) -> Poly:
-    return ring.from_sparse(terms)

@@ -146,3 +146,13 @@ def convert(formula: Formula, ring: Ring) -> Formula:
         return known[f]
 
     return converted(formula)
+
+
+JOINS: dict[str, Callable[..., Formula]] = {
+    "and": lambda *parts: conj(parts),
+    "or": lambda *parts: disj(parts),
+    "implies": implies,
+    "not": neg,
+    "xor": lambda left, right: neg(iff(left, right)),
+}
+"""What joins formulas, by its name."""

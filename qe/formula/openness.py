@@ -38,11 +38,7 @@ def _has_shape(formula: Formula, block: frozenset[int], *, strict: bool) -> bool
             return relation.is_strict is strict or block.isdisjoint(poly.variables)
         case And(args) | Or(args):
             return all(_has_shape(a, block, strict=strict) for a in args)
-    return all(block.isdisjoint(_variables(a)) for a in atoms(formula))
-
-
-def _variables(atomic: Atomic) -> tuple[int, ...]:
-    return tuple(atomic.poly.ring.index[name] for name in atomic.free)
+    return all(block.isdisjoint(map(a.poly.ring.index.__getitem__, a.free)) for a in atoms(formula))
 
 
 def somewhere_nonzero(poly: Poly, block: Collection[int]) -> Formula:

@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from qe.services import Service, service
 
+Operation = Callable[["Connected", object], Any]
+
 LONGEST = 4000
 """Characters of LaTeX up to which a notebook sets a formula."""
+
+
+def _operator(way: str) -> tuple[Operation, Operation]:
+    """An operator, and the same where the formula stands on its right."""
+
+    def operation(self: Connected, other: object) -> Any:
+        return self._connect(way, self, other)
+
+    def reflected(self: Connected, other: object) -> Any:
+        return self._connect(way, other, self)
+
+    return operation, reflected
 
 
 class Connected:
@@ -20,32 +34,22 @@ class Connected:
 
     __slots__ = ()
 
-    def __and__(self, other: object) -> Any:
-        return service(Service.CONNECTED)("and", self, other)
-
-    def __rand__(self, other: object) -> Any:
-        return service(Service.CONNECTED)("and", other, self)
-
-    def __or__(self, other: object) -> Any:
-        return service(Service.CONNECTED)("or", self, other)
-
-    def __ror__(self, other: object) -> Any:
-        return service(Service.CONNECTED)("or", other, self)
-
-    def __xor__(self, other: object) -> Any:
-        return service(Service.CONNECTED)("xor", self, other)
-
-    def __rxor__(self, other: object) -> Any:
-        return service(Service.CONNECTED)("xor", other, self)
-
-    def __rshift__(self, other: object) -> Any:
-        return service(Service.CONNECTED)("implies", self, other)
-
-    def __rrshift__(self, other: object) -> Any:
-        return service(Service.CONNECTED)("implies", other, self)
+    __and__, __rand__ = _operator("and")
+    __or__, __ror__ = _operator("or")
+    __xor__, __rxor__ = _operator("xor")
+    __rshift__, __rrshift__ = _operator("implies")
 
     def __invert__(self) -> Any:
-        return service(Service.CONNECTED)("not", self)
+        return self._connect("not", self)
+
+    def _connect(self, way: str, *parts: object) -> Any:
+        return service(Service.CONNECTED)(way, *parts)
+
+
+class Substituting:
+    """What formulas alone do."""
+
+    __slots__ = ()
 
     def substitute(self, values: Mapping[Any, object]) -> Any:
         """The formula with numbers or terms in the place of free variables, all at once; others are left alone.

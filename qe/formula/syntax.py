@@ -13,7 +13,7 @@ from typing import ClassVar, TypeVar, dataclass_transform
 from qe.errors import InternalError
 from qe.exact.ring import Poly, Ring
 from qe.formula.notation import Level, Notation, bracketed, chain, oriented, polynomial
-from qe.formula.operators import Connected
+from qe.formula.operators import Connected, Substituting
 from qe.formula.relation import Relation as Relation
 from qe.formula.text import text_notation
 from qe.services import SymPyForm
@@ -24,7 +24,7 @@ LONGEST = 300
 NO_NAMES = frozenset[str]()
 
 
-class FormulaNode(Connected, SymPyForm):
+class FormulaNode(Connected, Substituting, SymPyForm):
     """Base class of all nodes; ``str()`` prints the text syntax.
 
     ``ring``, ``free``, ``bound``, ``is_quantifier_free``, ``is_normal`` and the hash are worked out when they are first

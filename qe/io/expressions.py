@@ -216,15 +216,6 @@ def _formula(given: object) -> Formula:
     return from_sympy(given)
 
 
-_JOINS: dict[str, Callable[..., Formula]] = {
-    "and": lambda *parts: build.conj(parts),
-    "or": lambda *parts: build.disj(parts),
-    "implies": build.implies,
-    "not": build.neg,
-    "xor": lambda left, right: build.neg(build.iff(left, right)),
-}
-
-
 def substituted(formula: Formula, values: Mapping[Any, object]) -> Formula:
     """The formula with numbers or terms in the place of free variables, all at once."""
     given = arguments.by_name(values, "values")
@@ -233,7 +224,7 @@ def substituted(formula: Formula, values: Mapping[Any, object]) -> Formula:
 
 def connected(way: str, *parts: object) -> Formula | Statement:
     """The formula that ``and``, ``or``, ``xor``, ``implies`` or ``not`` makes; a ``Statement`` where one takes part."""
-    made = _JOINS[way](*over_one_ring(*map(_formula, parts)))
+    made = build.JOINS[way](*over_one_ring(*map(_formula, parts)))
     return Statement(made) if any(isinstance(part, Statement) for part in parts) else made
 
 

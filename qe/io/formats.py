@@ -1,6 +1,6 @@
 """All formats by name: ``read(text, "smtlib")``, ``write(formula, "latex")``. Modules are loaded when first used.
 
-This is the only list of formats: a format is one line of ``Format`` and the module of its name beside this one.
+This is the only list of formats: a format is one line of ``Format`` and the module of its name next to this one.
 """
 
 from __future__ import annotations

@@ -88,10 +88,6 @@ def term(poly: Poly) -> str:
     return polynomial(monomials(poly), _NOTATION)
 
 
-def _power(base: str, k: int) -> str:
-    return f"{{{base}}}^{{{k}}}" if base.endswith("'") else f"{base}^{{{k}}}"
-
-
 def _quantifier(universal: bool, variables: tuple[str, ...]) -> str:
     symbol = r"\forall" if universal else r"\exists"
     return f"{symbol} {', '.join(map(name, variables))}\\colon "
@@ -113,6 +109,6 @@ _NOTATION = Notation(
     true=r"\top",
     false=r"\bot",
     times=r"\,",
-    power=_power,
+    power=lambda base, k: f"{{{base}}}^{{{k}}}" if base.endswith("'") else f"{base}^{{{k}}}",
     brackets=(r"\left(", r"\right)"),
 )

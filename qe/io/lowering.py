@@ -68,7 +68,7 @@ def lower(
 
     With ``names`` (all names, for the ring) the tree may be a graph whose parts are shared; ``shared`` lists parts
     in an order in which each comes after those it uses, so that chains of definitions of any length are fine. With
-    ``total`` functions have values outside their domains too, of which it is told. Raises ``Unable`` where nested
+    ``total`` functions have values outside their domains too, which it notes. Raises ``Unable`` where nested
     equivalences and shared parts would be much too long written out.
     """
     parts = ordered([node])

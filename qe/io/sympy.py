@@ -10,7 +10,7 @@ have a sign, which becomes a condition; assumptions that say more (integer) woul
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -19,7 +19,8 @@ from qe import arguments
 from qe.errors import InputError, NoTruthValue
 from qe.exact.field import FieldElement
 from qe.exact.ring import Poly
-from qe.formula.build import conj, disj, exists, forall, implies, neg
+from qe.formula.build import JOINS, conj, exists, forall, implies
+from qe.formula.operators import Connected
 from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Not, Or
 from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
@@ -31,7 +32,7 @@ from qe.io.sympy_reader import Reader, shown, signs
 _FUNCTIONS = {"abs": "Abs", "sign": "sign", "sqrt": "sqrt", "min": "Min", "max": "Max"}
 
 
-class _Operators:
+class _Operators(Connected):
     """Connectives between wrapped formulas, SymPy Booleans and formulas.
 
     ``raw`` is the formula as it is written, ``assumed`` what its symbols are assumed to be, by name: conditions that
@@ -46,26 +47,9 @@ class _Operators:
         """The formula that this stands for."""
         return conj(over_one_ring(*self.assumed.values(), self.raw))
 
-    def __and__(self, other: object) -> Combined:
-        return _combined(conj, self, other)
-
-    def __rand__(self, other: object) -> Combined:
-        return _combined(conj, other, self)
-
-    def __or__(self, other: object) -> Combined:
-        return _combined(disj, self, other)
-
-    def __ror__(self, other: object) -> Combined:
-        return _combined(disj, other, self)
-
-    def __rshift__(self, other: object) -> Combined:
-        return _combined(lambda parts: implies(*parts), self, other)
-
-    def __rrshift__(self, other: object) -> Combined:
-        return _combined(lambda parts: implies(*parts), other, self)
-
-    def __invert__(self) -> Combined:
-        return Combined(neg(self.raw), self.assumed)
+    def _connect(self, way: str, *parts: object) -> Combined:
+        formulas, known = zip(*map(_parts, parts), strict=True)
+        return Combined(JOINS[way](*over_one_ring(*formulas)), {n: sign for one in known for n, sign in one.items()})
 
     def __bool__(self) -> bool:
         """Python's ``and``, ``or`` and ``not`` ask for it and would drop a part of the formula without a word."""
@@ -128,11 +112,6 @@ class ForAll(_Quantified):
 def outermost(given: object) -> tuple[bool, tuple[str, ...]] | None:
     """Whether a wrapped formula begins with a universal quantifier, and its names; None where it begins with none."""
     return (isinstance(given, ForAll), given.names) if isinstance(given, _Quantified) else None
-
-
-def _combined(join: Callable[[tuple[Formula, ...]], Formula], left: object, right: object) -> Combined:
-    (a, first), (b, second) = _parts(left), _parts(right)
-    return Combined(join(over_one_ring(a, b)), {**first, **second})
 
 
 def _variables(variables: object) -> tuple[tuple[str, ...], dict[str, Formula]]:

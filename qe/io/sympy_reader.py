@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
+from functools import reduce
 from typing import Any
 
 from qe.errors import InputError
@@ -39,15 +40,6 @@ def symbol_name(symbol: Any) -> str:
         hint = "all variables are real here; only signs can be assumed of them"
         raise InputError(f"the symbol {symbol} is assumed to be more than real ({refused[0]}): {hint}")
     return check_name(symbol.name)
-
-
-def assumption(symbol: Any) -> s.Node | None:
-    """What the assumptions of a symbol say about its sign; None where that is nothing."""
-    name = symbol_name(symbol)
-    for key, relation in _ASSUMED.items():
-        if getattr(symbol, f"is_{key}") is True:
-            return s.Comparison([s.Name(name, -1), s.Number(0)], [relation], -1)
-    return None
 
 
 def shown(expression: object) -> str:
@@ -122,13 +114,15 @@ class Reader:
         if isinstance(e, sp.Rational):
             return s.Number(Fraction(int(e.p), int(e.q)))
         if isinstance(e, sp.Float):
-            return s.Number(self.exact_float(e))
+            if not e.is_finite:
+                raise InputError(f"a finite number expected, {e} found")
+            return s.Number(decimal_of(e))
         if e in (sp.S.Infinity, sp.S.NegativeInfinity):
             return s.Infinity(-1) if e is sp.S.Infinity else s.Minus(s.Infinity(-1))
         if isinstance(e, sp.Add):
             return s.Sum([self.real(a) for a in e.args])
         if isinstance(e, sp.Mul):
-            return _product([self.real(a) for a in e.args])
+            return reduce(lambda left, right: s.Product(left, right, -1), map(self.real, e.args))
         if isinstance(e, sp.Pow) and isinstance(e.exp, sp.Rational | sp.Float):
             return s.Power(self.real(e.base), self.real(e.exp), -1)
         if isinstance(e, sp.Abs | sp.sign | sp.Max | sp.Min):
@@ -176,11 +170,6 @@ class Reader:
         hint = "terms are made of + - * /, rational powers, Abs, Min, Max, sign and Piecewise"
         return f"{shown(e)} cannot be read: {hint}"
 
-    def exact_float(self, e: Any) -> Fraction:
-        if not e.is_finite:
-            raise InputError(f"a finite number expected, {e} found")
-        return decimal_of(e)
-
     def piecewise(self, e: Any) -> s.Term:
         """The first case whose condition holds; no value where none does."""
         result: s.Term | None = None
@@ -198,14 +187,12 @@ def _is_polynomial(e: Any) -> bool:
     return bool(e.is_polynomial(*e.free_symbols))
 
 
-def _product(factors: list[s.Term]) -> s.Term:
-    result = factors[0]
-    for factor in factors[1:]:
-        result = s.Product(result, factor, -1)
-    return result
-
-
 def signs(symbols: Iterable[Any]) -> dict[str, s.Node]:
-    """What the assumptions of symbols say, by name."""
-    assumed = {symbol.name: assumption(symbol) for symbol in symbols}
-    return {name: node for name, node in assumed.items() if node is not None}
+    """What the assumptions of symbols say about their signs, by name."""
+    nodes: dict[str, s.Node] = {}
+    for symbol in symbols:
+        name = s.Name(symbol_name(symbol), -1)
+        relation = next((r for key, r in _ASSUMED.items() if getattr(symbol, f"is_{key}") is True), None)
+        if relation is not None:
+            nodes[symbol.name] = s.Comparison([name, s.Number(0)], [relation], -1)
+    return nodes

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import lcm
+from math import lcm, prod
 from typing import NamedTuple, cast
 
 from qe.errors import InputError
@@ -118,10 +118,10 @@ def product(left: Value, right: Value) -> Value:
     count = a.term_count() * b.term_count()
     bits = left.bits + right.bits + min(a.term_count(), b.term_count()).bit_length()
     if count > SURELY_FEW or bits > SURELY_SHORT:
-        degrees = [m + n for m, n in zip(a.degrees, b.degrees, strict=True)]
+        degrees = [m + n + 1 for m, n in zip(a.degrees, b.degrees, strict=True)]  # and with all monomials of these
         if count > 100 * MAX_TERMS:
             raise TermError("the expanded product would have too many terms")
-        _bounded(min(count, _dense(degrees)), bits)
+        _bounded(min(count, prod(degrees)), bits)
     result = a * b
     if result.total_degree > MAX_DEGREE:
         raise TermError(f"the degree {result.total_degree} is above the limit of {MAX_DEGREE}")
@@ -151,7 +151,7 @@ def power(base: Value, exponent: int) -> Value:
     if poly.total_degree * exponent > MAX_DEGREE:
         raise TermError(f"the degree {poly.total_degree * exponent} is above the limit of {MAX_DEGREE}")
     bits = exponent * (base.bits + (count - 1).bit_length())
-    _bounded(min(_multinomial(exponent, count), _dense([d * exponent for d in poly.degrees])), bits)
+    _bounded(min(_multinomial(exponent, count), prod(d * exponent + 1 for d in poly.degrees)), bits)
     if base.den.bit_length() * exponent > MAX_BITS:
         raise TermError("the power is too large")
     return Value(poly**exponent, base.den**exponent, bits)
@@ -160,16 +160,6 @@ def power(base: Value, exponent: int) -> Value:
 def compare(left: Value, relation: Relation, right: Value) -> Formula:
     """The atom ``left relation right``."""
     return atom(total((left, negative(right))).poly, relation)
-
-
-def _dense(degrees: Sequence[int]) -> int:
-    """The number of monomials within these degrees, or anything above the limit."""
-    count = 1
-    for degree in degrees:
-        count *= degree + 1
-        if count > MAX_TERMS:
-            break
-    return count
 
 
 def _multinomial(exponent: int, count: int) -> int:

@@ -223,6 +223,7 @@ class State:
         self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
         self.divided = False
         self.level, self.within = 1, 0
+        self.spaced = "ForAll[" in text or "Exists[" in text  # Mathematica's, where a space is a product
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
@@ -243,6 +244,8 @@ class State:
                 shown = f"{self.text[:at].split()[-1]}{value}"
                 hint = "write 1/2*x or 1/(2*x)"
                 raise SyntaxFailure(f"{shown} is ambiguous: a product without * after a division; {hint}", at)
+            yield from self.put("TIMES", "*", at)
+        elif self.spaced and kind in ("NAME", "NUMBER") and self.last in ("NAME", "NUMBER", "CLOSE") and self.end < at:
             yield from self.put("TIMES", "*", at)
         self.note(kind)
         yield Token(kind, value, at)

@@ -287,14 +287,9 @@ class LatexParser(TextParser):
     prefix: ClassVar = {**TextParser.prefix, "FUNCTION": parser.PREFIX["NAME"]}
 
     def lexed(self, text: str) -> Iterator[Token]:
-        return latex_tokens(text)
+        from qe.io import latex_lexer
 
-
-def latex_tokens(text: str) -> Iterator[Token]:
-    """The tokens of a source."""
-    from qe.io import latex_lexer
-
-    return latex_lexer.tokens(text)
+        return latex_lexer.tokens(text)
 
 
 def is_latex(text: str) -> bool:

@@ -13,7 +13,6 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Constant, Formula
 from qe.options import Budget, Options
-from qe.proof.cells import Cell
 
 MOST_WORK = 1_000
 """Units of work (cells) that the list of the points may take."""
@@ -41,13 +40,9 @@ def listed(formula: Formula, variables: Sequence[str], budget: Budget) -> tuple[
         budget.check("points")
         return ()
     points: list[ExactPoint] = []
-    for place in leaves(table, _holds):
+    for place in leaves(table, lambda cell: cell.truth is True):
         if place.depth < len(variables) or any(k % 2 == 0 for k in place.path) or len(points) == MOST_POINTS:
             return ()
         values = coordinates(table, place)
         points.append(ExactPoint({name: simplest(values[name]) for name in variables}))
     return tuple(points)
-
-
-def _holds(cell: Cell) -> bool:
-    return cell.truth is True

@@ -73,7 +73,9 @@ def _irreducible(a: Terms, main: int, places: Sequence[int]) -> Iterator[Terms]:
         yield a
         return
     if not others:
-        yield from (_positive(_polynomial(f, main)) for f in irreducible_factors(_list(a, main)))
+        yield from (
+            _positive({k << main: d for k, d in enumerate(f) if d}) for f in irreducible_factors(_list(a, main))
+        )
         return
     point, images = _image(a, main, others)
     size = 1
@@ -204,10 +206,6 @@ def _prime(bits: int) -> int:
 
 def _list(a: Terms, place: int) -> list[int]:
     return [a.get(k << place, 0) for k in range(max((k >> place & MASK for k in a), default=-1) + 1)]
-
-
-def _polynomial(c: Sequence[int], place: int) -> Terms:
-    return {k << place: d for k, d in enumerate(c) if d}
 
 
 def _positive(a: Terms) -> Terms:

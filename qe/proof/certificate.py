@@ -193,7 +193,7 @@ class Certificate:
 
     @property
     def trusts(self) -> tuple[str, ...]:
-        """The theorems without proof, by name, that it needs beside the primitives of the kernel (``qe.theorems``)."""
+        """The theorems without proof, by name, that it needs besides the primitives of the kernel (``qe.theorems``)."""
         names: tuple[str, ...] = service(Service.TRUSTS)(self)
         return names
 

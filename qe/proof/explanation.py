@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from qe.formula.syntax import TRUE, Formula
 from qe.proof.run_log import Choice, Entry, RunLog, Switch, Work
@@ -38,7 +38,8 @@ def _lines(entry: Entry, number: int) -> Iterator[str]:
         case Switch():
             yield f"gave up {entry}"
         case Work(method, figures):
-            yield f"{WORDS.get(method, method)} {_figures(figures)}"
+            listed = "; ".join(f"{name} {_plain(value)}" for name, value in figures.items())
+            yield f"{WORDS.get(method, method)} {listed}"
         case Step(rule, before, after, context, evidence):
             detail = f" ({evidence['detail']})" if evidence.get("detail") else ""
             yield f"{number}. {rule}{detail}: {_short(before)}"
@@ -49,10 +50,6 @@ def _lines(entry: Entry, number: int) -> Iterator[str]:
 def _short(formula: Formula) -> str:
     text = str(formula)
     return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."
-
-
-def _figures(figures: Mapping[str, object]) -> str:
-    return "; ".join(f"{name} {_plain(value)}" for name, value in figures.items())
 
 
 def _plain(value: object) -> str:

@@ -36,7 +36,8 @@ def by_alternatives(made: Made, names: Sequence[str], parts: Sequence[Part], aft
 def by_independent_parts(made: Made, names: Sequence[str], parts: Sequence[Part], after: Formula) -> list[Json]:
     """Steps from the block over the conjunction of all bodies, of others, and of what has none of its variables."""
     body = made.current.body if isinstance(made.current, Exists) else made.current
-    beside, inside = _beside(names, body), {f for part in parts for f in conjuncts(part.body)}
+    beside = tuple(f for f in conjuncts(body) if not {*names} & {*f.free})
+    inside = {f for part in parts for f in conjuncts(part.body)}
     others = conj(f for f in conjuncts(body) if f not in inside and f not in beside)
     starts = [block_of(names, part.body, made.ring) for part in parts]
     made.moved(made.current, conj((*beside, *starts, block_of(names, others, made.ring))))
@@ -52,7 +53,3 @@ def by_independent_parts(made: Made, names: Sequence[str], parts: Sequence[Part]
         else:
             made.derived(start, part.end, part.steps)
     return made.finished(after)
-
-
-def _beside(names: Sequence[str], body: Formula) -> tuple[Formula, ...]:
-    return tuple(f for f in conjuncts(body) if not {*names} & {*f.free})

@@ -104,7 +104,7 @@ def substitution_certificate(block: Formula, answer: Formula) -> Certificate | N
         body = _replaced(body, ring.index[name], equation)
         solved.append(found)
         left.remove(name)
-    if _set(body) != _set(convert(answer, ring)):
+    if {*conjuncts(body)} != {*conjuncts(convert(answer, ring))}:
         return None
     return Certificate.substitution(matrix, ring.names, solved, body)
 
@@ -131,10 +131,6 @@ def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
 
     used = Atom(equation, Relation.EQ)
     return conj(map_atoms(c, change) for c in conjuncts(body) if c != used)
-
-
-def _set(formula: Formula) -> frozenset[Formula]:
-    return frozenset(conjuncts(formula))
 
 
 def derived_or_decomposed(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations_with_replacement
+from operator import add
 
 from qe.exact.quadratic_form import integer_combinations
 from qe.exact.ring import Poly
@@ -55,7 +56,7 @@ def _columns(generators: Sequence[Poly], variables: Sequence[int], degree: int) 
     for k, generator in enumerate(generators):
         terms = generator.terms()
         for powers in _monomials(variables, degree - generator.total_degree, generator.ring.size):
-            yield k, powers, {_times(powers, e): c for e, c in terms}
+            yield k, powers, {tuple(map(add, powers, e)): c for e, c in terms}
 
 
 def _cofactors(columns: Sequence[Column], values: Sequence[int], generators: Sequence[Poly]) -> list[Poly]:
@@ -64,10 +65,6 @@ def _cofactors(columns: Sequence[Column], values: Sequence[int], generators: Seq
         if value:
             terms[k][powers] = value
     return [ring.from_terms(of) for of in terms]
-
-
-def _times(left: Powers, right: Powers) -> Powers:
-    return tuple(a + b for a, b in zip(left, right, strict=True))
 
 
 def _monomials(variables: Sequence[int], degree: int, size: int) -> Iterator[Powers]:

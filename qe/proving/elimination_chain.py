@@ -112,11 +112,11 @@ class _Chain:
 
     def ranked(self, i: int, j: int) -> tuple[tuple[int, ...], int, int]:
         """The least common multiple of two leading terms, by its rank, and the two, the last of them first."""
-        return self.rank(_joined(self.leads[i], self.leads[j])), j, i
+        return self.rank(tuple(map(max, self.leads[i], self.leads[j]))), j, i
 
     def add_pair(self, i: int, j: int) -> bool:
         """Add what is left of an S-polynomial; whether anything is."""
-        top, a, b = _joined(self.leads[i], self.leads[j]), self.terms[i], self.terms[j]
+        top, a, b = tuple(map(max, self.leads[i], self.leads[j])), self.terms[i], self.terms[j]
         common = gcd(a[self.leads[i]], b[self.leads[j]])
         factors: dict[int, Terms] = {
             i: {_less(top, self.leads[i]): b[self.leads[j]] // common},
@@ -184,10 +184,6 @@ class _Chain:
         kept = [k for k in range(len(self.polys)) if k < self.given or k in wanted]
         numbers = {k: number for number, k in enumerate(kept)}
         return [[(numbers[i], f) for i, f in self.rows[k - self.given]] for k in kept if k >= self.given]
-
-
-def _joined(a: Powers, b: Powers) -> Powers:
-    return tuple(map(max, a, b))
 
 
 def _less(a: Powers, b: Powers) -> Powers:

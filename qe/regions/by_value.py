@@ -84,11 +84,6 @@ def _outside(table: CellTable, bases: list[Place], known: Formula) -> frozenset[
     return frozenset(i for i in range(len(bases)) if false >> i & 1)
 
 
-def _begins(path: tuple[int, ...], cells: frozenset[tuple[int, ...]]) -> bool:
-    """Whether a cell is one of these, or over one."""
-    return any(path[:k] in cells for k in range(len(path) + 1))
-
-
 def _lines(
     table: CellTable,
     depth: int,
@@ -111,7 +106,8 @@ def _lines(
         cells = frozenset(i for (i, _), all_terms in found.items() if terms in all_terms)
         defined = frozenset(i for i in free if said.is_defined(terms, bases[i]))
         holding.setdefault((cells, defined - cells), []).append(terms)
-    if new := free - {i for i in free if _begins(bases[i].path, everything)}:
+    new = frozenset(i for i in free if not any(bases[i].path[:k] in everything for k in range(depth + 1)))
+    if new:
         holding[new, free - new] = [()]
     ordered = sorted(holding.items(), key=lambda pair: min(pair[0][0]))
     columns = partial(_columns, table.factors[:depth], cache(partial(said.counted, bases)), bases)
@@ -323,7 +319,8 @@ def _condition(
         return "", False
     said = str(formula), isinstance(formula, Or)
     pieces = merge(_only(table, frozenset(bases[i].path for i in chosen), True), budget=budget)
-    if all(end is None or _is_plain(end) for piece in pieces for r in piece.ranges for end in (r.lower, r.upper)):
+    ends = [end for piece in pieces for r in piece.ranges for end in (r.lower, r.upper) if end and end.value is None]
+    if all(end.written and end.written[1] is None and end.written[2].is_constant for end in ends):
         return min(said, (" or ".join(map(str, pieces)), len(pieces) > 1), key=lambda one: len(one[0]))
     return said
 
@@ -362,11 +359,6 @@ def _derivatives(factors: Factors, bases: Sequence[Place]) -> Columned:
                     if character == "0":
                         known[base.path] = character = CHARACTER_OF[base.point.sign(poly)]
     return listed
-
-
-def _is_plain(end: RootFunction) -> bool:
-    """Whether it is a number or a polynomial."""
-    return end.value is not None or (end.written is not None and end.written[1] is None and end.written[2].is_constant)
 
 
 def _cases(given: tuple[str, bool], said: list[Terms]) -> list[str]:

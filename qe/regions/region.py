@@ -290,7 +290,7 @@ class Region(SetOperations):
 
     @property
     def proof(self) -> Certificate:
-        """The certificate, beside that of the elimination of quantifiers where there is one."""
+        """The certificate, next to that of the elimination of quantifiers where there is one."""
         formula = None if self.answer is None else self.answer.certificate
         cells = self.certificate
         return cells if formula is None else Certificate.bundle([("formula", formula), ("cells", cells)])

@@ -7,15 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
-
-import numpy as np
 
 from qe.decomposition.pieces import Piece, Range
 from qe.errors import InputError, Unable
 from qe.regions.described import Described as Region
 from qe.regions.ends import Span, ends
-from qe.regions.solid import Solid
+from qe.regions.solid import Solid, spread
 from qe.regions.space import Frame, shape_of
 
 SAMPLES = 400
@@ -24,8 +21,6 @@ MARGIN = 0.06
 """Free space around the region, as a share of its size."""
 UNBOUNDED = 4.0
 """How far a picture follows a direction in which the region goes on for ever."""
-INSIDE = 1e-7
-"""The share of a range left out at its ends, where the roots above may coincide or vanish."""
 
 
 Border = tuple[float, bool]
@@ -125,15 +120,10 @@ def _closed(own: Range) -> tuple[bool | None, bool | None]:
 def _band(piece: Piece, spans: Sequence[Span]) -> Band:
     first, up = piece.ranges
     lo, hi = ends(piece, 0, {}, spans[0])
-    xs = [lo] if first.is_point else list(lo + (hi - lo) * _inner_grid(SAMPLES))
+    xs = [lo] if first.is_point else list(spread(lo, hi, SAMPLES))
     pairs = [ends(piece, 1, {0: x}, spans[1]) for x in xs]
     start, stop = (None if has is None else (x, has) for x, has in zip((lo, hi), _closed(first), strict=True))
     return Band(xs, [low for low, _ in pairs], [high for _, high in pairs], *_closed(up), start, stop)
-
-
-def _inner_grid(count: int) -> Any:
-    """Shares of a range from end to end, dense towards the ends but not on them."""
-    return INSIDE + (1 - 2 * INSIDE) * (1 - np.cos(np.linspace(0, np.pi, count))) / 2
 
 
 def bands(region: Region) -> list[tuple[Sequence[float], Sequence[float], Sequence[float]]]:

@@ -108,16 +108,16 @@ def _lattice(piece: Piece, spans: Sequence[Span], counts: tuple[int, int, int]) 
     nx, ny, nz = (1 if r.is_point else n for r, n in zip(piece.ranges, counts, strict=True))
     points = np.empty((nx, ny, nz, 3))
     low, high = ends(piece, 0, {}, spans[0])
-    for i, x in enumerate(_spread(low, high, nx)):
+    for i, x in enumerate(spread(low, high, nx)):
         low, high = ends(piece, 1, {0: x}, spans[1])
-        for j, y in enumerate(_spread(low, high, ny)):
+        for j, y in enumerate(spread(low, high, ny)):
             bottom, top = ends(piece, 2, {0: x, 1: y}, spans[2])
             points[i, j, :, 0], points[i, j, :, 1] = x, y
             points[i, j, :, 2] = np.linspace(bottom, max(bottom, top), nz) if nz > 1 else bottom
     return points
 
 
-def _spread(low: float, high: float, count: int) -> Array:
+def spread(low: float, high: float, count: int) -> Array:
     """Numbers from end to end, dense towards the ends; the ends themselves are left out by a hair."""
     if count == 1:
         return np.array([low])

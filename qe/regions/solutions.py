@@ -31,7 +31,7 @@ class Solutions(SymPyForm):
     ``cases``: the same as disjoint pieces (``Piece``: ``.ranges``, ``.sample``, ``.formula``), over which one iterates:
     for the first variables where they lie, and for each later one, over those, between which values. ``region``: the
     set that they are. ``answer``, with ``qe.solve(..., check=True)``: to the question whether the text says the same as
-    the formula (where what was assumed holds); its certificate is beside that of the region's table in ``certificate``.
+    the formula (where what was assumed holds); its certificate is with that of the region's table in ``certificate``.
     """
 
     order: tuple[str, ...]

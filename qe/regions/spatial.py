@@ -285,14 +285,10 @@ def coordinates(formula: Formula, order: tuple[str, ...]) -> Iterator[Coordinate
     """Coordinates to try, one after the other."""
     for k in range(DIMENSIONS):
         yield Coordinates((*order[k:], *order[:k]))
-    forms = [_leading_form(p) for p in polynomials(convert(formula, Ring.of(order)))]
+    polys = polynomials(convert(formula, Ring.of(order)))
+    forms = [p.ring.from_terms({e: c for e, c in p.terms() if sum(e) == p.total_degree}) for p in polys]  # leading ones
     for size in range(1, 2 + sum(form.total_degree for form in forms)):
         for a, b in product(range(size + 1), repeat=2):
             if max(a, b) == size and all(form.evaluate((a, b, 1)) for form in forms):
                 yield Coordinates(order, (a, b))
                 return
-
-
-def _leading_form(p: Poly) -> Poly:
-    """The terms of the highest degree."""
-    return p.ring.from_terms({e: c for e, c in p.terms() if sum(e) == p.total_degree})

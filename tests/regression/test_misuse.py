@@ -43,6 +43,7 @@ X, Y = sympy.symbols("x y")
     ("ForAll[{x}, x > 0, x y > 0]".replace("x y", "x*y"), "y > 0"),
     ("Exists[x, x^2 == y && Element[x, Reals]]", "y >= 0"),
     ("Implies[x > 0, Sqrt[x] < 2]", "x < 4"),
+    ("ForAll[{x, y}, x^2 + y^2 <= 1, a x + 2 b y <= 1]", "a^2 + 4*b^2 <= 1"),
     ("And(x > 0, Or(y > 0, Not(x > 1)))", "x > 0 and (y > 0 or x <= 1)"),
     ("ex(x, a*x^2 + 1 = 0)", "a < 0"),
     (r"\exists x\colon x^2 = y", "y >= 0"),

@@ -11,7 +11,7 @@ from qe.errors import InputError
 from qe.formula.evaluate import holds_at
 from qe.io import surface as s
 from qe.io.lowering import lower
-from qe.io.sympy_reader import Reader, assumption, shown, signs, symbol_name
+from qe.io.sympy_reader import Reader, shown, signs, symbol_name
 from tests.tables import each
 
 X, Y = sympy.symbols("x y", real=True)
@@ -107,9 +107,9 @@ def test_symbols_and_their_assumptions() -> None:
         ("nonpositive", "<="),
         ("zero", "="),
     ):
-        node = assumption(sympy.Symbol("a", **{made: True}))
+        node = signs([sympy.Symbol("a", **{made: True})])["a"]
         assert isinstance(node, s.Comparison) and node.relations[0].value == relation
-    assert assumption(X) is None and list(signs([X, sympy.Symbol("p", positive=True)])) == ["p"]
+    assert list(signs([X, sympy.Symbol("p", positive=True)])) == ["p"]
     for bad in (
         sympy.Symbol("n", integer=True),
         sympy.Dummy("d"),

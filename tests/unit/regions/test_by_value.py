@@ -5,12 +5,16 @@ from __future__ import annotations
 import random
 import re
 from fractions import Fraction
+from itertools import combinations
+from math import prod
 from statistics import median
 
 import pytest
 
 import qe
 from qe.errors import Unable
+from qe.formula.evaluate import holds_at
+from qe.io.text import read
 from tests.tables import each
 
 EXPECTED = (
@@ -135,6 +139,22 @@ def test_cases_by_numbers_of_roots_are_proved(question: str) -> None:
     solutions = qe.solve(question, "x", check=True)
     assert solutions.guarantee is qe.Guarantee.CHECKED and not solutions.reason
     assert qe.verify(solutions.certificate)
+
+
+def test_quartics_have_a_case_for_each_root() -> None:
+    """The conditions are those of the minors of Hermite's form; they hold where the question does."""
+    solutions, chance = qe.solve("x^4 + a*x^2 + b*x + c = 0", "x"), random.Random(7)
+    assert len(solutions.lines) == 4
+    said = read(str(solutions))
+    for k in range(200):
+        r = [chance.randint(-4, 4) for _ in range(3)]
+        r = [r[0], r[k % 2], r[2], -r[0] - r[k % 2] - r[2]]  # every other one with a double root
+        poly = {
+            4 - k: (-1) ** k * sum(map(prod, combinations(r, k))) + (k == 4) * chance.randint(0, 1) for k in range(5)
+        }
+        point = {"a": poly[2], "b": poly[1], "c": poly[0], "x": chance.choice(r)}
+        value = sum(c * point["x"] ** k for k, c in poly.items())
+        assert holds_at(said, point) is (value == 0), point
 
 
 def _question(chance: random.Random) -> tuple[str, str]:
