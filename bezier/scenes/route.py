@@ -89,9 +89,8 @@ class Route:
     @property
     def refuted(self) -> dict[str, Formula]:
         """What is refuted of each curve: that a point of it is not free."""
-        whole = in_the_way(self.scene)
-        said = ((f"curve {k}", meeting(in_space(c), whole)) for k, c in enumerate(self.curves, start=1))
-        return {label: FALSE if sentence is None else sentence.formula for label, sentence in said}
+        said = map(meeting, map(in_space, self.curves), in_the_way(self.scene, self.curves))
+        return {f"curve {k}": FALSE if s is None else s.formula for k, s in enumerate(said, start=1)}
 
     def check(self, certificate: Certificate | None = None) -> None:
         """Verify again, by the scene and the corners alone. Raises ``qe.CertificateRejected``."""
@@ -333,16 +332,16 @@ def _separated(
 
 def cleared(known: Route, budget: Budget) -> Iterator[tuple[str, Certificate]]:
     """The proof that a curve is free, one after the other. Raises ``Unable``."""
-    whole = in_the_way(known.scene)
-    for label, curve in zip(known.refuted, known.curves, strict=True):
+    wholes = in_the_way(known.scene, known.curves)
+    for k, (curve, whole) in enumerate(zip(known.curves, wholes, strict=True), start=1):
         budget.check("proof of the route")
         try:
             certificate = clearance_certificate(in_space(curve), whole)
         except InputError:
             certificate = None
         if certificate is None:
-            raise Unable(f"not proved: {label}")
-        yield label, certificate
+            raise Unable(f"not proved: curve {k}")
+        yield f"curve {k}", certificate
 
 
 def proved(sentences: dict[str, Formula], budget: Budget) -> list[tuple[str, Certificate]]:

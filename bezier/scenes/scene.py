@@ -294,7 +294,7 @@ def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, 
             corners = tuple(dict.fromkeys(c[:size] for c in core.corners))
             sides = tuple((f.normal[:size], f.offset) for f in core.facets if any(f.normal[:size]))
             if size == 2 and sides:
-                pieces = tuple(_wide_polygon(corners, sides, radius))
+                radius, pieces = margin, tuple(_wide_polygon(corners, sides, margin))
             return Solid(name, corners, sides, radius, pieces)
     if any(c.strict for piece in pieces for c in piece):
         raise entry.error("formula", "a closed set: conditions with <=, >= and =", "another condition")
@@ -305,7 +305,10 @@ def _obstacle(entry: Table, size: int, extra: Fraction) -> Obstacle:
     """The obstacle in space; of the plane, where z = 0 its section."""
     kind = _kind(entry)
     values = {("centre" if key == "center" else key): value for key, value in entry.values.items()}
-    values |= {"kind": kind, "margin": str(entry.number("margin", ZERO) + extra)}
+    margin = entry.number("margin", ZERO) + extra
+    if size == 2 and kind in ("box", "polyhedron"):  # polygons get it later
+        margin = min(margin, ZERO)
+    values |= {"kind": kind, "margin": str(margin)}
     if size == 2:
         if kind not in _PLANE:
             raise entry.error("kind", f"one of {', '.join(_PLANE)}", f'"{kind}"')

@@ -9,11 +9,11 @@ from math import comb, lcm
 
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, subtract
-from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
+from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece, half_space
 from bezier.scenes.barrier import Wall
 from bezier.scenes.cells import Cell, Point, Side, opposite
 from bezier.scenes.scene import Scene
-from bezier.scenes.solid import Solid
+from bezier.scenes.solid import Solid, directions
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, forall, neg
@@ -103,11 +103,19 @@ def cell_of(wall: Wall | Cell) -> Cell:
     return Cell.of(sides, (a, b), is_flat=True)
 
 
-def in_the_way(scene: Scene) -> Obstacle:
-    """All points that are not free, as one obstacle: of every body, and beyond every side of the workspace."""
-    beyond = (Piece((c.negated,)) for part in scene.domain for (conditions,) in (part.pieces,) for c in conditions)
-    pieces = (Piece(conditions) for body in scene.bodies for conditions in body.pieces)
-    return Obstacle("what is in the way", ObstacleKind.FORMULA, (*pieces, *beyond))
+def in_the_way(scene: Scene, curves: Sequence[Curve]) -> Iterator[Obstacle]:
+    """For each curve all points that are not free, as one obstacle: of every body, and beyond every side of the
+    workspace. Of a body with a half-space around it that the control points are beyond, that half-space is taken."""
+    beyond = [Piece((c.negated,)) for part in scene.domain for (conditions,) in (part.pieces,) for c in conditions]
+    normals = directions(scene.dimension, 1)
+    around = [() if body.is_formula else body.around(normals) for body in scene.bodies]
+    for curve in curves:
+        pieces = list(beyond)
+        for body, sides in zip(scene.bodies, around, strict=True):
+            far = next(((n, c) for n, c in sides if all(dot(n, p) > c for p in curve)), None)
+            wide = [(half_space((*far[0], Fraction(0))[:3], far[1]),)] if far else body.pieces
+            pieces += map(Piece, wide)
+        yield Obstacle("what is in the way", ObstacleKind.FORMULA, tuple(dict.fromkeys(pieces)))
 
 
 def in_space(curve: Curve) -> Bezier:

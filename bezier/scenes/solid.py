@@ -79,6 +79,10 @@ class Solid:
         if self.is_formula:
             whole = Obstacle(self.name, ObstacleKind.FORMULA, tuple(map(Piece, self.pieces)))
             return isinstance(examine(_leg(start, end), whole), Contact)
+        reach = self.radius + self.tube
+        for core, leg in zip(zip(*self.corners, strict=True), zip(start, end, strict=True), strict=True):
+            if min(core) - reach > max(leg) or max(core) + reach < min(leg):
+                return False
         if self.radius and not self.tube:
             p, q = nearest(self.corners, (start, end))
             away = dot(subtract(p, q), subtract(p, q))
