@@ -191,11 +191,8 @@ class Wish:
     def __post_init__(self) -> None:
         if self.degree not in range(1, 6) or self.continuity not in range(3):
             raise InputError(f"expected degree 1 to 5 and continuity 0 to 2, found {self.degree} and {self.continuity}")
-        if self.degree > 1 and self.degree < 2 * self.continuity:
-            needed = 2 * self.continuity
-            raise InputError(
-                f"continuity: expected degree {needed} or more with {self.continuity}, found {self.degree}"
-            )
+        if 1 < self.degree <= self.continuity:
+            raise InputError(f"continuity: expected one below the degree {self.degree}, found {self.continuity}")
 
     @property
     def joins(self) -> int:

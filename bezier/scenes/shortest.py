@@ -4,6 +4,9 @@ The way through the cells is a shortest one over the corners and centres of the 
 lies one curve, whose control points the cell holds, and so the curve; joins are as smooth as asked. Its control
 polygons are as short as can be, with a small part for the squares of second differences, which keeps the speed from
 changing suddenly.
+
+Cubic curves with two continuous derivatives are a uniform spline, three to a cell: with three equal control points of
+the spline in each door it stays in the cells, so there is always one.
 """
 
 from __future__ import annotations
@@ -14,6 +17,7 @@ from fractions import Fraction
 from itertools import pairwise, product
 from math import dist
 
+from bezier.curves.scalar import dot
 from bezier.scenes.cells import Cell, FreeCells, Point, Side
 from bezier.scenes.conic import Conic
 from bezier.scenes.scene import Scene
@@ -31,9 +35,10 @@ def least_chain(scene: Scene, domain: Cell, free: FreeCells, degree: int, contin
     cells = corridor(scene, free)
     if cells is None:
         return None
-    held = [free.cells[i] for i in cells]
+    held = [free.cells[i] for i in cells for _ in range(1 if degree >= 2 * continuity else 3)]
     proposed = _proposed(scene, set(domain.sides), held, degree, continuity)
-    return None if proposed is None else _rounded(scene, proposed, continuity)
+    rounded = _rounded if degree >= 2 * continuity else _spline
+    return None if proposed is None else rounded(scene, proposed, continuity)
 
 
 def corridor(scene: Scene, free: FreeCells) -> list[int] | None:
@@ -138,6 +143,22 @@ def _rounded(scene: Scene, proposed: list[list[list[float]]], continuity: int) -
             exact[-1] = scene.goal
         curves.append(tuple(exact))
     return tuple(curves)
+
+
+def _spline(scene: Scene, proposed: list[list[list[float]]], _: int) -> tuple[Curve, ...]:
+    """A uniform cubic spline by rational control points (de Boor's), as Bézier curves; so rounding does not add up."""
+    unit = max(b - a for a, b in zip(scene.low, scene.high, strict=True)) / DIGITS
+    inner = [[2 * b - c for b, c in zip(p[1], p[2], strict=True)] for p in proposed]
+    inner.append([2 * c - b for b, c in zip(proposed[-1][1], proposed[-1][2], strict=True)])
+    exact = [tuple(round(Fraction(c) / unit) * unit for c in p) for p in inner]
+    for end, at in ((0, scene.start), (len(exact) + 1, scene.goal)):
+        near, next_ = (exact[0], exact[1]) if not end else (exact[-1], exact[-2])
+        exact.insert(end, tuple(6 * e - 4 * a - b for e, a, b in zip(at, near, next_, strict=True)))
+    rows = ((1, 4, 1, 0), (0, 4, 2, 0), (0, 2, 4, 0), (0, 1, 4, 1))
+    fours = zip(exact, exact[1:], exact[2:], exact[3:], strict=False)
+    return tuple(
+        tuple(tuple(Fraction(dot(row, axis), 6) for axis in zip(*four, strict=True)) for row in rows) for four in fours
+    )
 
 
 def _continued(curve: Curve) -> Iterator[Point]:

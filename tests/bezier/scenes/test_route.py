@@ -357,7 +357,7 @@ def test_formulas_of_bodies_say_what_belongs_to_them() -> None:
                 assert body.contains(point) is belongs is (said == TRUE)
 
 
-@each((1, 0), (2, 1), (3, 1), (4, 2))
+@each((1, 0), (2, 1), (3, 1), (3, 2), (4, 2))
 def test_a_short_path_is_proved_and_as_smooth_as_asked(degree: int, continuity: int) -> None:
     scene = {**SCENE, "start": [1, 4], "goal": [9, 4], "obstacle": [WALLS[0]]}
     found = bezier.route(scene, shortest=True, degree=degree, continuity=continuity)
@@ -368,6 +368,10 @@ def test_a_short_path_is_proved_and_as_smooth_as_asked(degree: int, continuity: 
     for one, other in pairwise(found.curves):
         slopes = [subtract(one[-1], one[-2]), subtract(other[1], other[0])]
         assert one[-1] == other[0] and (continuity < 1 or slopes[0] == slopes[1])
+        if continuity > 1:
+            ends = one[-3:], other[:3]
+            bends = [subtract(subtract(c, b), subtract(b, a)) for a, b, c in ends]
+            assert bends[0] == bends[1]
     samples = np.array([[float(c) for c in p] for curve in found.curves for p in Bezier(curve).split()[0].points])
     assert len(samples) and not np.any(np.all((samples > [4, 0]) & (samples < [6, 5]), axis=1))
     assert found.bound is not None
