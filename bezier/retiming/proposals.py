@@ -11,18 +11,17 @@ z^2 <= 2 S u.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import comb
 from typing import Any
 
 from bezier.retiming.grid import Bounds, Grid
+from bezier.scenes.conic import Conic
 from qe.errors import Unable
 from qe.extras import wanted
 
 with wanted():
-    import clarabel
     import numpy as np
-    from scipy import sparse
 
 TOLERANCE = 1e-9
 LARGEST = 1e6
@@ -45,63 +44,6 @@ class Proposal:
     gaps: Any
     duration: float
     bound: float
-
-
-@dataclass
-class _Program:
-    """A cone program under way: minimise cost . x, rows in cones."""
-
-    costs: list[Any] = field(default_factory=list)
-    rows: list[tuple[Any, Any, Any]] = field(default_factory=list)
-    right: list[Any] = field(default_factory=list)
-    cones: list[Any] = field(default_factory=list)
-    width: int = 0
-    height: int = 0
-
-    def variables(self, shape: tuple[int, ...], cost: Any = 0.0) -> Any:
-        """The numbers of new variables."""
-        count = int(np.prod(shape))
-        self.costs.append(np.broadcast_to(cost, shape).ravel())
-        self.width += count
-        return np.arange(self.width - count, self.width).reshape(shape)
-
-    def block(self, entries: Sequence[tuple[Any, Any]], right: Any, size: int = 0) -> None:
-        """Rows with sum of columns * values <= ``right``, all arrays of one shape. ``size``: right - sum lies in second
-        order cones of so many rows; -1: it is zero."""
-        shape = np.broadcast_shapes(np.shape(right), *(np.shape(v) for pair in entries for v in pair))
-        count = int(np.prod(shape))
-        at = self.height + np.arange(count)
-        for columns, values in entries:
-            flat = np.broadcast_to(values, shape).ravel()
-            kept = flat != 0
-            self.rows.append((at[kept], np.broadcast_to(columns, shape).ravel()[kept], flat[kept]))
-        self.right.append(np.broadcast_to(right, shape).ravel())
-        self.height += count
-        if size > 0:
-            self.cones += [clarabel.SecondOrderConeT(size)] * (count // size)
-        else:
-            self.cones.append((clarabel.ZeroConeT if size else clarabel.NonnegativeConeT)(count))
-
-    def product(self, x: Any, y: Any, z: Any) -> None:
-        """z^2 <= x y for columns; y may be None, which is 1."""
-        other = [] if y is None else [(y[:, None], np.array([-1.0, 1.0, 0.0]))]
-        one = np.array([1.0, -1.0, 0.0]) if y is None else np.zeros(3)
-        columns = np.stack([x, x, z], -1)
-        self.block([(columns, np.array([-1.0, -1.0, -2.0])), *other], np.broadcast_to(one, columns.shape), 3)
-
-    def solve(self) -> Any:
-        """The point. Raises ``Unable`` where there is none."""
-        settings = clarabel.DefaultSettings()
-        settings.verbose = False
-        settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = TOLERANCE
-        at, columns, values = (np.concatenate(part) for part in zip(*self.rows, strict=True))
-        matrix = sparse.csc_matrix((values, (at, columns)), shape=(self.height, self.width))
-        nothing = sparse.csc_matrix((self.width, self.width))
-        problem = nothing, np.concatenate(self.costs), matrix, np.concatenate(self.right), self.cones
-        x = np.array(clarabel.DefaultSolver(*problem, settings).solve().x)
-        if not np.all(np.isfinite(x)):
-            raise Unable("clarabel proposes nothing for this path and these limits")
-        return x
 
 
 def proposal(grid: Grid, bounds: Bounds) -> Proposal:
@@ -127,6 +69,13 @@ def proposal(grid: Grid, bounds: Bounds) -> Proposal:
         times.sum() * unit,
         bound * unit,
     )
+
+
+def _solved(program: Conic) -> Any:
+    found = program.solved()
+    if found is None:
+        raise Unable("clarabel proposes nothing for this path and these limits")
+    return np.array(found)
 
 
 def _durations(grid: Grid, h: Any, squares: Any) -> Any:
@@ -174,7 +123,7 @@ def _fastest(grid: Grid, arrays: tuple[Any, Any, Any], bounds: Bounds, unit: flo
     h, first, second = arrays
     nodes, begins = grid.nodes, grid.begins
     weights = _shares(grid, h)
-    program = _Program()
+    program = Conic(TOLERANCE)
     every = program.variables((nodes,), -weights / weights.max())
     pair = begins[:, None, None], begins[:, None, None] + 1
     slope = first / (2 * h[:, None, None])
@@ -200,7 +149,7 @@ def _fastest(grid: Grid, arrays: tuple[Any, Any, Any], bounds: Bounds, unit: flo
     program.block([(every, -1.0)], np.zeros(nodes))
     if grid.resting:
         program.block([(every[grid.resting], 1.0)], np.zeros(len(grid.resting)), -1)
-    result = np.maximum(program.solve(), 1e-12)
+    result = np.maximum(_solved(program), 1e-12)
     result[grid.resting] = 0.0
     return result
 
@@ -217,7 +166,7 @@ def _multipliers(
     slope = first / h[:, None, None]
     ends = [_raised(_times(second, START) + slope, degree) / 2, _raised(_times(second, END) - slope, degree) / 2]
     square = _raised(_times(first, first), degree)
-    program, entries, solved = _Program(), list[tuple[Any, Any]](), list[Any]()
+    program, entries, solved = Conic(TOLERANCE), list[tuple[Any, Any]](), list[Any]()
 
     def force(size: Any, sign: int, cost: float) -> Any:
         """Multipliers of accelerations (nodes, d), each in units of ``size``."""
@@ -255,7 +204,7 @@ def _multipliers(
         program.block([(rows, -1.0)], np.zeros(rows.shape), d + 1)
     program.product(middle.ravel(), None, rate.ravel())
     program.product(low.ravel(), rate.ravel(), middle.ravel())
-    x = program.solve()
+    x = _solved(program)
 
     def both_ends(values: Any, high: Any) -> Any:
         forces = values / (weight[:, None] * high)
