@@ -6,7 +6,7 @@ met by rays from an inner point, and those on the circles where two boundary sur
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -60,7 +60,7 @@ def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh |
     # a second time with directions stretched to the shape found, so that thin regions are sampled evenly
     spread = np.linalg.cholesky(np.cov((boundary - centre).T))
     boundary = _cast(shapes, centre, directions @ spread.T)
-    edges = _edges(shapes, scale=float(np.ptp(boundary, axis=0).max()))
+    edges = _creases(shapes, centre, directions_around(16 * len(directions)) @ spread.T)
     vertices = np.concatenate([boundary, *edges])
     faces = hull_faces(vertices, centre)
     middle = vertices[faces].mean(axis=1) - centre
@@ -148,90 +148,39 @@ def _ray(shape: Shape, origin: Array, directions: Array) -> Array:
         return np.where(slope < 0, (origin @ vector + number) / np.where(slope < 0, -slope, 1.0), np.inf)
 
 
-@dataclass(frozen=True, slots=True)
-class _Circle:
-    """centre + cos(angle) u + sin(angle) v."""
+def _creases(shapes: Sequence[Shape], centre: Array, directions: Array) -> tuple[Array, ...]:
+    """Lines along which two boundary surfaces meet: points by bisection between neighbours on different ones."""
 
-    centre: Array
-    u: Array
-    v: Array
+    def owners(units: Array) -> Indices:
+        return np.stack([_ray(s, centre, units) for s in shapes]).argmin(axis=0)
 
-    def at(self, angles: Array) -> Array:
-        """Points at these angles."""
-        a = angles[:, None]
-        return np.asarray(self.centre + np.cos(a) * self.u + np.sin(a) * self.v)
-
-
-def _edges(shapes: Sequence[Shape], scale: float) -> tuple[Array, ...]:
-    """The parts of the circles in which two boundary surfaces meet that bound the region."""
-    result: list[Array] = []
-    for i, first in enumerate(shapes):
-        for second in shapes[i + 1 :]:
-            circle = _meeting(first, second)
-            if circle is None:
-                continue
-            others = [s for s in shapes if s is not first and s is not second]
-            result += [circle.at(angles) for angles in _runs(circle, others, -1e-9 * scale)]
-    return tuple(result)
+    units = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    faces = hull_faces(units, np.zeros(3))
+    pairs = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
+    own = owners(units)
+    pairs = pairs[own[pairs[:, 0]] != own[pairs[:, 1]]]
+    low, high = units[pairs[:, 0]], units[pairs[:, 1]]
+    for _ in range(40):
+        middle = low + high
+        middle /= np.linalg.norm(middle, axis=1, keepdims=True)
+        is_low = (owners(middle) == own[pairs[:, 0]])[:, None]
+        low, high = np.where(is_low, middle, low), np.where(is_low, high, middle)
+    meeting = np.sort(np.stack([own[pairs[:, 0]], owners(high)], axis=1), axis=1)
+    points = _cast(shapes, centre, low)
+    listed = (points[(meeting == pair).all(axis=1)] for pair in np.unique(meeting, axis=0))
+    return tuple(line for found in listed if len(found) > 3 for line in _lines(found))
 
 
-def _meeting(a: Shape, b: Shape) -> _Circle | None:
-    """The circle in which two spheres, or a sphere and a plane, meet."""
-    if a[0] == "plane":
-        a, b = b, a
-    if a[0] == "plane":
-        return None
-    centre, radius = a[1], a[2]
-    if b[0] == "ball":
-        arrow = b[1] - centre
-        gap = float(np.linalg.norm(arrow))
-        if gap < 1e-12:
-            return None
-        normal, along = arrow / gap, (gap * gap + radius**2 - b[2] ** 2) / (2 * gap)
-    else:
-        normal, along = b[1], -(float(b[1] @ centre) + b[2])
-    if along * along >= radius * radius:
-        return None
-    helper = np.eye(3)[int(np.argmin(np.abs(normal)))]
-    u = np.cross(normal, helper)
-    u *= (radius**2 - along**2) ** 0.5 / np.linalg.norm(u)
-    return _Circle(centre + along * normal, u, np.cross(normal, u))
-
-
-def _runs(circle: _Circle, others: Sequence[Shape], tolerance: float) -> list[Array]:
-    """Ascending angles of each maximal arc on which all other conditions hold; the ends found by bisection."""
-    count = 720
-
-    def inside(angles: Array) -> NDArray[np.bool_]:
-        good = np.ones(len(angles), dtype=bool)
-        for other in others:
-            good &= _margin(other, circle.at(angles)) >= tolerance
-        return good
-
-    angles = np.linspace(0.0, 2 * np.pi, count + 1)
-    flags = inside(angles)
-    if flags.all():
-        return [angles]
-    if not flags.any():
-        return []
-    step = 2 * np.pi / count
-    start = int(np.argmin(flags))
-    angles = angles[start] + step * np.arange(count + 1)
-    flags = np.roll(flags[:-1], -start)
-    breaks = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
-    runs = []
-    for first, last in zip(breaks[::2], breaks[1::2], strict=True):
-        low = _crossing(inside, angles[first], angles[first] - step)
-        high = _crossing(inside, angles[last - 1], angles[last - 1] + step)
-        runs.append(np.concatenate([[low], angles[first:last], [high]]))
-    return runs
-
-
-def _crossing(inside: Callable[[Array], NDArray[np.bool_]], good: float, bad: float) -> float:
-    for _ in range(30):
-        middle = (good + bad) / 2
-        good, bad = (middle, bad) if inside(np.array([middle]))[0] else (good, middle)
-    return good
+def _lines(points: Array) -> list[Array]:
+    """Points of a convex plane curve, or of a straight line, in order, cut where there are gaps."""
+    away = points - points.mean(axis=0)
+    x, y = (away @ axis for axis in np.linalg.svd(away)[2][:2])
+    ordered = points[np.argsort(x if np.ptp(y) < 1e-6 * np.ptp(x) else np.arctan2(y, x))]
+    steps = np.linalg.norm(np.roll(ordered, -1, axis=0) - ordered, axis=1)
+    cuts = np.flatnonzero(steps > 4 * steps.mean())
+    if not len(cuts):
+        return [np.concatenate([ordered, ordered[:1]])]
+    return np.split(np.roll(ordered, -cuts[0] - 1, axis=0), cuts[1:] - cuts[0])
 
 
 def sampled(control: Sequence[Sequence[Any]], count: int = 61) -> Array:
