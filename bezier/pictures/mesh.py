@@ -118,22 +118,17 @@ def _margin(shape: Shape, points: Array) -> Array:
 
 
 def _inner_point(shapes: Sequence[Shape]) -> Array:
-    """A point far inside: move along the inner normal of the tightest condition with shrinking steps."""
+    """A point as far inside as can be: a convex problem."""
+    from scipy.optimize import minimize
+
     balls = [s for s in shapes if s[0] == "ball"]
-    point = np.mean([b[1] for b in balls], axis=0)
-    best, depth = point, -np.inf
-    step = max(b[2] for b in balls) / 2
-    for _ in range(600):
-        margins = [float(_margin(s, point[None, :])[0]) for s in shapes]
-        worst = int(np.argmin(margins))
-        if margins[worst] > depth:
-            best, depth = point, margins[worst]
-        kind, vector, _number = shapes[worst]
-        arrow = vector - point if kind == "ball" else vector
-        size = float(np.linalg.norm(arrow))
-        point = point + arrow / (size or 1.0) * step
-        step *= 0.985
-    return np.asarray(best)
+    start, size = np.mean([b[1] for b in balls], axis=0), max(b[2] for b in balls)
+    within = [
+        {"type": "ineq", "fun": lambda x, s=s: (_margin(s, x[None, :3] * size + start)[0]) / size - x[3]}
+        for s in shapes
+    ]
+    found = minimize(lambda x: -x[3], np.array([0.0, 0.0, 0.0, -2.0]), constraints=within, options={"maxiter": 500})
+    return np.asarray(found.x[:3] * size + start)
 
 
 def _ray(shape: Shape, origin: Array, directions: Array) -> Array:

@@ -92,11 +92,11 @@ def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, 
     cells = list(_pairs(scene, free))
     if sum(len(xs.corners) * len(ys.corners) for _, pairs in cells for (_, xs), (_, ys) in pairs) > MOST_ROWS:
         return straight
-    columns = {key: program.columns(size + 1) for _, pairs in cells for pair in pairs for key, _ in pair}
+    columns = {key: program.variables((size + 1,)).tolist() for _, pairs in cells for pair in pairs for key, _ in pair}
     slopes = {}
     for i, pairs in cells:
         for (a, xs), (b, ys) in pairs:
-            slope = slopes[i, a, b] = program.columns(size)
+            slope = slopes[i, a, b] = program.variables((size,)).tolist()
             program.cone([([], 1.0), *(([(k, 1.0)], 0.0) for k in slope)])
             for x in xs.floats:
                 for y in ys.floats:

@@ -67,10 +67,7 @@ class Cell:
     @staticmethod
     def within(low: Point, high: Point, sides: Sequence[Side]) -> Cell | None:
         """The part of a box on these sides; None where it has no interior."""
-        cell: Cell | None = Cell.box(low, high)
-        for side in sides:
-            cell = cell and cell.cut(side)[0]
-        return cell
+        return Cell.box(low, high).part(sides)
 
     @property
     def centre(self) -> Point:
@@ -121,6 +118,13 @@ class Cell:
             kept = [(corners[i], through[i]) for i, s in enumerate(signs) if s in (0, sign)] + between
             halves.append(_kept((*self.sides, new), kept, self.is_flat))
         return halves[0], halves[1]
+
+    def part(self, sides: Sequence[Side]) -> Cell | None:
+        """What of it is on these sides; None where that has no interior."""
+        cell: Cell | None = self
+        for side in sides:
+            cell = cell and cell.cut(side)[0]
+        return cell
 
     def _edges(self, signs: Sequence[int]) -> Iterator[tuple[int, int]]:
         """Pairs of neighbours on different sides: no other corner lies on all the sides that both lie on."""
@@ -264,13 +268,8 @@ def _are_near(one: Sequence[tuple[float, float]], other: Sequence[tuple[float, f
 
 def common_side(one: Cell, k: int, other: Cell) -> Cell | None:
     """The part of side k of a cell that another one behind it has, too; None where it is no full part of it."""
-    part: Cell | None = one.face(k)
-    for side in other.sides:
-        part = part and part.cut(side)[0]
-        if part is None:
-            return None
-    assert part is not None
-    return part if len(set(part.corners)) >= len(one.corners[0]) else None
+    part = one.face(k).part(other.sides)
+    return part if part is not None and len(set(part.corners)) >= len(one.corners[0]) else None
 
 
 def points_along(free: FreeCells, cells: Sequence[int], start: Point, goal: Point) -> list[Point]:

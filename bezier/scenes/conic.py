@@ -33,11 +33,6 @@ class Conic:
         self._costs.append((numbers.ravel(), np.broadcast_to(cost, shape).ravel()))
         return numbers
 
-    def columns(self, count: int) -> list[int]:
-        """New variables."""
-        self._width += count
-        return list(range(self._width - count, self._width))
-
     def block(self, entries: Sequence[tuple[Any, Any]], right: Any, size: int = 0) -> None:
         """Rows with sum of columns * values <= ``right``, all arrays of one shape. ``size``: right - sum lies in second
         order cones of so many rows; -1: it is zero."""

@@ -57,7 +57,7 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
     while waiting:
         for cell in waiting:
             budget.check("cells of the scene")
-            owner, part = _owner(scene, cell), _common(cell, domain)
+            owner, part = _owner(scene, cell), cell.part(domain.sides)
             if owner is not None and owner >= 0:
                 inner.append((cell, owner))
             elif part is not None:
@@ -86,13 +86,6 @@ def _planes(scene: Scene) -> Iterator[Side]:
         terms = dict(c.terms)
         normal = tuple(terms.get(tuple(int(i == k) for i in range(3)), ZERO) for k in range(3))
         yield normal[: scene.dimension], -terms.get((0, 0, 0), ZERO)
-
-
-def _common(cell: Cell, domain: Cell) -> Cell | None:
-    part: Cell | None = cell
-    for side in domain.sides:
-        part = part and part.cut(side)[0]
-    return part
 
 
 def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[_Mixed], walls: Sequence[Cell]) -> set[int]:

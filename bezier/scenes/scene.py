@@ -170,10 +170,6 @@ def _beyond(entry: Table, formula: Solid) -> Solid:
 
 
 def _part(entry: Table, size: int) -> Solid:
-    if _kind(entry) == "half_space":
-        obstacle = _obstacle(entry, size, ZERO)
-        assert isinstance(obstacle.body, HalfSpaceBody)
-        return _half(obstacle.body.normal[:size], obstacle.body.offset)
     solid = _solid(entry, 0, size, ZERO, None)
     assert solid is not None
     return solid
@@ -262,9 +258,7 @@ def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, 
     margin = entry.number("margin", ZERO) + extra
     name = str(entry.values.get("name", f"obstacle {k}"))
     if _kind(entry) == "box" and "low" in entry.values:
-        flat = _flat_box(entry, name, size, margin)
-        if flat is not None:
-            return flat
+        return _box(entry, name, size, margin)
     obstacle = _obstacle(entry, size, extra)
     if (
         size == 2
@@ -275,7 +269,8 @@ def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, 
     pieces = tuple(_at_level(piece.constraints) if size == 2 else piece.constraints for piece in obstacle.pieces)
     match obstacle.body:
         case HalfSpaceBody(normal, offset, radius):
-            assert span is not None
+            if span is None:
+                return _half(normal[:size], offset)
             low = tuple(c - radius - 1 for c in span[0])
             high = tuple(c + radius + 1 for c in span[1])
             part = Cell.within(low, high, ((normal[:size], offset),))
@@ -338,15 +333,17 @@ def _raised(entry: Table, key: str, value: Any, high: str) -> Any:
     return value
 
 
-def _flat_box(entry: Table, name: str, size: int, margin: Fraction) -> Solid | None:
-    """A box without an inside; None for others."""
+def _box(entry: Table, name: str, size: int, margin: Fraction) -> Solid:
+    """A box, which may be flat."""
     entry.only((*_COMMON, "low", "high"))
     low, high = (entry.as_point(key, entry.required(key, "a point"), size) for key in ("low", "high"))
     if not all(a <= b for a, b in zip(low, high, strict=True)):
         raise entry.error("high", "low <= high in each coordinate", f"({', '.join(map(str, high))})")
-    if all(a < b for a, b in zip(low, high, strict=True)):
-        return None
     cell = Cell.box(low, high)
+    if margin < 0:
+        raise entry.error("margin", "a number that is not negative", str(margin))
+    if not cell.is_flat:
+        return of_cell(name, cell, margin)
     if not margin:
         return Solid(name, cell.corners, cell.sides, ZERO, (_conditions(cell.sides),))
     if len(cell.corners) > 2:

@@ -97,7 +97,7 @@ def _proposed(
 ) -> list[list[list[float]]] | None:
     """Control points by cell, as the solver finds them, a little away from the rim of the workspace."""
     size, program = scene.dimension, Conic()
-    columns = [[program.columns(size) for _ in range(degree + 1)] for _ in cells]
+    columns = [[program.variables((size,)).tolist() for _ in range(degree + 1)] for _ in cells]
     wide = float(max(b - a for a, b in zip(scene.low, scene.high, strict=True)))
     for point, at in ((scene.start, columns[0][0]), (scene.goal, columns[-1][-1])):
         for k, c in zip(at, point, strict=True):
@@ -114,7 +114,7 @@ def _proposed(
                 away = INWARDS * wide * max(abs(float(x)) for x in side[0]) if side in rim else 0.0
                 program.at_least([(k, -float(x)) for k, x in zip(at, side[0], strict=True)], away - float(side[1]))
         for a, b in pairwise(points):
-            (leg,) = program.columns(1)
+            (leg,) = program.variables((1,)).tolist()
             program.cone([([(leg, 1.0)], 0.0), *(([(j, 1.0), (k, -1.0)], 0.0) for j, k in zip(a, b, strict=True))])
             program.add_cost([(leg, 1.0)])
         share = (EVENNESS / wide) ** 0.5

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
-from math import comb
 
+from bezier.curves import bernstein as bs
 from bezier.trajectories.piecewise import Trajectory, hermite
 from qe.errors import InputError
 from qe.exact.rational_poly import RationalPoly
@@ -30,11 +30,8 @@ def by_points(names: Sequence[str], times: Sequence[Fraction], states: Sequence[
 
 def by_control_points(points: Rows, length: Fraction) -> tuple[RationalPoly, ...]:
     """A Bezier piece: control points, each with all axes."""
-    n, result = len(points) - 1, []
-    for values in zip(*points, strict=True):
-        rows = [sum((-1) ** (k - j) * comb(k, j) * values[j] for j in range(k + 1)) for k in range(n + 1)]
-        result.append(RationalPoly.of([comb(n, k) * Fraction(c) / length**k for k, c in enumerate(rows)]))
-    return tuple(result)
+    rows = (bs.to_power(values) for values in zip(*points, strict=True))
+    return tuple(RationalPoly.of([Fraction(c) / length**k for k, c in enumerate(row)]) for row in rows)
 
 
 def by_spline(names: Sequence[str], knots: Sequence[Fraction], points: Rows, degree: int) -> Trajectory:

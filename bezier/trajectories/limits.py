@@ -15,10 +15,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate
-from math import ceil, comb, isqrt
+from math import ceil, comb
 from typing import Any
 
 import numpy as np
+from flint import fmpz
 
 from bezier.curves import bernstein as bs
 from bezier.curves.nonnegative import Negative, decide
@@ -114,14 +115,8 @@ class Outcome:
 
 def _root_above(value: int, power: int) -> int:
     """The least whole number whose power is at least the value, which is positive."""
-    if power == 1:
-        return value
-    high = 1 << (value.bit_length() // power + 1)
-    low = 0 if power != 2 else isqrt(value) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if middle**power < value else (low, middle)
-    return high
+    below = int(fmpz(value).root(power))
+    return below + (below**power < value)
 
 
 @dataclass(frozen=True)
