@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
-from bezier.obstacles.obstacle import Obstacle
+from bezier.obstacles.obstacle import Constraint, Obstacle
 from bezier.pictures.mesh import Array, Indices, directions_around, hull, hull_faces
 
 COLOURS = ("#d98a2b", "#8a6fb0", "#3f9aa8", "#8c6239", "#c2a92b", "#6b7785")
@@ -100,11 +101,14 @@ def _cloud(obstacle: Obstacle, reach: float) -> Array:
     axis = np.linspace(-reach, reach, GRID)
     grid = np.stack(np.meshgrid(axis, axis, axis), axis=-1).reshape(-1, 3)
     grid = grid[np.linalg.norm(grid, axis=1) <= reach]
-    inside = np.zeros(len(grid), dtype=bool)
-    for piece in obstacle.pieces:
-        held = np.ones(len(grid), dtype=bool)
-        for constraint in piece.constraints:
-            held &= sum(float(c) * np.prod(grid ** np.array(e), axis=1) for e, c in constraint.terms) >= 0
-        inside |= held
-    result: Array = grid[inside]
+    result: Array = grid[held([piece.constraints for piece in obstacle.pieces], grid)]
     return result
+
+
+def held(pieces: Sequence[Sequence[Constraint]], points: Array) -> NDArray[np.bool_]:
+    """Which points (n, 3) satisfy all conditions of a piece."""
+    inside = np.zeros(len(points), dtype=bool)
+    for piece in pieces:
+        values = [sum(float(x) * np.prod(points ** np.array(e), axis=1) for e, x in c.terms) for c in piece]
+        inside |= np.all([value + np.zeros(len(points)) >= 0 for value in values], axis=0)
+    return inside

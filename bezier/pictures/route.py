@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from bezier.pictures.mesh import Array, directions_around, hull, sampled
+from bezier.pictures.obstacles import held
 from bezier.scenes.barrier import Wall
 from bezier.scenes.route import Blocked, Route
 from bezier.scenes.scene import Scene
 from bezier.scenes.solid import Solid
 
 WIDTH, GRID = 340.0, 96
-WAY, TRIED, WALL, SIDE, BODY, START, GOAL = "#175cd3", "#667085", "#b42318", "#fda29b", "#98a2b3", "#067647", "#b42318"
+WAY, WALL, SIDE, BODY, START, GOAL = "#175cd3", "#b42318", "#fda29b", "#98a2b3", "#067647", "#b42318"
 
 
 def drawing(known: Route | Blocked) -> str:
@@ -79,16 +80,11 @@ def _workspace(scene: Scene, i: int, j: int) -> list[Array]:
 def _shaded(scene: Scene, body: Solid, i: int, j: int) -> Iterator[Array]:
     """The shadow of conditions in two coordinates, as rectangles in the rows of a grid."""
     steps = [(float(b - a) / GRID, float(a)) for a, b in zip(scene.low, scene.high, strict=True)]
-    grid = np.meshgrid(*(low + step * (np.arange(GRID) + 0.5) for step, low in steps), indexing="ij")
-    x, y, z = [*grid, np.zeros(())][:3]
-    values = (
-        [sum(float(c) * x**i * y**j * z**k for (i, j, k), c in condition.terms) + 0 * x >= 0 for condition in piece]
-        for piece in body.pieces
-    )
+    axes = [low + step * (np.arange(GRID) + 0.5) for step, low in steps] + [np.zeros(1)] * (3 - len(steps))
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    inside = held(body.pieces, points.reshape(-1, 3)).reshape(points.shape[:3])
     (dx, left), (dy, bottom) = steps[i], steps[j]
-    filled = np.any([np.all(piece, axis=0) for piece in values], axis=0).any(
-        axis=tuple(k for k in range(len(steps)) if k not in (i, j))
-    )
+    filled = inside.any(axis=tuple(k for k in range(3) if k not in (i, j)))
     for k, row in enumerate(filled.T):
         ends = np.flatnonzero(np.diff(np.concatenate(([0], row.astype(int), [0]))))
         for a, b in ends.reshape(-1, 2):

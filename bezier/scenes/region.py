@@ -22,6 +22,8 @@ from qe.errors import Unable
 from qe.options import Budget
 
 SMALLEST, MOST_CELLS, ONE = Fraction(1, 2**24), 1_500, Fraction(1)
+_Mixed = tuple[Cell, tuple[Cell, ...]]
+"""A cell that is not decided, and the cells that convex bodies leave of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,14 +35,6 @@ class Decomposed:
     free: FreeCells
     within: Scene
     numbers: tuple[int, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class _Mixed:
-    """A cell that is not decided, and the cells that convex bodies leave of it."""
-
-    whole: Cell
-    free: tuple[Cell, ...]
 
 
 def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) -> Decomposed:
@@ -63,12 +57,12 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
             elif part is not None:
                 cells = FreeCells.of(part, around, budget).cells
                 if owner is None:
-                    mixed.append(_Mixed(cell, cells))
+                    mixed.append((cell, cells))
                 else:
                     free += cells
-        split = {k for k, entry in enumerate(mixed) if _width(entry.whole) > even * wide}
+        split = {k for k, (cell, _) in enumerate(mixed) if _width(cell) > even * wide}
         split = split or _between(scene, free, mixed, around)
-        waiting = [half for k in sorted(split) for half in _parts(mixed[k].whole)]
+        waiting = [half for k in sorted(split) for half in _parts(mixed[k][0])]
         mixed = [entry for k, entry in enumerate(mixed) if k not in split]
         if len(mixed) + len(waiting) > MOST_CELLS or any(_width(cell) < SMALLEST * wide for cell in waiting):
             raise Unable("undecided: a way may lead along the boundary of a formula, where small cells do not tell")
@@ -90,8 +84,8 @@ def _planes(scene: Scene) -> Iterator[Side]:
 
 def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[_Mixed], walls: Sequence[Cell]) -> set[int]:
     """The numbers of mixed cells that ways from start to goal lead through, none twice; none where a way is free."""
-    owners = {len(free) + n: k for n, k in enumerate(k for k, entry in enumerate(mixed) for _ in entry.free)}
-    graph = FreeCells.linked((*free, *(cell for entry in mixed for cell in entry.free)), walls)
+    owners = {len(free) + n: k for n, k in enumerate(k for k, (_, cells) in enumerate(mixed) for _ in cells)}
+    graph = FreeCells.linked((*free, *(cell for _, cells in mixed for cell in cells)), walls)
     start, goal, split = graph.holding(scene.start), graph.holding(scene.goal), set[int]()
     while start is not None and goal is not None and goal in (before := graph.reached(start, owners)):
         met = {i for i in graph.way(before, goal) if i in owners}

@@ -194,11 +194,6 @@ class Wish:
         if 1 < self.degree <= self.continuity:
             raise InputError(f"continuity: expected one below the degree {self.degree}, found {self.continuity}")
 
-    @property
-    def joins(self) -> int:
-        """The order of continuity; segments have corners."""
-        return self.continuity if self.degree > 1 else 0
-
 
 def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | None = None) -> Route | Blocked:
     """A path with proof, or the proof that there is none; the same without a certificate where no ``proof`` is wanted.
@@ -225,7 +220,8 @@ def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tup
     scene, is_plane = known.scene, known.scene.dimension == 2
     for fine in (2, 1):
         found = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))
-        curves = least_chain(scene, found.domain, found.free, wish.degree, wish.joins)
+        joins = min(wish.continuity, wish.degree - 1)  # segments have corners
+        curves = least_chain(scene, found.domain, found.free, wish.degree, joins)
         if curves is not None:
             break
     if curves is not None and wish.degree == 1:

@@ -72,12 +72,6 @@ class Trajectory:
             pieces.append(tuple(p.compose(inner) for p in self.pieces[k]))
         return Trajectory(self.names, tuple(breaks), tuple(pieces))
 
-    def slowed(self, factor: Fraction) -> Trajectory:
-        """The same path in ``factor`` times the time."""
-        inner = RationalPoly.of([Fraction(0), 1 / factor])
-        rows = tuple(tuple(p.compose(inner) for p in row) for row in self.pieces)
-        return Trajectory(self.names, tuple(t * factor for t in self.breaks), rows)
-
 
 def hermite(length: Fraction, start: Sequence[Fraction], end: Sequence[Fraction]) -> RationalPoly:
     """The polynomial of least degree on [0, length] with this position (and velocity, and acceleration) at its ends."""

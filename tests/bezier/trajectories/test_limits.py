@@ -16,6 +16,7 @@ from scipy.interpolate import BSpline, CubicSpline
 import qe
 from bezier.cli import main
 from bezier.trajectories.evidence import compare, members, stated
+from bezier.trajectories.exact import composed
 from bezier.trajectories.limits import Limit, Verdict, decided, is_below
 from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
@@ -26,6 +27,12 @@ from tests.bezier.trajectories.timed import least_time_law, spline, timed
 from tests.tables import each
 
 F, TOLERANCE = Fraction, Fraction(1, 10**9)
+
+
+def slowed(trajectory: Trajectory, factor: F) -> Trajectory:
+    """The same path in ``factor`` times the time."""
+    laws = [RationalPoly.of([start, 1 / factor]) for start in trajectory.breaks[:-1]]
+    return composed(trajectory, [t * factor for t in trajectory.breaks], laws)
 
 
 def one(coefficients: list[int], length: int = 1) -> Trajectory:
@@ -61,9 +68,9 @@ def test_paths_timed_by_toppra_break_their_limits_between_grid_points(axes: int,
     exact = np.array([abs(o.value) for o in verdict.outcomes])
     assert np.all(exact >= sampled - 1e-12)
     assert np.all(exact <= sampled + 1e-9)
-    slower = decided(trajectory.slowed(verdict.factor), limits_of(axes), TOLERANCE)
+    slower = decided(slowed(trajectory, verdict.factor), limits_of(axes), TOLERANCE)
     assert slower.is_kept
-    faster = decided(trajectory.slowed(verdict.factor - F(1, 10**6)), limits_of(axes), TOLERANCE)
+    faster = decided(slowed(trajectory, verdict.factor - F(1, 10**6)), limits_of(axes), TOLERANCE)
     assert not faster.is_kept
 
 
@@ -162,7 +169,7 @@ def _altered(data: Any, random: Random) -> Any:
 
 def test_the_certificate_of_another_trajectory_is_rejected(proved: tuple[Verdict, str]) -> None:
     verdict, text = proved
-    other = decided(verdict.trajectory.slowed(F(101, 100)), [o.limit for o in verdict.outcomes], TOLERANCE)
+    other = decided(slowed(verdict.trajectory, F(101, 100)), [o.limit for o in verdict.outcomes], TOLERANCE)
     with pytest.raises(CertificateRejected):
         compare(qe.Certificate.from_json(text), stated(other))
 
