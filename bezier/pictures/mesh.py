@@ -123,11 +123,12 @@ def _inner_point(shapes: Sequence[Shape]) -> Array:
 
     balls = [s for s in shapes if s[0] == "ball"]
     start, size = np.mean([b[1] for b in balls], axis=0), max(b[2] for b in balls)
-    within = [
-        {"type": "ineq", "fun": lambda x, s=s: (_margin(s, x[None, :3] * size + start)[0]) / size - x[3]}
-        for s in shapes
-    ]
-    found = minimize(lambda x: -x[3], np.array([0.0, 0.0, 0.0, -2.0]), constraints=within, options={"maxiter": 500})
+
+    def room(x: Array) -> Array:
+        return np.array([_margin(s, x[None, :3] * size + start)[0] / size - x[3] for s in shapes])
+
+    within: Any = {"type": "ineq", "fun": room}
+    found = minimize(lambda x: -float(x[3]), [0.0, 0.0, 0.0, -2.0], method="SLSQP", constraints=within)
     return np.asarray(found.x[:3] * size + start)
 
 
@@ -147,7 +148,7 @@ def _creases(shapes: Sequence[Shape], centre: Array, directions: Array) -> tuple
     """Lines along which two boundary surfaces meet: points by bisection between neighbours on different ones."""
 
     def owners(units: Array) -> Indices:
-        return np.stack([_ray(s, centre, units) for s in shapes]).argmin(axis=0)
+        return np.asarray(np.stack([_ray(s, centre, units) for s in shapes]).argmin(axis=0))
 
     units = directions / np.linalg.norm(directions, axis=1, keepdims=True)
     faces = hull_faces(units, np.zeros(3))

@@ -84,7 +84,7 @@ def _shaded(scene: Scene, body: Solid, i: int, j: int) -> Iterator[Array]:
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     inside = held(body.pieces, points.reshape(-1, 3)).reshape(points.shape[:3])
     (dx, left), (dy, bottom) = steps[i], steps[j]
-    filled = inside.any(axis=tuple(k for k in range(3) if k not in (i, j)))
+    filled: Any = inside.any(axis=tuple(k for k in range(3) if k not in (i, j)))
     for k, row in enumerate(filled.T):
         ends = np.flatnonzero(np.diff(np.concatenate(([0], row.astype(int), [0]))))
         for a, b in ends.reshape(-1, 2):

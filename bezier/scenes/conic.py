@@ -60,7 +60,8 @@ class Conic:
     def cone(self, rows: Sequence[tuple[Terms, float]], kind: str = "SecondOrderConeT") -> None:
         """The first of these affine forms is at least the length of the others."""
         places = [(self._height + i, j, -c) for i, (terms, _) in enumerate(rows) for j, c in terms]
-        self._rows += [tuple(zip(*places, strict=True))] if places else []
+        at, columns, values = zip(*places, strict=True)
+        self._rows.append((at, columns, values))
         self._right.append([value for _, value in rows])
         self._height += len(rows)
         self._cones.append((kind, len(rows)))

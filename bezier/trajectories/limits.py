@@ -116,7 +116,7 @@ class Outcome:
 def _root_above(value: int, power: int) -> int:
     """The least whole number whose power is at least the value, which is positive."""
     below = int(fmpz(value).root(power))
-    return below + (below**power < value)
+    return below + int(below**power < value)
 
 
 @dataclass(frozen=True)
