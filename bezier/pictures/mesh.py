@@ -119,7 +119,7 @@ def _margin(shape: Shape, points: Array) -> Array:
 
 def _inner_point(shapes: Sequence[Shape]) -> Array:
     """A point as far inside as can be: a convex problem."""
-    from scipy.optimize import minimize
+    from scipy import optimize
 
     balls = [s for s in shapes if s[0] == "ball"]
     start, size = np.mean([b[1] for b in balls], axis=0), max(b[2] for b in balls)
@@ -127,8 +127,8 @@ def _inner_point(shapes: Sequence[Shape]) -> Array:
     def room(x: Array) -> Array:
         return np.array([_margin(s, x[None, :3] * size + start)[0] / size - x[3] for s in shapes])
 
-    within: Any = {"type": "ineq", "fun": room}
-    found = minimize(lambda x: -float(x[3]), [0.0, 0.0, 0.0, -2.0], method="SLSQP", constraints=within)
+    minimize: Any = optimize.minimize
+    found = minimize(lambda x: -x[3], [0.0, 0.0, 0.0, -2.0], constraints={"type": "ineq", "fun": room})
     return np.asarray(found.x[:3] * size + start)
 
 

@@ -19,7 +19,6 @@ from math import ceil, comb
 from typing import Any
 
 import numpy as np
-from flint import fmpz
 
 from bezier.curves import bernstein as bs
 from bezier.curves.nonnegative import Negative, decide
@@ -115,8 +114,11 @@ class Outcome:
 
 def _root_above(value: int, power: int) -> int:
     """The least whole number whose power is at least the value, which is positive."""
-    below = int(fmpz(value).root(power))
-    return below + int(below**power < value)
+    low, high = 0, 1 << (value.bit_length() // power + 1)
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if middle**power < value else (low, middle)
+    return high
 
 
 @dataclass(frozen=True)
