@@ -128,8 +128,8 @@ def _inner_point(shapes: Sequence[Shape]) -> Array:
         return np.array([_margin(s, x[None, :3] * size + start)[0] / size - x[3] for s in shapes])
 
     minimize: Any = optimize.minimize
-    found = minimize(lambda x: -x[3], [0.0, 0.0, 0.0, -2.0], constraints={"type": "ineq", "fun": room})
-    return np.asarray(found.x[:3] * size + start)
+    best = minimize(lambda x: -x[3], [0.0, 0.0, 0.0, -2.0], constraints={"type": "ineq", "fun": room})
+    return np.asarray(best.x[:3] * size + start)
 
 
 def _ray(shape: Shape, origin: Array, directions: Array) -> Array:
@@ -164,7 +164,7 @@ def _creases(shapes: Sequence[Shape], centre: Array, directions: Array) -> tuple
     meeting = np.sort(np.stack([own[pairs[:, 0]], owners(high)], axis=1), axis=1)
     points = _cast(shapes, centre, low)
     listed = (points[(meeting == pair).all(axis=1)] for pair in np.unique(meeting, axis=0))
-    return tuple(line for found in listed if len(found) > 3 for line in _lines(found))
+    return tuple(line for part in listed if len(part) > 3 for line in _lines(part))
 
 
 def _lines(points: Array) -> list[Array]:

@@ -72,10 +72,10 @@ def proposal(grid: Grid, bounds: Bounds) -> Proposal:
 
 
 def _solved(program: Conic) -> Any:
-    found = program.solved()
-    if found is None:
+    values = program.solved()
+    if values is None:
         raise Unable("clarabel proposes nothing for this path and these limits")
-    return np.array(found)
+    return np.array(values)
 
 
 def _durations(grid: Grid, h: Any, squares: Any) -> Any:

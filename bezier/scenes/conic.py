@@ -95,14 +95,14 @@ class Conic:
         cost = np.zeros(self._width)
         for k, c in self._costs:
             np.add.at(cost, k, c)
-        at, columns, values = (np.concatenate(part) for part in zip(*self._rows, strict=True))
-        matrix = sparse.csc_matrix((values, (at, columns)), shape=(self._height, self._width))
+        at, columns, factors = (np.concatenate(part) for part in zip(*self._rows, strict=True))
+        matrix = sparse.csc_matrix((factors, (at, columns)), shape=(self._height, self._width))
         listed = [(i, k, c) for i, terms in enumerate(self._squares) for k, c in terms]
         i, k, c = zip(*listed, strict=True) if listed else ((), (), ())
         squares = sparse.csc_matrix((c, (i, k)), shape=(len(self._squares), self._width))
         quadratic = sparse.triu(2 * squares.T @ squares, format="csc")
         cones = [getattr(clarabel, name)(count) for name, count in self._cones]
         answer = clarabel.DefaultSolver(quadratic, cost, matrix, np.concatenate(self._right), cones, settings).solve()
-        found = list(map(float, answer.x))
-        hopeless = "Infeasible" in str(answer.status) or not np.isfinite(found).all()
-        return None if hopeless else found
+        values = list(map(float, answer.x))
+        hopeless = "Infeasible" in str(answer.status) or not np.isfinite(values).all()
+        return None if hopeless else values

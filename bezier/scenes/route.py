@@ -219,9 +219,9 @@ def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tup
     """A short path in place of one that is known, which stays where passages are too narrow for floating point."""
     scene, is_plane = known.scene, known.scene.dimension == 2
     for fine in (2, 1):
-        found = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))
+        parts = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))
         joins = min(wish.continuity, wish.degree - 1)  # segments have corners
-        curves = least_chain(scene, found.domain, found.free, wish.degree, joins)
+        curves = least_chain(scene, parts.domain, parts.free, wish.degree, joins)
         if curves is not None:
             break
     if curves is not None and wish.degree == 1:
@@ -236,11 +236,11 @@ def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tup
 def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:
     walls = barrier(scene)
     for fine in () if walls else PLANE_STEPS:
-        found = decomposed(scene, fine, budget)
-        if (known := _joined(scene, found.free)) is not None:
+        parts = decomposed(scene, fine, budget)
+        if (known := _joined(scene, parts.free)) is not None:
             return known
-        if scene.formulas and (walls := barrier(found.within)):
-            walls = longer(scene, tuple(replace(w, bodies=tuple(found.numbers[i] for i in w.bodies)) for w in walls))
+        if scene.formulas and (walls := barrier(parts.within)):
+            walls = longer(scene, tuple(replace(w, bodies=tuple(parts.numbers[i] for i in w.bodies)) for w in walls))
             break
     cells = [cell_of(wall) for wall in walls]
     result = _separated(scene, Cell.box(scene.low, scene.high), cells, walls, budget) if walls else None
@@ -253,10 +253,10 @@ def _in_space(scene: Scene, budget: Budget) -> Route | Blocked:
     is_round = scene.formulas or any(not body.is_polytope for body in (*scene.solids, *scene.domain))
     for fine in SPACE_STEPS if is_round else (0,):
         normals = directions(3, fine)
-        found = decomposed(scene, fine, budget)
-        known: Route | Blocked | None = _joined(scene, found.free)
+        parts = decomposed(scene, fine, budget)
+        known: Route | Blocked | None = _joined(scene, parts.free)
         if known is None:
-            walls = tuple(cell for body in found.within.solids if (cell := _within(body, normals)) is not None)
+            walls = tuple(cell for body in parts.within.solids if (cell := _within(body, normals)) is not None)
             sides = [side for part in scene.domain for side in part.around(normals)]
             domain = Cell.within(scene.low, scene.high, sides)
             assert domain is not None
