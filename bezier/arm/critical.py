@@ -17,10 +17,11 @@ from functools import cached_property
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, Reduction
 from bezier.arm.inverse import geometry_of
 from bezier.arm.model import Arm
-from bezier.arm.ratio import Ratio, constant, reduced
+from bezier.arm.ratio import Ratio, reduced
+from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import exactly, rational
-from bezier.proofs.branch import powers
+from bezier.curves.scalar import rational
+from bezier.proofs.branch import coefficients
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
 from qe.exact.point_values import roots_between
@@ -58,15 +59,8 @@ class AlongCurve:
     @cached_property
     def point(self) -> tuple[Ratio, ...]:
         """p(s), coordinates as polynomials of the ring ``NAMES``."""
-        ring, field = Ring.of(NAMES), self.arm.field
-        s = Ratio(ring.gen(S), 1, field)
-        result = []
-        for i in range(3):
-            total = constant(ring, 0, field)
-            for c in reversed(powers([exactly(p[i]) for p in self.curve.points])):
-                total = total * s + c
-            result.append(total)
-        return tuple(result)
+        s = Ratio(Ring.of(NAMES).gen(S), 1, self.arm.field)
+        return tuple(bs.power_value(row, s) for row in coefficients(self.curve.points))
 
     @cached_property
     def _reductions(self) -> dict[int, Reduction]:

@@ -125,31 +125,18 @@ def _made(problem: Problem, clock: Clock) -> SinglePlan:
         needed = printed is not None and not printed.holds
         closed = close(given, problem.workspace, check=clock.remaining) if needed else None
         attainable = _attainable(problem, given, clock) if needed else None
-    found = taken(printed, closed)
     with clock.step("curves and proofs"):
-        path = None if found is None else path_of(problem, given, found)
-        above = {} if path is None else heights_proved(given, path.curves[NAME])
+        fields = known(problem, chosen, printed, closed)
     with clock.step("verification"):
-        certificates = labelled(given, chosen, printed, closed, path, above)
-        whole, checks = verified(certificates, path)
+        certificate, checks = verified(labelled(fields), fields["path"])
     return SinglePlan(
-        problem=problem,
-        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=str(question),
+        **fields,
         answer=answer,
-        objective=None if found is None else sum_of(given, found),
-        path=path,
-        active=() if found is None else active(given, found),
-        certificate=whole,
+        certificate=certificate,
         checks=checks,
         seconds=clock.seconds,
-        task=given,
-        chosen=chosen,
-        printed=printed,
-        closed=closed,
         pieces=Pieces(given),
         attainable="" if attainable is None else str(attainable.formula),
-        above=above,
         eliminations={
             SUMS: answer,
             **single_formula.proved_identities(given.degree),
@@ -158,11 +145,27 @@ def _made(problem: Problem, clock: Clock) -> SinglePlan:
     )
 
 
-def taken(printed: Printed | None, closed: ProvedCurve | NoCurve | None) -> Mapping[str, Values] | None:
-    """The curve that is taken: the printed one where it holds, or that of Method 1*; None if there is neither."""
+def known(
+    problem: Problem, chosen: tuple[Chosen, ...], printed: Printed | None, closed: ProvedCurve | NoCurve | None
+) -> dict[str, Any]:
+    """The fields of the plan that follow from the answers to the linear programs: the path, what is proved of it."""
+    given, values = task_of(problem), closed.values if isinstance(closed, ProvedCurve) else None
     if printed is not None and printed.holds:
-        return dict(printed.values)
-    return closed.values if isinstance(closed, ProvedCurve) else None
+        values = dict(printed.values)
+    path = None if values is None else path_of(problem, given, values)
+    return {
+        "problem": problem,
+        "outcome": Outcome.SOLVED if path else Outcome.INFEASIBLE,
+        "formula": str(single_formula.attainable(given, given.raised[0])),
+        "objective": None if values is None else sum_of(given, values),
+        "path": path,
+        "active": () if values is None else active(given, values),
+        "task": given,
+        "chosen": chosen,
+        "printed": printed,
+        "closed": closed,
+        "above": {} if path is None else heights_proved(given, path.curves[NAME]),
+    }
 
 
 def questions(problem: Problem) -> dict[str, Formula]:
@@ -288,16 +291,12 @@ def lowest_label(name: str) -> str:
     return f"{of_axis(name)}, another curve"
 
 
-def labelled(
-    given: Task,
-    chosen: tuple[Chosen, ...],
-    printed: Printed | None,
-    closed: ProvedCurve | NoCurve | None,
-    path: Path | None,
-    above: Mapping[str, Inside],
-) -> list[tuple[str, qe.Certificate]]:
+def labelled(fields: Mapping[str, Any]) -> list[tuple[str, qe.Certificate]]:
     """(4) solved or contradicted on each axis, the other curve that it allows, the bound or the contradiction of
-    Method 1*, and the heights of the path."""
+    Method 1*, and the heights of the path; ``fields``: what is ``known``."""
+    given, chosen, printed, closed, path, above = map(
+        fields.__getitem__, ("task", "chosen", "printed", "closed", "path", "above")
+    )
     result = [(of_axis(item.axis.name), certificate(item.program, item.objective, item.outcome)) for item in chosen]
     for item in chosen if printed is not None else ():
         if printed is not None and isinstance(item.outcome, LinearOptimum):

@@ -18,7 +18,6 @@ from bezier.input import stored
 from bezier.input.task import Axis, Task, Values
 from bezier.methods.control.optimal_path import bundled
 from bezier.methods.control.terms import member
-from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import NoCurve, ProvedCurve, plain_program
 from bezier.methods.single.cuts import Cut, CutKind, Model
 from bezier.methods.single.plan import (
@@ -27,21 +26,18 @@ from bezier.methods.single.plan import (
     PIECEWISE_DEGREE,
     Printed,
     SinglePlan,
-    active,
-    heights_proved,
+    known,
     labelled,
     lowest_label,
     of_axis,
-    path_of,
     printed_of,
     sum_of,
-    taken,
     task_of,
 )
 from bezier.methods.single.program import Chosen, curve, dips, objective, program
 from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, certificate
 from bezier.paths.path import prove
-from bezier.plans import Outcome, Stated
+from bezier.plans import Stated
 from bezier.problem import Problem
 from qe.errors import CertificateRejected
 from qe.proof.certificate import Certificate
@@ -60,27 +56,15 @@ def restore(problem: Problem, evidence: Certificate, stated: Stated) -> SinglePl
     chosen = tuple(_chosen(given, axis, of_axis(axis.name), evidence) for axis in given.raised)
     printed = _printed(problem, given, chosen, evidence)
     closed, attainable = _closed(problem, given, printed, evidence, stated)
-    values = taken(printed, closed)
-    path = None if values is None else path_of(problem, given, values)
-    above = {} if path is None else heights_proved(given, path.curves[NAME])
+    fields = known(problem, chosen, printed, closed)
     return SinglePlan(
-        problem=problem,
-        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=str(single_formula.attainable(given, given.raised[0])),
+        **fields,
         answer=None,
-        objective=None if values is None else sum_of(given, values),
-        path=path,
-        active=() if values is None else active(given, values),
-        certificate=bundled(labelled(given, chosen, printed, closed, path, above), path),
+        certificate=bundled(labelled(fields), fields["path"]),
         checks={},
         seconds={},
-        task=given,
-        chosen=chosen,
-        printed=printed,
-        closed=closed,
         pieces=_pieces(given, stated),
         attainable=attainable,
-        above=above,
     )
 
 
