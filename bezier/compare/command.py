@@ -18,7 +18,7 @@ from bezier.planner.outputs import COMPARED, COMPARISON
 from bezier.plans import Clock
 from bezier.problem import Problem
 from bezier.report import html, parts
-from bezier.report.first import DRAWING
+from bezier.report.first import DRAWING, computed
 from bezier.report.html import Card, Page, Section, Text
 from bezier.report.page import PAPER
 from qe.processes.channel import Channel
@@ -66,12 +66,7 @@ def _cards(comparison: Comparison) -> list[Card]:
         cards.append(
             Card(f"{method.value} curves", "path found" if good else "no path", html.tone(good), "; ".join(facts))
         )
-    drawing = sum(comparison.seconds.get(name, 0.0) for name in DRAWING)
-    solving = sum(comparison.seconds.values()) - drawing
-    cards.append(
-        Card("computed in", f"{duration(solving)} solving", note=f"{duration(drawing)} drawing" if drawing else "")
-    )
-    return cards
+    return [*cards, computed(comparison.seconds, duration)]
 
 
 def _results(comparison: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:

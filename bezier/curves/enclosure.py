@@ -136,7 +136,7 @@ def maximum(numerator: Sequence[Any], denominator: Sequence[Any], rel: Fraction)
     todo, pieces, best = [_Quotient.of(bs.elevate(numerator, degree), bs.elevate(denominator, degree))], 0, Fraction(0)
     while todo:
         piece = todo.pop()
-        best = max(best, piece.at_start(), piece.at_end())
+        best = max(best, *piece.at_ends())
         if piece.is_at_most(best * (1 + rel)):
             continue
         pieces += 1
@@ -170,13 +170,9 @@ class _Quotient:
         size = len(numerator)
         return _Quotient(tuple(whole[:size]), tuple(whole[size:]), error)
 
-    def at_start(self) -> Fraction:
-        """A lower bound of the value at the start."""
-        return Fraction(self.above[0] - self.error, self.below[0] + self.error)
-
-    def at_end(self) -> Fraction:
-        """A lower bound of the value at the end."""
-        return Fraction(self.above[-1] - self.error, self.below[-1] + self.error)
+    def at_ends(self) -> list[Fraction]:
+        """Lower bounds of the values at both ends."""
+        return [Fraction(self.above[k] - self.error, self.below[k] + self.error) for k in (0, -1)]
 
     def is_at_most(self, ceiling: Fraction) -> bool:
         """Whether the Bernstein coefficients of c D - N are nonnegative."""

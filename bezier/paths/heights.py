@@ -18,7 +18,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import chain, groupby, pairwise, zip_longest
+from operator import itemgetter
 from typing import Any
 
 from bezier.curves import bernstein as bs
@@ -126,19 +127,9 @@ def _violated(outline: Sequence[Constraint], signs: Sequence[int]) -> bool:
 
 def _runs(at: Sequence[bool], between: Sequence[bool]) -> list[tuple[int, int]]:
     """Maximal runs of truth over the critical values and the gaps after them, as indices of their first and last."""
-    runs: list[tuple[int, int]] = []
-    start: int | None = None
-    for i, here in enumerate(at):
-        after = between[i] if i < len(between) else False
-        if start is not None and not here:
-            runs.append((start, i))
-            start = None
-        if start is None and (here or after):
-            start = i
-        if start is not None and not after:
-            runs.append((start, i))
-            start = None
-    return runs
+    flat = enumerate(chain.from_iterable(zip_longest(at, between, fillvalue=False)))
+    runs = ([k for k, _ in group] for holds, group in groupby(flat, key=itemgetter(1)) if holds)
+    return [(run[0] // 2, (run[-1] + 1) // 2) for run in runs]
 
 
 def _end(event: Event, strip: Strip, axis: str, included: bool) -> StretchEnd:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
@@ -53,12 +53,13 @@ def cards(plan: Plan) -> list[Card]:
         kept, strip = plan.heights.hold, plan.heights.strip
         said = "kept on all curves" if kept else "not kept on all curves"
         result.append(Card(f"heights for {brief(strip.low)} ≤ x ≤ {brief(strip.high)}", said, html.tone(kept)))
-    return [*result, _computed(plan)]
+    return [*result, computed(plan.seconds, duration)]
 
 
-def _computed(plan: Plan) -> Card:
-    drawing = sum(s for name, s in plan.seconds.items() if name in DRAWING)
-    solving = sum(plan.seconds.values()) - drawing
+def computed(seconds: Mapping[str, float], duration: Callable[[float], str]) -> Card:
+    """The time that it took, by steps."""
+    drawing = sum(s for name, s in seconds.items() if name in DRAWING)
+    solving = sum(seconds.values()) - drawing
     return Card("computed in", f"{duration(solving)} solving", note=f"{duration(drawing)} drawing" if drawing else "")
 
 
