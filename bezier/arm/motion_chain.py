@@ -24,8 +24,9 @@ from fractions import Fraction
 from math import inf, nextafter
 from typing import Any
 
-from flint import arb, arb_mat, fmpq
+from flint import arb, arb_mat
 
+from bezier.proofs.square_roots import rational_ball
 from qe.exact.balls import precision
 from qe.exact.field import FieldElement
 
@@ -263,8 +264,7 @@ def ball_of(value: Any) -> arb:
     """A rational number or an element of a field as a ball."""
     if isinstance(value, FieldElement):
         return value.ball(BITS)
-    number = Fraction(value)
-    return arb(fmpq(number.numerator, number.denominator))
+    return rational_ball(Fraction(value))
 
 
 def _range(x: arb) -> Range:

@@ -204,7 +204,7 @@ def _seen_from(base: Motion, curve: Sequence[Sequence[Fraction]]) -> Iterator[Ve
     rows, shift = back(base)
     for k, vector in enumerate(zip(*curve, strict=True)):
         seen = image((rows, shift if k == 0 else STILL[1]), [Surd.rational(c) for c in vector])
-        yield [duals.root_sum(c.terms, DIRECTIONS) for c in seen]
+        yield [duals.constant(c, DIRECTIONS) for c in seen]
 
 
 def _check_link(one: Tube, first: list[Fraction], other: Tube, second: list[Fraction], curves: list[Points]) -> None:

@@ -5,12 +5,12 @@ The checker's own: whoever makes the certificates uses products of matrices and 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
-from flint import arb, arb_mat, fmpq
+from flint import arb, arb_mat
 
-from bezier.proofs.square_roots import Motion, Triple
+from bezier.proofs.square_roots import Motion, Surd, rational_ball
 
 BITS = 96
 
@@ -47,10 +47,9 @@ def number(value: Fraction, directions: int) -> Dual:
     return Dual(ball(value), (arb(0),) * directions)
 
 
-def root_sum(terms: Iterable[tuple[int, Fraction]], directions: int) -> Dual:
-    """The sum of q √d over the pairs (d, q), a constant."""
-    value = sum((arb(d).sqrt() * ball(q) for d, q in terms), arb(0))
-    return Dual(value, (arb(0),) * directions)
+def constant(value: Surd, directions: int) -> Dual:
+    """A sum of square roots."""
+    return Dual(value.ball(), (arb(0),) * directions)
 
 
 def seed(value: arb, which: int, directions: int) -> Dual:
@@ -58,9 +57,7 @@ def seed(value: arb, which: int, directions: int) -> Dual:
     return Dual(value, tuple(arb(int(k == which)) for k in range(directions)))
 
 
-def ball(value: Fraction) -> arb:
-    """A rational number as a ball."""
-    return arb(fmpq(value.numerator, value.denominator))
+ball = rational_ball
 
 
 def around(radius: Fraction) -> arb:
@@ -78,7 +75,7 @@ def origin(directions: int) -> Vector:
 
 def rigid(motion: Motion) -> Callable[[Vector], Vector]:
     """A constant motion."""
-    rows, shift = [_values(row) for row in motion[0]], _values(motion[1])
+    rows, shift = [[c.ball() for c in row] for row in motion[0]], [c.ball() for c in motion[1]]
 
     def moved(p: Vector) -> Vector:
         values = [_inner(row, [v.value for v in p]) + o for row, o in zip(rows, shift, strict=True)]
@@ -86,10 +83,6 @@ def rigid(motion: Motion) -> Callable[[Vector], Vector]:
         return [Dual(value, slope) for value, slope in zip(values, slopes, strict=True)]
 
     return moved
-
-
-def _values(numbers: Triple) -> list[arb]:
-    return [root_sum(c.terms, 0).value for c in numbers]
 
 
 def moved(turns: bool, value: Dual, p: Vector) -> Vector:

@@ -115,7 +115,7 @@ class KeptLimits:
         with precision(duals.BITS):
             value = duals.seed(duals.ball(middle) + duals.around(part.radius), 0, 1)
             parts = value.sine_cosine()[::-1] if turns else (value,)
-            held = Held.of(self._chain, joint, parts, lambda c: duals.root_sum(c.terms, 1))
+            held = Held.of(self._chain, joint, parts, lambda c: duals.constant(c, 1))
             relations = held.relations([duals.number(c, 1) for c in point])
             return any(
                 not relation.slope[0].contains(0)
