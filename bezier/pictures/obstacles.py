@@ -76,7 +76,8 @@ def _widened(points: Array, radius: float) -> Array:
     """The points with balls around them."""
     if not radius:
         return points
-    directions = directions_around(642 if len(points) < 4 else 162 if len(points) < 20 else 42)
+    spiral = directions_around(642 if len(points) < 4 else 162 if len(points) < 20 else 42)
+    directions = np.concatenate([spiral, np.eye(3), -np.eye(3)])  # flat sides are as far out as they are
     widened: Array = (points[:, None, :] + radius * directions[None]).reshape(-1, 3)
     return widened
 
