@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -203,13 +204,10 @@ def best_view(mesh: RegionMesh) -> tuple[float, float]:
     """Elevation and azimuth in degrees from which the boundary surfaces are all seen as well as possible."""
     corners = mesh.vertices[mesh.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    owners = sorted(set(mesh.owner.tolist()))
-    whole = np.linalg.norm(normals, axis=1).sum()
-    best, score = (20.0, -62.0), -np.inf
-    for elevation in (15.0, 25.0, 35.0):
-        for turn in range(-170, 190, 15):
-            seen = np.clip(normals @ direction((elevation, turn)), 0, None)
-            value = sum(float(np.sqrt(seen[mesh.owner == k].sum() / whole)) for k in owners)
-            if value > score:
-                best, score = (elevation, float(turn)), value
-    return best
+    owners, whole = sorted(set(mesh.owner.tolist())), np.linalg.norm(normals, axis=1).sum()
+
+    def score(view: tuple[float, float]) -> float:
+        seen = np.clip(normals @ direction(view), 0, None)
+        return sum(float(np.sqrt(seen[mesh.owner == k].sum() / whole)) for k in owners)
+
+    return max(product((15.0, 25.0, 35.0), map(float, range(-170, 190, 15))), key=score)

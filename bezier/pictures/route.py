@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from bezier.pictures.mesh import Array, directions_around, hull, sampled
 from bezier.pictures.obstacles import held
+from bezier.pictures.picture import numbers
 from bezier.scenes.barrier import Wall
 from bezier.scenes.route import Blocked, Route
 from bezier.scenes.scene import Scene
@@ -55,24 +56,19 @@ def _view(known: Route | Blocked, i: int, j: int) -> tuple[str, float]:
         way = at(np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])[:, (i, j)])
         parts.append(f'<polyline points="{way}" fill="none" stroke="{WAY}" stroke-width="2"/>')
     else:
-        walls = (at(_floats([wall.start, wall.end])) for wall in known.walls if isinstance(wall, Wall))
+        walls = (at(numbers([wall.start, wall.end])) for wall in known.walls if isinstance(wall, Wall))
         parts += [f'<polyline points="{wall}" stroke="{WALL}" stroke-width="2"/>' for wall in walls]
     for point, colour in ((scene.start, START), (scene.goal, GOAL)):
-        cx, cy = at(_floats([point])[:, (i, j)]).split(",")
+        cx, cy = at(numbers([point])[:, (i, j)]).split(",")
         parts.append(f'<circle cx="{cx}" cy="{cy}" r="4" fill="{colour}"/>')
     name = f"view{i}{j}"
     clip = f'<clipPath id="{name}"><rect x="-4" y="-4" width="{WIDTH + 8}" height="{height + 8:.0f}"/></clipPath>'
     return f'{clip}<g clip-path="url(#{name})">{"".join(parts)}</g>', height
 
 
-def _floats(points: Sequence[Any]) -> Array:
-    return np.array([[float(c) for c in p] for p in points])
-
-
 def _workspace(scene: Scene, i: int, j: int) -> list[Array]:
     """The box around it; the other bounded parts over it."""
-    ends = np.array([[float(c[k]) for k in (i, j)] for c in (scene.low, scene.high)])
-    (a, b), (c, d) = ends
+    (a, b), (c, d) = numbers([scene.low, scene.high])[:, (i, j)]
     box = np.array([[a, b], [c, b], [c, d], [a, d]])
     return [box, *(outline(part, i, j) for part in scene.domain if part.corners and not part.is_polytope)]
 
@@ -94,7 +90,7 @@ def _shaded(scene: Scene, body: Solid, i: int, j: int) -> Iterator[Array]:
 
 def outline(body: Solid, i: int, j: int) -> Array:
     """The silhouette of a body in two coordinates."""
-    corners = _floats(body.corners)
+    corners = numbers(body.corners)
     wide = np.linspace(0, 2 * np.pi, 73)[:-1]
     ring = np.stack([np.cos(wide), np.sin(wide)] + [0 * wide] * (corners.shape[1] - 2), axis=1)
     ball = ring if corners.shape[1] == 2 else directions_around(642)

@@ -73,7 +73,7 @@ class LengthBound:
 def relaxed(scene: Scene, fine: int, budget: Budget) -> tuple[Cell, list[Cell], FreeCells]:
     """A polytope around the workspace, polytopes within the obstacles, the cells of the one outside of the others."""
     normals = directions(scene.dimension, fine)
-    inner = [body.cell() if body.is_polytope else body.inside(normals) for body in scene.solids]
+    inner = [body.inside(normals) for body in scene.solids]
     sides = [side for part in scene.domain for side in part.around(normals)]
     domain = Cell.within(scene.low, scene.high, sides)
     assert domain is not None

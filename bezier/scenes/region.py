@@ -22,8 +22,6 @@ from qe.errors import Unable
 from qe.options import Budget
 
 SMALLEST, MOST_CELLS, ONE = Fraction(1, 2**24), 1_500, Fraction(1)
-_Mixed = tuple[Cell, tuple[Cell, ...]]
-"""A cell that is not decided, and the cells that convex bodies leave of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +41,8 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
     domain, around = outlines(scene, fine)
     if not scene.formulas:
         return Decomposed(domain, FreeCells.of(domain, around, budget), scene, tuple(range(len(scene.bodies))))
-    inner, free, mixed = list[tuple[Cell, int]](), list[Cell](), list[_Mixed]()
+    # mixed: cells that are not decided, each with what convex bodies leave of it
+    inner, free, mixed = list[tuple[Cell, int]](), list[Cell](), list[tuple[Cell, tuple[Cell, ...]]]()
     waiting = [Cell.box(scene.low, scene.high)]
     wide = _width(waiting[0])
     for side in _planes(scene):
@@ -61,13 +60,12 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
                 else:
                     free += cells
         split = {k for k, (cell, _) in enumerate(mixed) if _width(cell) > even * wide}
-        split = split or _between(scene, free, mixed, around)
+        split = split or _between(scene, free, [cells for _, cells in mixed], around)
         waiting = [half for k in sorted(split) for half in _parts(mixed[k][0])]
         mixed = [entry for k, entry in enumerate(mixed) if k not in split]
         if len(mixed) + len(waiting) > MOST_CELLS or any(_width(cell) < SMALLEST * wide for cell in waiting):
             raise Unable("undecided: a way may lead along the boundary of a formula, where small cells do not tell")
-    names = (f"{scene.formulas[owner].name}, part" for _, owner in inner)
-    solids = tuple(of_cell(name, cell, ZERO) for name, (cell, _) in zip(names, inner, strict=True))
+    solids = tuple(of_cell(scene.formulas[owner].name, cell, ZERO) for cell, owner in inner)
     numbers = *range(len(scene.solids)), *(len(scene.solids) + owner for _, owner in inner)
     within = replace(scene, formulas=(), holes=(*scene.holes, *solids))
     return Decomposed(domain, FreeCells.linked(free, around), within, numbers)
@@ -82,10 +80,10 @@ def _planes(scene: Scene) -> Iterator[Side]:
         yield normal[: scene.dimension], -terms.get((0, 0, 0), ZERO)
 
 
-def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[_Mixed], walls: Sequence[Cell]) -> set[int]:
+def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[Sequence[Cell]], walls: Sequence[Cell]) -> set[int]:
     """The numbers of mixed cells that ways from start to goal lead through, none twice; none where a way is free."""
-    owners = {len(free) + n: k for n, k in enumerate(k for k, (_, cells) in enumerate(mixed) for _ in cells)}
-    graph = FreeCells.linked((*free, *(cell for _, cells in mixed for cell in cells)), walls)
+    owners = {len(free) + n: k for n, k in enumerate(k for k, cells in enumerate(mixed) for _ in cells)}
+    graph = FreeCells.linked((*free, *(cell for cells in mixed for cell in cells)), walls)
     start, goal, split = graph.holding(scene.start), graph.holding(scene.goal), set[int]()
     while start is not None and goal is not None and goal in (before := graph.reached(start, owners)):
         met = {i for i in graph.way(before, goal) if i in owners}

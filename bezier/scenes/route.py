@@ -32,13 +32,12 @@ from bezier.scenes.sentences import (
     coordinates,
     covering,
     every,
-    in_space,
     in_the_way,
     of_sides,
     surfaces,
 )
 from bezier.scenes.shortest import least_chain
-from bezier.scenes.solid import Solid, directions
+from bezier.scenes.solid import Solid, directions, in_space
 from qe.certify.claims import is_about
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.formula.build import conj, disj, neg
@@ -256,7 +255,7 @@ def _in_space(scene: Scene, budget: Budget) -> Route | Blocked:
         parts = decomposed(scene, fine, budget)
         known: Route | Blocked | None = _joined(scene, parts.free)
         if known is None:
-            walls = tuple(cell for body in parts.within.solids if (cell := _within(body, normals)) is not None)
+            walls = tuple(cell for body in parts.within.solids if (cell := body.inside(normals)) is not None)
             sides = [side for part in scene.domain for side in part.around(normals)]
             domain = Cell.within(scene.low, scene.high, sides)
             assert domain is not None
@@ -264,10 +263,6 @@ def _in_space(scene: Scene, budget: Budget) -> Route | Blocked:
         if known is not None:
             return known
     raise Unable("undecided: a way may lead between round bodies, narrower than the polytopes around them show")
-
-
-def _within(body: Solid, normals: Sequence[Point]) -> Cell | None:
-    return body.cell() if body.is_polytope else body.inside(normals)
 
 
 def _joined(scene: Scene, free: FreeCells) -> Route | None:

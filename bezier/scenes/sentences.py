@@ -7,7 +7,6 @@ from fractions import Fraction
 from functools import partial
 from math import comb, lcm
 
-from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, subtract
 from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece, half_space
 from bezier.scenes.barrier import Wall
@@ -108,7 +107,7 @@ def in_the_way(scene: Scene, curves: Sequence[Curve]) -> Iterator[Obstacle]:
     workspace. Of a body with a half-space around it that the control points are beyond, that half-space is taken."""
     beyond = [Piece((c.negated,)) for part in scene.domain for (conditions,) in (part.pieces,) for c in conditions]
     normals = directions(scene.dimension, 1)
-    around = [() if body.is_formula else body.around(normals) for body in scene.bodies]
+    around = [body.around(normals) for body in scene.bodies]
     for curve in curves:
         pieces = list(beyond)
         for body, sides in zip(scene.bodies, around, strict=True):
@@ -116,11 +115,6 @@ def in_the_way(scene: Scene, curves: Sequence[Curve]) -> Iterator[Obstacle]:
             wide = [(half_space((*far[0], Fraction(0))[:3], far[1]),)] if far else body.pieces
             pieces += map(Piece, wide)
         yield Obstacle("what is in the way", ObstacleKind.FORMULA, tuple(dict.fromkeys(pieces)))
-
-
-def in_space(curve: Curve) -> Bezier:
-    """A curve; the plane is where z = 0."""
-    return Bezier(tuple((*p, Fraction(0))[:3] for p in curve))
 
 
 def taken(scene: Scene, bodies: Sequence[Solid], at: Sequence[Poly], scale: int) -> Formula:

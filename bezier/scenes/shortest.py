@@ -26,6 +26,7 @@ from bezier.scenes.sentences import Curve
 EVENNESS, SAMPLES = 0.005, 4
 """The part of the squares of second differences in the cost, over the width of the workspace."""
 DIGITS, INWARDS = 2**24, 1e-6
+DIFFERENCES = ((1,), (-1, 1), (1, -2, 1))
 _Node = tuple[tuple[int, int], int]
 
 
@@ -105,8 +106,8 @@ def _proposed(
     for one, other in pairwise(columns):
         for order in range(min(continuity, degree) + 1):
             for axis in range(size):
-                ahead = [(other[k][axis], float(s)) for k, s in enumerate(_differences(order))]
-                behind = [(one[degree - order + k][axis], -float(s)) for k, s in enumerate(_differences(order))]
+                ahead = [(other[k][axis], float(s)) for k, s in enumerate(DIFFERENCES[order])]
+                behind = [(one[degree - order + k][axis], -float(s)) for k, s in enumerate(DIFFERENCES[order])]
                 program.equal([*ahead, *behind], 0.0)
     for cell, points in zip(cells, columns, strict=True):
         for side, at in product(cell.sides, points):
@@ -123,10 +124,6 @@ def _proposed(
                 program.add_square([(i, share), (j, -2 * share), (k, share)])
     answer = program.solved()
     return None if answer is None else [[[answer[k] for k in at] for at in points] for points in columns]
-
-
-def _differences(order: int) -> tuple[int, ...]:
-    return ((1,), (-1, 1), (1, -2, 1))[order]
 
 
 def _rounded(scene: Scene, proposed: list[list[list[float]]], continuity: int) -> tuple[Curve, ...]:
@@ -151,9 +148,9 @@ def _spline(scene: Scene, proposed: list[list[list[float]]], _: int) -> tuple[Cu
     inner = [[2 * b - c for b, c in zip(p[1], p[2], strict=True)] for p in proposed]
     inner.append([2 * c - b for b, c in zip(proposed[-1][1], proposed[-1][2], strict=True)])
     exact = [tuple(round(Fraction(c) / unit) * unit for c in p) for p in inner]
-    for end, at in ((0, scene.start), (len(exact) + 1, scene.goal)):
-        near, next_ = (exact[0], exact[1]) if not end else (exact[-1], exact[-2])
-        exact.insert(end, tuple(6 * e - 4 * a - b for e, a, b in zip(at, near, next_, strict=True)))
+    threes = (scene.start, *exact[:2]), (scene.goal, *exact[:-3:-1])
+    first, last = (tuple(6 * e - 4 * a - b for e, a, b in zip(*three, strict=True)) for three in threes)
+    exact = [first, *exact, last]
     rows = ((1, 4, 1, 0), (0, 4, 2, 0), (0, 2, 4, 0), (0, 1, 4, 1))
     fours = zip(exact, exact[1:], exact[2:], exact[3:], strict=False)
     return tuple(

@@ -78,7 +78,7 @@ class Solid:
         """Whether it has a point in common with a segment; of a cylinder, whether a prism around it has."""
         if self.is_formula:
             whole = Obstacle(self.name, ObstacleKind.FORMULA, tuple(map(Piece, self.pieces)))
-            return isinstance(examine(_leg(start, end), whole), Contact)
+            return isinstance(examine(in_space((start, end)), whole), Contact)
         reach = self.radius + self.tube
         for core, leg in zip(zip(*self.corners, strict=True), zip(start, end, strict=True), strict=True):
             if min(core) - reach > max(leg) or max(core) + reach < min(leg):
@@ -100,7 +100,7 @@ class Solid:
 
     def holds(self, start: Point, end: Point) -> bool:
         """Whether a segment is in one of its pieces, by the signs of Bernstein coefficients."""
-        leg = _leg(start, end)
+        leg = Along(in_space((start, end)))
         return any(all(c.holds(min(leg.form(c))) for c in piece) for piece in self.pieces)
 
     def around(self, normals: Iterable[Point]) -> list[Side]:
@@ -112,11 +112,11 @@ class Solid:
 
     def inside(self, normals: Sequence[Point]) -> Cell | None:
         """A polytope in it, touching it: one around it, drawn to its centre. None where it is too thin."""
-        low, high = self.low_high()
-        whole = Cell.within(low, high, self.around(normals))
-        if whole is None or self.is_polytope:
-            return whole
-        middle = self.centre
+        if self.is_polytope:
+            return self.cell()
+        whole, middle = Cell.within(*self.low_high(), self.around(normals)), self.centre
+        if whole is None:
+            return None
         for step in range(63, 0, -1):
             share = Fraction(step, 64)
             corners = [tuple(m + share * (c - m) for m, c in zip(middle, p, strict=True)) for p in whole.corners]
@@ -131,9 +131,9 @@ class Solid:
         return Cell.of(self.sides, self.corners, is_flat=flat)
 
 
-def _leg(start: Point, end: Point) -> Along:
-    """A segment; the plane is where z = 0."""
-    return Along(Bezier(((*start, ZERO)[:3], (*end, ZERO)[:3])))
+def in_space(curve: Sequence[Point]) -> Bezier:
+    """A curve; the plane is where z = 0."""
+    return Bezier(tuple((*p, ZERO)[:3] for p in curve))
 
 
 def _short(normal: Point, level: Fraction) -> Side:
