@@ -43,8 +43,7 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
         return Decomposed(domain, FreeCells.of(domain, around, budget), scene, tuple(range(len(scene.bodies))))
     # mixed: cells that are not decided, each with what convex bodies leave of it
     inner, free, mixed = list[tuple[Cell, int]](), list[Cell](), list[tuple[Cell, tuple[Cell, ...]]]()
-    waiting = [Cell.box(scene.low, scene.high)]
-    wide = _width(waiting[0])
+    waiting, wide = [Cell.box(scene.low, scene.high)], max(b - a for a, b in zip(scene.low, scene.high, strict=True))
     for side in _planes(scene):
         waiting = [part for cell in waiting for part in cell.cut(side) if part is not None]
     while waiting:

@@ -219,8 +219,7 @@ def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tup
     scene, is_plane = known.scene, known.scene.dimension == 2
     for fine in (2, 1):
         parts = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))
-        joins = min(wish.continuity, wish.degree - 1)  # segments have corners
-        curves = least_chain(scene, parts.domain, parts.free, wish.degree, joins)
+        curves = least_chain(scene, parts.domain, parts.free, wish.degree, min(wish.continuity, wish.degree - 1))
         if curves is not None:
             break
     if curves is not None and wish.degree == 1:
@@ -241,7 +240,7 @@ def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:
         if scene.formulas and (walls := barrier(parts.within)):
             walls = longer(scene, tuple(replace(w, bodies=tuple(parts.numbers[i] for i in w.bodies)) for w in walls))
             break
-    cells = [cell_of(wall) for wall in walls]
+    cells = list(map(cell_of, walls))
     result = _separated(scene, Cell.box(scene.low, scene.high), cells, walls, budget) if walls else None
     if result is None:
         raise Unable("undecided: a passage that only one point is wide, between a hole and the rim of the workspace")
