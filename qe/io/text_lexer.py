@@ -106,6 +106,8 @@ _NEXT_BOUNDED = re.compile(
     rf"\s*(?:{_LIST})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠∈]|in\b)[^:;∃∀&|∧∨→⇒]*?(?<!,)(?::(?!=)|\.(?=\s)|\bsuch\s+that\b|\bs\.t\.)"
 )
 _ANOTHER = re.compile(rf"\s+{_LIST}")
+_FACTOR = re.compile(r"[0-9.]+|[^\W\d_][0-9]*|\)")
+"""What a space between two of them multiplies: longer names may be words."""
 _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
 _KINDS_OF_NUMBERS = {
@@ -223,6 +225,7 @@ class State:
         self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
         self.divided = False
         self.level, self.within = 1, 0
+        self.listing, self.word = False, ""
         self.spaced = "ForAll[" in text or "Exists[" in text  # Mathematica's, where a space is a product
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
@@ -245,9 +248,11 @@ class State:
                 hint = "write 1/2*x or 1/(2*x)"
                 raise SyntaxFailure(f"{shown} is ambiguous: a product without * after a division; {hint}", at)
             yield from self.put("TIMES", "*", at)
-        elif self.spaced and kind in ("NAME", "NUMBER") and self.last in ("NAME", "NUMBER", "CLOSE") and self.end < at:
-            yield from self.put("TIMES", "*", at)
+        elif self.spaced and kind in ("NAME", "NUMBER") and self.end < at and not (self.header or self.listing):
+            factors = _FACTOR.fullmatch(self.word) and _FACTOR.fullmatch(value)
+            yield from self.put("TIMES", "*", at) if factors else ()
         self.note(kind)
+        self.word = value
         yield Token(kind, value, at)
 
     def prefix(self, value: str, at: int) -> Iterator[Token]:
@@ -287,6 +292,8 @@ class State:
             self.header = True
         elif kind in ("DOT", "OPEN", "LEFT"):
             self.header, self.within = False, self.level if self.header and last in ("IN", "UNION") else self.within
+        if kind in ("BEGIN", "END"):  # the names of ForAll[{x y}, …]
+            self.listing = kind == "BEGIN" and last in ("OPEN", "LEFT")
         if kind == "OVER":
             self.divided = True
         elif kind not in ("NAME", "NUMBER", "POWER", "CLOSE", "RIGHT"):
