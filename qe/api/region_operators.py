@@ -22,9 +22,8 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import JOINS, conj, convert, exists, forall, iff, implies, neg
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
-from qe.formula.syntax import Constant, Formula, Relation
-from qe.io import surface as s
-from qe.io.lowering import lower
+from qe.formula.syntax import Constant, Formula
+from qe.io.expressions import graph_of
 from qe.io.substitution import over_one_ring
 from qe.options import Budget, Options
 from qe.processes.execution import Work
@@ -121,7 +120,7 @@ def section(region: Region, values: Mapping[Any, Coordinate], timeout: float | N
     condition = convert(region.condition, ring)
     condition = substituted(condition, {v: q for v, q in given.items() if isinstance(q, Fraction)})
     exact = {v: a for v, a in given.items() if isinstance(a, RealAlgebraic)}
-    condition = conj(over_one_ring(condition, *(_equal(v, a) for v, a in exact.items())))
+    condition = conj(over_one_ring(condition, *(graph_of(v, a) for v, a in exact.items())))
     return _region(region, exists(exact, condition), rest, timeout)
 
 
@@ -140,7 +139,7 @@ def distance(region: Region, point: object, timeout: float | None) -> Number:
         apart = x - ring.var(f"at {v}") if isinstance(q, RealAlgebraic) else x * q.denominator - q.numerator
         part = scale if isinstance(q, RealAlgebraic) else scale // q.denominator
         square = square + apart * apart * (part * part)
-    conditions = conj(over_one_ring(region.condition, *(_equal(f"at {v}", a) for v, a in irrational.items())))
+    conditions = conj(over_one_ring(region.condition, *(graph_of(f"at {v}", a) for v, a in irrational.items())))
     return _under(region, conditions, timeout, partial(_distance, square, Fraction(1, scale * scale), conditions))
 
 
@@ -252,11 +251,3 @@ def _numbers(region: Region, given: Mapping[str, Coordinate], what: str) -> dict
     if strange := [v for v in given if v not in region.order]:
         raise InputError(f"{what}: values for some of {', '.join(region.order)} expected, {strange[0]} found")
     return {v: simplest(number_of(q, what, f"an exact number for {v}")) for v, q in given.items()}
-
-
-def _equal(name: str, number: RealAlgebraic) -> Formula:
-    """That a variable has this value."""
-    return lower(
-        s.Comparison([s.Name(name, -1), s.Algebraic(number, -1)], [Relation.EQ], -1),
-        lambda message, _: InputError(message),
-    )

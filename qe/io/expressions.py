@@ -24,11 +24,6 @@ from qe.io.names import check_name
 from qe.io.substitution import over_one_ring, substitute
 from qe.io.terms import Value
 
-
-def _fail(message: str, _: int) -> InputError:
-    return InputError(message)
-
-
 Operation = Callable[["Expression", object], "Expression"]
 
 
@@ -71,7 +66,7 @@ class Expression:
 
     def polynomial(self) -> Value:
         """The polynomial that it is. Raises ``InputError`` where it is none."""
-        return lower_term(self.term, _fail)
+        return lower_term(self.term, s.unplaced)
 
     __add__, __radd__ = _operator(lambda a, b: s.Sum([a, b]))
     __sub__, __rsub__ = _operator(lambda a, b: s.Sum([a, s.Minus(b)]))
@@ -229,12 +224,12 @@ def connected(way: str, *parts: object) -> Formula | Statement:
 
 
 def _compared(left: Expression, relation: Relation, right: object) -> Statement:
-    return Statement(lower(s.Comparison([left.term, _term(right)], [relation], -1), _fail))
+    return Statement(lower(s.Comparison([left.term, _term(right)], [relation], -1), s.unplaced))
 
 
 def graph_of(name: str, given: object) -> Formula:
     """Where a variable of this name has the value of a term; what has no value has none."""
-    return lower(s.Comparison([s.Name(name, -1), _term(given)], [Relation.EQ], -1), _fail)
+    return lower(s.Comparison([s.Name(name, -1), _term(given)], [Relation.EQ], -1), s.unplaced)
 
 
 def _term(given: object) -> s.Term:

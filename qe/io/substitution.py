@@ -42,7 +42,7 @@ def substitute(formula: Formula, values: Mapping[str, s.Term]) -> Formula:
         polynomial = _polynomial(term)
         if polynomial is None:
             bound.append(new)
-            meant.append(lower(s.Comparison([s.Name(new, -1), term], [Relation.EQ], -1), _fail))
+            meant.append(lower(s.Comparison([s.Name(new, -1), term], [Relation.EQ], -1), s.unplaced))
         else:
             formula = _put(formula, ring.index[new], polynomial.poly.convert(ring), ring.constant(polynomial.den))
     return trimmed(exists(bound, conj(over_one_ring(*meant, formula))))
@@ -70,17 +70,13 @@ def _put(formula: Formula, i: int, top: Poly, bottom: Poly) -> Formula:
 
 
 def _names(term: s.Term) -> list[str]:
-    collected = Names(_fail, lambda name, at: None)
+    collected = Names(s.unplaced, lambda name, at: None)
     collected.part(term)
     return collected.all()
 
 
 def _polynomial(term: s.Term) -> Value | None:
     try:
-        return lower_term(term, _fail)
+        return lower_term(term, s.unplaced)
     except InputError:
         return None
-
-
-def _fail(message: str, _: int) -> InputError:
-    return InputError(message)

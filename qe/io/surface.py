@@ -200,6 +200,11 @@ TERMS, NODES = frozenset(get_args(Term)), frozenset(get_args(Node))
 """Their classes: whether one is among them is known faster than whether something is an instance."""
 
 
+def unplaced(message: str, _: int) -> InputError:
+    """The error about what stands in no text."""
+    return InputError(message)
+
+
 def connected(name: str, parts: list[Node]) -> Node | None:
     """What a connective makes of these parts; None for one of another name, or another number of parts."""
     match name, parts:
