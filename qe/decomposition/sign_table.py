@@ -62,9 +62,9 @@ def where(formula: Formula, masks: Callable[[Poly], Masks], cells: int) -> tuple
 
 
 def _atom_where(relation: Relation, masks: Masks, cells: int) -> tuple[int, int]:
-    true = false = cells
+    true, false, signs = cells, cells, relation.signs
     for sign, mask in masks.items():
-        if sign in relation.signs:
+        if sign in signs:
             false &= ~mask
         else:
             true &= ~mask

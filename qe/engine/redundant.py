@@ -272,7 +272,7 @@ class _Points:
             case Atom(poly, relation):
                 self.watch()
                 for k in range(seen, len(self.listed)):
-                    value = poly.evaluate([self.listed[k].get(name, 0) for name in poly.ring.names])
-                    mask |= relation.holds((value > 0) - (value < 0)) << k
+                    sign = poly.sign_at([self.listed[k].get(name, 0) for name in poly.ring.names])
+                    mask |= relation.holds(sign) << k
         self.known[formula] = len(self.listed), mask
         return mask

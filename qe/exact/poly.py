@@ -256,7 +256,7 @@ class Poly:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
         if self.ring.size == 0:
             return [((), self.constant_value())] if self.p else []
-        return [(tuple(int(k) for k in reversed(e)), int(c)) for e, c in self.p.terms()]
+        return [(tuple(map(int, e[::-1])), int(c)) for e, c in zip(self.p.monoms(), self.p.coeffs(), strict=True)]
 
     def sparse_terms(self) -> list[SparseTerm]:
         """The terms without the variables that do not occur in them."""
@@ -378,11 +378,20 @@ class Poly:
 
     def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
         """The value at a rational point (one value per ring variable)."""
+        value = self._at(values)
+        return Fraction(int(value.p), int(value.q)) if isinstance(value, fmpq) else Fraction(int(value))
+
+    def sign_at(self, values: Iterable[Fraction | int]) -> int:
+        """The sign there."""
+        value = self._at(values)
+        return (value > 0) - (value < 0)
+
+    def _at(self, values: Iterable[Fraction | int]) -> fmpq | fmpz | int:
         if self.ring.size == 0:
-            return Fraction(self.constant_value())
-        point = [fmpq(v.numerator, v.denominator) for v in values]
-        value = fmpq_mpoly(self.p, self.ring.qctx)(*reversed(point))
-        return Fraction(int(value.p), int(value.q))
+            return self.constant_value()
+        point = [v if isinstance(v, int) else fmpq(v.numerator, v.denominator) for v in reversed([*values])]
+        whole = not any(isinstance(v, fmpq) for v in point)
+        return self.p(*point) if whole else fmpq_mpoly(self.p, self.ring.qctx)(*map(fmpq, point))
 
     def at_quotient(self, i: int, top: Poly, bottom: Poly, *, most_terms: int | None = None) -> Poly:
         """bottom^d * p(x_i = top/bottom), a polynomial, where d is the degree of p in x_i.

@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cache, cached_property, reduce
 from math import lcm
 
-from flint import fmpz_mpoly, fmpz_poly
+from flint import fmpq, fmpz, fmpz_mpoly, fmpz_poly
 
 from qe.errors import InternalError
 from qe.exact.poly import Factors, Poly, Ring, SparseTerm
@@ -226,10 +226,10 @@ class WidePoly(Poly):
         own, f = self._alone
         return self._expanded(own, f.at_rationals({own.index(i): value for i, value in values.items() if i in own}))
 
-    def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
+    def _at(self, values: Iterable[Fraction | int]) -> fmpq | fmpz | int:
         point = tuple(values)
         own, f = self._alone
-        return f.evaluate([point[i] for i in own])
+        return f._at([point[i] for i in own])
 
     def compose(self, substitution: Mapping[int, Poly]) -> Poly:
         total: Poly = self.ring.constant(0)

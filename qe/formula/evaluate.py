@@ -30,11 +30,7 @@ def holds_at(formula: Formula, point: Mapping[str, Fraction | int]) -> bool:
         raise InputError(f"no value for {', '.join(missing)}")
     values = [Fraction(point.get(name, 0)) for name in ring.names] if ring is not None else []
 
-    def sign(poly: Poly) -> int:
-        value = poly.evaluate(values)
-        return (value > 0) - (value < 0)
-
-    truth = truth_under(formula, sign, lambda atom: _root_holds(atom, values))
+    truth = truth_under(formula, lambda poly: poly.sign_at(values), lambda atom: _root_holds(atom, values))
     if truth is None:
         raise InputError("only a quantifier-free formula has a truth value at a point")
     return truth

@@ -88,8 +88,9 @@ def atoms(formula: Formula) -> Iterator[Atomic]:
     """Every atom occurrence, left to right."""
     if isinstance(formula, Atomic):
         yield formula
-    for child in children(formula):
-        yield from atoms(child)
+    else:
+        for child in children(formula):
+            yield from atoms(child)
 
 
 def has_root_atoms(formula: Formula) -> bool:

@@ -84,8 +84,7 @@ def sign_at(poly: Poly, assignment: Assignment) -> int:
     for i in poly.variables:
         values[i] = assignment.get(ring.names[i], _ZERO)
     if all(isinstance(values[i], Fraction) for i in poly.variables):
-        result = poly.evaluate(values)  # type: ignore[arg-type]
-        return (result > 0) - (result < 0)
+        return poly.sign_at(values)  # type: ignore[arg-type]
     return Point.of(ring, values).sign(poly)
 
 
