@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from itertools import product
 
 import pytest
 
@@ -134,3 +135,13 @@ def test_where_no_lemmas_are_found_the_reason_names_the_steps(monkeypatch: pytes
     for answer in unproved:
         named = all(rule in answer.reason for rule in answer.unchecked_steps)
         assert answer.certificate is not None or (answer.reason and answer.unchecked_steps and named)
+
+
+def test_the_shadow_of_a_polyhedron_is_an_answer_though_unproved() -> None:
+    """Where a proof was asked for, substitution went first, and answered with 290,000 characters or not at all."""
+    sides = enumerate(product((-1, 2), (1, -3), (-2, 3), (1, -1)))
+    rows = [f"{a}*u + {b}*v + {c}*w + {d}*x <= {k % 3}*p + {k % 5}*q + {k}" for k, (a, b, c, d) in sides]
+    question = f"ex u, v, w, x. {' and '.join(rows)}"
+    answer = qe.eliminate(question, check=True, timeout=2)
+    assert (answer.formula, answer.certificate) == (qe.eliminate(question).formula, None)
+    assert answer.reason == "no checked evidence for: projection"
