@@ -12,6 +12,7 @@ from itertools import chain
 
 from qe.decomposition.decompose import Decomposed
 from qe.decomposition.projection import factor_lists
+from qe.decomposition.sampled_cells import free_part
 from qe.decomposition.stack import stack_over
 from qe.errors import NotWellOriented
 from qe.exact.ring import Ring
@@ -22,14 +23,14 @@ from qe.proof.cells import Cell, CellTable, Stack
 
 
 def refined(coarse: Decomposed, levels: frozenset[int], budget: Budget) -> CellTable | None:
-    """The free part of a decomposition, with the derivatives of the factors of these levels and nothing above it: it
-    says where the formula is true, and is no proof of that. None where a level is restricted by an equational
-    constraint or a factor nullified: the whole is to be decomposed again. Raises ``BudgetExceeded``.
+    """The free part of a decomposition, with the derivatives of the factors of these levels: it says where the formula
+    is true, and is no proof of that. None where a level is restricted by an equational constraint or a factor
+    nullified: the whole is to be decomposed again. Raises ``BudgetExceeded``.
     """
-    table, operator, size = coarse.table, coarse.operator, coarse.table.free
-    if any(table.constraints[:size]):
+    table, operator = free_part(coarse.table), coarse.operator
+    if any(table.constraints):
         return None
-    lists = factor_lists(chain.from_iterable(table.factors[:size]), size, operator, budget, levels)
+    lists = factor_lists(chain.from_iterable(table.factors), table.free, operator, budget, levels)
 
     def inner(point: Point, cell: Cell) -> Cell:
         if cell.stack is None:
@@ -45,9 +46,7 @@ def refined(coarse: Decomposed, levels: frozenset[int], budget: Budget) -> CellT
         for position, signs in enumerate(fine.texts):
             on_old = position % 2 == 1 and not old.isdisjoint(fine.sections[position // 2])
             below = cell.stack.cells[place + on_old]
-            last = point.depth + 1 == size
-            below = replace(below, stack=None) if last else inner(fine.sample(position), below)
-            cells.append(replace(below, signs=signs))
+            cells.append(replace(below if below.stack is None else inner(fine.sample(position), below), signs=signs))
             place += 2 * on_old
         return replace(cell, stack=Stack(used, fine.sectors, fine.sections, tuple(cells)))
 
@@ -55,4 +54,4 @@ def refined(coarse: Decomposed, levels: frozenset[int], budget: Budget) -> CellT
         root = inner(Point(Ring.of(table.order), watch=Watch(budget.check)), table.root)
     except NotWellOriented:
         return None
-    return replace(table, factors=(*lists, *table.factors[size:]), root=root)
+    return replace(table, factors=lists, root=root)

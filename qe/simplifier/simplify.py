@@ -26,27 +26,18 @@ from qe.simplifier.univariate import irredundant
 _ROUNDS = 60  # every round removes degree, an atom or a subformula; this only guards against a bug
 
 
-class _Recent:
-    """What was made of something, of late: the last results, at least ``most`` and less than twice as many."""
+_SIMPLE, _LEVELS = dict[object, Formula](), dict[object, Formula]()
+"""What became of formulas where nothing is assumed, and of one level of a formula under facts: a fixed point is found
+by coming back to it, and results come back to the simplifier (of 10,000 levels in 200 questions a third)."""
 
-    def __init__(self, most: int) -> None:
-        self._most = most
-        self._new: dict[object, Formula] = {}
-        self._old: dict[object, Formula] = {}
-
-    def get(self, key: object) -> Formula | None:
-        return self._new.get(key) or self._old.get(key)
-
-    def keep(self, key: object, result: Formula) -> Formula:
-        if len(self._new) >= self._most:
-            self._old, self._new = self._new, {}
-        self._new[key] = result
-        return result
+_MOST = 2000  # results that are remembered, of each kind
 
 
-_SIMPLE, _LEVELS = _Recent(500), _Recent(2000)
-"""Formulas as they are where nothing is assumed, and one level of a formula under facts: a fixed point is found by
-coming back to it, and results come back to the simplifier (of 10,000 levels in 200 questions a third)."""
+def _remembered(memory: dict[object, Formula], key: object, result: Formula) -> Formula:
+    if len(memory) >= _MOST:
+        memory.clear()
+    memory[key] = result
+    return result
 
 
 def simplify(formula: Formula, assumptions: Formula = TRUE, *, watch: Callable[[], object] = IDLE) -> Formula:
@@ -75,7 +66,7 @@ def simplify_under(formula: Formula, facts: Facts) -> Formula:
         if current == previous:
             current = formula if current == formula else current  # with what is known about the node that was given
             if facts.is_empty:
-                _SIMPLE.keep(formula, _SIMPLE.keep(current, current))
+                _remembered(_SIMPLE, formula, _remembered(_SIMPLE, current, current))
             break
     return current
 
@@ -99,7 +90,7 @@ def _node(formula: Formula, facts: Facts) -> Formula:
             return formula
         case And(args) | Or(args):
             key = formula, frozenset(facts.ranges.items()), frozenset(facts.literals.items())
-            return _LEVELS.get(key) or _LEVELS.keep(key, _level(args, facts, isinstance(formula, And)))
+            return _LEVELS.get(key) or _remembered(_LEVELS, key, _level(args, facts, isinstance(formula, And)))
         case Exists(variables, body) | ForAll(variables, body):
             inner = _node(body, facts.without(variables))
             occurring = inner.free

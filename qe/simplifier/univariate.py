@@ -112,8 +112,7 @@ def _pieces(given: Atom, cuts: Sequence[RealAlgebraic], samples: Sequence[Fracti
     size = given.poly.ring.size
     pieces = set()
     for k, sample in enumerate(samples):
-        value = given.poly.evaluate([sample if i == index else Fraction(0) for i in range(size)])
-        sign = (value > 0) - (value < 0)
+        sign = given.poly.sign_at([sample if i == index else 0 for i in range(size)])
         if given.relation.holds(sign):
             pieces.add(2 * k)
         if k < len(cuts) and given.relation.holds(0 if cuts[k] in own else sign):

@@ -83,10 +83,8 @@ class Fibres:
 
     def _hold_at(self, parameters: Values) -> bool:
         values = (*parameters, *(Fraction(0) for _ in self.system.bound))
-        for guard in self.system.guards:
-            value = guard.poly.evaluate(values)
-            if not guard.relation.holds((value > 0) - (value < 0)):
-                return False
+        if not all(guard.relation.holds(guard.poly.sign_at(values)) for guard in self.system.guards):
+            return False
         if not self.system.conditions:
             return True
         if self._forms is None:

@@ -80,5 +80,4 @@ def _derivatives(factors: tuple[Poly, ...], level: int) -> Iterator[Poly]:
 
 
 def _sign(f: Poly, cell: OpenCell) -> int:
-    value = f.evaluate((*cell.values, *(0 for _ in range(f.ring.size - len(cell.values)))))
-    return (value > 0) - (value < 0)
+    return f.sign_at((*cell.values, *(0 for _ in range(f.ring.size - len(cell.values)))))
