@@ -59,7 +59,7 @@ def simplify(formula: Formula, assumptions: Formula = TRUE, *, watch: Callable[[
 def simplify_under(formula: Formula, facts: Facts) -> Formula:
     """As ``simplify``, with the assumptions given as facts."""
     if facts.is_empty and (known := _SIMPLE.get(formula)) is not None:
-        return known
+        return formula if known == formula else known
     current = nnf(formula)
     for _ in range(_ROUNDS):
         previous, current = current, _node(current, facts)
