@@ -256,7 +256,7 @@ class Poly:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
         if self.ring.size == 0:
             return [((), self.constant_value())] if self.p else []
-        return [(tuple(map(int, e[::-1])), int(c)) for e, c in zip(self.p.monoms(), self.p.coeffs(), strict=True)]
+        return [(tuple(int(k) for k in reversed(e)), int(c)) for e, c in self.p.terms()]
 
     def sparse_terms(self) -> list[SparseTerm]:
         """The terms without the variables that do not occur in them."""
