@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.pictures.mesh import Array, directions_around, hull, sampled
+from bezier.pictures.mesh import Array, hull, sampled
 from bezier.pictures.obstacles import held
 from bezier.pictures.picture import numbers
 from bezier.scenes.barrier import Wall
@@ -50,7 +50,8 @@ def _view(known: Route | Blocked, i: int, j: int) -> tuple[str, float]:
         sides = (np.array(cell.floats) for cell in known.start_side)
         parts += [shape(hull(p), f'fill="{SIDE}" opacity="0.4"') for p in sides if len(p) > 2]
     bodies = (shape(outline(body, i, j), f'fill="{BODY}"') for body in scene.solids)
-    rows = (shape(row, f'fill="{BODY}"') for body in scene.formulas for row in _shaded(scene, body, i, j))
+    crisp = f'fill="{BODY}" shape-rendering="crispEdges"'
+    rows = (shape(row, crisp) for body in scene.formulas for row in _shaded(scene, body, i, j))
     parts.append(f'<g opacity="0.8">{"".join((*bodies, *rows))}</g>')  # as one: parts of a mesh overlap
     if isinstance(known, Route):
         way = at(np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])[:, (i, j)])
@@ -90,11 +91,9 @@ def _shaded(scene: Scene, body: Solid, i: int, j: int) -> Iterator[Array]:
 
 def outline(body: Solid, i: int, j: int) -> Array:
     """The silhouette of a body in two coordinates."""
-    corners = numbers(body.corners)
-    wide = np.linspace(0, 2 * np.pi, 73)[:-1]
-    ring = np.stack([np.cos(wide), np.sin(wide)] + [0 * wide] * (corners.shape[1] - 2), axis=1)
-    ball = ring if corners.shape[1] == 2 else directions_around(642)
-    for offsets, radius in ((ring, body.tube), (ball, body.radius)):
-        if radius:
-            corners = (corners[:, None, :] + float(radius) * offsets[None]).reshape(-1, corners.shape[1])
-    return hull(corners[:, (i, j)])
+    corners, wide = numbers(body.corners), np.linspace(0, 2 * np.pi, 73)[:-1]
+    circle = np.stack([np.cos(wide), np.sin(wide)], axis=1)
+    if body.tube:
+        corners = np.concatenate([corners + [*(float(body.tube) * u), 0] for u in circle])
+    corners = corners[:, (i, j)]
+    return hull(np.concatenate([corners + float(body.radius) * u for u in circle]) if body.radius else corners)
