@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-import qe.rules.squares as squares
+import qe.positivity.cone as cone
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
@@ -115,7 +115,7 @@ def turned(parts: list[Formula]) -> tuple[Bound, ...]:
 def test_a_broken_producer_is_refused(broken: object, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     found = steps_of(text)
     assert all(accepted(step) for step in found)
-    monkeypatch.setattr(squares, "bounds_of", broken)
+    monkeypatch.setattr(cone, "bounds_of", broken)
     (step,) = [step for step in steps_of(text) if step not in found]
     assert not accepted(step)
 
