@@ -119,10 +119,13 @@ def weighted_sum(parts: Iterable[tuple[Fraction, Form]]) -> Form:
 
 def squared_length(vector: Affine) -> Form:
     """|vector|²."""
-    entries = list(vector.coefficients.items())
-    matrix = {(i, j): a * b for i, a in entries for j, b in entries}
-    gradient = {i: tuple(2 * a * c for c in vector.constant) for i, a in entries}
-    return Form(matrix, {i: g for i, g in gradient.items() if any(g)}, _dot(vector.constant, vector.constant))
+    entries, matrix = list(vector.coefficients.items()), dict[tuple[int, int], Fraction]()
+    for k, (i, a) in enumerate(entries):
+        for j, b in entries[k:]:
+            matrix[i, j] = matrix[j, i] = a * b
+    twice = tuple(2 * c for c in vector.constant)
+    gradient = {i: tuple(a * c for c in twice) for i, a in entries} if any(twice) else {}
+    return Form(matrix, gradient, _dot(vector.constant, vector.constant))
 
 
 def linear_form(normal: Point, point: Affine) -> Form:
@@ -146,8 +149,7 @@ class Requirement:
     @property
     def right(self) -> Fraction:
         """The bound of the sum of squares."""
-        squares = ((w, squared_length(p).constant) for w, p in self.squares)
-        return sum((w * c for w, c in squares), -self.form.constant)
+        return sum((w * _dot(p.constant, p.constant) for w, p in self.squares), -self.form.constant)
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,6 +22,7 @@ from bezier.chains.form import Requirement, Solved
 from bezier.chains.proof import GAPS, LEAST, Contradiction, best, decided, feasible
 from bezier.chains.region import Places, at_label
 from qe.errors import Unable
+from qe.extras import wanted
 from qe.proof.certificate import Certificate, Labelled
 
 NARROW = Fraction(1, 10**7)
@@ -128,14 +129,11 @@ def _moves(given: Chain, names: Sequence[str]) -> Iterator[tuple[float, str]]:
             continue
         objective = objective_form(chain, chain.solved)
         proposal = proposals.least_value(chain, chain.solved.size, varying, objective)
-        if proposal is not None and _holds(varying, proposal):
-            point = tuple(tuple(Fraction(c) for c in p) for p in proposal.point)
+        if proposal is None:
+            continue
+        point: Any = proposal.point
+        if all(r.form.value(point) <= _TOLERANCE * max(1.0, abs(float(r.form.constant))) for r in varying):
             yield float(objective.value(point)), name
-
-
-def _holds(rows: Sequence[Requirement], proposal: proposals.Proposal) -> bool:
-    point = tuple(tuple(Fraction(c) for c in p) for p in proposal.point)
-    return all(row.form.value(point) <= _TOLERANCE * max(1.0, abs(float(row.form.constant))) for row in rows)
 
 
 def excluded(given: Chain, names: Sequence[str]) -> Certificate | None:
@@ -176,11 +174,10 @@ def nearest_duration(given: Chain) -> Repair | None:
 
 
 def _threshold(given: Chain, k: int, low: float, high: float, sign: int) -> float:
-    """Where between a factor that does not help and one that does the first help begins, by bisection."""
-    while high - low > 1e-7 * high:
-        middle = (low + high) / 2
-        low, high = (low, middle) if _excess(_paced(given, k, middle**sign)) <= 0 else (middle, high)
-    return high
+    """Where between a factor that does not help and one that does the excess is zero."""
+    with wanted():
+        from scipy.optimize import brentq
+    return float(brentq(lambda factor: _excess(_paced(given, k, factor**sign)), low, high, rtol=1e-7))
 
 
 def _paced(given: Chain, k: int, factor: float) -> Chain:
