@@ -9,9 +9,10 @@ the rule "multipliers" proves, and witnesses; a sentence about some of the condi
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property, partial
 from itertools import product
 from math import lcm
 
@@ -45,12 +46,18 @@ _ADDED = (1e-12, 1e-10, 1e-8)
 _SMALLER = tuple(Fraction(1, 10**k) for k in (13, 12, 11, 10))  # shares of the room of a condition
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Contradiction:
-    """The conditions ``support`` exclude each other. ``weights`` by number: those of the theorem."""
+    """The conditions ``support`` exclude each other. The certificate is made where it is wanted: on the way to a
+    smallest conflict most are not."""
 
     support: tuple[Requirement, ...]
-    certificate: Certificate
+    made: Callable[[], Certificate]
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """What proves it."""
+        return self.made()
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,8 +114,8 @@ def contradiction(
     lowest = weighted_sum((weights[row.label], row.form) for row in rows).minimum(size, d)
     if lowest is None or lowest[1] <= 0 or any(weights[row.label] < 0 for row in rows):
         raise Unable("these multipliers contradict nothing")
-    forms = [row.form for row in rows]
-    return Contradiction(tuple(rows), refuted(chain, size, forms, [weights[r.label] for r in rows], lowest[0]))
+    forms, listed = [row.form for row in rows], [weights[row.label] for row in rows]
+    return Contradiction(tuple(rows), partial(refuted, chain, size, forms, listed, lowest[0]))
 
 
 def refuted(
@@ -134,7 +141,7 @@ def _exactly(chain: Chain, size: int, rows: Sequence[Requirement]) -> tuple[Poin
     system = ConvexSystem(names, *_objective_and(chain, size, [row.form for row in rows]), relations)
     evidence = solve(system, budget=Budget(EXACT_SECONDS))
     if evidence.status is OptimumStatus.INFEASIBLE:
-        return Contradiction(tuple(rows), optimum_certificate(evidence))
+        return Contradiction(tuple(rows), partial(optimum_certificate, evidence))
     values = [Fraction(c) if isinstance(c, Fraction) else None for c in evidence.point]
     exact = [c for c in values if c is not None]
     if len(exact) < len(values):
