@@ -104,14 +104,16 @@ def cell_of(wall: Wall | Cell) -> Cell:
 
 def in_the_way(scene: Scene, curves: Sequence[Curve]) -> Iterator[Obstacle]:
     """For each curve all points that are not free, as one obstacle: of every body, and beyond every side of the
-    workspace. Of a body with a half-space around it that the control points are beyond, that half-space is taken."""
+    workspace. Of a body with a half-space around it that the control points are beyond, that half-space is taken, once
+    it is seen to hold the body."""
     beyond = [Piece((c.negated,)) for part in scene.domain for (conditions,) in (part.pieces,) for c in conditions]
     normals = directions(scene.dimension, 1)
     around = [body.around(normals) for body in scene.bodies]
     for curve in curves:
         pieces = list(beyond)
         for body, sides in zip(scene.bodies, around, strict=True):
-            far = next(((n, c) for n, c in sides if all(dot(n, p) > c for p in curve)), None)
+            ahead = ((n, c) for n, c in sides if all(dot(n, p) > c for p in curve))
+            far = next(filter(body.is_behind, ahead), None)
             wide = [(half_space((*far[0], Fraction(0))[:3], far[1]),)] if far else body.pieces
             pieces += map(Piece, wide)
         yield Obstacle("what is in the way", ObstacleKind.FORMULA, tuple(dict.fromkeys(pieces)))

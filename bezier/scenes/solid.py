@@ -68,6 +68,14 @@ class Solid:
             level += self.tube * root_above(Fraction(dot(normal[:2], normal[:2])), bits)
         return level + self.radius * root_above(Fraction(dot(normal, normal)), bits) if self.radius else level
 
+    def is_behind(self, side: Side) -> bool:
+        """Whether a half-space holds it, without rounding: that part of the plane or of space with which it is made."""
+        normal, level = side
+        room = level - max(Fraction(dot(normal, c)) for c in self.corners)
+        ball, tube = self.radius**2 * dot(normal, normal), self.tube**2 * dot(normal[:2], normal[:2])
+        rest = Fraction(room**2 - ball - tube)  # room >= sqrt(ball) + sqrt(tube)
+        return room >= 0 <= rest and bool(rest**2 >= 4 * ball * tube)
+
     def low_high(self) -> tuple[Point, Point]:
         """The corners of a box around it."""
         axes = [tuple(Fraction(i == k) for i in range(len(self.corners[0]))) for k in range(len(self.corners[0]))]

@@ -30,7 +30,7 @@ from bezier.scenes.region import decomposed
 from bezier.scenes.route import Blocked, Route, Wish, decided, proved
 from bezier.scenes.scene import Scene, given_scene
 from bezier.scenes.sentences import COVERED, covering, inside
-from bezier.scenes.solid import nearest
+from bezier.scenes.solid import Solid, directions, nearest
 from experiments.problem import ROOT
 from qe.exact.ring import Ring
 from qe.formula.syntax import TRUE
@@ -310,6 +310,20 @@ def test_a_broken_search_proves_nothing_false(monkeypatch: pytest.MonkeyPatch) -
         found.check()
         assert found.blocked is not flooded_boxes(scene)
     assert refused > 5
+
+
+def test_half_spaces_that_cut_bodies_prove_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That they hold the bodies was believed: drawn in a little, they gave proofs of paths through the rims."""
+    disc = {"kind": "disc", "centre": [5, 5], "radius": 1}
+    scene = read_scene({**SCENE, "obstacle": [disc, {**WALLS[0], "high": [6, 3], "margin": "1/4"}]})
+    real, height = Solid.around, Fraction(6) - Fraction(1, 10**9)
+    corners = [(Fraction(1), Fraction(5)), (Fraction(1), height), (Fraction(9), height), (Fraction(9), Fraction(5))]
+    monkeypatch.setattr(Solid, "around", lambda body, normals: [(n, c - HALF / 500) for n, c in real(body, normals)])
+    with pytest.raises(qe.Unable, match="not proved: curve 2"):
+        list(route_module.cleared(Route(scene, tuple(pairwise(corners)), None), Budget(20)))
+    for body in scene.solids:
+        assert all(map(body.is_behind, real(body, directions(2, 3))))
+        assert not any(map(body.is_behind, body.around(directions(2, 3))))
 
 
 def test_altered_answers_are_refused() -> None:
