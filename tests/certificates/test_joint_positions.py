@@ -209,7 +209,13 @@ TANGENTS = st.lists(st.fractions(-4, 4, max_denominator=3), min_size=6, max_size
 
 
 POSES = {"six": SIX, "backwards": BACKWARDS, "puma": PUMA, "skew wrist": STANDARD, "plane": PLANAR, **SLIDING}
+TURNED = (
+    'name = "turned"\nconvention = "standard"\n[[row]]\njoint = "theta1"\nd = 100\nalpha = "pi/2"\n'
+    '[[row]]\ntheta = "pi/3"\n[[row]]\njoint = "theta2"\na = 120\n[[row]]\njoint = "theta3"\na = 90\n'
+)
+"""Axes that meet, and a turn between them: u is along no axis of the second joint's frame."""
 POINTS = {
+    "turned": read_arm(TURNED),
     "ev3": load_arm("ev3-120"),
     **dict(zip(("shoulder", "scara", "skew"), ARMS_THAT_TURN[1:])),
     **dict(zip(IDS, ARMS)),
