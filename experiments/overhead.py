@@ -22,7 +22,7 @@ from experiments.adapters.answer import Limits
 from experiments.adapters.ours import ours
 from experiments.problem import Problem
 from experiments.solvers import OURS
-from qe.exact import fibre_stack, poly, sample
+from qe.exact import coincidence, fibre_stack, poly, sample
 from qe.io.text import CONSTANTS, read
 
 PROBLEMS = ("qepcad_app/#1", "fujisawa09#1", "chen14#3", "weispfenning98#2")
@@ -37,6 +37,8 @@ CORE: tuple[tuple[str, object, str], ...] = (
     ("root isolations", fibre_stack, "irreducible_roots"),
     ("root isolations", sample, "certified_roots"),
     ("root isolations", sample, "quadratic_roots"),
+    ("root isolations", sample, "distinct_roots"),
+    ("root isolations", coincidence, "distinct_roots"),
     ("evaluations", sample.Point, "univariate"),
     ("evaluations", sample.Point, "enclose"),
     ("evaluations", poly.Poly, "at_rational"),
