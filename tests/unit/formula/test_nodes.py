@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from fractions import Fraction
 from itertools import pairwise, permutations
 from pathlib import Path
 
@@ -257,6 +258,25 @@ def test_same_truth_at_points(text: str, k: int, relation: Relation, x: int, y: 
     counted = without_root_atoms(given_atom)
     assert not has_root_atoms(counted) and set(counted.free) <= {"x", "y"}
     assert qe.decide(substituted(counted, {"x": x, "y": y})) is holds_at(given_atom, {"x": x, "y": y})
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.integers(-3, 3), min_size=1, max_size=5),
+    st.sampled_from(["1", "x^2 - 2", "(x - 1)^2*(2*x + 1)", "x^4 - 5*x^2 + 5"]),
+    st.sampled_from(INDICES),
+    RELATIONS,
+)
+def test_the_roots_of_a_polynomial_in_one_variable_are_numbers(
+    lower: list[int], factor: str, k: int, relation: Relation
+) -> None:
+    shown = " + ".join(f"({c})*x^{e}" for e, c in enumerate([*lower, 1]))
+    poly = next(iter(read_formula(f"({shown})*({factor}) = 0 or x = 7").args)).poly  # type: ignore[attr-defined]
+    given_atom = root_atom("x", relation, poly, k)
+    plain = without_root_atoms(given_atom)
+    assert is_quantifier_free(plain) and not has_root_atoms(plain)
+    for x in (Fraction(n, 4) for n in range(-12, 13)):
+        assert holds_at(plain, {"x": x}) is holds_at(given_atom, {"x": x})
 
 
 def test_formulas_without_root_atoms_are_left_alone() -> None:
