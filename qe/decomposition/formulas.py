@@ -19,6 +19,9 @@ from qe.formula.syntax import FALSE, TRUE, Atomic, Formula, Relation
 from qe.formula.traverse import map_atoms
 from qe.proof.cells import CellTable, FreeCell
 
+WORTH_PRODUCTS = 9
+"""From this size of a formula on (two literals in variables have less) products of variables are worth a look."""
+
 Factors = Sequence[Sequence[Poly]]
 Refine = Callable[[frozenset[int]], CellTable]
 
@@ -61,21 +64,23 @@ def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mappi
         relation = (Relation.LT if strict else Relation.LE) if below else (Relation.GT if strict else Relation.GE)
         return atom(found.poly, relation)
 
-    return map_atoms(formula_of_cells(factors, cells), closed)
+    return map_atoms(formula_of_cells(factors, cells, products=False), closed)
 
 
-def formula_of_cells(factors: Factors, cells: list[FreeCell]) -> Formula:
-    """The shorter of a disjunction for the true cells and the negation of one for the false cells, which together are
+def formula_of_cells(factors: Factors, cells: list[FreeCell], *, products: bool = True) -> Formula:
+    """The shortest of disjunctions for the true cells and negations of ones for the false cells, which together are
     everything. On every cell its truth follows from the signs that are known there. Raises ``Undistinguished``."""
     if all(c.truth for c in cells):
         return TRUE
     if not any(c.truth for c in cells):
         return FALSE
     signs = SignTable(factors, cells)
-    positive, negative = _cover(signs), _cover(signs.flipped())
-    if _size(negative) < _size(positive):
-        return nnf(neg(_formula(negative)))
-    return _formula(positive)
+    sides = signs, signs.flipped()
+    covers = [_cover(side, side.literals) for side in sides]
+    if products and min(map(_size, covers)) >= WORTH_PRODUCTS:
+        covers += [_cover(side, side.with_products) for side in sides]
+    best = min(range(len(covers)), key=lambda k: _size(covers[k]))
+    return nnf(neg(_formula(covers[best]))) if best % 2 else _formula(covers[best])
 
 
 Implicant = tuple[Literal, ...]
@@ -89,12 +94,12 @@ def _size(cover: list[Implicant]) -> int:
     return sum(x.cost + 2 for implicant in cover for x in implicant)
 
 
-def _cover(signs: SignTable) -> list[Implicant]:
+def _cover(signs: SignTable, literals: list[Literal]) -> list[Implicant]:
     """Implicants that together hold on every true cell, none of them superfluous."""
     uncovered = signs.on_true.everything
     chosen: list[tuple[Implicant, int]] = []
     while uncovered:
-        implicant, holds = _implicant(signs, uncovered)
+        implicant, holds = _implicant(signs, literals, uncovered)
         chosen.append((implicant, holds))
         uncovered &= ~holds
     chosen.sort(key=lambda pair: -sum(x.cost for x in pair[0]))
@@ -108,10 +113,10 @@ def _cover(signs: SignTable) -> list[Implicant]:
     return [implicant for implicant, _ in reversed(chosen)]
 
 
-def _implicant(signs: SignTable, uncovered: int) -> tuple[Implicant, int]:
+def _implicant(signs: SignTable, literals: list[Literal], uncovered: int) -> tuple[Implicant, int]:
     """A short implicant that holds on the first uncovered true cell and on as many more as it can."""
     seed = uncovered & -uncovered
-    usable = [x for x in signs.literals if x.holds & seed]
+    usable = [x for x in literals if x.holds & seed]
     remaining, covered = signs.on_false.everything, signs.on_true.everything
     picked: list[Literal] = []
     while remaining:

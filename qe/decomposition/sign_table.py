@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
+from itertools import combinations
 from operator import and_, or_
 
 from qe.errors import InternalError
@@ -71,6 +72,11 @@ def _atom_where(relation: Relation, masks: Masks, cells: int) -> tuple[int, int]
     return true, false
 
 
+def _times(a: Masks, b: Masks) -> Masks:
+    """The cells that may have each sign of a product."""
+    return {1: a[1] & b[1] | a[-1] & b[-1], 0: a[0] | b[0], -1: a[1] & b[-1] | a[-1] & b[1]}
+
+
 class Columns:
     """The signs of factors on a list of cells, one bit for each."""
 
@@ -81,14 +87,12 @@ class Columns:
     def of(self, poly: Poly) -> Masks:
         """The signs of a product of the factors."""
         unit, factors = poly.factors()
-        plus, zero, minus = (self.everything, 0, 0) if unit > 0 else (0, 0, self.everything)
+        signs: Masks = {1 if unit > 0 else -1: self.everything, 0: 0, -1 if unit > 0 else 1: 0}
         for factor, exponent in factors:
             masks = self.of_factor[factor]
-            above, below = masks[1], masks[-1]
-            if exponent % 2 == 0:
-                above, below = above | below, 0
-            plus, zero, minus = plus & above | minus & below, zero | masks[0], plus & below | minus & above
-        return {1: plus, 0: zero, -1: minus}
+            even = exponent % 2 == 0
+            signs = _times(signs, {1: masks[1] | masks[-1], 0: masks[0], -1: 0} if even else masks)
+        return signs
 
     def where(self, formula: Formula) -> tuple[int, int]:
         """The cells on which a formula in products of the factors is true, and those on which it is false."""
@@ -125,16 +129,24 @@ class SignTable:
     @cached_property
     def literals(self) -> list[Literal]:
         """What covers a true cell and excludes a false one; a sign that is not known on a cell covers nothing there."""
-        listed: list[Literal] = []
-        everything = self.on_false.everything
-        for factor, masks in self.on_true.of_factor.items():
-            cost, others = factor.total_degree + factor.term_count(), self.on_false.of_factor[factor]
-            for relation in _WEAK_FIRST:
-                holds, _ = _atom_where(relation, masks, self.on_true.everything)
-                kept = everything & ~_atom_where(relation, others, everything)[1]
-                if holds and kept != everything:
-                    listed.append(Literal(factor, relation, holds, kept, cost))
-        return listed
+        on_true, on_false = self.on_true.of_factor, self.on_false.of_factor
+        return [x for factor in on_true for x in self._about(factor, on_true[factor], on_false[factor])]
+
+    @cached_property
+    def with_products(self) -> list[Literal]:
+        """Those about products of two variables, too: ``a*b < 0`` for two cases."""
+        on_true, on_false = self.on_true.of_factor, self.on_false.of_factor
+        pairs = combinations([f for f in on_true if f.total_degree == f.term_count() == 1], 2)
+        products = [(f * g, _times(on_true[f], on_true[g]), _times(on_false[f], on_false[g])) for f, g in pairs]
+        return self.literals + [x for product in products for x in self._about(*product)]
+
+    def _about(self, poly: Poly, on_true: Masks, on_false: Masks) -> Iterator[Literal]:
+        cost, everything = poly.total_degree + poly.term_count(), self.on_false.everything
+        for relation in _WEAK_FIRST:
+            holds, _ = _atom_where(relation, on_true, self.on_true.everything)
+            kept = everything & ~_atom_where(relation, on_false, everything)[1]
+            if holds and kept != everything:
+                yield Literal(poly, relation, holds, kept, cost)
 
 
 def _masks(cells: Sequence[FreeCell], factors: Sequence[Sequence[Poly]]) -> Iterator[tuple[Poly, Masks]]:

@@ -45,7 +45,8 @@ class Rows:
         """Holds on the true rows and not on the false ones; cases by the sign of a polynomial where that is shorter."""
         if not true or not false:
             return FALSE if not true else TRUE
-        best = gathered(formula_of_cells([self.polys], self._cells(true, True) + self._cells(false, False)))
+        cells = self._cells(true, True) + self._cells(false, False)
+        best = gathered(formula_of_cells([self.polys], cells, products=False))  # whose rows are not in the columns
         for k, p in enumerate(splitting):
             for first, second in ((LE, GE), (GE, LE)):
                 divided = self._divided(true, false, atom(p, first), atom(p, second), splitting[k + 1 :], length(best))

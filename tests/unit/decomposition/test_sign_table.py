@@ -1,9 +1,13 @@
 """Free cells of a table and the literals on them; whether an answer follows from the signs."""
 
 import random
+from dataclasses import replace
+from itertools import product
 from math import prod
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from qe.decomposition.decompose import decompose
 from qe.decomposition.follows import follows, is_listed
@@ -115,6 +119,25 @@ def test_polynomials_of_huge_degree_are_told_apart() -> None:
     assert holds_at(found, {"x": 2, "y": 0}) and not holds_at(found, {"x": 2, "y": 2**1500})
 
 
+def test_two_cases_of_signs_are_one_product() -> None:
+    cells = [FreeCell((i, j), (x, y), x + y in ("+-", "-+")) for i, x in enumerate("-0+") for j, y in enumerate("-0+")]
+    assert formula_of_cells([[X], [-Y]], cells) == read("x*y > 0")
+    cells = [replace(c, truth=not c.truth) for c in cells]
+    assert formula_of_cells([[X], [Y]], cells) == read("x*y >= 0")
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(1, 2**27 - 2))
+def test_formulas_hold_on_the_true_cells_alone(truths: int) -> None:
+    rows = list(product("-0+", repeat=3))
+    cells = [FreeCell((k,), ("".join(row),), bool(truths >> k & 1)) for k, row in enumerate(rows)]
+    ring = Ring.of("xyz")
+    found = formula_of_cells([[ring.gen(0), -ring.gen(1), ring.gen(2)]], cells)
+    for row, cell in zip(rows, cells, strict=True):
+        x, y, z = ("-0+".index(sign) - 1 for sign in row)
+        assert holds_at(found, {"x": x, "y": -y, "z": z}) is cell.truth
+
+
 def test_all_cells_at_once_as_one_by_one() -> None:
     """Signs that are not known among them; products with even and odd exponents, and negative units."""
     rng, polys = random.Random(5), (X, Y, X + Y, X - 2)
@@ -124,8 +147,8 @@ def test_all_cells_at_once_as_one_by_one() -> None:
             return rng.choice([And, Or])(tuple(part(depth - 1) for _ in range(3)))
         if depth and rng.random() < 0.2:
             return Not(part(depth - 1))
-        product = prod((p ** rng.randint(1, 2) for p in rng.sample(polys, rng.randint(1, 3))), start=RING.constant(1))
-        return Atom(rng.choice([product, -product]), rng.choice(list(Relation)))
+        term = prod((p ** rng.randint(1, 2) for p in rng.sample(polys, rng.randint(1, 3))), start=RING.constant(1))
+        return Atom(rng.choice([term, -term]), rng.choice(list(Relation)))
 
     places = {p: (0, j) for j, p in enumerate(polys)}
     for _ in range(200):
