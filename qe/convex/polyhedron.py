@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd
 
+from qe.convex.linear_rows import LinearRows
 from qe.exact.linear_bounds import LinearBounds
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom
+from qe.formula.syntax import Formula, Relation
 
 Normal = tuple[tuple[int, int], ...]
 """The coefficients that are not zero, with their columns, in ascending order: coprime integers."""
@@ -40,6 +44,21 @@ class HalfSpace:
             terms[j] = terms.get(j, 0) + its * c
         return HalfSpace.of(terms, mine * self.constant + its * other.constant, self.strict or other.strict)
 
+    def poly(self, names: Sequence[str], ring: Ring) -> Poly:
+        """A positive multiple with whole coefficients, with names for the columns."""
+        scale = self.constant.denominator
+        poly = ring.from_sparse([(((ring.index[names[j]], 1),), c * scale) for j, c in self.normal])
+        return poly + self.constant.numerator
+
+    def condition(self, names: Sequence[str], ring: Ring, relation: Relation | None = None) -> Formula:
+        """The comparison that it is, or another one of the same polynomial."""
+        return atom(self.poly(names, ring), relation or (Relation.LT if self.strict else Relation.LE))
+
+
+Sums = dict[HalfSpace | None, list[tuple[HalfSpace, Fraction]]]
+"""Why a half-space follows from others: a positive multiple of its form is no more than the sum of these multiples of
+theirs; and under None why there is no point: the sum is a positive number, or 0 and one of them strict."""
+
 
 @dataclass(frozen=True, slots=True)
 class Polyhedron:
@@ -49,13 +68,21 @@ class Polyhedron:
     equations: tuple[HalfSpace, ...]
     halves: tuple[HalfSpace, ...]
 
-    def irredundant(self, check: Check) -> Polyhedron | None:
-        """The same without half-spaces that follow from the others; None where it is empty.
+    @staticmethod
+    def of(system: LinearRows) -> Polyhedron:
+        """That of the conditions."""
+        halves = [(HalfSpace.of(row.terms, row.constant, row.is_strict), row.is_equation) for row in system.rows]
+        equations, others = (tuple(h for h, equal in halves if equal == kind) for kind in (True, False))
+        return Polyhedron(len(system.names), equations, others)
+
+    def irredundant(self, check: Check, sums: Sums | None = None) -> Polyhedron | None:
+        """The same without half-spaces that follow from the others; None where it is empty. ``sums`` gets the reasons.
 
         A half-space follows iff its complement and the others have no common point; one after the other is tested and
         left out at once.
         """
-        halves = _tightest(self.halves)
+        sums = {} if sums is None else sums
+        halves = _tightest(self.halves, sums)
         if halves is None:
             return None
         bounds = LinearBounds()
@@ -64,23 +91,23 @@ class Polyhedron:
         for row, x in zip(self.equations, forms):
             if x is None and row.constant:
                 return None
-            if x is not None and (
-                bounds.at_least(x, -row.constant, strict=False, reason=None) is not None
-                or bounds.at_most(x, -row.constant, strict=False, reason=None) is not None
-            ):
-                return None
+            if x is not None:  # no form has two variables, so that bounds conflict only with those of others
+                bounds.at_least(x, -row.constant, strict=False, reason=row)
+                bounds.at_most(x, -row.constant, strict=False, reason=row)
         kept = dict(zip(forms[len(self.equations) :], halves))
-        if any(_below(bounds, x, row) for x, row in kept.items()) or bounds.conflict(check) is not None:
+        for x, row in kept.items():
+            _below(bounds, x, row)
+        if bounds.conflict(check) is not None:
+            sums[None] = _reasons(bounds)
             return None
         for x, row in sorted(kept.items(), key=lambda pair: -len(pair[1].normal)):
             assert x is not None
             bounds.free(x)
-            if (
-                bounds.at_least(x, -row.constant, strict=not row.strict, reason=None) is not None
-                or bounds.conflict(check) is not None
-            ):
-                bounds.free(x)
+            bounds.at_least(x, -row.constant, strict=not row.strict, reason=None)
+            if bounds.conflict(check) is not None:
+                sums[row] = _reasons(bounds)
                 del kept[x]
+                bounds.free(x)
             else:
                 bounds.free(x)
                 _below(bounds, x, row)
@@ -106,26 +133,37 @@ class Polyhedron:
         rest = tuple(without(e) for e in self.equations if e is not equation)
         return Polyhedron(self.size, rest, tuple(map(without, self.halves)))
 
-    def combined(self, column: int) -> Polyhedron:
-        """Without a column: each upper bound of it with each lower one."""
+    def combined(self, column: int, sums: Sums | None = None) -> Polyhedron:
+        """Without a column: each upper bound of it with each lower one. ``sums`` gets of which they are made."""
         above = [(row, c) for row in self.halves if (c := row.at(column)) > 0]
         below = [(row, -c) for row in self.halves if (c := row.at(column)) < 0]
         rest = [row for row in self.halves if not row.at(column)]
-        sums = [p.plus(q, d // gcd(c, d), c // gcd(c, d)) for p, c in above for q, d in below]
-        return Polyhedron(self.size, self.equations, (*rest, *sums))
+        pairs = [((p, d // gcd(c, d)), (q, c // gcd(c, d))) for p, c in above for q, d in below]
+        made: Sums = {p.plus(q, mine, its): [(p, Fraction(mine)), (q, Fraction(its))] for (p, mine), (q, its) in pairs}
+        if sums is not None:
+            sums.update(made)
+        return Polyhedron(self.size, self.equations, (*rest, *filter(None, made)))
 
 
-def _tightest(halves: Iterable[HalfSpace]) -> tuple[HalfSpace, ...] | None:
+def _tightest(halves: Iterable[HalfSpace], sums: Sums) -> tuple[HalfSpace, ...] | None:
     """One half-space of each normal, none without; None where one is empty."""
     best: dict[Normal, HalfSpace] = {}
     for row in halves:
-        known = best.get(row.normal)
-        if known is None or (row.constant, row.strict) > (known.constant, known.strict):
-            best[row.normal] = row
+        known = best.setdefault(row.normal, row)
+        if (row.constant, row.strict) > (known.constant, known.strict):
+            best[row.normal], row, known = row, known, row
+        if row != known:
+            sums[row] = [(known, Fraction(1))]
     everything = best.pop((), None)
     if everything is not None and (everything.constant > 0 or (everything.constant == 0 and everything.strict)):
+        sums[None] = sums.get(everything, [])
         return None
     return tuple(best.values())
+
+
+def _reasons(bounds: LinearBounds) -> list[tuple[HalfSpace, Fraction]]:
+    """The half-spaces in a contradiction, beside the one that is tested."""
+    return [(row, weight) for row, weight in bounds.contradiction() if isinstance(row, HalfSpace)]
 
 
 def _form(bounds: LinearBounds, columns: Sequence[int], row: HalfSpace) -> int | None:
@@ -133,12 +171,7 @@ def _form(bounds: LinearBounds, columns: Sequence[int], row: HalfSpace) -> int |
     return bounds.form({columns[j]: Fraction(c) for j, c in row.normal}) if row.normal else None
 
 
-def _below(bounds: LinearBounds, x: int | None, row: HalfSpace) -> bool:
-    """Bound a row from above; whether that is a contradiction."""
-    return x is not None and bounds.at_most(x, -row.constant, strict=row.strict, reason=None) is not None
-
-
-def whole(row: HalfSpace) -> tuple[dict[int, int], int]:
-    """Integer coefficients and constant of a positive multiple."""
-    scale = lcm(1, row.constant.denominator)
-    return {j: c * scale for j, c in row.normal}, int(row.constant * scale)
+def _below(bounds: LinearBounds, x: int | None, row: HalfSpace) -> None:
+    """Bound a row from above."""
+    if x is not None:
+        bounds.at_most(x, -row.constant, strict=row.strict, reason=row)

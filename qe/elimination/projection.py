@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from qe.convex.linear_rows import LinearRows
-from qe.convex.polyhedron import HalfSpace, Polyhedron, whole
+from qe.convex.polyhedron import Polyhedron
 from qe.convex.shadow import shadow
 from qe.convex.system import NotConvex, atoms_of
 from qe.elimination.protocol import Context, Outcome
 from qe.exact.ring import Ring
 from qe.formula.block import Block
-from qe.formula.build import atom, conj
+from qe.formula.build import conj
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Formula, Relation
 from qe.options import Options
@@ -41,10 +41,8 @@ class Projection:
             context.budget.check("projection")
 
         system = LinearRows.of(atoms)
-        halves = [(HalfSpace.of(row.terms, row.constant, row.is_strict), row.is_equation) for row in system.rows]
-        equations, others = (tuple(h for h, equal in halves if equal == kind) for kind in (True, False))
         bound = [j for j, name in enumerate(system.names) if name in problem.variables]
-        projected = shadow(Polyhedron(len(system.names), equations, others), bound, check)
+        projected = shadow(Polyhedron.of(system), bound, check)
         positive = FALSE if projected is None else _formula(projected, system.names, problem.free)
         after = nnf(positive, negate=problem.universal)
         return Outcome(context.log.step("projection", problem.formula, after), shortest=True)
@@ -53,16 +51,10 @@ class Projection:
 def _formula(projected: Polyhedron, names: tuple[str, ...], free: tuple[str, ...]) -> Formula:
     """The conditions; two half-spaces that touch are an equation."""
     ring = Ring.of(free)
-
-    def made(row: HalfSpace, relation: Relation) -> Formula:
-        terms, constant = whole(row)
-        poly = ring.from_sparse([(((ring.index[names[j]], 1),), c) for j, c in terms.items()])
-        return atom(poly + constant, relation)
-
     known = {(row.normal, row.constant) for row in projected.halves if not row.strict}
-    parts = [made(row, Relation.EQ) for row in projected.equations]
+    parts = [row.condition(names, ring, Relation.EQ) for row in projected.equations]
     for row in projected.halves:
         opposite = tuple((j, -c) for j, c in row.normal), -row.constant
-        weak = Relation.EQ if not row.strict and opposite in known else Relation.LE
-        parts.append(made(row, Relation.LT if row.strict else weak))
+        flat = not row.strict and opposite in known
+        parts.append(row.condition(names, ring, Relation.EQ if flat else None))
     return conj(dict.fromkeys(parts))

@@ -52,10 +52,6 @@ PROJECTED = 3
 """So many variables of a polyhedron are eliminated by combining bounds; of fewer, other methods' answers are as short
 (measured: four variables and three parameters 0.02 s, and none in 25 s by substitution and shortening)."""
 
-PROVED_ROWS = 9
-"""So many linear conditions have a short enough answer by substitution for its proof to be worth its length (measured
-with 20 s: three variables and nine conditions 2 s, 14 conditions none, and none of six variables)."""
-
 POSITION_TERMS = 5000
 """Terms of all atoms together up to which better coordinates are looked for."""
 
@@ -157,16 +153,10 @@ def closed_in_many_variables(problem: Block, options: Options) -> str | None:
 
 
 def polyhedron(problem: Block, options: Options) -> str | None:
-    """Linear conditions on ``PROJECTED`` variables or more, and on parameters.
-
-    Fourier's elimination has no steps of its own in certificates: where one is wanted, and there are at most
-    ``PROVED_ROWS`` conditions, substitution goes first.
-    """
+    """Linear conditions on ``PROJECTED`` variables or more, and on parameters."""
     if not problem.free or len(problem.variables) < PROJECTED or not problem.is_flat:
         return None
     parts = problem.conditions
-    if options.certify and len(parts) <= PROVED_ROWS:
-        return None
     if problem.curved or any(not isinstance(p, Atom) or p.poly.total_degree > 1 for p in parts):
         return None
     return f"a polyhedron projected along {len(problem.variables)} variables"

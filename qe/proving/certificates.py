@@ -20,6 +20,7 @@ from qe.proof.certificate import Certificate, Kind, Proof
 from qe.proof.derivation import put_together
 from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
+from qe.proving.primitive_names import PROJECTION
 
 Result = TypeVar("Result")
 
@@ -138,7 +139,7 @@ def derived_or_decomposed(
 ) -> Proof:
     """The derivation; where a step of it has no evidence, a decomposition of the whole question, if time allows."""
     proof = derived(asked, log, answer, options, budget)
-    if proof.certificate is not None:
+    if proof.certificate is not None or PROJECTION in proof.unchecked:
         return proof
     log.switch("derivation", proof.reason)
     table = _table(question, answer, log, options, budget)

@@ -35,8 +35,10 @@ from qe.proving.lemma_list import EMPTY
 from qe.proving.linear import guarded, term
 from qe.proving.made import FRESH, by_lemmas, terms, value
 from qe.proving.mirrors import mirrored
+from qe.proving.primitive_names import PROJECTION
 from qe.proving.ranges import by_ranges
 from qe.proving.scaling import scaled, translated
+from qe.proving.shadows import projected
 from qe.proving.shifts import shifted
 from qe.proving.thin import degenerate_truth_set
 from qe.proving.turns import turned
@@ -254,6 +256,7 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "roots by signs": roots_by_signs,
     "rotation of the axes": turned,
     "linear equation solved under a guard": guarded,
+    PROJECTION: projected,
     "critical values of a universal block": decomposed,
     "comprehensive Gröbner system": counted,
 }

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 SIGNS, STEPS, QUANTIFIERS, THEOREM, NO_EXCEPTION = "signs", "steps", "quantifiers", "theorem", "no exception"
+PROJECTION = "projection"
+"""The rule whose steps are too large for a decomposition wherever they are too large for steps of their own."""
 
 BY_SIGNS = (
     "simplification",

@@ -34,7 +34,7 @@ from qe.proving.elaborators import ELABORATORS
 from qe.proving.lemma_list import EMPTY, identities, with_cases
 from qe.proving.lemmas import refuting
 from qe.proving.nested import derivations_within, names_within, proved_inside
-from qe.proving.primitive_names import PRIMITIVE_OF, QUANTIFIERS, SIGNS, STEPS, THEOREM
+from qe.proving.primitive_names import PRIMITIVE_OF, PROJECTION, QUANTIFIERS, SIGNS, STEPS, THEOREM
 from qe.proving.remembering import Accepted, remembering, step_key
 from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
@@ -167,7 +167,7 @@ class Prover:
         simplifying = found is None and step.rule in SIMPLIFYING
         if simplifying and self._simplified_inside(place, step, context, current) == changed:
             return changed
-        if found is None:
+        if found is None and step.rule != PROJECTION:
             found = self._tabulated(step)
         if found is None:
             self.unchecked.append(step.rule)

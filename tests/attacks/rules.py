@@ -119,6 +119,11 @@ RULES: dict[str, Row] = {
         "ex x. x^{6|9} + a*x^3 {O} {L}",
         "ex x. x^4 {O} {L} and (all z. z {O} x^2 or a*z {R} b)",
     ),
+    "projection": row(
+        "ex x, y, z. x + {p}*y {<|<=} a and y - {p}*z {<|<=} b and z - x {<|<=|=} {n} and x + y + z {O} c",
+        "ex x, y, z. x + y + z = a and x - {p}*y {<|<=} b and {p}*z - y {O} {n} and x {O} 0 and y {<|<=} z",
+        "ex x, y, z. x {>|>=} a and x {>|>=} y + b and x {<|<=} z and y {<|<=} {n} and z {<|<=} c and {p}*x < y + z",
+    ),
     "affine coordinates": row(
         "ex x, y. (3*x - y + 1)^2 + {p}*(2*y + 3)^2 {O} a and (3*x - y + 1)*(2*y + 3) {O} {n}",
         "all x, y. (5*x - 1)^{2|3} + (x + 2*y)^3 {R} b or (x + 2*y)^2 {O} (5*x - 1) + a",
@@ -331,9 +336,6 @@ METHODS: dict[str, Row] = {
     "infinity first": RULES["infinity first"],
     "roots by signs": RULES["roots by signs"],
     "linear form named": RULES["linear form named"],
-    "projection": row(
-        "ex x, y, z. x + {p}*y {<|<=} a and y - {p}*z {<|<=} b and z - x {<|<=|=} {n} and x + y + z {O} c",
-        "ex x, y, z. x + y + z = a and x - {p}*y {<|<=} b and {p}*z - y {O} {n} and x {O} 0 and y {<|<=} z",
-    ),
+    "projection": RULES["projection"],
 }
 """The methods, by the names that a log has for them."""
