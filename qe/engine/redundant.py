@@ -87,7 +87,7 @@ def without_redundant_parts(
         return formula
     if not _is_suited(conj((known, formula))):
         return _without_excluded_parts(formula, context) if known == TRUE else formula
-    points = _Points(conj((known, formula)).free, context.budget.check)
+    points = Points(conj((known, formula)).free, context.budget.check)
     options = context.options.with_(without=context.options.without | {Stage.SAMPLES, Stage.POSITION})
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
     while (
@@ -110,11 +110,11 @@ def without_redundant_parts(
     return _without_excluded_parts(formula, context, points)
 
 
-def _without_excluded_parts(formula: Formula, context: Context, points: _Points | None = None) -> Formula:
+def _without_excluded_parts(formula: Formula, context: Context, points: Points | None = None) -> Formula:
     """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
     if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
         return formula
-    points, kept, terms = points or _Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
+    points, kept, terms = points or Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
     parts = iter(_by_size(formula, points))
     while (part := next(parts, None)) is not None:
@@ -176,7 +176,7 @@ def is_cheap_sentence(sentence: Formula) -> bool:
     return degree <= DEGREES.get(len(features(sentence).bound), MANY_DEGREE) and _is_suited(sentence)
 
 
-def _unsettled(formula: Formula, points: _Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:
+def _unsettled(formula: Formula, points: Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:
     """The parts worth a question of which no known point says that they matter, largest first."""
     for count in (FIRST, COARSE, COARSE + FINE):
         if not points.fill(count) and count < COARSE + FINE:
@@ -187,7 +187,7 @@ def _unsettled(formula: Formula, points: _Points, kept: set[Formula], known: For
     yield from (p for p in parts if p.sentence not in kept)
 
 
-def _by_size(formula: Formula, points: _Points, known: Formula = TRUE) -> list[Part]:
+def _by_size(formula: Formula, points: Points, known: Formula = TRUE) -> list[Part]:
     """The parts of which no point tells that they matter, largest first."""
     parts = _silent(formula, points, (), () if known == TRUE else ((known, True),), points.holding(known))
     return sorted(parts, key=lambda part: length(part.formula), reverse=True)
@@ -203,7 +203,7 @@ def _is_cheap(part: Part) -> bool:
 
 
 def _silent(
-    formula: Formula, points: _Points, place: Place, above: tuple[tuple[Formula, bool], ...], there: int
+    formula: Formula, points: Points, place: Place, above: tuple[tuple[Formula, bool], ...], there: int
 ) -> Iterator[Part]:
     """The parts below a place that matters under conditions, at the points ``there``, and that no point tells."""
     if not isinstance(formula, And | Or):
@@ -221,7 +221,7 @@ def _silent(
 
 
 @dataclass(slots=True)
-class _Points:
+class Points:
     """Points, and for formulas the sets of those where they hold, as bits."""
 
     names: tuple[str, ...]
@@ -246,12 +246,14 @@ class _Points:
             self.listed.append({name: self.chosen.choice(values) for name in self.names})
         return len(self.listed) > before
 
-    def take(self, witness: Values | None) -> None:
-        """One more point, if its coordinates are rational."""
+    def take(self, witness: Values | None) -> bool:
+        """One more point, if its coordinates are rational; whether they are."""
         values = [(name, (witness or {}).get(name, Fraction(0))) for name in self.names]
         point = {name: value for name, value in values if isinstance(value, Fraction)}
-        if witness is not None and len(point) == len(self.names):
-            self.listed.append(point)
+        if witness is None or len(point) < len(self.names):
+            return False
+        self.listed.append(point)
+        return True
 
     def holding(self, formula: Formula) -> int:
         """Where the formula holds."""

@@ -16,6 +16,7 @@ from operator import add
 from typing import Any, ClassVar, TypeAlias, TypeVar, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
+from flint.utils.flint_exceptions import DomainError
 
 from qe.errors import BudgetExceeded, InternalError
 from qe.exact.factor import guarded_factor
@@ -342,6 +343,13 @@ class Poly:
     def normal(self) -> tuple[int, Poly]:
         """(u, q) with self = u*q, q primitive with positive leading coefficient; (0, 0) for zero."""
         return self._normal
+
+    def square_root(self) -> Poly | None:
+        """A polynomial with this square, or None."""
+        try:
+            return self._like(self.p.sqrt())
+        except DomainError:
+            return None
 
     def factors(self) -> Factors:
         """(unit, ((irreducible primitive factor, multiplicity), ...)), cached in the ring."""

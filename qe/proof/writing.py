@@ -68,6 +68,7 @@ RULES: Mapping[str, str] = {
     "equations taken apart": "The equations have the same common zeros as others (Buchberger 1965), factor by factor.",
     "shorter": "A decomposition of the space of the free variables shows that the shorter formula is equivalent.",
     "redundant part": "There is no point where this part makes a difference.",
+    "signs of factors": "The formulas, of which one speaks of factors of products, differ nowhere.",
     "constant": "The formula holds everywhere, or nowhere.",
 }
 """What each rule claims, in a sentence."""

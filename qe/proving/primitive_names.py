@@ -23,4 +23,5 @@ PRIMITIVE_OF: Mapping[str, str] = {
     **dict.fromkeys(BY_SIGNS, SIGNS),
     "redundant part": NO_EXCEPTION,
     "constant": NO_EXCEPTION,
+    "signs of factors": NO_EXCEPTION,
 }

@@ -13,7 +13,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import permutations, product
-from math import isqrt, prod
 
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
@@ -212,21 +211,11 @@ def _completed(
     block = match.formula("block")
     if not isinstance(block, Exists) or set(conjuncts(block.body)) != set(conjuncts(body)):
         return
-    roots = {name: square_root(term(match.theorem, tree, whole, body.ring)) for name, tree in given.roots.items()}
+    roots = {name: term(match.theorem, tree, whole, body.ring).square_root() for name, tree in given.roots.items()}
     if None not in roots.values():
         for signs in product((1, -1), repeat=len(roots)):
             signed = {name: root * s for (name, root), s in zip(roots.items(), signs, strict=True) if root is not None}
             yield replace(match, letters={**whole, **signed})
-
-
-def square_root(poly: Poly) -> Poly | None:
-    """A polynomial with this square, or None."""
-    if not poly:
-        return poly
-    unit, factors = poly.factors()
-    if unit < 0 or isqrt(unit) ** 2 != unit or any(multiplicity % 2 for _, multiplicity in factors):
-        return None
-    return prod((factor ** (times // 2) for factor, times in factors), start=poly.ring.constant(isqrt(unit)))
 
 
 def _assigned(

@@ -113,11 +113,11 @@ class _Position:
 
     def all_steps(self) -> list[Solve]:
         """Steps until none helps."""
-        self.centre()
-        if self.steps:
-            self.scale_all()
         for _ in range(_ROUNDS):
             before = len(self.steps)
+            self.centre()
+            if len(self.steps) > before:
+                self.scale_all()
             for block in self.blocks:
                 for x in block:
                     for y in (None, *(y for y in block if y != x)):
@@ -134,10 +134,10 @@ class _Position:
     def centre(self) -> None:
         """A new origin for all variables at once, as all polynomials propose together, or one of them; or the same
         number for all, which differences do not notice."""
-        curved = [self.terms(p) for p in self.polys if p.total_degree > 1]
+        linear, curved = ([self.terms(p) for p in self.polys if (p.total_degree > 1) is one] for one in (False, True))
         proposed: list[Sequence[Solve]] = []
         alike: Counter[Fraction] = Counter()
-        for chosen in (curved, *([terms] for terms in curved)):
+        for chosen in (curved, *([terms] for terms in curved), linear):
             numbers = [(x, c) for x in self.variables for c in _numbers(chosen, x, None)[:1]]
             proposed.append([self.step(x, None, c) for x, c in numbers])
             alike.update(c for _, c in numbers)

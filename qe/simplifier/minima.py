@@ -38,9 +38,12 @@ def minimum(poly: Poly) -> Minimum | None:
     A constant plus positive multiples of monomials with even exponents is least where all the monomials vanish.
     4a * (a*x^2 + l*x + r) = (2a*x + l)^2 + (4a*r - l^2), with a number a > 0, is least over x where 2a*x + l = 0, and
     what remains is without x. With a < 0 the polynomial is unbounded below. Every quadratic polynomial is decided.
+    A number and a positive multiple of one square are found, too; the square of q may be 0 nowhere.
     """
-    if poly.total_degree % 2 or not poly or poly.term_count() > _MOST_TERMS:
+    if poly.total_degree % 2 or not poly:
         return None
+    if poly.term_count() > _MOST_TERMS:
+        return _one_square(poly)
     even = _even_monomials(poly)
     if even is not None:
         return even
@@ -55,7 +58,28 @@ def minimum(poly: Poly) -> Minimum | None:
             return None  # also where the remainder is not known to be bounded: another variable may know, but which?
         size, root = (poly.ring.gen(i) * (2 * a) + parts[1]).normal()
         return Minimum(least.value, ((Fraction(size * size), root), *least.squares)).over(4 * a)
-    return None
+    return _one_square(poly)
+
+
+def _one_square(poly: Poly) -> Minimum | None:
+    """c + a*s^2 with numbers c and a > 0, else None: on a line c is what the first half of the terms says it is."""
+    if any(poly.degree(i) % 2 for i in poly.variables):
+        return None
+    x, *others = poly.variables
+    *lower, highest = poly.compose({i: poly.ring.constant(i + 2) for i in others}).coefficients(x)
+    a, d = highest.constant_value(), len(lower) // 2
+    line = [Fraction(c.constant_value(), a) for c in lower] if a > 0 else []
+    if len(line) != poly.degree(x):
+        return None
+    root = [Fraction(0)] * d + [Fraction(1)]
+    for k in reversed(range(d)):
+        root[k] = (line[d + k] - sum(root[i] * root[d + k - i] for i in range(k + 1, d))) / 2
+    if any(line[k] != sum(root[i] * root[k - i] for i in range(k + 1)) for k in range(1, d)):
+        return None
+    number = a * (line[0] - root[0] ** 2)
+    weight, square = (poly * number.denominator - number.numerator).normal()
+    factor = square.square_root()
+    return None if factor is None else Minimum(number, ((Fraction(weight, number.denominator), factor),))
 
 
 def _even_monomials(poly: Poly) -> Minimum | None:

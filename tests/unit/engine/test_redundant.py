@@ -189,6 +189,6 @@ def test_large_answers_are_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_few_points_are_looked_at_for_parts_that_are_worth_no_question() -> None:
     """Hong 1993: an equation of degree 5 stands beside every part, so that hardly any point tells what matters."""
     text = "u /= 0 and u^5 - u^3*v*w + v^3*w + v^2 = 0 and (u*v - v*w >= 0 and u*v*w + w <= 0 or u - v*w^2 <= 0)"
-    points = redundant._Points(("u", "v", "w"), Budget().check)
+    points = redundant.Points(("u", "v", "w"), Budget().check)
     assert not list(redundant._unsettled(read_formula(text.replace("u^5", "u^13")), points, set()))
     assert len(points.listed) == redundant.FIRST + 6

@@ -1,4 +1,4 @@
-"""Minima of quadratic polynomials and of sums of even monomials."""
+"""Minima of quadratic polynomials, of sums of even monomials, and of numbers and squares."""
 
 from fractions import Fraction
 from itertools import product
@@ -8,7 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
+from qe.formula.syntax import FALSE
+from qe.io.text import read
 from qe.simplifier.minima import minimum, vanishing
+from qe.simplifier.simplify import simplify
 from tests.tables import each
 
 RING = Ring.of(("x", "y", "z"))
@@ -31,7 +34,7 @@ def test_minimum(poly: Poly, value: int, zeros: tuple[Poly, ...]) -> None:
     assert bool(vanishing(poly)) == (value == 0)
 
 
-@each(X, X**3, -(X**2), X * Y, X**2 + Y, X**2 - Y**2, X**2 + 4 * X * Y, X**4 - X**2, X**4 + X, X**4 * Y + X**2)
+@each(X, X**3, -(X**2), X * Y, X**2 + Y, X**2 - Y**2, X**2 + 4 * X * Y, X**4 + X, X**4 * Y + X**2, X**2 - 2 * X**4)
 def test_no_minimum_is_claimed(poly: Poly) -> None:
     assert minimum(poly) is None and vanishing(poly) == ()
     assert minimum(RING.constant(0)) is None
@@ -54,6 +57,22 @@ def test_squares_of_curved_polynomials_are_completed(c, d, constant):
     found = minimum(poly)
     assert found is not None and found.value <= constant and is_sum(poly, found)
     assert minimum((X - inner) ** 2 + outer - X**4) is None
+
+
+@each(X * Y - 3, X**2 + Y**2 + Z**2 - 1, (X**2 - 3) * (Y - Z * X), 2 * X**2 - X + 1, X**3 - X * Y + Z, X**2 * Y**2 - Y)
+def test_numbers_and_one_square_of_any_degree(root: Poly) -> None:
+    for c in (-3, 0, 1):
+        found = minimum(root * root * 3 + c)
+        assert found is not None and found.value >= c and is_sum(root * root * 3 + c, found)
+        assert minimum(root * root * -3 + c) is None
+        assert minimum(root * root * (root * root) * 3 + root + c) is None or root.degrees == (2, 0, 0)
+
+
+@each("x*y - z", "x^2 + y^2 + z^2 - 1", "(x - y)*(x + z)", "x^3 - 2*x*y")
+def test_an_odd_power_with_a_positive_factor_hid_its_sign(given: str) -> None:
+    before, p = read(f"{given} > 0"), f"({given})"
+    assert simplify(read(f"{p}*({p}^2 + 1) > 0 and {p}*({p}^2 + 1)^3 > 0")) == simplify(before)
+    assert simplify(read(f"{p}^4 + 2*{p}^2 + 2 <= 0")) == FALSE
 
 
 @given(st.lists(COEFFICIENTS, min_size=10, max_size=10))
