@@ -29,7 +29,7 @@ from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
 from qe.extras import lacking
 from qe.processes.channel import Channel, Known, WorkerDied, WorkerStopped
-from qe.processes.execution import GRACE, run
+from qe.processes.execution import grace_of, run
 from qe.processes.limits import Limits
 from qe.processes.portable import portable, rebuilt
 from qe.progress import Event
@@ -305,7 +305,7 @@ def limited(
 
     The time limit is the user's, for the whole command: what start-up has taken of it is gone.
     """
-    grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE, Known()
+    grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + grace_of(timeout), Known()
     at_once = text is None or timeout is not None or _may_block(text)
     with Display(wanted=not plain, lines=lines) as display:
         limits = Limits(timeout, memory, display)

@@ -35,8 +35,9 @@ HERE, COLD = 0.05, 0.3
 """Seconds that work takes in the process of the caller before it moves: to a worker that runs, and to one that has to
 be started first, which takes about as long. Time in which modules are loaded does not count."""
 
-GRACE = 0.25
-"""Seconds past the time limit before the kill, so that a soft limit in the worker can answer first."""
+GRACE, SHORT_GRACE, SHARE = 0.25, 0.05, 0.05
+"""Seconds past the time limit before the kill, so that a soft limit in the worker can answer first: a share of the
+limit, between two bounds."""
 
 SWITCH = "QE_PROCESS"
 """The environment variable that, set to ``off``, keeps all work in the process of the caller."""
@@ -46,6 +47,11 @@ Bounds = tuple[float, float]
 
 OUTER: ContextVar[Handover | Bounds | None] = ContextVar("OUTER", default=None)
 """Of the question that is being worked on: how it moves while it is here, or the bounds of its worker."""
+
+
+def grace_of(timeout: float | None) -> float:
+    """The seconds past this time limit before the kill."""
+    return GRACE if timeout is None else min(GRACE, max(SHORT_GRACE, SHARE * timeout))
 
 
 class _Moves(BaseException):
@@ -78,13 +84,13 @@ def run(
     limits: Limits,
     *,
     at_once: bool = True,
-    grace: float = GRACE,
+    grace: float | None = None,
     known: Known | None = None,
 ) -> T:
     """``work(channel)`` under the limits; ``known`` is filled as it goes on.
 
     ``at_once``: a single operation may take long from the start. The worker is killed ``grace`` seconds after the time
-    limit. Its memory is its address space, the interpreter included. Progress is heard here. No process is left behind
+    limit (None: ``grace_of`` it). Its memory is its address space, the interpreter included. Progress is heard here. No process is left behind
     at work, whatever happens. Work and result are pickled; work that cannot be stays here where nothing is limited.
 
     Raises ``WorkerStopped`` at a limit, and every ``QEError`` that the work itself raised; from a worker any other
@@ -115,7 +121,8 @@ def run(
             if limits.timeout is not None or limits.memory is not None:
                 raise Unable("the question cannot be sent to another process, where limits hold (process=False: here)")
             return here(None)
-        found: T = asked(sent, limits, deadline, grace, known)  # type: ignore[assignment]
+        past = grace_of(limits.timeout) if grace is None else grace
+        found: T = asked(sent, limits, deadline, past, known)  # type: ignore[assignment]
         return found
     finally:
         known.seconds = time.monotonic() - start

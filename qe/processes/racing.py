@@ -12,7 +12,7 @@ from typing import TypeVar
 from qe.errors import QEError, Unable
 from qe.options import lost
 from qe.processes.channel import Channel, Known, Message
-from qe.processes.execution import GRACE, leave
+from qe.processes.execution import grace_of, leave
 from qe.processes.limits import Limits
 
 T = TypeVar("T")
@@ -59,7 +59,7 @@ def first(
             if sent is None:
                 raise Unable(f"{name}: it cannot be sent to another process")
             running[name], until = begun(sent, limits, deadline)
-            Thread(target=follow, args=(name, running[name], until + GRACE), daemon=True).start()
+            Thread(target=follow, args=(name, running[name], until + grace_of(limits.timeout)), daemon=True).start()
         while running:
             name, message = news.get()
             known = Known()

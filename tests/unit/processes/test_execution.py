@@ -17,7 +17,7 @@ import qe
 from qe.errors import BudgetExceeded, InputError, InternalError, QEError, Unable
 from qe.formula.weight import may_block, text_may_block
 from qe.processes.channel import Channel, WorkerDied
-from qe.processes.execution import COLD, HERE, SWITCH, perform
+from qe.processes.execution import COLD, HERE, SWITCH, grace_of, perform
 from qe.processes.limits import Limits
 from qe.processes.racing import first
 from qe.processes.worker import IDLE, end_idle
@@ -293,3 +293,8 @@ def test_a_process_ends_when_its_parent_was_gone_before_it_looked() -> None:
     pytest.importorskip("click")
     code = "from qe.processes import leash; leash.watch(1 << 30)"
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 1
+
+
+@each((0.1, 0.05), (2.0, 0.1), (3.0, 0.15), (60.0, 0.25), (None, 0.25))
+def test_a_limit_of_two_seconds_was_overrun_by_an_eighth(timeout: float | None, grace: float) -> None:
+    assert grace_of(timeout) == pytest.approx(grace)
