@@ -12,11 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
+from math import isqrt, prod
 from operator import add
 from typing import Any, ClassVar, TypeAlias, TypeVar, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
-from flint.utils.flint_exceptions import DomainError
 
 from qe.errors import BudgetExceeded, InternalError
 from qe.exact.factor import guarded_factor
@@ -346,10 +346,10 @@ class Poly:
 
     def square_root(self) -> Poly | None:
         """A polynomial with this square, or None."""
-        try:
-            return self._like(self.p.sqrt())
-        except DomainError:
+        unit, factors = self.factors()
+        if unit < 0 or isqrt(unit) ** 2 != unit or any(multiplicity % 2 for _, multiplicity in factors):
             return None
+        return prod((factor ** (times // 2) for factor, times in factors), start=self.ring.constant(isqrt(unit)))
 
     def factors(self) -> Factors:
         """(unit, ((irreducible primitive factor, multiplicity), ...)), cached in the ring."""

@@ -90,8 +90,9 @@ def run(
     """``work(channel)`` under the limits; ``known`` is filled as it goes on.
 
     ``at_once``: a single operation may take long from the start. The worker is killed ``grace`` seconds after the time
-    limit (None: ``grace_of`` it). Its memory is its address space, the interpreter included. Progress is heard here. No process is left behind
-    at work, whatever happens. Work and result are pickled; work that cannot be stays here where nothing is limited.
+    limit (None: ``grace_of`` it). Its memory is its address space, the interpreter included. Progress is heard here. No
+    process is left behind at work, whatever happens. Work and result are pickled; work that cannot be stays here where
+    nothing is limited.
 
     Raises ``WorkerStopped`` at a limit, and every ``QEError`` that the work itself raised; from a worker any other
     exception arrives as ``InternalError``, and ``WorkerDied`` says that a signal ended it.
