@@ -66,11 +66,10 @@ def _one_square(poly: Poly) -> Minimum | None:
     if any(poly.degree(i) % 2 for i in poly.variables):
         return None
     x, *others = poly.variables
-    *lower, highest = poly.compose({i: poly.ring.constant(i + 2) for i in others}).coefficients(x)
-    a, d = highest.constant_value(), len(lower) // 2
-    line = [Fraction(c.constant_value(), a) for c in lower] if a > 0 else []
-    if len(line) != poly.degree(x):
+    coefficients = poly.compose({i: poly.ring.constant(i + 2) for i in others}).coefficients(x)
+    if len(coefficients) != poly.degree(x) + 1 or (a := coefficients[-1].constant_value()) < 0:
         return None
+    line, d = [Fraction(c.constant_value(), a) for c in coefficients], poly.degree(x) // 2
     root = [Fraction(0)] * d + [Fraction(1)]
     for k in reversed(range(d)):
         root[k] = (line[d + k] - sum(root[i] * root[d + k - i] for i in range(k + 1, d))) / 2
