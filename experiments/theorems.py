@@ -26,7 +26,7 @@ from qe.formula.traverse import bound_variables
 from qe.kernel.statements import Theorem, rows, theorem
 from qe.proof.certificate import Certificate
 from qe.reference import decide as reference_decides
-from qe.rules.closed_forms import generic, pattern, square_root, term
+from qe.rules.closed_forms import generic, pattern, term
 
 WITHOUT = ("cubic", "roots", "balls", "stability", "quadrics", "forms", "values", "critical")
 """The rules that the theorems justify, and the method that is slow here."""
@@ -71,7 +71,7 @@ def _instance(used: Theorem, rng: random.Random) -> Instance:
     for _ in range(TRIES):
         numbers = {name: ring.constant(rng.choice(NUMBERS)) for name in used.letters}
         for name, tree in roots.items():
-            root = square_root(term(used, tree, numbers, ring))
+            root = term(used, tree, numbers, ring).square_root()
             if root is None:
                 break
             numbers[name] = root * rng.choice((1, -1))
