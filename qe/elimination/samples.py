@@ -74,10 +74,10 @@ def find(body: Formula, budget: Budget) -> dict[str, Fraction] | None:
     rng, places = random.Random(0), [ring.index[name] for name in body.free]
     box = bounds(body, len(ring.names))
     units = 1 + sum(poly.term_count() for poly in polynomials(body)) // TERMS_OF_A_CELL
-    conditions = _conditions(body)
+    conditions = sloping(body)
     for k in range(SWEEPS_OF_ALL if conditions else 0):
         point = [_drawn(rng, *limits) for limits in box]
-        if _relaxed(conditions, point, RELAXED[k % 2], budget, units) and (known := _confirmed(body, point)):
+        if relaxed(conditions, point, RELAXED[k % 2], budget, units) and (known := _confirmed(body, point)):
             return known
     for _ in range(STARTS):
         point = [_drawn(rng, *limits) for limits in box]
@@ -102,11 +102,12 @@ Terms = list[tuple[float, Sequence[tuple[int, int]]]]
 Condition = tuple[Terms, list[tuple[int, Terms]]]
 
 
-def _conditions(body: Formula) -> list[Condition]:
-    """The atoms of a conjunction of inequalities of which ``CURVED_FROM`` are curved, each with its slope by variables;
-    [] for others."""
-    atoms = [part for part in conjuncts(body) if isinstance(part, Atom) and part.relation is not Relation.NE]
-    if len(atoms) < len(conjuncts(body)) or sum(a.poly.total_degree > 1 for a in atoms) < CURVED_FROM:
+def sloping(body: Formula, curved: int = CURVED_FROM) -> list[Condition]:
+    """The atoms of a conjunction of inequalities of which so many are curved, each with its slope by variables; [] for
+    others."""
+    sides = Relation.EQ, Relation.NE
+    atoms = [part for part in conjuncts(body) if isinstance(part, Atom) and part.relation not in sides]
+    if len(atoms) < len(conjuncts(body)) or sum(a.poly.total_degree > 1 for a in atoms) < curved:
         return []
     try:
         return [
@@ -117,7 +118,7 @@ def _conditions(body: Formula) -> list[Condition]:
         return []
 
 
-def _relaxed(conditions: list[Condition], point: list[float], far: float, budget: Budget, units: int) -> bool:
+def relaxed(conditions: list[Condition], point: list[float], far: float, budget: Budget, units: int) -> bool:
     """Whether the point meets all conditions in floating point, once it was moved along the slopes of those that it did
     not meet, ``far`` times as long as they say that the border is away."""
     with suppress(OverflowError):

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from math import prod
 
 from qe.elimination.protocol import Context
+from qe.elimination.samples import relaxed, sloping
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.formula.features import features, length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
-from qe.formula.traverse import atoms, conjuncts
+from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.formula.traverse import atoms, ring_of
+from qe.options import Budget
 from qe.proof.step import Nested
 
 PATTERNS = ((0,), (1,), (-1,), (1, -2, 3, -5), (-3, 2, -1, 4), (Fraction(1, 7), 2), (9, Fraction(-1, 3)), (1, 8, 64))
@@ -32,11 +34,8 @@ DEGREES = {1: 40, 2: 8, 3: 3, 4: 2}
 MANY = 20
 """The closure of a question in more variables is not asked for: a chain of 300 differences took minutes."""
 
-ROUNDS = 30
-"""How often all conditions pull a point that might satisfy them."""
-
-BEYOND, INSIDE = 1.7, 1e-4
-"""How far they pull: so many times as far as to where they would hold if they were linear, and a little further."""
+BEYOND = 1.7
+"""How far conditions pull a point: so many times as far as to where they would hold if they were linear."""
 
 FINE = 10**6
 """The denominators of the place where that ends."""
@@ -146,55 +145,16 @@ def _middle(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction]:
 def _pulled(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction] | None:
     """Where the inequalities of a conjunction pull the point in the middle, about; None for other formulas.
 
-    The relaxation method (Agmon 1954; Motzkin, Schoenberg 1954) in floats: a point where f > 0 although f <= 0 is asked
-    for moves against the gradient, further than to where f would vanish were it linear. In a convex set with interior
-    points this mostly ends after a few rounds; what it ends at is only a proposal.
+    In a convex set with interior points this mostly ends after a few rounds; what it ends at is only a proposal.
     """
-    conditions = [_as_floats(part, names) for part in conjuncts(formula)]
-    start = _middle(formula, names)
-    try:
-        point = [float(start[name]) for name in names]
-        for _ in range(ROUNDS):
-            before = list(point)
-            for terms in conditions:
-                if terms is None:
-                    return None
-                _pull(terms, point)
-            if point == before:
-                break
-        return {name: Fraction(x).limit_denominator(FINE) for name, x in zip(names, point, strict=True)}
-    except (OverflowError, ValueError):  # beyond the range of floats
+    conditions, start, ring = sloping(formula, 0), _middle(formula, names), ring_of(formula)
+    if not conditions or ring is None:
         return None
-
-
-def _as_floats(part: Formula, names: tuple[str, ...]) -> list[tuple[float, list[tuple[int, int]]]] | None:
-    """The terms of f in a condition f <= 0 or f < 0: a coefficient, and variables with their exponents."""
-    if not isinstance(part, Atom) or part.relation in (Relation.EQ, Relation.NE):
-        return None
-    side = -1 if part.relation in (Relation.GE, Relation.GT) else 1
-    places = [names.index(name) if name in names else -1 for name in part.poly.ring.names]
-    try:
-        return [
-            (float(side * c), [(places[i], e) for i, e in enumerate(exponents) if e])
-            for exponents, c in part.poly.terms()
-        ]
-    except OverflowError:
-        return None
-
-
-def _pull(terms: Sequence[tuple[float, list[tuple[int, int]]]], point: list[float]) -> None:
-    """Move the point against the gradient of f where f is not clearly negative."""
-    total, slope = 0.0, [0.0] * len(point)
-    for coefficient, powers in terms:
-        values = [point[i] ** e for i, e in powers]
-        total += coefficient * prod(values)
-        for k, (i, e) in enumerate(powers):
-            slope[i] += coefficient * e * point[i] ** (e - 1) * prod(values[:k] + values[k + 1 :])
-    length = sum(s * s for s in slope)
-    if total >= 0 and length:
-        step = (BEYOND * total + INSIDE * length) / length
-        for i, s in enumerate(slope):
-            point[i] -= step * s
+    with suppress(OverflowError, ValueError):  # beyond the range of floats
+        point = [float(start.get(name, 0)) for name in ring.names]
+        relaxed(conditions, point, BEYOND, Budget(), 0)
+        return {name: Fraction(point[ring.index[name]]).limit_denominator(FINE) for name in names}
+    return None
 
 
 def _closes(question: Formula) -> bool:
