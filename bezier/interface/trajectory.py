@@ -17,7 +17,7 @@ from bezier.interface.planned import Planned
 from bezier.motion.motion import pieces
 from bezier.planner.least_time import joined
 from bezier.trajectories.along import load_path
-from bezier.trajectories.command import Certified, limits_of, scene_of
+from bezier.trajectories.command import Certified, limits_of
 from bezier.trajectories.limits import Limit
 from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
@@ -59,7 +59,7 @@ def certify(
     ``trajectory``: the path of a file in any form that ``bezier certify`` reads, a ``PPoly`` (``CubicSpline``, …) or
     ``BSpline`` of SciPy, a ``Trajectory``, or what ``bezier.plan`` and ``bezier.chain`` give. Limits are the keys of
     the command's file: one number for all axes or one for each, ``position`` a pair or a pair for each; in the units of
-    the trajectory, and seconds. ``obstacles`` are tables as for ``bezier.plan``; for two axes balls and boxes of the
+    the trajectory, and seconds. ``obstacles`` are tables as for ``bezier.plan``; for two axes bodies of the
     plane. Positions may jump by ``tolerance``.
 
     ``robot``: the name or file of an arm, or a ``Robot``: then the axes are its joints, whose limits have to hold, too.
@@ -84,10 +84,7 @@ def certify(
     values = (position, velocity, acceleration, jerk, velocity_norm, acceleration_norm, jerk_norm)
     path = path_of(trajectory)
     limits = limited_motion(dict(zip(names, values, strict=True)), len(path.names), SOURCE)
-    bodies = None
-    if obstacles is not None:
-        axes = len(path.names) if robot is None else 3
-        bodies, _ = scene_of(_table({"obstacle": obstacles}, {"obstacle": "obstacles"}), axes)
+    table = None if obstacles is None else _table({"obstacle": obstacles}, {"obstacle": "obstacles"})
     largest = arguments.rational(tolerance, "tolerance")
     if largest < 0:
         raise InputError(f"{SOURCE}: tolerance: expected a number of at least 0, found {arguments.shown(tolerance)}")
@@ -102,7 +99,7 @@ def certify(
         raise InputError(f"{SOURCE}: within: expected a number above 0, found {arguments.shown(within)}")
     arm = None if robot is None else (robot if isinstance(robot, Robot) else Robot.load(robot)).arm  # type: ignore[arg-type]
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    work = partial(Certified.of, path, limits, bodies, largest, arm, near, far)
+    work = partial(Certified.of, path, limits, table, largest, arm, near, far)
     try:
         return perform(partial(_within, work), bounds)
     except OverflowError:

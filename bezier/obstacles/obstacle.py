@@ -11,7 +11,7 @@ Lengths are in the unit of the problem (millimetres in the paper).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from math import lcm
@@ -20,7 +20,6 @@ from typing import Any
 from bezier.curves.scalar import Terms, Vector, dot, exactly, sign, subtract, terms_product, terms_scaled, terms_sum
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.polyhedron import Facet, Point, Polytope
-from qe.errors import InputError
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Formula, Relation
@@ -249,14 +248,6 @@ def from_body(
 ) -> Obstacle:
     """The obstacle that is this body (which already includes the margin)."""
     return Obstacle(name, kind, pieces_of(body), body, body.box, margin, stated or {})
-
-
-def widened(obstacle: Obstacle, by: Fraction) -> Obstacle:
-    """With all points that are so near. Raises ``InputError`` for a formula, of which these are not known."""
-    if obstacle.body is None:
-        raise InputError(f"{obstacle.name}: expected a body that can be given a margin, found a formula")
-    body = replace(obstacle.body, radius=obstacle.body.radius + by)
-    return from_body(obstacle.name, obstacle.kind, body, obstacle.margin + by, obstacle.stated)
 
 
 AXES = ("x", "y", "z")

@@ -16,7 +16,7 @@ from math import comb
 from bezier.obstacles.obstacle import Constraint
 from bezier.scenes.cells import Cell, FreeCells, Point, Side
 from bezier.scenes.outlines import outlines
-from bezier.scenes.scene import Scene, of_cell
+from bezier.scenes.scene import Scene, of_sides
 from bezier.scenes.solid import ZERO
 from qe.errors import Unable
 from qe.options import Budget
@@ -64,7 +64,7 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
         mixed = [entry for k, entry in enumerate(mixed) if k not in split]
         if len(mixed) + len(waiting) > MOST_CELLS or any(_width(cell) < SMALLEST * wide for cell in waiting):
             raise Unable("undecided: a way may lead along the boundary of a formula, where small cells do not tell")
-    solids = tuple(of_cell(scene.formulas[owner].name, cell, ZERO) for cell, owner in inner)
+    solids = tuple(of_sides(scene.formulas[owner].name, cell.corners, cell.sides, ZERO) for cell, owner in inner)
     numbers = *range(len(scene.solids)), *(len(scene.solids) + owner for _, owner in inner)
     within = replace(scene, formulas=(), holes=(*scene.holes, *solids))
     return Decomposed(domain, FreeCells.linked(free, around), within, numbers)

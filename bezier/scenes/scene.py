@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
@@ -12,11 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from bezier.curves.scalar import dot, subtract
+from bezier.input import stored
 from bezier.input.numbers import describe
 from bezier.input.toml_table import Table, read_text
 from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded
-from bezier.obstacles.obstacle import Constraint, Obstacle, ball, half_space, pieces_of, slab
-from bezier.obstacles.polyhedron import from_sides, point, segment
+from bezier.obstacles.obstacle import Constraint, Obstacle, half_space, pieces_of
+from bezier.obstacles.polyhedron import Facet, Polytope, from_sides, point, segment
 from bezier.obstacles.reader import MAX_PIECES, read_obstacles
 from bezier.scenes.cells import Cell, Point, Side
 from bezier.scenes.mesh import MOST_FACETS, Surface, around_polygons, load_mesh
@@ -78,9 +78,10 @@ class Scene:
         return f"in {held[0].name}" if held else None
 
 
-def read_scene(table: Table) -> Scene:
+def read_scene(table: Table, ends: tuple[Point, Point] | None = None, more: Fraction = ZERO) -> Scene:
     """A scene from a table with ``start``, ``goal``, ``domain`` (one table or a list whose intersection it is),
-    ``obstacle``, a list, and ``margin``, which is added to that of every obstacle.
+    ``obstacle``, a list, and ``margin``, which is added to that of every obstacle. ``ends``: start and goal in place of
+    those of the table, which then need not have a domain; ``more``: what is added to all margins, too.
 
     Kinds of obstacles are those of ``bezier.obstacles``; a box may be flat. A domain is a box (also without ``kind``),
     ball, half_ball (the part above its centre), polyhedron, cylinder, half_space or annulus (``centre``, ``inner``,
@@ -90,40 +91,48 @@ def read_scene(table: Table) -> Scene:
     values = {("obstacle" if key == "obstacles" else key): value for key, value in table.values.items()}
     table = replace(table, values={key: value for key, value in values.items() if key not in NOTES})
     table.only(KEYS)
-    size = len(raw) if isinstance(raw := table.required("start", "a point"), list) else 0
-    if size not in (2, 3):
-        raise table.error("start", "a point of 2 or 3 numbers", describe(raw))
-    start, goal = (table.as_point(key, table.required(key, "a point"), size) for key in ("start", "goal"))
-    domain, holes = _domain(table, size)
-    low, high = _around(table, domain)
-    extra = table.number("margin", ZERO)
-    if extra < 0:
-        raise table.error("margin", "a number that is not negative", str(extra))
-    bodies, surfaces = list[Solid](), list[Surface]()
+    if ends is None:
+        size = len(raw) if isinstance(raw := table.required("start", "a point"), list) else 0
+        if size not in (2, 3):
+            raise table.error("start", "a point of 2 or 3 numbers", describe(raw))
+        start, goal = (table.as_point(key, table.required(key, "a point"), size) for key in ("start", "goal"))
+    else:
+        (start, goal), size = ends, len(ends[0])
+    domain, holes, span = tuple[Solid, ...](), tuple[Solid, ...](), None
+    if ends is None or "domain" in table.values:
+        domain, holes = _domain(table, size)
+        span = _around(table, domain)
+    extra, bodies, surfaces = _margin(table, more), list[Solid](), list[Surface]()
     for k, entry in enumerate(table.tables("obstacle"), start=1):
         surface = _surface(entry, k, size)
         if surface is not None:
             surfaces.append(surface)
             margin = _margin(entry, extra)
-            bodies += (of_cell(f"{surface.name}, part {i}", c, margin) for i, c in enumerate(surface.cores, start=1))
-        elif (body := _solid(entry, k, size, extra, (low, high))) is not None:
+            parts = enumerate(surface.cores, start=1)
+            bodies += (of_sides(f"{surface.name}, part {i}", c.corners, c.sides, margin) for i, c in parts)
+        elif (body := _solid(entry, k, size, extra, None if ends else span)) is not None:
             bodies.append(body)
     formulas = tuple(body for body in (*bodies, *holes) if body.is_formula)
     convex, holes = (tuple(b for b in listed if not b.is_formula) for listed in (bodies, holes))
-    return Scene(domain, holes, convex, start, goal, low, high, tuple(surfaces), formulas)
+    return Scene(domain, holes, convex, start, goal, *(span or (start, goal)), tuple(surfaces), formulas)
 
 
 def load_scene(file: Path) -> Scene:
-    """The scene of a file: JSON, or TOML where its name ends so. Raises ``qe.InputError``."""
+    """The scene of a file: see ``load_table``. Raises ``qe.InputError``."""
+    return read_scene(load_table(file))
+
+
+def load_table(file: Path) -> Table:
+    """The table of a JSON file, or of a TOML file where its name ends so; decimals are exact. Raises ``InputError``."""
     if file.suffix.lower() == ".toml":
-        return read_scene(Table.load(file))
+        return Table.load(file)
     try:
-        given = json.loads(read_text(file))
-    except ValueError as error:
+        given = stored.parsed(read_text(file))
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{file}: expected a JSON file, or one whose name ends in .toml, found: {error}") from None
     if not isinstance(given, dict):
         raise InputError(f"{file}: expected an object with domain, obstacle, start and goal, found {describe(given)}")
-    return read_scene(Table(given, str(file)))
+    return Table(given, str(file))
 
 
 # --- workspaces ----------------------------------------------------------------------------------------
@@ -153,7 +162,8 @@ def _domain(table: Table, size: int) -> tuple[tuple[Solid, ...], tuple[Solid, ..
         elif kind == "half_ball":
             whole = _part(replace(entry, values={**entry.values, "kind": "ball"}), size)
             up = tuple(-Fraction(k == size - 1) for k in range(size))
-            parts += [whole, _half(up, -whole.corners[0][-1])]
+            floor = up, -whole.corners[0][-1]
+            parts += [whole, Solid("domain", (), (floor,), ZERO, (_conditions((floor,)),))]
         elif kind == "formula":
             holes.append(_beyond(entry, _part(entry, size)))
         else:
@@ -171,14 +181,9 @@ def _beyond(entry: Table, formula: Solid) -> Solid:
 
 def _part(entry: Table, size: int) -> Solid:
     solid = _solid(entry, 0, size, ZERO, None)
-    assert solid is not None
+    if solid is None or (isinstance(solid.body, Cylinder) and not solid.corners):
+        raise entry.error("bottom", "bottom and top of a workspace", "a cylinder without end")
     return solid
-
-
-def _half(normal: Point, offset: Fraction) -> Solid:
-    """A half-space as a part of the domain: it has no corners."""
-    side = normal, offset
-    return Solid("domain", (), (side,), ZERO, (_conditions((side,)),))
 
 
 def _opened(body: Solid) -> Solid:
@@ -243,20 +248,36 @@ def _margin(entry: Table, extra: Fraction) -> Fraction:
     return margin + extra
 
 
-def of_cell(name: str, cell: Cell, margin: Fraction) -> Solid:
-    """A cell with margin."""
-    if len(cell.corners[0]) == 2:
-        pieces = tuple(_wide_polygon(cell.corners, cell.sides, margin))
-    else:
-        core = from_sides(cell.corners, cell.sides)
-        pieces = tuple(piece.constraints for piece in pieces_of(Rounded(core, margin)))
-    return Solid(name, cell.corners, cell.sides, margin, pieces)
+def of_sides(name: str, corners: Sequence[Point], sides: Sequence[Side], margin: Fraction) -> Solid:
+    """A convex body by all of its corners and sides, with margin: in the plane with a rectangle over each side and a
+    disc around each corner."""
+    flat = len(corners[0]) == 2
+    body = Rounded(_polygon(corners, sides) if flat else from_sides(corners, sides), margin)
+    return _of_body(name, corners, sides, margin, body, flat)
+
+
+def _of_body(
+    name: str, corners: Sequence[Point], sides: Sequence[Side], margin: Fraction, body: Rounded, flat: bool
+) -> Solid:
+    pieces = tuple(_at_level(p.constraints) if flat else p.constraints for p in pieces_of(body))
+    return Solid(name, tuple(corners), tuple(sides), margin, pieces, body=body, margin=margin)
+
+
+def _polygon(corners: Sequence[Point], sides: Sequence[Side]) -> Polytope:
+    """A polygon at the height 0, whose sides are its facets."""
+    facets = []
+    for n, c in sides:
+        i, j = (k for k, p in enumerate(corners) if dot(n, p) == c)
+        ends = ((subtract(corners[a], corners[b]), corners[a]) for a, b in ((i, j), (j, i)))
+        facets.append(Facet((*n, ZERO), c, (i, j), tuple(((*d, ZERO), Fraction(dot(d, p))) for d, p in ends)))
+    return Polytope(tuple((*p, ZERO) for p in corners), (), tuple(facets))
 
 
 def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, Point] | None) -> Solid | None:
-    """One obstacle, or a part of the domain; None for a half-space that is beyond it."""
+    """One obstacle, or a part of the domain; None for a half-space that is beyond the corners ``span`` of a box around
+    all that matters. Without these what is unbounded has no corners."""
     margin = entry.number("margin", ZERO) + extra
-    name = str(entry.values.get("name", f"obstacle {k}"))
+    name = str(entry.values.get("name", f"{entry.values.get('kind')} {k}"))
     if _kind(entry) == "box" and "low" in entry.values:
         return _box(entry, name, size, margin)
     obstacle = _obstacle(entry, size, extra)
@@ -269,28 +290,28 @@ def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, 
     pieces = tuple(_at_level(piece.constraints) if size == 2 else piece.constraints for piece in obstacle.pieces)
     match obstacle.body:
         case HalfSpaceBody(normal, offset, radius):
-            if span is None:
-                return _half(normal[:size], offset)
-            low = tuple(c - radius - 1 for c in span[0])
-            high = tuple(c + radius + 1 for c in span[1])
-            part = Cell.within(low, high, ((normal[:size], offset),))
-            return None if part is None else Solid(name, part.corners, part.sides, radius, pieces)
+            corners, sides = tuple[Point, ...](), tuple[Side, ...](((normal[:size], offset),))
+            if span is not None:
+                low, high = (tuple(c + s * (radius + 1) for c in end) for s, end in zip((-1, 1), span, strict=True))
+                part = Cell.within(low, high, sides)
+                if part is None:
+                    return None
+                corners, sides = part.corners, part.sides
+            return Solid(name, corners, sides, radius, pieces, body=obstacle.body, margin=margin)
         case Cylinder(centre, wide, bottom, top, radius):
-            if bottom is None or top is None:
-                if span is None:
-                    raise entry.error("bottom", "bottom and top of a workspace", "a cylinder without end")
+            if span is not None:
                 bottom = span[0][2] - radius - 1 if bottom is None else bottom
                 top = span[1][2] + radius + 1 if top is None else top
-            ends = tuple((*centre, h) for h in (bottom, top))
+            corners = () if bottom is None or top is None else tuple((*centre, h) for h in (bottom, top))
             axis = (ZERO, ZERO, Fraction(1))
-            caps = (axis, top), (tuple(-x for x in axis), -bottom)
-            return Solid(name, ends, caps, radius, pieces, wide)
+            caps = ((axis, corners[1][2]), (tuple(-x for x in axis), -corners[0][2])) if corners else ()
+            return Solid(name, corners, caps, radius, pieces, wide, body=obstacle.body, margin=margin)
         case Rounded(core, radius):
             corners = tuple(dict.fromkeys(c[:size] for c in core.corners))
-            sides = tuple((f.normal[:size], f.offset) for f in core.facets if any(f.normal[:size]))
-            if size == 2 and sides:
-                radius, pieces = margin, tuple(_wide_polygon(corners, sides, margin))
-            return Solid(name, corners, sides, radius, pieces)
+            faces = tuple((f.normal[:size], f.offset) for f in core.facets if any(f.normal[:size]))
+            if size == 2 and faces:
+                return of_sides(name, corners, faces, margin)
+            return Solid(name, corners, faces, radius, pieces, body=obstacle.body, margin=margin)
     if any(c.strict for piece in pieces for c in piece):
         raise entry.error("formula", "a closed set: conditions with <=, >= and =", "another condition")
     return Solid(name, (), (), ZERO, pieces)
@@ -343,28 +364,14 @@ def _box(entry: Table, name: str, size: int, margin: Fraction) -> Solid:
     if margin < 0:
         raise entry.error("margin", "a number that is not negative", str(margin))
     if not cell.is_flat:
-        return of_cell(name, cell, margin)
+        return of_sides(name, cell.corners, cell.sides, margin)
     if not margin:
         return Solid(name, cell.corners, cell.sides, ZERO, (_conditions(cell.sides),))
     if len(cell.corners) > 2:
         raise entry.error("margin", "no margin of a box without an inside", str(margin))
     ends = [(*c, ZERO)[:3] for c in cell.corners]
     core = point(ends[0]) if len(ends) == 1 else segment(*ends)
-    pieces = tuple(piece.constraints for piece in pieces_of(Rounded(core, margin)))
-    return Solid(name, cell.corners, (), margin, tuple(map(_at_level, pieces)) if size == 2 else pieces)
-
-
-def _wide_polygon(
-    corners: Sequence[Point], sides: Sequence[Side], margin: Fraction
-) -> Iterator[tuple[Constraint, ...]]:
-    """A polygon with margin: itself, a rectangle over each side, a disc around each corner."""
-    yield _conditions(sides)
-    for n, c in sides if margin else ():
-        a, b = (p for p in corners if dot(n, p) == c)
-        ends = [(d, Fraction(dot(d, p))) for d, p in ((subtract(a, b), a), (subtract(b, a), b))]
-        yield slab((*n, ZERO), c, margin), *_conditions(ends)
-    for p in corners if margin else ():
-        yield _at_level((ball((*p, ZERO), margin),))
+    return _of_body(name, cell.corners, (), margin, Rounded(core, margin), size == 2)
 
 
 def _conditions(sides: Sequence[Side]) -> tuple[Constraint, ...]:

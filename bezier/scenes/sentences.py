@@ -102,15 +102,19 @@ def cell_of(wall: Wall | Cell) -> Cell:
     return Cell.of(sides, (a, b), is_flat=True)
 
 
+def beyond(scene: Scene) -> list[tuple[Constraint]]:
+    """For each condition on the workspace that it does not hold."""
+    return [(c.negated,) for part in scene.domain for (conditions,) in (part.pieces,) for c in conditions]
+
+
 def in_the_way(scene: Scene, curves: Sequence[Curve]) -> Iterator[Obstacle]:
     """For each curve all points that are not free, as one obstacle: of every body, and beyond every side of the
     workspace. Of a body with a half-space around it that the control points are beyond, that half-space is taken, once
     it is seen to hold the body."""
-    beyond = [Piece((c.negated,)) for part in scene.domain for (conditions,) in (part.pieces,) for c in conditions]
     normals = directions(scene.dimension, 1)
     around = [body.around(normals) for body in scene.bodies]
     for curve in curves:
-        pieces = list(beyond)
+        pieces = list(map(Piece, beyond(scene)))
         for body, sides in zip(scene.bodies, around, strict=True):
             ahead = ((n, c) for n, c in sides if all(dot(n, p) > c for p in curve))
             far = next(filter(body.is_behind, ahead), None)

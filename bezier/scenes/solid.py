@@ -17,6 +17,7 @@ from typing import cast
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, subtract
+from bezier.obstacles.bodies import Body
 from bezier.obstacles.clearance import Along, Contact, examine
 from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
 from bezier.scenes.cells import Cell, Point, Side, opposite, primitive
@@ -31,7 +32,8 @@ ZERO = Fraction(0)
 class Solid:
     """``corners``: of the core; ``sides``: half-spaces around it, all of them where it is a polytope with interior or
     a flat one without margin. ``pieces``: the body as a union of intersections of conditions. ``is_open``: without its
-    boundary (the hole of an annulus), which its conditions say. What a formula gives has conditions only."""
+    boundary (the hole of an annulus), which its conditions say. What a formula gives has conditions only. ``body``: in
+    space (of the plane: at the height 0), where it is one; the ``margin`` is in all of them."""
 
     name: str
     corners: tuple[Point, ...]
@@ -40,6 +42,17 @@ class Solid:
     pieces: tuple[tuple[Constraint, ...], ...]
     tube: Fraction = ZERO
     is_open: bool = False
+    body: Body | None = None
+    margin: Fraction = ZERO
+
+    @property
+    def obstacle(self) -> Obstacle:
+        """What ``bezier.obstacles`` knows of it."""
+        box, pieces = None, tuple(map(Piece, self.pieces))
+        if self.body is not None and self.body.box is not None and self.corners:
+            low, high = self.low_high()
+            box = (*low, ZERO)[:3], (*high, ZERO)[:3]
+        return Obstacle(self.name, ObstacleKind.FORMULA, pieces, self.body, box, self.margin)
 
     @property
     def is_polytope(self) -> bool:
@@ -85,8 +98,7 @@ class Solid:
     def meets(self, start: Point, end: Point) -> bool:
         """Whether it has a point in common with a segment; of a cylinder, whether a prism around it has."""
         if self.is_formula:
-            whole = Obstacle(self.name, ObstacleKind.FORMULA, tuple(map(Piece, self.pieces)))
-            return isinstance(examine(in_space((start, end)), whole), Contact)
+            return isinstance(examine(in_space((start, end)), self.obstacle), Contact)
         reach = self.radius + self.tube
         for core, leg in zip(zip(*self.corners, strict=True), zip(start, end, strict=True), strict=True):
             if min(core) - reach > max(leg) or max(core) + reach < min(leg):

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +19,10 @@ from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Contact
-from bezier.obstacles.obstacle import Obstacle, widened
-from bezier.obstacles.reader import read_obstacles
+from bezier.obstacles.obstacle import Obstacle, ObstacleKind, Piece
+from bezier.scenes.route import proved
+from bezier.scenes.scene import Scene, load_table, read_scene
+from bezier.scenes.sentences import beyond, surfaces
 from bezier.trajectories.along import Along, arm_limits, load_path
 from bezier.trajectories.evidence import compare, members, stated
 from bezier.trajectories.limits import Limit, Verdict, decided, from_values
@@ -29,6 +30,7 @@ from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.readers import load
 from bezier.trajectories.words import in_words, to_json
 from qe.errors import InputError
+from qe.options import Budget
 from qe.processes.channel import Channel
 
 NEAR = Fraction(1, 1 << 20)
@@ -71,33 +73,34 @@ def _pairs(table: Table, raw: object, axes: int) -> list[tuple[Fraction, Fractio
     return pairs
 
 
-def scene_of(table: Table, axes: int) -> tuple[tuple[Obstacle, ...], list[Limit]]:
-    """The obstacles, and the limits of position that the scene's ``domain`` is, a box; in the plane bodies have two
-    coordinates. Its ``start`` and ``goal`` are for ``bezier route``. Raises ``InputError``."""
-    table.only(("name", "dim", "domain", "start", "goal", "obstacle"))
-    inside: list[Limit] = []
-    if "domain" in table.values:
-        domain = table.inner("domain")
-        domain.only(("kind", "low", "high"))
-        low, high = (domain.as_point(key, domain.required(key, f"{axes} numbers"), axes) for key in ("low", "high"))
-        inside = [Limit(0, k, b, a) for k, (a, b) in enumerate(zip(low, high, strict=True))]
-    entries = table.values.get("obstacle", [])
-    if axes == 2 and isinstance(entries, list):
-        entries = [_in_space(entry) if isinstance(entry, dict) else entry for entry in entries]
-    return read_obstacles(replace(table, values={**table.values, "obstacle": entries})), inside
+def scene_of(table: Table, moving: Trajectory, more: Fraction = Fraction(0)) -> Scene:
+    """The scene of a table for a moving point, with ``more`` margin; its ``start`` and ``goal`` are those of the point.
+    Where vectors of obstacles have three entries it is in space, and the plane at the height 0. Raises ``InputError``.
+    """
+    if len(moving.names) not in (2, 3):
+        raise InputError(f"--scene: expected a trajectory of 2 or 3 axes, found {len(moving.names)}")
+    vectors = (
+        entry.values.get(key) for entry in table.tables("obstacle") for key in ("centre", "low", "normal", "start")
+    )
+    size = 3 if any(isinstance(v, list) and len(v) == 3 for v in vectors) else len(moving.names)
+    ends = ((row, t) for row, t in ((moving.pieces[0], Fraction(0)), (moving.pieces[-1], moving.lengths[-1])))
+    start, goal = ((*(p(t) for p in row), Fraction(0))[:size] for row, t in ends)
+    return read_scene(table, (start, goal), more)
 
 
-def _in_space(entry: dict[str, Any]) -> dict[str, Any]:
-    """A body of the plane as one whose slice at the height 0 it is."""
-    heights = {"centre": 0, "low": -(10**6), "high": 10**6}
-    flat = {k: v for k, v in entry.items() if k in heights and isinstance(v, list) and len(v) == 2}
-    return {**entry, **{key: [*value, heights[key]] for key, value in flat.items()}}
+def in_the_way(scene: Scene, axes: int) -> tuple[list[Obstacle], list[Limit]]:
+    """What is not free: a workspace that is a box gives limits of position, another one all that is outside."""
+    obstacles, sides = [body.obstacle for body in scene.bodies], [side for part in scene.domain for side in part.sides]
+    is_box = all(part.is_polytope for part in scene.domain) and all(sum(map(bool, n)) == 1 for n, _ in sides)
+    if is_box and scene.dimension == axes:
+        ends = enumerate(zip(scene.low, scene.high, strict=True)) if sides else ()
+        return obstacles, [Limit(0, k, high, low) for k, (low, high) in ends]
+    outside = Obstacle("the outside of the workspace", ObstacleKind.FORMULA, tuple(map(Piece, beyond(scene))))
+    return [*obstacles, *([outside] if outside.pieces else [])], []
 
 
 def curves(trajectory: Trajectory, name: str = "piece {}") -> dict[str, Bezier]:
-    """Each piece as a curve in space; a third coordinate that is missing is 0. Raises ``InputError`` for other axes."""
-    if len(trajectory.names) not in (2, 3):
-        raise InputError(f"--scene: expected a trajectory of 2 or 3 axes, found {len(trajectory.names)}")
+    """Each piece as a curve in space; a third coordinate that is missing is 0."""
     result = {}
     for i, (row, h) in enumerate(zip(trajectory.pieces, trajectory.lengths, strict=True)):
         degree = max(0, *(p.degree for p in row))
@@ -133,17 +136,10 @@ def certify(
     """
     trajectory = load(file, interpolation)
     listed = [] if limits is None else limits_of(Table.load(limits), len(trajectory.names))
-    obstacles = None
-    if scene is not None:
-        is_json = scene.suffix.lower() == ".json"
-        table = Table(stored.table(scene), str(scene)) if is_json else Table.load(scene)
-        obstacles, inside = scene_of(table, len(trajectory.names) if robot is None else 3)
-        if robot is not None and inside:
-            raise InputError(f"{scene}: domain: expected none with --robot (obstacles around it), found one")
-        listed = [*listed, *inside]
+    table = None if scene is None else load_table(scene)
     path = None if along is None else load_path(along, trajectory)
     try:
-        judged = Certified.of(trajectory, listed, obstacles, tolerance, robot, path, within)
+        judged = Certified.of(trajectory, listed, table, tolerance, robot, path, within)
         data, lines = judged.to_json(), judged.lines
     except OverflowError:
         raise InputError(f"{file}: expected quantities of usual size, found one beyond 10^308") from None
@@ -158,11 +154,12 @@ def certify(
 @dataclass(frozen=True)
 class Certified:
     """What is decided about a trajectory: its limits (``verdict``), each obstacle against each piece (``findings``;
-    None where no obstacles were asked about), and its distance from a path (``along``)."""
+    None where no ``scene`` was asked about), and its distance from a path (``along``)."""
 
     verdict: Verdict
     findings: tuple[survey.Finding, ...] | None
     along: Along | None = None
+    scene: Scene | None = None
     point: Trajectory | None = None
     """What the findings are about: with an arm its end point, up to ``NEAR``; obstacles are wider by that."""
 
@@ -170,25 +167,27 @@ class Certified:
     def of(
         trajectory: Trajectory,
         limits: Sequence[Limit],
-        obstacles: Sequence[Obstacle] | None,
+        table: Table | None,
         tolerance: Fraction,
         robot: Arm | None = None,
         path: Trajectory | None = None,
         within: Fraction = Fraction(0),
     ) -> Certified:
-        """Everything decided, exactly; with a ``robot`` also the limits of its joints. Raises ``InputError`` and
-        ``Unable``, and ``OverflowError`` for numbers beyond floats."""
+        """Everything decided, exactly; with a ``robot`` also the limits of its joints. ``table``: of a scene. Raises
+        ``InputError`` and ``Unable``, and ``OverflowError`` for numbers beyond floats."""
         if robot is not None:
             limits = [*limits, *arm_limits(robot, trajectory)]
-        verdict, point, listed = decided(trajectory, limits, tolerance), trajectory, curves
-        findings: tuple[survey.Finding, ...] | None = None if obstacles is None else ()
-        if obstacles and robot is not None:
-            point, obstacles = tip_of(robot, trajectory, NEAR), [widened(body, NEAR) for body in obstacles]
-            listed = partial(curves, name=END)
-        if obstacles:
-            findings = survey.survey(listed(point), obstacles, distances=False)
+        point, scene, findings = trajectory, None, None
+        if table is not None:
+            if robot is not None and "domain" in table.values:
+                raise table.error("domain", "none with --robot (obstacles around it)", "one")
+            point = trajectory if robot is None else tip_of(robot, trajectory, NEAR)
+            scene = scene_of(table, point, Fraction(0) if robot is None else NEAR)
+            obstacles, inside = in_the_way(scene, len(point.names))
+            limits, listed = [*limits, *inside], curves(point) if robot is None else curves(point, END)
+            findings = survey.survey(listed, obstacles, distances=False)
         near = None if path is None else Along.of(trajectory, path, within, robot)
-        return Certified(verdict, findings, near, point)
+        return Certified(decided(trajectory, limits, tolerance), findings, near, scene, point)
 
     @property
     def kept(self) -> bool:
@@ -239,7 +238,8 @@ class Certified:
         compare(certificate, [*(stated(self.verdict) if self.verdict.outcomes else ()), *near], self._scene())
 
     def _scene(self) -> list[tuple[str, qe.Certificate]]:
-        return survey.certificates(self.findings or ())
+        parts = [] if self.scene is None else proved(dict(surfaces(self.scene)), Budget())
+        return [*survey.certificates(self.findings or ()), *parts]
 
     def page(self, title: str = "trajectory") -> str:
         """An HTML page with a chart of each quantity, and of each distance, over time."""

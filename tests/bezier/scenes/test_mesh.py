@@ -19,7 +19,7 @@ import qe
 from bezier.scenes import mesh
 from bezier.scenes.mesh import Surface
 from bezier.scenes.route import decided
-from bezier.scenes.scene import Scene, of_cell
+from bezier.scenes.scene import Scene, of_sides
 from bezier.scenes.sentences import surfaces
 from bezier.scenes.solid import ZERO
 from qe.options import Budget
@@ -85,7 +85,7 @@ def test_the_parts_are_just_what_is_inside(what: str, cubes: set[Any]) -> None:
 def caged(surface: Surface, start: Any, goal: Any) -> Scene:
     """Two points in a box, with a surface between them."""
     given = read_scene({"domain": {"low": [-4] * 3, "high": [9] * 3}, "start": [0] * 3, "goal": [0] * 3})
-    bodies = tuple(of_cell("part", cell, ZERO) for cell in surface.cores)
+    bodies = tuple(of_sides("part", cell.corners, cell.sides, ZERO) for cell in surface.cores)
     return replace(given, start=sheared(start), goal=sheared(goal), obstacles=bodies, surfaces=(surface,))
 
 

@@ -28,7 +28,7 @@ from bezier.scenes.cells import Cell, FreeCells
 from bezier.scenes.conic import Conic
 from bezier.scenes.region import decomposed
 from bezier.scenes.route import Blocked, Route, Wish, decided, proved
-from bezier.scenes.scene import Scene, given_scene
+from bezier.scenes.scene import Scene, given_scene, load_scene
 from bezier.scenes.sentences import COVERED, covering, inside
 from bezier.scenes.solid import Solid, directions, nearest
 from experiments.problem import ROOT
@@ -512,3 +512,10 @@ def test_bad_scenes_are_one_line_that_names_the_entry(scene: object, word: str) 
     with pytest.raises(qe.InputError) as caught:
         bezier.route(scene)
     assert word in str(caught.value).lower() and "\n" not in str(caught.value)
+
+
+def test_decimals_of_a_json_scene_are_exact(tmp_path: Path) -> None:
+    """They were refused as floats."""
+    text = '{"domain": {"low": [0, 0], "high": [10, 10.1]}, "start": [1, 0.1], "goal": [9, 5]}'
+    (tmp_path / "s.json").write_text(text)
+    assert load_scene(tmp_path / "s.json").start == (1, Fraction(1, 10))

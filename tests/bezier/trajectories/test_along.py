@@ -54,7 +54,7 @@ def test_the_end_point_of_an_arm_is_clear_of_a_scene_or_meets_it() -> None:
     clear.check(clear.certificate)
     with pytest.raises(qe.CertificateRejected):
         met.check(clear.certificate)
-    with pytest.raises(InputError, match="that can be given a margin"):
+    with pytest.raises(InputError, match="no margin for a formula"):
         bezier.certify(motion, robot=robot, obstacles=[{"kind": "formula", "formula": "x >= 900"}])
 
 
