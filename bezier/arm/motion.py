@@ -23,7 +23,7 @@ from qe.errors import Unable
 
 Range = tuple[Fraction, Fraction]
 ZERO = Fraction(0)
-UNIT = 1 << 30
+SHORT = Fraction(1, 1 << 30)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[P
         first = ends[k - 1] if k else ZERO
         length = ends[k] - first
         for piece in branch.pieces:  # each begins where the one before ends
-            begin, known = known[0], moment(law, first + piece.high * length)
+            begin, known = known[0], law.passage(first + piece.high * length, SHORT)
             end = known[1]
             for (low, high), p in zip(pairwise(law.breaks), law.polynomials, strict=True):
                 a, b = max(begin, low), min(end, high)
@@ -100,23 +100,6 @@ def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[P
                     slope = bs.power_derivative(p)
                     bend = bs.power_derivative(slope)
                     yield piece, _range(slope, a, b, 1 / length), _range(bend, a, b, 1 / length)
-
-
-def moment(law: TimeLaw, share: Fraction) -> Range:
-    """Rational numbers around the τ with s(τ) = share, found in floating point and confirmed exactly."""
-    if share in (0, 1):
-        return share, share
-    low, high = 0.0, 1.0
-    pieces = [(float(end), [float(c) for c in p]) for end, p in zip(law.breaks[1:], law.polynomials, strict=True)]
-    for _ in range(45):
-        middle = (low + high) / 2
-        p = next(p for end, p in pieces if middle <= end)
-        value = sum(c * middle**k for k, c in enumerate(p))
-        low, high = (middle, high) if value < share else (low, middle)
-    begin, end = Fraction(max(0, round(low * UNIT) - 1), UNIT), Fraction(min(UNIT, round(high * UNIT) + 1), UNIT)
-    if law.derivatives(begin)[0] <= share <= law.derivatives(end)[0]:
-        return begin, end
-    return law.passage(share)
 
 
 def _range(p: Sequence[Fraction], low: Fraction, high: Fraction, factor: Fraction) -> Range:

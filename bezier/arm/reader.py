@@ -35,6 +35,7 @@ from bezier.input.numbers import MAX_CHARACTERS, NotANumber, describe, parse, sh
 from bezier.input.toml_table import Table, read_text
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.quadratic_form import echelon
 
 MAX_ROWS = 24
 SUFFIX = ".toml"
@@ -144,28 +145,33 @@ def read_route(text: str, source: str = "<path>") -> dict[str, Bezier]:
     """The curves that TOML text describes. Raises ``InputError``."""
     table = Table.parse(text, source)
     table.only(("curve",))
-    entries = table.tables("curve")
-    if not entries:
+    result = curves_of(table)
+    if not result:
         raise table.error("curve", "tables [[curve]]", "none")
+    return result
+
+
+def curves_of(table: Table, least: int = 2) -> dict[str, Bezier]:
+    """The curves of a table by name, of so many points at least. Raises ``InputError``."""
     result: dict[str, Bezier] = {}
-    for i, entry in enumerate(entries):
+    for i, entry in enumerate(table.tables("curve")):
         entry.only(("points", "name", "spline"))
         name = entry.values.get("name", f"curve {i + 1}")
         if not isinstance(name, str) or not name or name in result:
             raise entry.error("name", "a name of its own for each curve", describe(name))
-        points = _points(entry)
         is_spline = entry.values.get("spline", False)
         if not isinstance(is_spline, bool):
             raise entry.error("spline", "true or false", describe(is_spline))
+        points = _points(entry, 2 if is_spline else least)
         spans = natural_spline(points) if is_spline else [Bezier.of(points)]
         result |= {name if len(spans) == 1 else f"{name}, span {k}": c for k, c in enumerate(spans, start=1)}
     return result
 
 
-def _points(entry: Table) -> list[Vector]:
+def _points(entry: Table, least: int) -> list[Vector]:
     raw = entry.required("points", "a list of points")
-    if not isinstance(raw, list) or not 2 <= len(raw) <= MOST_POINTS:
-        raise entry.error("points", f"2 to {MOST_POINTS} points", describe(raw))
+    if not isinstance(raw, list) or not least <= len(raw) <= MOST_POINTS:
+        raise entry.error("points", f"{least} to {MOST_POINTS} points", describe(raw))
     return [entry.as_point(f"points[{i}]", p) for i, p in enumerate(raw)]
 
 
@@ -176,17 +182,11 @@ def natural_spline(points: Sequence[Vector]) -> list[Bezier]:
     With slopes m_i: m_{i-1} + 4 m_i + m_{i+1} = 3 (p_{i+1} - p_{i-1}) inside, 2 m_0 + m_1 = 3 (p_1 - p_0) and likewise
     at the end (C. de Boor, A Practical Guide to Splines, chapter IV). Exact.
     """
-    n = len(points)
-    diagonal = [Fraction(2), *[Fraction(4)] * (n - 2), Fraction(2)]
+    n, third = len(points), Fraction(1, 3)
     right = [scale(3, subtract(points[min(i + 1, n - 1)], points[max(i - 1, 0)])) for i in range(n)]
-    for i in range(1, n):
-        factor = 1 / diagonal[i - 1]
-        diagonal[i] -= factor
-        right[i] = subtract(right[i], scale(factor, right[i - 1]))
-    slopes = [scale(1 / diagonal[-1], right[-1])]
-    for i in range(n - 2, -1, -1):
-        slopes.insert(0, scale(1 / diagonal[i], subtract(right[i], slopes[0])))
-    third = Fraction(1, 3)
+    matrix = [[(abs(i - j) == 1) + (4 - 2 * (i in (0, n - 1))) * (i == j) for j in range(n)] for i in range(n)]
+    work, _ = echelon([[*map(Fraction, row), *r] for row, r in zip(matrix, right, strict=True)])
+    slopes = [tuple(row[n:]) for row in work]
     return [
         Bezier((p, add(p, scale(third, u)), subtract(q, scale(third, v)), q))
         for p, q, u, v in zip(points, points[1:], slopes, slopes[1:], strict=False)

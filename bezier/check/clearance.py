@@ -8,10 +8,10 @@ from pathlib import Path as FilePath
 from typing import Any
 
 import qe
+from bezier.arm.reader import curves_of
 from bezier.check.agreement import stored_path
 from bezier.curves.curve import Bezier
 from bezier.input import stored
-from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.obstacle import Obstacle
@@ -24,7 +24,6 @@ from bezier.problem import problem_of
 from qe.errors import InputError, Unable
 from qe.processes.channel import Channel
 
-MAX_CONTROL_POINTS = 31
 Curves = Mapping[str, Bezier]
 
 
@@ -77,27 +76,12 @@ def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], M
     table = Table.load(source)
     if "curve" in table.values:
         table.only(("curve", "obstacle"))
-        return _curves(table), read_obstacles(table), {}
+        return curves_of(table, least=1), read_obstacles(table), {}
     problem = problem_of(table)
     plan: Plan = method_of(problem.method).make(problem, clock)
     if plan.path is None:
         raise Unable(f"{source}: no path to examine: {method_of(problem.method).reason(plan)}")
     return plan.path.curves, problem.obstacles, plan.eliminations
-
-
-def _curves(table: Table) -> dict[str, Bezier]:
-    """``[[curve]]``: points, and optionally name."""
-    result: dict[str, Bezier] = {}
-    for i, entry in enumerate(table.tables("curve")):
-        entry.only(("name", "points"))
-        name = entry.values.get("name", f"curve {i + 1}")
-        if not isinstance(name, str) or name in result:
-            raise entry.error("name", "a name of its own for each curve", describe(name))
-        raw = entry.required("points", "control points")
-        if not isinstance(raw, list) or not 1 <= len(raw) <= MAX_CONTROL_POINTS:
-            raise entry.error("points", f"1 to {MAX_CONTROL_POINTS} control points", describe(raw))
-        result[name] = Bezier.of([entry.as_point(f"points[{k}]", p) for k, p in enumerate(raw)])
-    return result
 
 
 def _as_json(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:

@@ -20,7 +20,7 @@ import typer
 
 from bezier.curves.scalar import rational
 from bezier.motion.timelaw import Law, TimeLaw
-from qe.cli.app import check_limits
+from qe.arguments import mebibytes, seconds
 from qe.cli.shell import OK, UNABLE, check_writable, enter, examples, limited, write_file
 from qe.errors import InputError, Unable
 
@@ -36,8 +36,10 @@ Charts = Annotated[Path | None, typer.Option("--page", help="Write a page with e
 Evidence = Annotated[Path | None, typer.Option("--certificate", help="Write the certificates here.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 NoPlots = Annotated[bool, typer.Option("--no-plots", help="No pictures.")]
-Timeout = Annotated[float | None, typer.Option("--timeout", help="Seconds; enforced.")]
-Memory = Annotated[int | None, typer.Option("--memory", help="MiB of address space; enforced.")]
+TIMEOUT = typer.Option(callback=lambda given: seconds(given, "--timeout"), help="Seconds; enforced.")
+MEMORY = typer.Option(callback=lambda given: mebibytes(given, "--memory"), help="MiB of address space; enforced.")
+Timeout = Annotated[float | None, TIMEOUT]
+Memory = Annotated[int | None, MEMORY]
 
 
 def coordinate(name: str) -> object:
@@ -57,7 +59,6 @@ def plan(
     from bezier.planner.outputs import all_or_none
     from bezier.problem import load_problem
 
-    check_limits(timeout, memory)
     read = load_problem(problem)
     with all_or_none(out) as folder:
         from bezier.planner import command
@@ -78,7 +79,6 @@ def check(
     """Verify the certificates in a folder written by plan, prove its path again, and compare every entry."""
     from bezier.check.recheck import recheck
 
-    check_limits(timeout, memory)
     lines = limited(partial(recheck, folder=folder), timeout=timeout, memory=memory, plain=json)
     print(dumps({"status": "accepted", "checked": lines}, indent=1, ensure_ascii=False) if json else "\n".join(lines))
     return OK
@@ -95,7 +95,6 @@ def clearance(
     """Prove each curve clear of each obstacle for all t, or say where it first meets it."""
     from bezier.check.clearance import clearance as examine
 
-    check_limits(timeout, memory)
     work = partial(examine, source=source, other=obstacles, certificate_file=certificate, as_json=json, timeout=timeout)
     print(limited(work, timeout=timeout, memory=memory, plain=json))
     return OK
@@ -113,7 +112,6 @@ def compare(
     from bezier.planner.outputs import all_or_none
     from bezier.problem import load_problem
 
-    check_limits(timeout, memory)
     read = load_problem(problem)
     with nullcontext() if out is None else all_or_none(out) as folder:
         from bezier.compare import command
@@ -145,7 +143,6 @@ def ik(
     from bezier.arm.command import inverse
     from bezier.arm.reader import load_arm, read_exact
 
-    check_limits(timeout, memory)
     check_writable(certificate)
     model, point = load_arm(arm), tuple(read_exact(text) for text in (x, y, z))
     turned = None if quaternion is None else tuple(read_exact(text) for text in quaternion)
@@ -170,7 +167,6 @@ def certify_path(
     from bezier.arm.command import certify
     from bezier.arm.reader import load_arm, load_route
 
-    check_limits(timeout, memory)
     check_writable(certificate)
     work = partial(certify, arm=load_arm(arm), curves=load_route(path), json=json)
     text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
@@ -198,15 +194,14 @@ def joints(
     from bezier.arm.reader import load_arm, load_route, read_exact
     from bezier.planner.outputs import all_or_none
 
-    check_limits(timeout, memory)
-    seconds = rational(read_exact(duration))
-    if seconds is None or seconds <= 0:
+    time = rational(read_exact(duration))
+    if time is None or time <= 0:
         raise InputError(f"--duration: a rational number above 0 expected, {duration} found")
     model, curves = load_arm(arm), load_route(path)
     with all_or_none(out) as folder:
         from bezier.planner import arm as planner
 
-        work = partial(planner.joints, arm=model, curves=curves, law=TimeLaw.of(law), duration=seconds)
+        work = partial(planner.joints, arm=model, curves=curves, law=TimeLaw.of(law), duration=time)
         work = partial(work, samples=samples, file=path.name, folder=folder, target=out, as_json=json)
         text, is_followed = limited(work, timeout=timeout, memory=memory, plain=json)
     print(text)
@@ -260,9 +255,7 @@ def certify(
     where it does not, and how much slower it has to be."""
     from bezier.trajectories import command
 
-    check_limits(timeout, memory)
-    check_writable(certificate)
-    check_writable(page)
+    check_writable(certificate, page)
     if not any((limits, scene, robot, along)) and (certificate is not None or check is not None):
         raise InputError("--certificate and --check: expected --limits, --scene, --robot or --along, found none")
     if (along is None) != (within is None):
@@ -304,9 +297,7 @@ def chain(
     and what repairs it."""
     from bezier.chains import command
 
-    check_limits(timeout, memory)
-    check_writable(certificate)
-    check_writable(page)
+    check_writable(certificate, page)
     if check is not None:
         if certificate is not None or page is not None or region is not None:
             raise InputError("--check: expected no --certificate, --page and --region with it, found one")
@@ -337,9 +328,7 @@ def route(
     from bezier.scenes import command
     from bezier.scenes.route import Wish
 
-    check_limits(timeout, memory)
-    check_writable(certificate)
-    check_writable(picture)
+    check_writable(certificate, picture)
     if check is not None and certificate is not None:
         raise InputError("--check: expected no --certificate with it, found one")
     wish = Wish(degree, continuity) if shortest else None
@@ -367,9 +356,7 @@ def retime(
     motion can beat; both proved."""
     from bezier.retiming import command
 
-    check_limits(timeout, memory)
-    for name in (out, certificate, page):
-        check_writable(name)
+    check_writable(out, certificate, page)
     if check is not None and (certificate is not None or law is not Law.LEAST):
         raise InputError("--check: expected no --certificate and --law with it, found one")
     if out is not None and out.suffix.lower() != ".csv":

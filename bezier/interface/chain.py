@@ -11,11 +11,10 @@ from bezier.chains.plan import ChainPlan, planned
 from bezier.chains.reader import read_chain
 from bezier.input.toml_table import Table
 from bezier.interface.function import table_value
+from bezier.interface.work import limited
 from qe import arguments
 from qe.errors import InputError
 from qe.options import Budget
-from qe.processes.execution import perform
-from qe.processes.limits import Limits
 from qe.progress import Listener, silent
 
 if TYPE_CHECKING:
@@ -84,9 +83,7 @@ def chain(
         "max_length": max_length,
         "max_curvature": max_curvature,
     }
-    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    limited = bounds.timeout is not None or bounds.memory is not None
-    return perform(partial(_planned, chain_from(given)), bounds, at_once=limited)
+    return limited(partial(_planned, chain_from(given)), timeout, memory, progress, at_once=True)
 
 
 def chain_from(given: Mapping[str, object]) -> Chain:

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
 
 from bezier.input.toml_table import Table
 from bezier.interface.function import table_value
 from bezier.interface.trajectory import limited_motion, path_of
+from bezier.interface.work import limited
 from bezier.motion.timelaw import Law
 from bezier.retiming.least_time import LeastTime, least_time
 from qe import arguments
 from qe.errors import InputError
-from qe.options import Budget
-from qe.processes.execution import perform
-from qe.processes.limits import Limits
 from qe.progress import Listener, silent
 
 SOURCE = "bezier.retime"
@@ -64,9 +61,4 @@ def retime(
     if share <= 0:
         raise InputError(f"{SOURCE}: accuracy: expected a number above 0, found {arguments.shown(accuracy)}")
     chosen = Table({"law": table_value(law, "law")}, SOURCE).choice("law", Law)
-    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    return perform(partial(_timed, places, limits, chosen, share), bounds)
-
-
-def _timed(path: Any, limits: Any, law: Law, accuracy: Any, budget: Budget) -> LeastTime:
-    return least_time(path, limits, law=law, accuracy=accuracy, budget=budget)
+    return limited(partial(least_time, places, limits, law=chosen, accuracy=share), timeout, memory, progress)

@@ -5,12 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from bezier.interface.function import table_value
+from bezier.interface.work import limited
 from bezier.scenes.route import Blocked, Route, Wish, decided
-from bezier.scenes.scene import Scene, given_scene
-from qe import arguments
-from qe.options import Budget
-from qe.processes.execution import perform
-from qe.processes.limits import Limits
+from bezier.scenes.scene import given_scene
 from qe.progress import Listener, silent
 
 
@@ -51,9 +48,5 @@ def route(
     blocked: the obstacles and the domain separate start and goal
     """
     given = given_scene(scene, "bezier.route", table_value)
-    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    return perform(partial(_decided, given, Wish(degree, continuity) if shortest else None), bounds)
-
-
-def _decided(given: Scene, wish: Wish | None, budget: Budget) -> Route | Blocked:
-    return decided(given, budget, wish=wish)
+    wish = Wish(degree, continuity) if shortest else None
+    return limited(partial(decided, given, wish=wish), timeout, memory, progress)

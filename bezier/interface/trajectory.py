@@ -14,6 +14,7 @@ from bezier.chains.plan import ChainPlan
 from bezier.input.toml_table import Table
 from bezier.interface.function import table_value
 from bezier.interface.planned import Planned
+from bezier.interface.work import limited
 from bezier.motion.motion import pieces
 from bezier.planner.least_time import joined
 from bezier.trajectories.along import load_path
@@ -25,8 +26,6 @@ from bezier.trajectories.readers import load
 from qe import arguments
 from qe.errors import InputError
 from qe.options import Budget
-from qe.processes.execution import perform
-from qe.processes.limits import Limits
 from qe.progress import Listener, silent
 
 if TYPE_CHECKING:
@@ -98,10 +97,9 @@ def certify(
     if within is not None and far <= 0:
         raise InputError(f"{SOURCE}: within: expected a number above 0, found {arguments.shown(within)}")
     arm = None if robot is None else (robot if isinstance(robot, Robot) else Robot.load(robot)).arm  # type: ignore[arg-type]
-    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
     work = partial(Certified.of, path, limits, table, largest, arm, near, far)
     try:
-        return perform(partial(_within, work), bounds)
+        return limited(partial(_within, work), timeout, memory, progress)
     except OverflowError:
         raise InputError(f"{SOURCE}: expected quantities of usual size, found one beyond 10^308") from None
 

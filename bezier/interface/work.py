@@ -13,12 +13,22 @@ from bezier.paths.path import Path
 from bezier.planner.planning import begin_plan, finish_plan, make_plan
 from bezier.plans import Begun, Clock, Plan
 from bezier.problem import Problem
+from qe import arguments
 from qe.errors import BudgetExceeded
 from qe.options import Budget
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
 
 T = TypeVar("T")
+
+
+def limited(
+    work: Callable[[Budget], T], timeout: object, memory: object, progress: object, *, at_once: bool = False
+) -> T:
+    """The work under the limits of a caller, in a process that can be killed where it takes longer, or ``at_once``
+    where there are any limits. Raises ``InputError`` for what are none."""
+    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
+    return perform(work, bounds, at_once=at_once and (bounds.timeout is not None or bounds.memory is not None))
 
 
 class Work:

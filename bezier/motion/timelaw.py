@@ -78,15 +78,18 @@ class TimeLaw:
         value, first, second = (bs.power_value(p, tau) for p in (polynomial, slope, bs.power_derivative(slope)))
         return value, first, second
 
-    def passage(self, share: Fraction) -> tuple[Fraction, Fraction]:
+    def passage(self, share: Fraction, width: Fraction = PASSAGE_WIDTH) -> tuple[Fraction, Fraction]:
         """Rational numbers around the tau with s(tau) = share, equal where that is found exactly, as at breaks."""
-        for tau, polynomial in zip(self.breaks, self.polynomials, strict=False):
-            if bs.power_value(polynomial, tau) == share:
-                return tau, tau
-        low, high = ZERO, ONE
-        while high - low > PASSAGE_WIDTH:
+        for low, high, polynomial in zip(self.breaks, self.breaks[1:], self.polynomials, strict=False):
+            if share == bs.power_value(polynomial, low):
+                return low, low
+            if share < bs.power_value(polynomial, high):
+                break
+        else:
+            return self.breaks[-1], self.breaks[-1]
+        while high - low > width:
             middle = (low + high) / 2
-            value = self.derivatives(middle)[0]
+            value = bs.power_value(polynomial, middle)
             if value == share:
                 return middle, middle
             low, high = (middle, high) if value < share else (low, middle)

@@ -11,10 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
-from typing import Any
+from typing import Any, cast
 
 from bezier.curves.scalar import dot, subtract
 from qe.errors import InputError
+from qe.exact.quadratic_form import solve_linear
 
 Point = tuple[Fraction, ...]
 MAX_PARTS = 40
@@ -51,31 +52,8 @@ class Polytope:
         return max(Fraction(dot(direction, p)) for p in self.corners)
 
     def nearest(self, p: Point) -> Point:
-        """The point of the body nearest to ``p``: p itself, or its projection to a facet, an edge or a corner."""
-        if self.facets and all(dot(f.normal, p) <= f.offset for f in self.facets):
-            return p
-        above = self._on_facet(p)
-        if above is not None:
-            return above
-        return min((*self.corners, *self._on_edges(p)), key=lambda q: dot(subtract(p, q), subtract(p, q)))
-
-    def _on_edges(self, p: Point) -> list[Point]:
-        result = []
-        for i, j in self.edges:
-            a, along = self.corners[i], subtract(self.corners[j], self.corners[i])
-            share = dot(subtract(p, a), along) / dot(along, along)
-            if 0 < share < 1:
-                result.append(tuple(x + share * d for x, d in zip(a, along, strict=True)))
-        return result
-
-    def _on_facet(self, p: Point) -> Point | None:
-        """The projection of an outer point to a facet right below it; then no other point of the body is as near."""
-        for facet in self.facets:
-            excess = dot(facet.normal, p) - facet.offset
-            if excess > 0 and all(dot(n, p) <= c for n, c in facet.boundaries):
-                share = excess / dot(facet.normal, facet.normal)
-                return tuple(x - share * n for x, n in zip(p, facet.normal, strict=True))
-        return None
+        """The point of the body nearest to ``p``."""
+        return nearest(self.corners, (p,))[0]
 
 
 def point(p: Point) -> Polytope:
@@ -193,6 +171,47 @@ def _boundaries(normal: Point, corners: Sequence[Point]) -> tuple[tuple[Point, F
             n = tuple(-x for x in n)
         result.append((n, Fraction(dot(n, a))))
     return tuple(result)
+
+
+def nearest(ones: Sequence[Point], others: Sequence[Point]) -> tuple[Point, Point]:
+    """Nearest points of two convex hulls, exactly: Wolfe's algorithm for the least norm in the hull of all differences
+    (Wolfe, Finding the nearest point in a polytope, 1976), which ends after finitely many steps."""
+    chosen, weights = [(0, 0)], [Fraction(1)]
+    while True:
+        differences = [subtract(ones[i], others[j]) for i, j in chosen]
+        x = _mixed(differences, weights)
+        i = min(range(len(ones)), key=lambda k: dot(x, ones[k]))
+        j = max(range(len(others)), key=lambda k: dot(x, others[k]))
+        if dot(x, subtract(ones[i], others[j])) >= dot(x, x):
+            pick = ([ones[i] for i, _ in chosen], [others[j] for _, j in chosen])
+            return _mixed(pick[0], weights), _mixed(pick[1], weights)
+        chosen, weights = [*chosen, (i, j)], [*weights, Fraction(0)]
+        differences.append(subtract(ones[i], others[j]))
+        while True:
+            best = _least(differences)
+            if min(best) >= 0:
+                weights = best
+                break
+            step = min(w / (w - b) for w, b in zip(weights, best, strict=True) if b < 0)
+            weights = [w + step * (b - w) for w, b in zip(weights, best, strict=True)]
+            kept = [k for k, w in enumerate(weights) if w]
+            chosen, weights = [chosen[k] for k in kept], [weights[k] for k in kept]
+            differences = [differences[k] for k in kept]
+
+
+def _mixed(points: Sequence[Point], weights: Sequence[Fraction]) -> Point:
+    return tuple(sum(w * c for w, c in zip(weights, axis, strict=True)) for axis in zip(*points, strict=True))
+
+
+def _least(points: Sequence[Point]) -> list[Fraction]:
+    """Weights with sum 1 of the point of least norm in the affine hull of independent points."""
+    base, *rest = points
+    spans = [subtract(p, base) for p in rest]
+    rows, right = [[Fraction(dot(a, b)) for b in spans] for a in spans], [-Fraction(dot(a, base)) for a in spans]
+    solution = solve_linear(rows, right, len(spans))
+    assert solution is not None
+    shares = cast(tuple[Fraction, ...], solution.particular)
+    return [1 - sum(shares, Fraction(0)), *shares]
 
 
 def cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:

@@ -143,11 +143,11 @@ class LeastTime:
 def least_time(
     path: Trajectory,
     limits: Sequence[Limit],
+    budget: Budget | None = None,
     *,
     law: Law = Law.LEAST,
     accuracy: Fraction = ACCURACY,
     tolerance: Fraction = Fraction(1, 10**9),
-    budget: Budget | None = None,
 ) -> LeastTime:
     """The fastest motion along a path from rest to rest, at most ``accuracy`` above the bound where that is within
     reach. ``law``: one with a formula, in its own least time; the quintic one where jerk is limited, which the bound

@@ -10,15 +10,16 @@ without crossing the segment.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import pairwise
 
 from bezier.curves.scalar import subtract
 from bezier.scenes.cells import Point
 from bezier.scenes.scene import Scene
 from bezier.scenes.solid import Solid, beyond_ball, beyond_side, common_point
+from qe.extras import wanted
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,13 +43,24 @@ class _Meeting:
 
 def barrier(scene: Scene) -> tuple[Wall, ...]:
     """Segments that separate start and goal, as few bodies as can be; none where nothing separates them."""
-    meetings = [*_meetings(scene)]
-    at: dict[int, list[_Meeting]] = {}
-    for meeting in meetings:
-        for node in meeting.nodes:
-            at.setdefault(node, []).append(meeting)
-    walks = [walk for node in at if (walk := _odd_walk(node, at))]
-    return tuple(_walls(scene, min(walks, key=len))) if walks else ()
+    with wanted():
+        import networkx as nx
+
+    # a node of the graph is a body, and whether an odd number of crossings led there
+    graph: nx.Graph[tuple[int, bool]] = nx.Graph()
+    for meeting in _meetings(scene):
+        i, j = meeting.nodes
+        for side in (False, True):
+            graph.add_edge((i, side), (j, side != meeting.is_odd), meeting=meeting)
+    walks = list[list[tuple[int, bool]]]()
+    for i in sorted({i for i, _ in graph}):
+        if nx.has_path(graph, (i, False), (i, True)):
+            walks.append(list(nx.shortest_path(graph, (i, False), (i, True))))
+    if not walks:
+        return ()
+    shortest: list[tuple[int, bool]] = min(walks, key=len)
+    steps = ((one[0], graph.edges[one, other]["meeting"]) for one, other in pairwise(shortest))
+    return tuple(_walls(scene, list(steps)))
 
 
 def longer(scene: Scene, walls: tuple[Wall, ...]) -> tuple[Wall, ...]:
@@ -100,27 +112,8 @@ def _turn(a: Point, b: Point, p: Point) -> Fraction:
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 
 
-def _odd_walk(node: int, at: dict[int, list[_Meeting]]) -> list[tuple[int, _Meeting]]:
-    """A shortest closed walk from a node that crosses an odd number of times: the nodes, each with the next meeting."""
-    start = node, False
-    before: dict[tuple[int, bool], tuple[tuple[int, bool], _Meeting]] = {}
-    waiting = deque([start])
-    while waiting and (node, True) not in before:
-        here = waiting.popleft()
-        for meeting in at[here[0]]:
-            a, b = meeting.nodes
-            there = (b if here[0] == a else a), here[1] != meeting.is_odd
-            if there not in before and there != start:
-                before[there] = here, meeting
-                waiting.append(there)
-    walk, place = list[tuple[int, _Meeting]](), (node, True)
-    while place in before:
-        place, meeting = before[place]
-        walk.append((place[0], meeting))
-    return walk[::-1]
-
-
 def _walls(scene: Scene, walk: list[tuple[int, _Meeting]]) -> Iterator[Wall]:
+    """Of a closed walk: the nodes, each with the next meeting."""
     outside = len(scene.solids)
     for k, (node, after) in enumerate(walk):
         _, meeting = walk[k - 1]

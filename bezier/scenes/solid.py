@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import product
-from typing import cast
 
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import root_above
@@ -20,8 +19,8 @@ from bezier.curves.scalar import dot, subtract
 from bezier.obstacles.bodies import Body
 from bezier.obstacles.clearance import Along, Contact, examine
 from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
+from bezier.obstacles.polyhedron import nearest
 from bezier.scenes.cells import Cell, Point, Side, opposite, primitive
-from qe.exact.quadratic_form import solve_linear
 
 ROUNDINGS = (1, 16, 1024, 2**20, 2**40)
 """Denominators that are tried where a shorter number will do."""
@@ -188,47 +187,6 @@ def between(a: Point, b: Point) -> Point:
 
 
 # --- two bodies ------------------------------------------------------------------------------------------
-def nearest(ones: Sequence[Point], others: Sequence[Point]) -> tuple[Point, Point]:
-    """Nearest points of two convex hulls, exactly: Wolfe's algorithm for the least norm in the hull of all differences
-    (Wolfe, Finding the nearest point in a polytope, 1976), which ends after finitely many steps."""
-    chosen, weights = [(0, 0)], [Fraction(1)]
-    while True:
-        differences = [subtract(ones[i], others[j]) for i, j in chosen]
-        x = _mixed(differences, weights)
-        i = min(range(len(ones)), key=lambda k: dot(x, ones[k]))
-        j = max(range(len(others)), key=lambda k: dot(x, others[k]))
-        if dot(x, subtract(ones[i], others[j])) >= dot(x, x):
-            pick = ([ones[i] for i, _ in chosen], [others[j] for _, j in chosen])
-            return _mixed(pick[0], weights), _mixed(pick[1], weights)
-        chosen, weights = [*chosen, (i, j)], [*weights, ZERO]
-        differences.append(subtract(ones[i], others[j]))
-        while True:
-            best = _least(differences)
-            if min(best) >= 0:
-                weights = best
-                break
-            step = min(w / (w - b) for w, b in zip(weights, best, strict=True) if b < 0)
-            weights = [w + step * (b - w) for w, b in zip(weights, best, strict=True)]
-            kept = [k for k, w in enumerate(weights) if w]
-            chosen, weights = [chosen[k] for k in kept], [weights[k] for k in kept]
-            differences = [differences[k] for k in kept]
-
-
-def _mixed(points: Sequence[Point], weights: Sequence[Fraction]) -> Point:
-    return tuple(sum(w * c for w, c in zip(weights, axis, strict=True)) for axis in zip(*points, strict=True))
-
-
-def _least(points: Sequence[Point]) -> list[Fraction]:
-    """Weights with sum 1 of the point of least norm in the affine hull of independent points."""
-    base, *rest = points
-    spans = [subtract(p, base) for p in rest]
-    rows, right = [[Fraction(dot(a, b)) for b in spans] for a in spans], [-Fraction(dot(a, base)) for a in spans]
-    solution = solve_linear(rows, right, len(spans))
-    assert solution is not None
-    shares = cast(tuple[Fraction, ...], solution.particular)
-    return [1 - sum(shares, ZERO), *shares]
-
-
 def common_point(one: Solid, other: Solid) -> Point | None:
     """A point of both (of two open bodies: None where they only touch), None where there is none."""
     p, q = nearest(one.corners, other.corners)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,7 @@ from bezier.scenes.scene import Scene, load_table, read_scene
 from bezier.scenes.sentences import beyond, surfaces
 from bezier.trajectories.along import Along, arm_limits, load_path
 from bezier.trajectories.evidence import compare, members, stated
-from bezier.trajectories.limits import Limit, Verdict, decided, from_values
+from bezier.trajectories.limits import Limit, Verdict, decided
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.readers import load
 from bezier.trajectories.words import in_words, to_json
@@ -43,30 +43,29 @@ def limits_of(table: Table, axes: int) -> list[Limit]:
     """A table with ``velocity``, ``acceleration``, ``jerk``: one number, or a list of one for each axis;
     ``velocity_norm``, ...; and ``position``: a pair, or a list of one for each axis. Raises ``InputError``."""
     table.only(KEYS)
-    values: dict[str, Any] = {}
-    for key in table.values:
-        raw = table.values[key]
-        if key == "position":
-            values[key] = _pairs(table, raw, axes)
-        elif key.endswith("_norm"):
-            values[key] = table.positive(key)
-        elif not isinstance(raw, list):
-            values[key] = [table.positive(key)] * axes
-        elif len(raw) != axes:
-            raise table.error(key, f"a number, or one for each of {axes} axes", describe(raw))
-        else:
-            parts = [Table({f"{key}[{k}]": item}, table.source, table.lines) for k, item in enumerate(raw)]
-            values[key] = [part.positive(f"{key}[{k}]") for k, part in enumerate(parts)]
-    return from_values(values, axes)
+    listed = list[Limit]()
+    for order, key in enumerate(QUANTITIES):
+        raw = table.values.get(key)
+        if raw is not None and not order:
+            listed += (Limit(0, axis, high, low) for axis, (low, high) in enumerate(_pairs(table, raw, axes)))
+        elif isinstance(raw, list):
+            if len(raw) != axes:
+                raise table.error(key, f"a number, or one for each of {axes} axes", describe(raw))
+            parts = replace(table, values={f"{key}[{k}]": item for k, item in enumerate(raw)})
+            listed += (Limit(order, k, parts.positive(f"{key}[{k}]")) for k in range(axes))
+        elif raw is not None:
+            listed += (Limit(order, axis, table.positive(key)) for axis in range(axes))
+        if f"{key}_norm" in table.values:
+            listed.append(Limit(order, None, table.positive(f"{key}_norm")))
+    return listed
 
 
 def _pairs(table: Table, raw: object, axes: int) -> list[tuple[Fraction, Fraction]]:
     listed = raw if isinstance(raw, list) and raw and isinstance(raw[0], list) else [raw] * axes
     if len(listed) != axes or not all(isinstance(pair, list) and len(pair) == 2 for pair in listed):
         raise table.error("position", f"a pair, or a pair for each of {axes} axes", describe(raw))
-    keys = [(f"position[{k}][0]", f"position[{k}][1]") for k in range(axes)]
-    tables = [Table(dict(zip(k, p, strict=True)), table.source, table.lines) for k, p in zip(keys, listed, strict=True)]
-    pairs = [(t.number(low), t.number(high)) for t, (low, high) in zip(tables, keys, strict=True)]
+    parts = replace(table, values={f"position[{k}][{i}]": v for k, p in enumerate(listed) for i, v in enumerate(p)})
+    pairs = [(parts.number(f"position[{k}][0]"), parts.number(f"position[{k}][1]")) for k in range(axes)]
     for low, high in pairs:
         if low > high:
             raise table.error("position", "the lower limit first", f"{low} before {high}")

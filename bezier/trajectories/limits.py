@@ -10,7 +10,7 @@ Slowed down by k, velocity is 1/k, acceleration 1/k^2, jerk 1/k^3 of what it was
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -266,17 +266,3 @@ def _extremes(
         low, high = root.interval(BITS)
         value, error = sign * p((low + high) / 2), steepest * (high - low)
         yield root, (value - error, value + error)
-
-
-def from_values(values: Mapping[str, Any], axes: int) -> list[Limit]:
-    """Limits from numbers, or lists of one for each axis: position (pairs), velocity, ..., velocity_norm, ..."""
-    listed: list[Limit] = []
-    for order, name in enumerate(QUANTITIES):
-        if name in values:
-            for axis in range(axes):
-                value = values[name][axis]
-                low, high = value if order == 0 else (None, value)
-                listed.append(Limit(order, axis, high, low))
-        if order and f"{name}_norm" in values:
-            listed.append(Limit(order, None, values[f"{name}_norm"]))
-    return listed

@@ -353,19 +353,19 @@ def age() -> float:
         return time.process_time()
 
 
-def check_writable(path: Path | None) -> None:
+def check_writable(*paths: Path | None) -> None:
     """Raise ``InputError`` early when a file could not be written later."""
-    if path is None:
-        return
-    folder = path.parent
-    if path.is_dir():
-        raise InputError(f"{path}: a file name expected, a folder found")
-    if _is_no_plain_file(path):
-        return
-    if not folder.is_dir():
-        raise InputError(f"{path}: the folder {folder} does not exist")
-    if not os.access(folder, os.W_OK):
-        raise InputError(f"{path}: the folder {folder} is not writable")
+    for path in paths:
+        if path is None:
+            continue
+        if path.is_dir():
+            raise InputError(f"{path}: a file name expected, a folder found")
+        if _is_no_plain_file(path):
+            continue
+        if not path.parent.is_dir():
+            raise InputError(f"{path}: the folder {path.parent} does not exist")
+        if not os.access(path.parent, os.W_OK):
+            raise InputError(f"{path}: the folder {path.parent} is not writable")
 
 
 def _is_no_plain_file(path: Path) -> bool:
