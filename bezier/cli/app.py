@@ -320,6 +320,7 @@ def route(
     shortest: Annotated[bool, typer.Option("--shortest", help="A short path, with a bound for all paths.")] = False,
     degree: Annotated[int, typer.Option("--degree", help="Of its curves, 1 for segments.")] = 3,
     continuity: Annotated[int, typer.Option("--continuity", help="Derivatives of it that are continuous.")] = 1,
+    gap: Annotated[str | None, typer.Option(help="Try more ways until it is so close to the shortest, say 5%.")] = None,
     json: Json = False,
     timeout: Timeout = None,
     memory: Memory = None,
@@ -331,7 +332,7 @@ def route(
     check_writable(certificate, picture)
     if check is not None and certificate is not None:
         raise InputError("--check: expected no --certificate with it, found one")
-    wish = Wish(degree, continuity) if shortest else None
+    wish = Wish.of(degree, continuity, gap) if shortest or gap else None
     work = partial(command.run, file=file, against=check, picture=picture is not None, wish=wish, as_json=json)
     text, *files, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
     _write((certificate, picture), files)  # no certificate where the start or the goal itself is in an obstacle

@@ -17,6 +17,7 @@ def route(
     shortest: bool = False,
     degree: int = 3,
     continuity: int = 1,
+    gap: float | str | None = None,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Listener = silent,
@@ -30,7 +31,8 @@ def route(
     polytopes with 98 sides around them show them.
 
     ``shortest``: a short chain of curves of this ``degree`` (1: segments), with so many continuous derivatives, and a
-    bound ``at_least`` for the length of every path, both proved.
+    bound ``at_least`` for the length of every path, both proved. ``gap``: as 5% or 0.05, the same, and more ways are
+    tried, 64 at most, until it is proved to be longer than the shortest by no more than this; ``longer`` says by what.
 
     The result is a ``Route`` with its corners ``points``, or ``Blocked`` with the open sets that separate start and
     goal; ``blocked`` says which, ``certificate`` proves it and ``check()`` verifies it again.
@@ -48,5 +50,5 @@ def route(
     blocked: the obstacles and the domain separate start and goal
     """
     given = given_scene(scene, "bezier.route", table_value)
-    wish = Wish(degree, continuity) if shortest else None
+    wish = Wish.of(degree, continuity, gap) if shortest or gap is not None else None
     return limited(partial(decided, given, wish=wish), timeout, memory, progress)

@@ -15,11 +15,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import islice, pairwise
+from math import ceil
 
 import qe
 from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, subtract
+from bezier.input.numbers import NotANumber, parse, shorten
 from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
 from bezier.scenes.bound import LengthBound, least_length
@@ -36,7 +38,7 @@ from bezier.scenes.sentences import (
     of_sides,
     surfaces,
 )
-from bezier.scenes.shortest import least_chain
+from bezier.scenes.shortest import chains
 from bezier.scenes.solid import Solid, directions, in_space
 from qe.certify.claims import is_about
 from qe.errors import CertificateRejected, InputError, Unable
@@ -47,7 +49,7 @@ from qe.proof.certificate import Certificate
 
 NONE: Mapping[str, Formula] = {}
 DISJOINT = "none beside the walls is on both sides"
-PLANE_STEPS, SPACE_STEPS = (1, 2, 3), (0, 1, 2, 3)
+PLANE_STEPS, SPACE_STEPS, MOST_WAYS = (1, 2, 3), (0, 1, 2, 3), 64
 """How fine the polytopes around round bodies are, one after the other: see ``directions``."""
 
 
@@ -78,6 +80,11 @@ class Route:
     def at_least(self) -> Fraction | None:
         """No path from start to goal is shorter; None where no short path was asked for."""
         return None if self.bound is None else self.bound.value
+
+    @property
+    def longer(self) -> Fraction:
+        """By what share the path may be longer than the shortest, as far as a bound shows."""
+        return self.length / self.at_least - 1 if self.at_least else Fraction(0)
 
     @property
     def sentences(self) -> dict[str, Formula]:
@@ -122,8 +129,9 @@ class Route:
         if self.bound is None:
             lines.append(" ".join("(" + ", ".join(map(str, p)) + ")" for p in self.points))
         else:
+            least, more = float(self.at_least or 0), ceil(10000 * self.longer) / 100
             lines.append(
-                f"length at most {float(self.length):.6g}; no path is shorter than {float(self.at_least or 0):.6g}"
+                f"length at most {float(self.length):.6g}; no path is shorter than {least:.6g} (gap {more:g}%)"
             )
         return "\n".join(lines)
 
@@ -182,16 +190,30 @@ class Blocked:
 
 @dataclass(frozen=True, slots=True)
 class Wish:
-    """A short path: the degree of its curves (1: segments) and how many derivatives are continuous."""
+    """A short path: the degree of its curves (1: segments) and how many derivatives are continuous. ``gap``: other ways
+    are tried, MOST_WAYS at most, until the path is proved to be longer than the shortest by no more than this share."""
 
     degree: int = 3
     continuity: int = 1
+    gap: Fraction | None = None
 
     def __post_init__(self) -> None:
         if self.degree not in range(1, 6) or self.continuity not in range(3):
             raise InputError(f"expected degree 1 to 5 and continuity 0 to 2, found {self.degree} and {self.continuity}")
         if 1 < self.degree <= self.continuity:
             raise InputError(f"continuity: expected one below the degree {self.degree}, found {self.continuity}")
+
+    @staticmethod
+    def of(degree: int, continuity: int, gap: object) -> Wish:
+        """With a gap that is a number, or has a percent sign."""
+        text = "" if gap is None else str(gap)
+        try:
+            value = parse(text.removesuffix("%")) / (100 if text.endswith("%") else 1) if text else None
+        except NotANumber:
+            value = Fraction(-1)
+        if value is not None and value < 0:
+            raise InputError(f"gap: expected a share such as 5% or 0.05, found {shorten(text)}")
+        return Wish(degree, continuity, value)
 
 
 def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | None = None) -> Route | Blocked:
@@ -216,19 +238,21 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | No
 
 def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tuple[str, Certificate]]]:
     """A short path in place of one that is known, which stays where passages are too narrow for floating point."""
-    scene, is_plane = known.scene, known.scene.dimension == 2
+    scene, is_plane, short = known.scene, known.scene.dimension == 2, list[Route]()
+    bound, proofs = least_length(scene, 2 if is_plane else 0, budget)
     for fine in (2, 1):
         parts = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))
-        curves = least_chain(scene, parts.domain, parts.free, wish.degree, min(wish.continuity, wish.degree - 1))
-        if curves is not None:
+        found = chains(scene, parts.domain, parts.free, wish.degree, min(wish.continuity, wish.degree - 1))
+        for curves in filter(None, islice(found, 1 if wish.gap is None else MOST_WAYS)):
+            if wish.degree == 1:
+                corners = (curves[0][0], *(curve[-1] for curve in curves))
+                curves = tuple(pairwise(shortened(corners, scene.bodies)))
+            short.append(replace(known, curves=curves, bound=bound))
+            if wish.gap is not None and short[-1].longer <= wish.gap:
+                break
+        if short:
             break
-    if curves is not None and wish.degree == 1:
-        corners = (curves[0][0], *(curve[-1] for curve in curves))
-        curves = tuple(pairwise(shortened(corners, scene.bodies)))
-    if curves is not None:
-        known = replace(known, curves=curves)
-    bound, proofs = least_length(scene, 2 if is_plane else 0, budget)
-    return replace(known, bound=bound), proofs
+    return min(short, key=lambda route: route.length, default=replace(known, bound=bound)), proofs
 
 
 def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:

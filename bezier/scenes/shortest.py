@@ -27,50 +27,56 @@ EVENNESS, SAMPLES = 0.005, 4
 """The part of the squares of second differences in the cost, over the width of the workspace."""
 DIGITS, INWARDS = 2**24, 1e-6
 DIFFERENCES = ((1,), (-1, 1), (1, -2, 1))
-_Node = tuple[tuple[int, int], int]
+_Door = tuple[int, int]
+_Node = tuple[int, tuple[float, ...]]
 
 
-def least_chain(scene: Scene, domain: Cell, free: FreeCells, degree: int, continuity: int) -> tuple[Curve, ...] | None:
+def chains(
+    scene: Scene, domain: Cell, free: FreeCells, degree: int, continuity: int
+) -> Iterator[tuple[Curve, ...] | None]:
     """Curves from start to goal with rational control points, each in a free cell, but for rounding errors; None where
-    the cells do not hang together, or are too narrow for floating point."""
-    cells = corridor(scene, free)
-    if cells is None:
-        return None
-    held = [free.cells[i] for i in cells for _ in range(1 if degree >= 2 * continuity else 3)]
-    proposed = _proposed(scene, set(domain.sides), held, degree, continuity)
-    rounded = _rounded if degree >= 2 * continuity else _spline
-    return None if proposed is None else rounded(scene, proposed, continuity)
+    the cells are too narrow for floating point. First those along a shortest way; then by ways that do without a door
+    of one before, of the shortest chain first."""
+    waiting, seen = [(0.0, tuple[_Door, ...]())], set[tuple[int, ...]]()
+    while waiting:
+        _, shut = heapq.heappop(waiting)
+        cells = corridor(scene, free, shut)
+        if cells is None or cells in seen:
+            continue
+        seen.add(cells)
+        held = [free.cells[i] for i in cells for _ in range(1 if degree >= 2 * continuity else 3)]
+        proposed = _proposed(scene, set(domain.sides), held, degree, continuity)
+        rounded = _rounded if degree >= 2 * continuity else _spline
+        yield None if proposed is None else rounded(scene, proposed, continuity)
+        length = sum(dist(p, q) for points in proposed or () for p, q in pairwise(points))
+        for door in pairwise(cells):
+            heapq.heappush(waiting, (length, (*shut, door)))
 
 
-def corridor(scene: Scene, free: FreeCells) -> list[int] | None:
-    """The cells of a shortest way over corners and centres of doors."""
+def corridor(scene: Scene, free: FreeCells, shut: Sequence[_Door] = ()) -> tuple[int, ...] | None:
+    """The cells of a shortest way over corners and centres of doors, but those that are ``shut``."""
     first, last = free.holding(scene.start), free.holding(scene.goal)
     if first is None or last is None:
         return None
-    samples = {
-        (min(i, j), max(i, j)): _samples(door) for i, doors in enumerate(free.doors) for j, door in doors.items()
-    }
+    samples = [
+        {j: _samples(door) for j, door in doors.items() if (i, j) not in shut} for i, doors in enumerate(free.doors)
+    ]
     start, goal = tuple(map(float, scene.start)), tuple(map(float, scene.goal))
-    # a node is a sample of a door, and the cell that is entered by it
-    best: dict[_Node, tuple[float, _Node | None]] = {((first, first), 0): (0.0, None)}
-    waiting = [(dist(start, goal), 0.0, ((first, first), 0), start)]
+    # a node is a cell, and the point where it is entered
+    best: dict[_Node, tuple[float, _Node | None]] = {(first, start): (0.0, None)}
+    waiting = [(dist(start, goal), 0.0, first, start)]
     while waiting:
-        _, far, node, at = heapq.heappop(waiting)
-        (_, cell), _ = node
-        if far > best[node][0]:
+        _, far, cell, at = heapq.heappop(waiting)
+        if far > best[cell, at][0]:
             continue
         if cell == last and at == goal:
-            return _cells(best, node)
-        steps = [
-            (((cell, j), k), p) for j in free.doors[cell] for k, p in enumerate(samples[min(cell, j), max(cell, j)])
-        ]
-        if cell == last:
-            steps.append((((last, last), 1), goal))
-        for other, p in steps:
-            reach = far + dist(at, p)
-            if other not in best or reach < best[other][0]:
-                best[other] = reach, node
-                heapq.heappush(waiting, (reach + dist(p, goal), reach, other, p))
+            return _cells(best, best[cell, at][1])
+        steps = [(j, p) for j, points in samples[cell].items() for p in points]
+        for step in (*steps, (last, goal)) if cell == last else steps:
+            reach = far + dist(at, step[1])
+            if step not in best or reach < best[step][0]:
+                best[step] = reach, (cell, at)
+                heapq.heappush(waiting, (reach + dist(step[1], goal), reach, *step))
     return None
 
 
@@ -85,12 +91,8 @@ def _mixed(a: Sequence[float], b: Sequence[float], share: float) -> tuple[float,
     return tuple(x + share * (y - x) for x, y in zip(a, b, strict=True))
 
 
-def _cells(best: dict[_Node, tuple[float, _Node | None]], node: _Node) -> list[int]:
-    cells, at = list[int](), best[node][1]
-    while at is not None:
-        cells.append(at[0][1])
-        at = best[at][1]
-    return cells[::-1]
+def _cells(best: dict[_Node, tuple[float, _Node | None]], node: _Node | None) -> tuple[int, ...]:
+    return () if node is None else (*_cells(best, best[node][1]), node[0])
 
 
 def _proposed(
