@@ -63,6 +63,7 @@ def test_a_value_that_is_taken(block: str, low: Any, high: Any, rising: int, giv
         ("ex x. x^2 >= b and x >= 0", ZERO, None, 1, "b >= 0"),
         ("ex x. x^3 = b", None, None, 1, "true"),
         ("ex x. x = 0 and x >= 1 and x <= a", ONE, A, -1, "a <= 0"),  # the places change order
+        ("ex x. c*x = b", None, None, 1, "c = 0"),  # no equation holds far out
         ("ex x. c*x > b", None, None, 1, "c >= 0"),
         ("ex x. c*x > b", None, None, 0, "c >= 0"),
         ("ex x. c*x >= b", None, None, 1, "c >= 0"),  # with c = 0 nothing rises
