@@ -12,7 +12,7 @@ from typing import ClassVar, TypeVar, dataclass_transform
 
 from qe.errors import InternalError
 from qe.exact.ring import Poly, Ring
-from qe.formula.notation import Level, Notation, bracketed, chain, oriented, polynomial
+from qe.formula.notation import Level, Notation, bracketed, chain, comparison
 from qe.formula.operators import Connected, Substituting
 from qe.formula.relation import Relation as Relation
 from qe.formula.text import text_notation
@@ -175,8 +175,7 @@ class Atom(FormulaNode):
         return tuple([names[i] for i in self.poly.variables])
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
-        parts, relation = oriented(self.poly, self.relation)
-        return f"{polynomial(parts, notation)} {notation.relation(relation)} 0"
+        return comparison(self.poly, self.relation, notation)
 
 
 @_node

@@ -173,6 +173,14 @@ def test_a_factor_of_lower_level_that_changes_its_sign_says_nothing(own: list[in
     assert reason in forged(body, [["x"], ["-x + y"]], first)
 
 
+def test_neighbours_whose_resultant_changes_its_sign_need_not_meet_around_the_sample() -> None:
+    """Over x = 1 the rays y < x and y > -x cover the line; over x = -1 they do not."""
+    body = read("y >= x and y <= -x")
+    above = line([0, 1], ["-2", "0", "2"], [[1], [0]], interval(0, 2, 2, [0]), interval(2, 4, 4, [1]))
+    first = line([0], ["-1", "1"], [[0]], interval(0, 2, 2, [], above))
+    assert "need not meet around" in forged(body, [["x"], ["-x + y", "x + y"]], first)
+
+
 def test_a_factor_that_is_zero_on_a_line_beside_the_sample_is_rejected() -> None:
     """x*z + y has no root over (0, 1), and is zero on the whole line over (0, 0)."""
     body = read("x = 0 and x*z + y = 0")

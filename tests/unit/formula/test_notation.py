@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, convert
 from qe.formula.doubts import doubts, numbers_as_names
 from qe.formula.features import features
 from qe.formula.notation import Level, bracketed, chain, monomials, oriented, polynomial, positive
@@ -16,7 +17,7 @@ from qe.formula.traverse import subformulas
 from qe.io import formats
 from qe.io.text import read
 from qe.spelling import glued, joined_names
-from tests.strategies import formulas, polynomials
+from tests.strategies import RELATIONS, formulas, polynomials
 from tests.tables import each
 
 RING = Ring.of(("x", "y"))
@@ -49,6 +50,26 @@ def test_the_first_coefficient_becomes_positive(poly: Poly) -> None:
         assert found is (relation if monomials(poly)[0][0] > 0 else relation.flipped)
     degrees = [sum(k for _, k in powers) for _, powers in monomials(poly)]
     assert degrees == sorted(degrees, reverse=True)
+
+
+@each(
+    ("a*(a - b) > 0", "a*(a - b) > 0"),
+    ("x^2*y - x*y >= 0", "x*y*(x - 1) >= 0"),
+    ("(1 - x)*(x - 2)*(y - 3) < 0", "(x - 1)*(x - 2)*(y - 3) > 0"),
+    ("(1 - x)*(x - 2)*(3 - y) < 0", "(x - 1)*(x - 2)*(y - 3) < 0"),
+    ("(x + y)*(y - x) > 0", "x^2 - y^2 < 0"),
+    ("x^2*y > 0 and y*(x - 1)^2*(y + x^2)^3 > 0", "x^2*y > 0 and y*(x - 1)^2*(x^2 + y)^3 > 0"),
+    ("x^2 - x < 0", "x^2 - x < 0"),  # the product is longer
+    ("x^41 - x^40 < 0", "x^41 - x^40 < 0"),
+)
+def test_products_that_are_no_longer(given_text: str, printed: str) -> None:
+    assert str(read(given_text)) == printed
+
+
+@given(polynomials(RING), polynomials(RING), RELATIONS)
+def test_products_are_read_back_as_they_were(f: Poly, g: Poly, relation: Relation) -> None:
+    formula = atom(f * g, relation)
+    assert convert(read(str(formula)), RING) == formula
 
 
 PARTS = (read("x > 0"), read("y > 0 or x = 1"), read("ex z. z > x"))

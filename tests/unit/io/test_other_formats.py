@@ -218,7 +218,7 @@ def test_long_polynomials_stand_in_lines() -> None:
 @each(
     ("(E x)[ a x^2 + b x + c = 0 /\\ ~[x < 0] ]", "ex x. a*x^2 + b*x + c = 0 and x >= 0"),
     ("(A x)(E y)[ x < y ].", "all x. ex y. x - y < 0"),
-    ("[2 (x+1)(y-1) /= 0]", "x*y - x + y - 1 /= 0"),
+    ("[2 (x+1)(y-1) /= 0]", "(x + 1)*(y - 1) /= 0"),
     ("[1/2 x^2 y - 3 >= 0]", "x^2*y - 6 >= 0"),
     ("[x > _root_-2 x^2 - 2 y \\/ y = 0]", "x > root(-2, x^2 - 2*y) or y = 0"),
     ("[x = 0 ==> y = 0]", "x /= 0 or y = 0"),
