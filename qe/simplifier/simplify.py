@@ -84,12 +84,13 @@ def facts_of(known: Formula, formula: Formula) -> Facts:
     return NOTHING.extended(atom(a.poly, a.relation) for a in usable)
 
 
-def _node(formula: Formula, facts: Facts) -> Formula:
+def _node(formula: Formula, facts: Facts, said: object = None) -> Formula:
+    """``said``: what ``_said`` says of the facts, for those who ask about several formulas under the same ones."""
     match formula:
         case Constant():
             return formula
         case And(args) | Or(args):
-            key = formula, frozenset(facts.ranges.items()), frozenset(facts.literals.items())
+            key = formula, said or _said(facts)
             return _LEVELS.get(key) or _remembered(_LEVELS, key, _level(args, facts, isinstance(formula, And)))
         case Exists(variables, body) | ForAll(variables, body):
             inner = _node(body, facts.without(variables))
@@ -97,6 +98,11 @@ def _node(formula: Formula, facts: Facts) -> Formula:
             kept = tuple(v for v in variables if v in occurring)
             return exists(kept, inner) if isinstance(formula, Exists) else forall(kept, inner)
     return _level((formula,), facts, True)
+
+
+def _said(facts: Facts) -> object:
+    """The facts as they are now, as a value that is equal for equal ones: frozen sets keep their hash."""
+    return frozenset(facts.ranges.items()), frozenset(facts.literals.items())
 
 
 def _level(args: Iterable[Formula], facts: Facts, conjunctive: bool) -> Formula:
@@ -115,7 +121,8 @@ def _level(args: Iterable[Formula], facts: Facts, conjunctive: bool) -> Formula:
             return absorbing
         literals = kept
         inner = _extended(facts, atoms, literals, conjunctive)
-        simplified = [_node(f, inner) for f in (*others, *produced)]
+        said = _said(inner)
+        simplified = [_node(f, inner, said) for f in (*others, *produced)]
         simplified = absorb(simplified, conjunctive, lambda parts, flag: _level(parts, nothing, flag))
         if absorbing in simplified:
             return absorbing

@@ -176,16 +176,16 @@ class Propagator:
                     return []
         if any(self._against(theory.settle()) for theory in self.theories):
             return []
-        implied = []
+        implied = dict[int, None]()
         for theory in self.theories:
             for literal, reasons in theory.implied():
                 if literal not in self._true and literal not in implied:
                     self._reasons[literal] = reasons
-                    implied.append(literal)
+                    implied[literal] = None
         if not self._levels:  # the solver asks for no reasons of what holds in any case
             for literal in implied:
                 self.provide_reason(literal)
-        return implied
+        return list(implied)
 
     def _against(self, conflict: Literals | None) -> bool:
         """Whether there is a contradiction; the solver is told of it."""
