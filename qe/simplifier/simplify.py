@@ -120,6 +120,8 @@ def _level(args: Iterable[Formula], facts: Facts, conjunctive: bool) -> Formula:
         if kept is None:
             return absorbing
         literals = kept
+        if not others and not produced:
+            break
         inner = _extended(facts, atoms, literals, conjunctive)
         said = _said(inner)
         simplified = [_node(f, inner, said) for f in (*others, *produced)]
