@@ -9,11 +9,10 @@ from math import lcm
 
 from qe.convex.exact_basis import Refutation, decided
 from qe.convex.highs import Proposer, highs
-from qe.convex.linear_rows import LinearRows
-from qe.convex.system import NotConvex, atoms_of
+from qe.convex.linear_rows import LinearRows, linear_atoms
 from qe.exact.linear_bounds import LinearBounds, TooMuch
 from qe.exact.ring import Poly
-from qe.formula.syntax import Formula, Relation
+from qe.formula.syntax import Formula
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
 
@@ -52,11 +51,7 @@ def linear_point(
     Small systems by the simplex method alone; of others ``propose`` says what to look at, and the simplex method takes
     those where that does not help.
     """
-    try:
-        atoms = atoms_of(conditions)
-    except NotConvex:
-        return None
-    if not atoms or any(a.poly.total_degree > 1 or a.relation is Relation.NE for a in atoms):
+    if not (atoms := linear_atoms(conditions)):
         return None
     system = LinearRows.of(atoms)
     outcome = solved(system, budget, propose)

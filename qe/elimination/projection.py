@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from qe.convex.linear_rows import LinearRows
+from qe.convex.linear_rows import LinearRows, linear_atoms
 from qe.convex.polyhedron import Polyhedron
 from qe.convex.shadow import shadow
-from qe.convex.system import NotConvex, atoms_of
 from qe.elimination.protocol import Context, Outcome
 from qe.exact.ring import Ring
 from qe.formula.block import Block
@@ -29,11 +28,7 @@ class Projection:
 
     def run(self, problem: Block, context: Context) -> Outcome | None:
         """The shadow; None where the body is no conjunction of linear equations and inequalities."""
-        try:
-            atoms = atoms_of(problem.positive)
-        except NotConvex:
-            return None
-        if not atoms or any(a.poly.total_degree > 1 or a.relation is Relation.NE for a in atoms):
+        if not (atoms := linear_atoms(problem.positive)):
             return None
 
         def check() -> None:

@@ -10,16 +10,17 @@ from qe.elimination.protocol import Outcome, witness_of
 from qe.errors import Contradiction, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
-from qe.formula.build import atom, conj, convert
+from qe.formula.build import convert
 from qe.formula.normal import without_clashes
-from qe.formula.syntax import And, Atom, Atomic, Exists, Formula, Relation
-from qe.formula.traverse import conjuncts, map_atoms
+from qe.formula.syntax import And, Atom, Exists, Formula, Relation
+from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED
 from qe.proof.certificate import Certificate, Kind, Proof
 from qe.proof.derivation import put_together
 from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
+from qe.proving.linear import put_in
 from qe.proving.primitive_names import PROJECTION
 
 Result = TypeVar("Result")
@@ -102,7 +103,7 @@ def substitution_certificate(block: Formula, answer: Formula) -> Certificate | N
         if found is None:
             return None
         name, equation = found
-        body = _replaced(body, ring.index[name], equation)
+        body = put_in(body, ring.index[name], equation)
         solved.append(found)
         left.remove(name)
     if {*conjuncts(body)} != {*conjuncts(convert(answer, ring))}:
@@ -119,19 +120,6 @@ def _solvable(body: Formula, ring: Ring, names: list[str]) -> tuple[str, Poly] |
                 if conjunct.poly.degree(i) == 1 and conjunct.poly.leading(i).is_constant:
                     return name, conjunct.poly
     return None
-
-
-def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
-    rest, lead = equation.coefficients(i)
-    top, bottom = (-rest, lead) if lead.constant_value() > 0 else (rest, -lead)
-
-    def change(given: Atomic) -> Formula:
-        if not isinstance(given, Atom) or not given.poly.degree(i):
-            return given
-        return atom(given.poly.at_quotient(i, top, bottom), given.relation)
-
-    used = Atom(equation, Relation.EQ)
-    return conj(map_atoms(c, change) for c in conjuncts(body) if c != used)
 
 
 def derived_or_decomposed(

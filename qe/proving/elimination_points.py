@@ -42,6 +42,23 @@ class Point:
     needed: bool = True
 
 
+def point_entry(tried: Tried, body: Formula) -> Json:
+    """A point that is tried in a body, as evidence."""
+    point = tried.point
+    return {
+        "point": None
+        if point is None
+        else {
+            "coefficients": [poly_to_text(p) for p in point.coefficients],
+            "branch": point.branch,
+            "shift": point.shift,
+        },
+        "guard": formula_to_json(tried.guard),
+        "formula": None if tried.formula == body else formula_to_json(tried.formula),
+        "settled": [formula_to_json(a) for a in conjuncts(tried.formula) if a in tried.settled],
+    }
+
+
 class Points:
     """The points of one variable's elimination, over the ring of the derivation."""
 
@@ -91,23 +108,8 @@ class Points:
             "variable": self.name,
             "side": self.side,
             "quadratics": [poly_to_text(q) for q in self.quadratics],
-            "points": [self._entry(p.tried) for p in self.listed],
+            "points": [point_entry(p.tried, self.body) for p in self.listed],
             "parts": list(parts),
-        }
-
-    def _entry(self, tried: Tried) -> Json:
-        point = tried.point
-        return {
-            "point": None
-            if point is None
-            else {
-                "coefficients": [poly_to_text(p) for p in point.coefficients],
-                "branch": point.branch,
-                "shift": point.shift,
-            },
-            "guard": formula_to_json(tried.guard),
-            "formula": None if tried.formula == self.body else formula_to_json(tried.formula),
-            "settled": [formula_to_json(a) for a in conjuncts(tried.formula) if a in tried.settled],
         }
 
     def _quadratics(self) -> list[Poly]:

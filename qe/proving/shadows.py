@@ -13,9 +13,8 @@ from fractions import Fraction
 from itertools import combinations
 from math import lcm
 
-from qe.convex.linear_rows import LinearRows
+from qe.convex.linear_rows import LinearRows, linear_atoms
 from qe.convex.polyhedron import HalfSpace, Polyhedron, Sums
-from qe.convex.system import NotConvex, atoms_of
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
@@ -28,8 +27,10 @@ from qe.kernel.negation import negation
 from qe.kernel.signs import read_polynomials
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.virtual_substitution import TestPoint
-from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
+from qe.proof.entry import Entry, Json
+from qe.proving.elimination_points import point_entry
 from qe.proving.lemma_list import Term, identities
+from qe.proving.linear import put_in
 from qe.proving.made import Made, solved
 from qe.proving.primitive_names import SIGNS
 
@@ -42,14 +43,8 @@ def projected(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """A block over linear equations and inequalities."""
     only(claim)
     block, after = existential(claim)
-    if not isinstance(block, Exists):
-        raise claim.fail("expected a block")
-    try:
-        atoms = atoms_of(block.body)
-    except NotConvex as error:
-        raise claim.fail(str(error)) from None
-    if any(a.poly.total_degree > 1 or a.relation is Relation.NE for a in atoms):
-        raise claim.fail("expected linear equations and inequalities")
+    if not isinstance(block, Exists) or not (atoms := linear_atoms(block.body)):
+        raise claim.fail("expected a block over linear equations and inequalities")
     system = LinearRows.of(atoms)
     shadow = _Shadow(Made(claim, limits, block, context), system.names)
     now = shadow.reduced(Polyhedron.of(system))
@@ -85,12 +80,9 @@ class _Shadow:
         block, name, ring = self.made.current, self.names[j], self.made.ring
         given = equation.condition(self.names, ring, Relation.EQ)
         assert isinstance(block, Exists) and isinstance(given, Atom)
-        rest, lead = given.poly.coefficients(x := ring.index[name])
-        top, bottom = (-rest, lead) if lead.constant_value() > 0 else (rest, -lead)
-        others = [a for a in atoms_of(block.body) if a != given]
-        image = conj(self.made.mapped(a, lambda p: p.at_quotient(x, top, bottom)) for a in others)
-        left = tuple(v for v in block.variables if v != name)
-        self.made.step("linear equation solved", block, _block(left, image), solved(given, name))
+        image = put_in(block.body, ring.index[name], given.poly)
+        after = _block([v for v in block.variables if v != name], image)
+        self.made.step("linear equation solved", block, after, solved(given, name))
         return None if image == FALSE else self.reduced(polyhedron.substituted(equation, j))
 
     def combined(self, polyhedron: Polyhedron, j: int) -> Polyhedron | None:
@@ -115,7 +107,7 @@ class _Shadow:
         block = made.current
         assert isinstance(block, Exists)
         inner = Exists((self.names[j],), ends)
-        others = conj(a for a in atoms_of(block.body) if a not in atoms_of(ends))
+        others = conj(a for a in conjuncts(block.body) if a not in conjuncts(ends))
         made.moved(block, _block([v for v in block.variables if v != self.names[j]], conj((others, inner))))
         self._witnessed(inner, side, points, pairs)
         self._left_out([*stay, *(pairs if len(points) == 1 else ())], kept)
@@ -132,15 +124,7 @@ class _Shadow:
         places = [TestPoint((), 0, -side), *(TestPoint(p.coefficients(x), 0, side * row.strict) for row, p in ends)]
         tried = [Tried(place, TRUE, inner.body, frozenset()) for place in places]
         cases = disj(start(t, x, name, inner.variables, ring) for t in tried)
-        listed: list[Json] = [
-            {
-                "point": {"coefficients": [poly_to_text(c) for c in p.coefficients], "branch": 0, "shift": p.shift},
-                "guard": formula_to_json(TRUE),
-                "formula": None,
-                "settled": [],
-            }
-            for p in places
-        ]
+        listed: list[Json] = [point_entry(t, inner.body) for t in tried]
         evidence: Json = {
             "variable": name,
             "side": side,
