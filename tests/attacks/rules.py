@@ -270,6 +270,11 @@ RULES: dict[str, Row] = {
         "a^2 + b^2 {<} {p} and {a|b} {<} {p} + 1 and a {O} {n}",
         "a*b {<|>} {n} or a*b {<|>} {n} and b {R} {n}",
     ),
+    "signs of factors": row(
+        "a > 0 and b > 0 and c > 0 and (a + {p}*b - c)*(a - {p}*b + c)*(a - {p}*b - c) {<} 0",
+        "a > 0 and b > 0 and c > 0 and ({p}*a + b - c)*({p}*a - b + c)*({p}*a - b - c) {<} 0",
+        "a > {n} and b > 0 and c > 0 and (a - {n} + b - c)*(a - {n} - b + c)*(a - {n} - b - c) {<} 0",
+    ),
     "constant": row(
         "a^2 + b^2 {<} {p} and a + b {>} {p} + 2",
         "a^2 + b^2 + c^2 <= 9 and (ex x, y, z. x + a = {4|5} and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9)",
@@ -300,7 +305,7 @@ PRIMITIVES: dict[str, tuple[str, ...]] = {
     "quantifiers": ("square of a variable alone", "two variables exchanged", "value that is taken"),
     "steps": ("homogeneous scaling", "linear form as a variable", "witness in the parameters"),
     "converse": ("two variables exchanged",),
-    "no exception": ("constant", "redundant part"),
+    "no exception": ("constant", "redundant part", "signs of factors"),
     "terms": ("linear form as a variable", "translation of the origin", "witness in the parameters"),
     "root": ("value that is taken",),
     "theorem": ("cubic on an interval", "quadric in a quadric", "roots in a half-plane", "two balls"),
