@@ -8,7 +8,6 @@ a backquote is written ``\\```, and a character that cannot be seen (a line brea
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
 
 NUMERALS = "⁰¹²³⁴-⁹ⁱⁿ¼-¾⅐-⅟↉"
 """Raised digits and letters and fractions of one character, which are no part of a plain word."""
@@ -55,24 +54,6 @@ def visible(name: str) -> str:
     if name.isprintable():
         return name
     return "".join(c if c.isprintable() else f"\\u{{{ord(c):x}}}" for c in name)
-
-
-def joined_names(names: Iterable[str], letters: Collection[str]) -> dict[str, str]:
-    """The names that look like products of different letters, one of ``letters`` among them, of which all but perhaps
-    one are names or ``letters`` themselves. Each with the product that may be meant: ``ax`` beside x with ``a*x``."""
-    known = {*names, *letters}
-    return {
-        name: "*".join(name)
-        for name in names
-        if len({*name} & known) >= len(name) - 1 > 0 and name.isalpha()
-        if name not in letters and not {*name}.isdisjoint(letters)
-    }
-
-
-def glued(names: Collection[str], letters: Collection[str]) -> str:
-    """A hint where a name is made of others, as ``abc`` of the letters a, b and c: a product was meant."""
-    made = next(iter(joined_names(names, letters).items()), None)
-    return "" if made is None else f" ({made[0]} is one name; a product is written {made[1]})"
 
 
 def on_one_line(message: str) -> str:

@@ -20,10 +20,10 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.syntax import TRUE, Formula
 from qe.formula.traverse import bound_variables, ring_of
+from qe.glued import glued
 from qe.io.substitution import over_one_ring
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer
-from qe.spelling import glued
 
 
 @with_settings(Decision)

@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 from qe.cli.source import Source
 from qe.errors import CertificateRejected, InputError, Unable
+from qe.glued import glued
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
 from qe.processes.channel import Channel
-from qe.spelling import glued, quoted
+from qe.spelling import quoted
 
 if TYPE_CHECKING:
     from qe.formula.syntax import Formula

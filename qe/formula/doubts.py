@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import children
-from qe.spelling import NUMERALS, WORD, joined_names
+from qe.glued import joined_names
+from qe.spelling import NUMERALS, WORD
 
 _NUMBERS = ("e", "i", "E", "I")
 """Letters that are numbers to many readers, and variables here."""
