@@ -7,13 +7,14 @@ from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, convert
-from qe.formula.doubts import doubts, glued, joined_names, numbers_as_names
+from qe.formula.doubts import doubts, numbers_as_names
 from qe.formula.features import features
 from qe.formula.notation import Level, bracketed, chain, monomials, oriented, polynomial, positive
 from qe.formula.relation import Relation
 from qe.formula.syntax import Exists, ForAll
 from qe.formula.text import TEXT, text_notation
 from qe.formula.traverse import subformulas
+from qe.glued import glued, joined_names
 from qe.io import formats
 from qe.io.text import read
 from tests.strategies import RELATIONS, formulas, polynomials
