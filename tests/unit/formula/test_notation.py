@@ -14,7 +14,6 @@ from qe.formula.relation import Relation
 from qe.formula.syntax import Exists, ForAll
 from qe.formula.text import TEXT, text_notation
 from qe.formula.traverse import subformulas
-from qe.glued import glued, joined_names
 from qe.io import formats
 from qe.io.text import read
 from tests.strategies import RELATIONS, formulas, polynomials
@@ -117,16 +116,6 @@ def test_a_variable_to_solve_for_is_to_occur() -> None:
     assert doubts(formats.read(text), text, "text", ("x",)) == ("x does not occur; did you mean a*x^2?",)
     assert doubts(formats.read(text), "", "", ("x", "c")) == ("x does not occur",)
     assert doubts(formats.read("x*0 = y"), "x*0 = y", "text", ("x", "y")) == ()  # typed, and simplified away
-
-
-def test_products_are_letters_side_by_side() -> None:
-    assert joined_names(("ax", "xa", "abx", "aax", "x1", "x_a", "tax", "xx"), ("x",)) == {
-        "ax": "a*x",
-        "xa": "x*a",
-        "xx": "x*x",
-    }
-    assert joined_names(("a", "abx", "tax"), ("x",)) == {"abx": "a*b*x", "tax": "t*a*x"}
-    assert joined_names(("ax",), ("x", "ax")) == {} and glued(("ax",), "y") == ""
 
 
 def test_letters_beside_their_neighbours_are_no_numbers() -> None:

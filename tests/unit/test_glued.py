@@ -1,0 +1,13 @@
+"""Names that may have been meant as products."""
+
+from qe.glued import glued, joined_names
+
+
+def test_products_are_letters_side_by_side() -> None:
+    assert joined_names(("ax", "xa", "abx", "aax", "x1", "x_a", "tax", "xx"), ("x",)) == {
+        "ax": "a*x",
+        "xa": "x*a",
+        "xx": "x*x",
+    }
+    assert joined_names(("a", "abx", "tax"), ("x",)) == {"abx": "a*b*x", "tax": "t*a*x"}
+    assert joined_names(("ax",), ("x", "ax")) == {} and glued(("ax",), "y") == ""
