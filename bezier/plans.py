@@ -136,17 +136,17 @@ class Plan:
     outcome: Outcome
     formula: str
     """As handed to the engine."""
-    answer: Any
-    """Its quantifier-free answer."""
+    answer: Any = None
+    """Its quantifier-free answer; None where the plan was read from its certificates."""
     objective: Any | None
     path: Path | None
     active: tuple[str, ...]
     """Labels of the conditions that hold with equality (with a ``bound``: that prove it)."""
     certificate: qe.Certificate
     """All certificates, labelled."""
-    checks: Mapping[str, qe.Verdict]
+    checks: Mapping[str, qe.Verdict] = field(default_factory=dict)
     """What the independent checker says of them."""
-    seconds: Mapping[str, float]
+    seconds: Mapping[str, float] = field(default_factory=dict)
     """The time of each step."""
     remarks: tuple[str, ...] = ()
     """For the reader."""

@@ -9,7 +9,7 @@ from typing import Any
 
 from bezier.chains.chain import Chain, requirements
 from bezier.chains.exact import Exact, exactly
-from bezier.chains.form import Point, Requirement, Solved
+from bezier.chains.form import Solved
 from bezier.chains.limits import best_within
 from bezier.chains.proof import GAPS, Best, Contradiction, best, decided, feasible
 from bezier.chains.region import PointRegion, Validity, region, validity
@@ -200,7 +200,8 @@ def planned(given: Chain) -> ChainPlan:
     solved = given.solved
     rows = requirements(given, solved)
     inside = decided(given, solved, rows)
-    found = inside if isinstance(inside, Contradiction) else _best(given, solved, rows, inside)
+    least = best_within if _is_bounded(given) else best
+    found = inside if isinstance(inside, Contradiction) else least(given, solved, rows, inside)
     if isinstance(found, Best):
         curves, exact = (
             solved.curves(found.free),
@@ -211,10 +212,6 @@ def planned(given: Chain) -> ChainPlan:
     if _is_bounded(given):  # a repair would have to keep the bounds, too
         return ChainPlan(given, (), None, None, found.certificate, conflict)
     return ChainPlan(given, (), None, None, found.certificate, conflict, least_radius(given, solved, rows))
-
-
-def _best(given: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]) -> Best | Contradiction:
-    return (best_within if _is_bounded(given) else best)(given, solved, rows, inside)
 
 
 def _is_quick(given: Chain) -> bool:

@@ -102,7 +102,8 @@ class Places:
         for weights in rational_weights(proposal.weights):
             if min(weights) < 0:  # these prove nothing
                 continue
-            lowest = _lagrangian(objective, self.rows, weights).minimum(size, d)
+            held = [(w, row.form) for w, row in zip(weights, self.rows, strict=True) if w]
+            lowest = weighted_sum([(_ONE, objective), *held]).minimum(size, d)
             if lowest is not None:
                 bounds.append((lowest[1], lowest[0], weights))
         points = [*near_optimum(self.chain, proposal, self.inside, self.rows, objective), self.inside]
@@ -136,10 +137,6 @@ def at_form(place: Affine, point: Point) -> list[Form]:
 def beyond_form(place: Affine, normal: Point, offset: Fraction) -> Form:
     """A form that is < 0 where normal . place > offset."""
     return linear_form(tuple(-c for c in normal), place).shifted(offset)
-
-
-def _lagrangian(objective: Form, rows: Sequence[Requirement], weights: Sequence[Fraction]) -> Form:
-    return weighted_sum([(_ONE, objective), *((w, row.form) for w, row in zip(weights, rows, strict=True) if w)])
 
 
 @dataclass(frozen=True)

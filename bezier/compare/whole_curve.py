@@ -21,7 +21,7 @@ from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly, is_zero, rational, subtract
 from bezier.curves.workspace import Condition
 from bezier.methods.control import statements as st
-from bezier.methods.control.system import System, stated
+from bezier.methods.control.system import stated
 from bezier.methods.quadratic import formula as quadratic
 from bezier.problem import Problem
 from qe.errors import InputError, Unable
@@ -92,16 +92,13 @@ def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> st.Term:
 def families(problem: Problem, plane: Plane) -> dict[str, Family]:
     """The curves P, Q, R of formula (8) with Q1 in the plane, by name."""
     system = quadratic.system(problem)
-    origin, *axes = (_curves(system, plane, u, v) for u, v in ((0, 0), (1, 0), (0, 1)))
+    corners = [plane.point(Fraction(u), Fraction(v)) for u, v in ((0, 0), (1, 0), (0, 1))]
+    origin, *axes = (system.curves(system.points([q1])) for q1 in corners)
     names = plane_coordinates(POINT)
     return {
         name: Family(base, {x: _difference(axis[name], base) for x, axis in zip(names, axes, strict=True)})
         for name, base in origin.items()
     }
-
-
-def _curves(system: System, plane: Plane, u: int, v: int) -> dict[str, Bezier]:
-    return system.curves(system.points([plane.point(Fraction(u), Fraction(v))]))
 
 
 def _difference(a: Bezier, b: Bezier) -> Bezier:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
 from itertools import pairwise
 from math import ceil, sqrt
 
@@ -95,7 +96,7 @@ def svg(track: Track, problem: Problem, obstacles: Sequence[ObstaclePicture], pl
     for obstacle, outline in outlines:
         if outline is not None:
             corners = " ".join(f"{_n(x)},{_n(-y)}" for x, y in outline)
-            named = f"<title>{_escaped(obstacle.name)}</title>"
+            named = f"<title>{escape(obstacle.name, quote=False)}</title>"
             parts.append(f'<polygon points="{corners}" fill="{obstacle.colour}" fill-opacity="0.5">{named}</polygon>')
     parts.append(
         f'<path d="{_drawn(flat, FINE * radius)}" fill="none" stroke="{INK}" stroke-width="{_n(radius / 150)}"/>'
@@ -125,9 +126,3 @@ def _pair(point: Array) -> str:
 
 def _n(value: float) -> str:
     return f"{value + 0.0:.9g}"
-
-
-def _escaped(text: str) -> str:
-    from xml.sax.saxutils import escape
-
-    return escape(text)

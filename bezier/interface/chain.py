@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING
 from bezier.chains.chain import Chain
 from bezier.chains.plan import ChainPlan, planned
 from bezier.chains.reader import read_chain
-from bezier.input.toml_table import Table
-from bezier.interface.function import table_value
-from bezier.interface.work import limited
+from bezier.interface.function import given_table, keyed
+from bezier.interface.work import limited, unlimited
 from qe import arguments
 from qe.errors import InputError
-from qe.options import Budget
 from qe.progress import Listener, silent
 
 if TYPE_CHECKING:
@@ -65,32 +63,13 @@ def chain(
     limit, and ``Unable`` where neither a chain nor a contradiction could be proved, or no optimum (conditions that
     touch, or nearly).
     """
-    given = {
-        "start": start,
-        "via": via,
-        "goal": goal,
-        "radius": radius,
-        "centre": centre,
-        "half_space": _half_spaces(half_spaces),
-        "degree": degree,
-        "continuity": continuity,
-        "durations": durations,
-        "total": total,
-        "ends": ends,
-        "velocities": velocities,
-        "closed": closed,
-        "objective": objective,
-        "max_length": max_length,
-        "max_curvature": max_curvature,
-    }
-    return limited(partial(_planned, chain_from(given)), timeout, memory, progress, at_once=True)
+    given = keyed(locals(), NAMES) | {"half_space": _half_spaces(half_spaces)}
+    return limited(partial(unlimited, partial(planned, chain_from(given))), timeout, memory, progress, at_once=True)
 
 
 def chain_from(given: Mapping[str, object]) -> Chain:
     """The chain of these arguments; None for one that is not given. Raises ``InputError``."""
-    named = {key: value for key, value in given.items() if value is not None}
-    values = {key: table_value(value, f"{SOURCE}: {NAMES.get(key, key)}") for key, value in named.items()}
-    return read_chain(Table(values, SOURCE, names=NAMES))
+    return read_chain(given_table(given, SOURCE, NAMES))
 
 
 def _half_spaces(given: object) -> list[object]:
@@ -105,7 +84,3 @@ def _half_space(given: object) -> object:
     if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
         raise InputError(f"{SOURCE}: half_spaces: expected mappings or pairs, found {arguments.shown(given)}")
     return {"normal": given[0], "offset": given[1]}
-
-
-def _planned(given: Chain, budget: Budget) -> ChainPlan:
-    return planned(given)

@@ -85,6 +85,18 @@ def _check_size(value: Sized, place: str, depth: int) -> None:
         raise InputError(f"{place}: expected lists at most {DEEPEST} deep, found deeper ones")
 
 
+def given_table(given: Mapping[str, Any], source: str, names: Mapping[str, str]) -> Table:
+    """The entries that are not None, as a table whose messages call its keys by these ``names``."""
+    values = {k: table_value(v, f"{source}: {names.get(k, k)}") for k, v in given.items() if v is not None}
+    return Table(values, source, names=names)
+
+
+def keyed(given: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
+    """The arguments of a function by the keys that these ``names`` stand for, but those that say how it works."""
+    keys = {name: key for key, name in names.items()}
+    return {keys.get(k, k): v for k, v in given.items() if k not in ("proofs", "timeout", "memory", "progress")}
+
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
@@ -158,21 +170,7 @@ def plan(
     motion does not keep its limits or the arm cannot follow it; ``qe.Unable`` where no answer was reached,
     ``qe.BudgetExceeded`` at a limit.
     """
-    given = {
-        "method": method,
-        "workspace": workspace,
-        "start": start,
-        "via": via,
-        "goal": goal,
-        "radius": radius,
-        "obstacle": obstacles,
-        "half_space": half_spaces,
-        "timing": limits,
-        "ratio": ratio,
-        "join_speed": join_speed,
-        "single": single,
-        "arm": arm,
-    }
+    given = keyed(locals(), NAMES)
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
     work = Work(problem_from(given), bounds, proofs=arguments.flag(proofs, "proofs"))
     planned = Planned(work)
@@ -184,7 +182,4 @@ def plan(
 
 def problem_from(given: Mapping[str, object]) -> Problem:
     """The problem of the keys of a problem file, with values of Python; None for a key that is not there."""
-    values = {
-        key: table_value(value, f"{SOURCE}: {NAMES.get(key, key)}") for key, value in given.items() if value is not None
-    }
-    return new_problem(Table(values, SOURCE, names=NAMES))
+    return new_problem(given_table(given, SOURCE, NAMES))

@@ -53,10 +53,9 @@ def retime(
     >>> fast.verdict.is_kept, fast.bound < fast.duration < fast.bound * 1.004
     (True, True)
     """
-    names = ("position", "velocity", "acceleration", "jerk", "velocity_norm", "acceleration_norm", "jerk_norm")
-    values = (position, velocity, acceleration, jerk, velocity_norm, acceleration_norm, jerk_norm)
+    given = locals()
     places = path_of(path, timed=False)
-    limits = limited_motion(dict(zip(names, values, strict=True)), len(places.names), SOURCE)
+    limits = limited_motion(given, len(places.names), SOURCE)
     share = arguments.rational(accuracy, "accuracy")
     if share <= 0:
         raise InputError(f"{SOURCE}: accuracy: expected a number above 0, found {arguments.shown(accuracy)}")

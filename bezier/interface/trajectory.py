@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from bezier.arm.robot import Robot
 from bezier.chains.plan import ChainPlan
-from bezier.input.toml_table import Table
-from bezier.interface.function import table_value
+from bezier.interface.function import given_table
 from bezier.interface.planned import Planned
-from bezier.interface.work import limited
+from bezier.interface.work import limited, unlimited
 from bezier.motion.motion import pieces
 from bezier.planner.least_time import joined
 from bezier.trajectories.along import load_path
@@ -25,13 +24,13 @@ from bezier.trajectories.piecewise import Trajectory
 from bezier.trajectories.readers import load
 from qe import arguments
 from qe.errors import InputError
-from qe.options import Budget
 from qe.progress import Listener, silent
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 SOURCE = "bezier.certify"
+LIMITED = ("position", "velocity", "acceleration", "jerk", "velocity_norm", "acceleration_norm", "jerk_norm")
 
 
 def certify(
@@ -79,11 +78,10 @@ def certify(
     velocity of q2: kept for all t, largest 3.5 at t = 0
     all limits are kept for all t
     """
-    names = ("position", "velocity", "acceleration", "jerk", "velocity_norm", "acceleration_norm", "jerk_norm")
-    values = (position, velocity, acceleration, jerk, velocity_norm, acceleration_norm, jerk_norm)
+    given = locals()
     path = path_of(trajectory)
-    limits = limited_motion(dict(zip(names, values, strict=True)), len(path.names), SOURCE)
-    table = None if obstacles is None else _table({"obstacle": obstacles}, {"obstacle": "obstacles"})
+    limits = limited_motion(given, len(path.names), SOURCE)
+    table = None if obstacles is None else given_table({"obstacle": obstacles}, SOURCE, {"obstacle": "obstacles"})
     largest = arguments.rational(tolerance, "tolerance")
     if largest < 0:
         raise InputError(f"{SOURCE}: tolerance: expected a number of at least 0, found {arguments.shown(tolerance)}")
@@ -99,13 +97,9 @@ def certify(
     arm = None if robot is None else (robot if isinstance(robot, Robot) else Robot.load(robot)).arm  # type: ignore[arg-type]
     work = partial(Certified.of, path, limits, table, largest, arm, near, far)
     try:
-        return limited(partial(_within, work), timeout, memory, progress)
+        return limited(partial(unlimited, work), timeout, memory, progress)
     except OverflowError:
         raise InputError(f"{SOURCE}: expected quantities of usual size, found one beyond 10^308") from None
-
-
-def _within(work: Callable[[], Certified], budget: Budget) -> Certified:
-    return work()
 
 
 def path_of(given: Any, *, timed: bool = True) -> Trajectory:
@@ -126,12 +120,6 @@ def path_of(given: Any, *, timed: bool = True) -> Trajectory:
     return from_scipy(given)
 
 
-def limited_motion(values: Mapping[str, object], axes: int, source: str) -> list[Limit]:
-    """Limits from arguments of these names. Raises ``InputError``."""
-    return limits_of(_table(values, source=source), axes)
-
-
-def _table(values: Mapping[str, object], names: Mapping[str, str] | None = None, source: str = SOURCE) -> Table:
-    called = names or {}
-    read = {k: table_value(v, f"{source}: {called.get(k, k)}") for k, v in values.items() if v is not None}
-    return Table(read, source, names=called)
+def limited_motion(given: Mapping[str, object], axes: int, source: str) -> list[Limit]:
+    """The limits among the arguments of a function. Raises ``InputError``."""
+    return limits_of(given_table({name: given[name] for name in LIMITED}, source, {}), axes)

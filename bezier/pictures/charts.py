@@ -94,7 +94,8 @@ def _clearances(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture]
 # --- speed and curvature ----------------------------------------------------------------------------------
 def motion(path: Path) -> Panels:
     """``motion.png``: speed and curvature over time."""
-    titles = {"speed (mm per unit of time)": _speed, "curvature (1/mm)": _curvature}
+    speed = "speed (mm per unit of time)"
+    titles = {speed: lambda slope, _, time: np.linalg.norm(slope, axis=1) / time, "curvature (1/mm)": _curvature}
     return {f"{title} along the path, over time": partial(_over_time, path, title, of) for title, of in titles.items()}
 
 
@@ -108,10 +109,6 @@ def _over_time(path: Path, title: str, value: Callable[[Array, Array, float], Ar
         begin += duration
     axis.set_ylim(bottom=0.0)
     _titled(axis, title, "time, in units of the middle curve's duration", legend=len(path.curves) > 1)
-
-
-def _speed(slope: Array, turn: Array, duration: float) -> Array:
-    return np.asarray(np.linalg.norm(slope, axis=1) / duration)
 
 
 def _curvature(slope: Array, turn: Array, duration: float) -> Array:

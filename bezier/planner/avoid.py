@@ -19,7 +19,7 @@ from typing import Any
 
 import qe
 from bezier.curves.enclosure import root_below
-from bezier.curves.scalar import Vector, add
+from bezier.curves.scalar import add
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Clear, ClearanceArgument
@@ -139,7 +139,7 @@ def changed(problem: Problem, method: PlanMethod, lift: Fraction) -> Problem | N
     radius = table.pop("radius_squared")
     table["radius"] = "auto" if problem.radius_is_auto else f"sqrt({radius})"
     table["method"] = method.value
-    table["via"] = [[str(c) for c in _raised(p, lift)] for p in problem.via]
+    table["via"] = [[str(c) for c in add(p, (Fraction(0), Fraction(0), lift))] for p in problem.via]
     for entry in (*table.get("half_space", ()), *table.get("obstacle", ())):
         for key in ("points", "above"):
             if key in entry and method is not problem.method:
@@ -149,10 +149,6 @@ def changed(problem: Problem, method: PlanMethod, lift: Fraction) -> Problem | N
         return problem_of(Table(table, problem.source))
     except InputError:
         return None
-
-
-def _raised(point: Vector, lift: Fraction) -> Vector:
-    return add(point, (Fraction(0), Fraction(0), lift))
 
 
 def with_stated_attempts(plan: Plan, stated: Any) -> Plan:

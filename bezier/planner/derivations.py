@@ -33,7 +33,8 @@ def label(name: str) -> str:
 
 def with_derivations(plan: Plan, clock: Clock) -> Plan:
     """The plan with the derivations of all its eliminations, in its certificate too, as far as each step is checked."""
-    result, unproved = proved({**plan.eliminations, **_of_radius(plan), **of_obstacles(plan.problem.obstacles)}, clock)
+    of_radius = {} if plan.radius_rule is None else plan.radius_rule.answers
+    result, unproved = proved({**plan.eliminations, **of_radius, **of_obstacles(plan.problem.obstacles)}, clock)
     return replace(_with(plan, result), unproved=unproved)
 
 
@@ -70,15 +71,7 @@ def members(derivations: Mapping[str, Derived]) -> list[tuple[str, Certificate]]
 
 def of_obstacles(obstacles: Iterable[Obstacle]) -> dict[str, Any]:
     """The answers that obstacles given by formulas with quantifiers rest on."""
-    return {_obstacle(o): o.elimination for o in obstacles if o.elimination is not None}
-
-
-def _obstacle(item: Obstacle) -> str:
-    return f"the obstacle {item.name}"
-
-
-def _of_radius(plan: Plan) -> Mapping[str, Any]:
-    return {} if plan.radius_rule is None else plan.radius_rule.answers
+    return {f"the obstacle {o.name}": o.elimination for o in obstacles if o.elimination is not None}
 
 
 def _with(plan: Plan, derived: Mapping[str, Derived]) -> Plan:

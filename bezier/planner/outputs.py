@@ -181,7 +181,10 @@ def path_json(plan: Plan, path: Path) -> dict[str, Any]:
         "problem": to_json(plan.problem),
         "field": _field(path),
         "points": {name: [_coordinate(c) for c in point] for name, point in path.points.items()},
-        "curves": {name: [_name(path, p) for p in curve.points] for name, curve in path.curves.items()},
+        "curves": {
+            name: [next(k for k, other in path.points.items() if other == p) for p in curve.points]
+            for name, curve in path.curves.items()
+        },
         "joins": [
             {
                 "between": [item.first, item.second],
@@ -196,10 +199,6 @@ def path_json(plan: Plan, path: Path) -> dict[str, Any]:
 def path_text(plan: Plan, path: Path) -> str:
     """The text of ``path.json``."""
     return json.dumps(path_json(plan, path), indent=1, ensure_ascii=False) + "\n"
-
-
-def _name(path: Path, point: Any) -> str:
-    return next(name for name, other in path.points.items() if other == point)
 
 
 def _coordinate(value: Any) -> dict[str, Any]:

@@ -92,7 +92,8 @@ def even(path: Trajectory) -> Trajectory:
     slopes, factors = path.derivative(1), [Fraction(1)]
     for row, h, following, (before, after) in zip(slopes, path.lengths, slopes[1:], _joins(path), strict=False):
         ratio, moving = Fraction(1), before.is_moving and after.is_moving
-        if moving and not after.turns_from(before) and not _is_close(before.speed, after.speed):
+        jump, most = abs(before.speed - after.speed), max(before.speed, after.speed)
+        if moving and not after.turns_from(before) and jump > SMOOTH * most:
             i = max(range(len(row)), key=lambda i: abs(row[i](h)))
             ratio = following[i](ZERO) / row[i](h)
         factors.append(Fraction(float(factors[-1] * ratio)))
@@ -102,10 +103,6 @@ def even(path: Trajectory) -> Trajectory:
     inner = [RationalPoly.of([0, 1 / f]) for f in factors]
     rows = (tuple(p.compose(t) for p in row) for row, t in zip(path.pieces, inner, strict=True))
     return Trajectory(path.names, tuple(accumulate(lengths, initial=path.breaks[0])), tuple(rows))
-
-
-def _is_close(one: float, other: float) -> bool:
-    return abs(one - other) <= SMOOTH * max(one, other)
 
 
 def _ends(path: Trajectory) -> list[tuple[_Direction, _Direction]]:

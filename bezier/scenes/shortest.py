@@ -84,11 +84,8 @@ def _samples(door: Cell) -> list[tuple[float, ...]]:
     """The centre of a door, its corners, and points between."""
     middle = tuple(sum(c) / len(door.floats) for c in zip(*door.floats, strict=True))
     shares = [k / SAMPLES for k in range(1, SAMPLES + 1)]
-    return [middle, *(_mixed(middle, corner, s) for corner in door.floats for s in shares)]
-
-
-def _mixed(a: Sequence[float], b: Sequence[float], share: float) -> tuple[float, ...]:
-    return tuple(x + share * (y - x) for x, y in zip(a, b, strict=True))
+    ways = [[(a, b - a) for a, b in zip(middle, corner, strict=True)] for corner in door.floats]
+    return [middle, *(tuple(a + s * step for a, step in way) for way in ways for s in shares)]
 
 
 def _cells(best: dict[_Node, tuple[float, _Node | None]], node: _Node | None) -> tuple[int, ...]:

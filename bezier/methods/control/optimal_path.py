@@ -126,6 +126,7 @@ def drawn(problem: Problem, system: System, certified: Certified) -> dict[str, A
     return {
         "problem": problem,
         "system": system,
+        "optimum": certified,
         "formula": str(system.statement()),
         "outcome": Outcome.INFEASIBLE if points is None else Outcome.NEAR_OPTIMAL if near else Outcome.SOLVED,
         "bound": certified.bound,
@@ -135,32 +136,17 @@ def drawn(problem: Problem, system: System, certified: Certified) -> dict[str, A
     }
 
 
-@dataclass(frozen=True, slots=True)
-class Drawn:
-    """What the plan of a system begins with: the engine's answer and its optimum, and what follows from that."""
-
-    system: System
-    answer: Any
-    optimum: Any
-    fields: Mapping[str, Any]
-
-
 def begun(problem: Problem, system: System, clock: Clock) -> Begun:
-    """The elimination, the optimum under its answer, and the path through it with what is proved about that."""
+    """The elimination, the optimum under its answer, and the path through it with what is proved about that: fields of
+    the plan."""
     answer = quantifier_free(system.statement(), clock)
     with clock.step("optimum"):
         optimum = least(system, answer, clock)
     clock.learn("optimum", optimum.status.value)
     with clock.step("curves and proofs"):
         fields = drawn(problem, system, certified_optimum(system, optimum.certificate))
-    result = Drawn(system, answer, optimum, fields)
-    return Begun(problem=problem, outcome=fields["outcome"], path=fields["path"], found=result, seconds=clock.seconds)
-
-
-def restored(fields: Mapping[str, Any], certified: Certified, members: Members) -> dict[str, Any]:
-    """All fields of the plan that certificates prove: nothing was asked of the engine, and the time is not known."""
-    certificate = bundled(members, fields["path"])
-    return {**fields, "optimum": certified, "certificate": certificate, "answer": None, "checks": {}, "seconds": {}}
+    fields |= {"answer": answer, "optimum": optimum}
+    return Begun(problem=problem, outcome=fields["outcome"], path=fields["path"], found=fields, seconds=clock.seconds)
 
 
 def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
@@ -205,15 +191,18 @@ def elimination(system: System) -> tuple[str, qe.Certificate]:
     return ELIMINATION, qe.Certificate.substitution(body_of(system.statement(), order), order, solved, answer)
 
 
-def verified(members: Members, path: Path | None) -> tuple[qe.Certificate, dict[str, qe.Verdict]]:
-    """All certificates in one, those of the path included, and what the independent checker says of each part."""
-    checks = {label: qe.verify(certificate) for label, certificate in members}
-    of_path = path_certificates(path) if path else []
-    if of_path:
-        checks["path"] = qe.verify(qe.Certificate.bundle(of_path))
-    return qe.Certificate.bundle([*members, *of_path]), checks
+def verified(fields: Mapping[str, Any], members: Members, clock: Clock) -> dict[str, Any]:
+    """The fields with all certificates in one, and what the independent checker says of each part."""
+    with clock.step("verification"):
+        checks = {label: qe.verify(certificate) for label, certificate in members}
+        of_path = path_certificates(fields["path"]) if fields["path"] else []
+        if of_path:
+            checks["path"] = qe.verify(qe.Certificate.bundle(of_path))
+    certificate = qe.Certificate.bundle([*members, *of_path])
+    return {**fields, "certificate": certificate, "checks": checks, "seconds": clock.seconds}
 
 
-def bundled(members: Members, path: Path | None) -> qe.Certificate:
-    """All certificates in one, those of the path included."""
-    return qe.Certificate.bundle([*members, *(path_certificates(path) if path else [])])
+def restored(fields: Mapping[str, Any], members: Members) -> dict[str, Any]:
+    """The fields with all certificates in one, those of the path included."""
+    of_path = path_certificates(fields["path"]) if fields["path"] else []
+    return {**fields, "certificate": qe.Certificate.bundle([*members, *of_path])}

@@ -11,7 +11,6 @@ from markupsafe import Markup
 
 from bezier.curves.scalar import brief, described
 from bezier.methods.control.optimal_path import (
-    Drawn,
     Members,
     SystemPlan,
     begun,
@@ -72,20 +71,12 @@ def begin(problem: Problem, clock: Clock) -> Begun:
 
 def finish(given: Begun, clock: Clock) -> CubicPlan:
     """The plan with formula (7)."""
-    result: Drawn = given.found
+    found: dict[str, Any] = given.found
+    system = found["system"]
     with clock.step("speed"):
-        fields = {**result.fields, **_speed_fields(given.problem, result.system, given.path)}
-    with clock.step("verification"):
-        certificate, checks = verified(_members(result.system, result.optimum.certificate), given.path)
-    return CubicPlan(
-        **fields,
-        answer=result.answer,
-        optimum=result.optimum,
-        certificate=certificate,
-        checks=checks,
-        seconds=clock.seconds,
-        eliminations={FORMULA: result.answer},
-    )
+        fields = found | _speed_fields(given.problem, system, given.path)
+    members = _members(system, found["optimum"].certificate)
+    return CubicPlan(**verified(fields, members, clock), eliminations={FORMULA: found["answer"]})
 
 
 def questions(problem: Problem) -> dict[str, Formula]:
@@ -99,7 +90,7 @@ def restored_plan(problem: Problem, certificate: Certificate) -> CubicPlan:
     optimum = restored_optimum(system, certificate)
     fields = drawn(problem, system, optimum)
     fields |= _speed_fields(problem, system, fields["path"])
-    return CubicPlan(**restored(fields, optimum, _members(system, optimum.certificate)))
+    return CubicPlan(**restored(fields, _members(system, optimum.certificate)))
 
 
 def _members(system: System, certificate: Certificate) -> Members:

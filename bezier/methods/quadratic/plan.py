@@ -12,7 +12,6 @@ from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.stored import numbers
 from bezier.methods.control.optimal_path import (
-    Drawn,
     Members,
     SystemPlan,
     answered,
@@ -88,8 +87,8 @@ def begin(problem: Problem, clock: Clock) -> Begun:
 
 def finish(given: Begun, clock: Clock) -> QuadraticPlan:
     """The plan with formula (8)."""
-    result: Drawn = given.found
-    problem, system, answer, optimum = given.problem, result.system, result.answer, result.optimum
+    found: dict[str, Any] = given.found
+    problem, answer, optimum = given.problem, found["answer"], found["optimum"]
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else "not empty")
@@ -97,21 +96,9 @@ def finish(given: Begun, clock: Clock) -> QuadraticPlan:
         raise InternalError("the region and the optimum disagree about the existence of a control point")
     with clock.step("hemisphere question"):
         gap = _gap(problem, region, given.path, clock)
-    with clock.step("verification"):
-        members = certificates(system, region, optimum, gap)
-        certificate, checks = verified(members, given.path)
-    return QuadraticPlan(
-        **result.fields,
-        region=region,
-        gap=gap,
-        balls=quadratic.three_balls(problem),
-        answer=answer,
-        optimum=optimum,
-        certificate=certificate,
-        checks=checks,
-        seconds=clock.seconds,
-        eliminations={FORMULA: answer, **gap.answers},
-    )
+    fields = found | {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
+    members = certificates(found["system"], region, optimum, gap)
+    return QuadraticPlan(**verified(fields, members, clock), eliminations={FORMULA: answer, **gap.answers})
 
 
 def questions(problem: Problem) -> dict[str, Formula]:
@@ -191,7 +178,7 @@ def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
     region = _region(system, certificate, infeasible=fields["path"] is None)
     gap = _restored_gap(problem, certificate, fields["path"])
     fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
-    return QuadraticPlan(**restored(fields, optimum, certificates(system, region, optimum, gap)))
+    return QuadraticPlan(**restored(fields, certificates(system, region, optimum, gap)))
 
 
 def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:

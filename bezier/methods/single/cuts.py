@@ -164,7 +164,8 @@ class Model:
         self, normal: Vector, weights: Values, bound: Fraction, slack: Fraction, equation: bool = False
     ) -> LinearRow:
         """normal . (sum weights_i P_i) + slack s <= bound."""
-        straight = curve(self.task, {axis.name: _ends_only(self.task, axis) for axis in self.task.raised})
+        between = [ZERO] * (self.task.degree - 1)
+        straight = curve(self.task, {axis.name: (axis.start, *between, axis.goal) for axis in self.task.raised})
         fixed = [dot(weights, straight.coordinate(i)) for i in range(straight.dimension)]
         factors = [normal[1 + self.task.axes.index(axis)] for axis in self.task.raised]
         coefficients = [factor * w for factor in factors for w in weights[1:-1]]
@@ -241,10 +242,6 @@ class Model:
 def _short(values: Iterable[Any], bits: int) -> tuple[Fraction, ...]:
     """Multiples of 2^-bits close to the values."""
     return tuple(Fraction(round(v * 2**bits), 2**bits) for v in values)
-
-
-def _ends_only(task: Task, axis: Axis) -> Values:
-    return (axis.start, *[ZERO] * (task.degree - 1), axis.goal)
 
 
 def _slope_weights(degree: int, t: Fraction) -> Values:

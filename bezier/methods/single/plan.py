@@ -127,14 +127,9 @@ def _made(problem: Problem, clock: Clock) -> SinglePlan:
         attainable = _attainable(problem, given, clock) if needed else None
     with clock.step("curves and proofs"):
         fields = known(problem, chosen, printed, closed)
-    with clock.step("verification"):
-        certificate, checks = verified(labelled(fields), fields["path"])
     return SinglePlan(
-        **fields,
+        **verified(fields, labelled(fields), clock),
         answer=answer,
-        certificate=certificate,
-        checks=checks,
-        seconds=clock.seconds,
         pieces=Pieces(given),
         attainable="" if attainable is None else str(attainable.formula),
         eliminations={

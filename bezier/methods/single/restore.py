@@ -7,7 +7,6 @@ points and the multipliers. The control points are those of ``path.json``; every
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -16,7 +15,7 @@ from bezier.curves.containment import Leaves
 from bezier.curves.curve import Bezier
 from bezier.input import stored
 from bezier.input.task import Axis, Task, Values
-from bezier.methods.control.optimal_path import bundled
+from bezier.methods.control.optimal_path import restored
 from bezier.methods.control.terms import member
 from bezier.methods.single.closed import NoCurve, ProvedCurve, plain_program
 from bezier.methods.single.cuts import Cut, CutKind, Model
@@ -57,15 +56,7 @@ def restore(problem: Problem, evidence: Certificate, stated: Stated) -> SinglePl
     printed = _printed(problem, given, chosen, evidence)
     closed, attainable = _closed(problem, given, printed, evidence, stated)
     fields = known(problem, chosen, printed, closed)
-    return SinglePlan(
-        **fields,
-        answer=None,
-        certificate=bundled(labelled(fields), fields["path"]),
-        checks={},
-        seconds={},
-        pieces=_pieces(given, stated),
-        attainable=attainable,
-    )
+    return SinglePlan(**restored(fields, labelled(fields)), pieces=_pieces(given, stated), attainable=attainable)
 
 
 # --- linear programs -----------------------------------------------------------------------------------------------
@@ -127,7 +118,8 @@ def _closed(
     if printed is None or printed.holds:
         return None, ""
     model = Model.of(given, problem.workspace)
-    cuts = tuple(_cut(model, item, f"summary.json: cuts[{i}]") for i, item in enumerate(_cuts(stated.summary)))
+    listed = enumerate(stored.entry(stated.summary, "cuts", list, "summary.json: "))
+    cuts = tuple(_cut(model, item, f"summary.json: cuts[{i}]") for i, item in listed)
     base, cost = plain_program(model, cuts)
     try:
         outcome = _outcome(base, cost, CLOSED, evidence)
@@ -142,11 +134,6 @@ def _closed(
         raise CertificateRejected("summary.json: closed", "expected rounds and the attainable sums")
     drawn, values = certified_curve(problem, given, stated)
     return ProvedCurve(values, drawn, sum_of(given, values), outcome.value, cuts, proof, rounds), attainable
-
-
-def _cuts(summary: Mapping[str, Any]) -> list[Any]:
-    result = stored.entry(summary, "cuts", list, "summary.json: ")
-    return list(result)
 
 
 def _cut(model: Model, stated: Any, place: str) -> Cut:
