@@ -269,7 +269,10 @@ def _ends(value: RealAlgebraic | FibreRoot) -> tuple[fmpq, fmpq]:
 
 
 def _of_fibre(point: Point, f: Poly, var: int) -> Over:
-    fibre = Fibre(point, var, point.reduce(f).coefficients(var), f)
+    reduced = point.reduce(f)
+    if not reduced:
+        return _NULLIFIED
+    fibre = Fibre(point, var, reduced.coefficients(var), f)
     certain = fibre.coefficients[-1].is_constant
     if not certain:
         with precision(EXACT_FROM + 16):

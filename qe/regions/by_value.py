@@ -14,8 +14,9 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cache, partial
+from functools import cache, partial, reduce
 from itertools import groupby, product
+from operator import mul
 
 from qe.decomposition.formulas import Undistinguished, formula_of_cells
 from qe.decomposition.pieces import RootFunction, Sections, merge, range_text
@@ -62,7 +63,8 @@ def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: For
         last = depth == len(table.order) - 1
         determined = {i for i, base in enumerate(bases) if last or _is_determined(base.cell, len(table.order) - depth)}
         try:
-            lines += _lines(table, depth, bases, determined, everything, _outside(table, bases, given), budget)
+            outside = _outside(table, bases, given)
+            lines += _lines(table, depth, bases, determined, everything, outside, depth > parameters, budget)
         except Undistinguished:
             return None
         rest = frozenset(base.path for i, base in enumerate(bases) if i not in determined)
@@ -91,15 +93,16 @@ def _lines(
     known: set[int],
     everything: frozenset[tuple[int, ...]],
     outside: frozenset[int],
+    solved: bool,
     budget: Budget,
 ) -> list[str]:
     """The cases over those cells of the parameters that are known to have finitely many values or ranges, or all; but
     not over those with ``everything``, which is said already. Conditions may or may not include what is ``outside``."""
-    said = _Said(table, Sections(table, budget))
+    said = _Said(table, depth, Sections(table, budget))
     found: dict[tuple[int, tuple[int, ...]], set[Terms]] = {}
     for i in sorted(known):
         budget.check("solutions by value")
-        found |= {(i, place.path): terms for place, terms in said.over(bases[i])}
+        found |= {(i, place.path): terms for place, terms in said.over(bases[i], _fixed(table, bases[i]))}
     free = frozenset(i for i in known if _is_all(bases[i].cell))
     holding: dict[tuple[frozenset[int], frozenset[int]], list[Terms]] = {}
     for terms in _cover(found):
@@ -114,7 +117,7 @@ def _lines(
     return [
         line
         for (cells, open_), terms in ordered
-        for line in _cases(_condition(table, bases, cells, (open_ | outside) - cells, columns, budget), terms)
+        for line in _cases(_condition(table, bases, cells, (open_ | outside) - cells, columns, solved, budget), terms)
     ]
 
 
@@ -147,18 +150,30 @@ def _is_determined(cell: Cell, levels: int) -> bool:
     return not any(map(any_true, inner[::2])) and all(_is_determined(below, levels - 1) for below in inner)
 
 
+def _fixed(table: CellTable, base: Place) -> dict[int, Fraction]:
+    """The parameters that have one rational value on a cell, the root of a factor in them alone."""
+    values = {}
+    for i, (used, signs) in enumerate(zip(base.used, base.signs, strict=True)):
+        number = base.point.number(i)
+        alone = any(s == "0" and table.factors[i][j].variables == (i,) for j, s in zip(used, signs, strict=True))
+        if alone and isinstance(number, Fraction):
+            values[i] = number
+    return values
+
+
 @dataclass(frozen=True, slots=True)
 class _Said:
-    """What is said of the variables over cells of the parameters. ``needs``: polynomials in a text, with the signs with
-    which it has a value."""
+    """What is said of the variables over cells of so many ``parameters``. ``needs``: polynomials in a text, with the
+    signs with which it has a value."""
 
     table: CellTable
+    parameters: int
     sections: Sections
     needs: dict[str, list[tuple[Poly, frozenset[int]]]] = field(default_factory=lambda: defaultdict(list))
 
-    def over(self, place: Place, fixed: Mapping[int, Fraction] | None = None) -> Iterator[tuple[Place, set[Terms]]]:
+    def over(self, place: Place, fixed: Mapping[int, Fraction]) -> Iterator[tuple[Place, set[Terms]]]:
         """The solutions over a cell, with the terms that say them; ``fixed``: the variables with a rational value."""
-        fixed, stack = fixed or {}, place.cell.stack
+        stack = place.cell.stack
         if stack is None or _is_all(place.cell):
             return
         ends = self.sections.of(place)
@@ -188,27 +203,36 @@ class _Said:
 
     def texts(self, end: RootFunction, count: int, place: Place, fixed: Mapping[int, Fraction]) -> Iterator[str]:
         """The terms that a section is as the ``k``-th of ``count`` different roots of a factor."""
-        level, poly = place.depth, end.poly
         if end.value is not None:
             yield str(end.value)
             return
-        signs = [self.sign(c, place) for c in poly.coefficients(level)]
-        degree, short = max((k for k, sign in enumerate(signs) if sign != 0), default=0), poly
-        for i, value in fixed.items():
-            short = short.at_rational(i, value)
-        is_number, has_text = short.variables == (level,), False
-        if is_number:
-            yield str(real_roots(short.to_univariate(level))[end.k - 1])
-        if lead := signs[degree]:
-            for form in dict.fromkeys((poly,) if is_number else (short, poly)):
-                for radical in radicals(form.coefficients(level)[: degree + 1], end.k, count, lead):
-                    has_text = True
-                    self.needs.setdefault(radical.text, [*radical.needs])
-                    yield radical.text
-        if not (is_number or has_text):
-            text = f"root({end.k}, {format_poly(poly)}, {quoted(self.table.order[level])})"
-            self.needs[text] = [(poly.ring.constant(1), frozenset())]
+        inner = {i: value for i, value in fixed.items() if i >= self.parameters}
+        found = [*self.valued(end, count, place, inner), *self.valued(end, count, place, {})]
+        yield from dict.fromkeys(found)
+        if len(inner) < len(fixed):  # shorter where a parameter has one value
+            yield from self.valued(end, count, place, fixed)
+        if not found:
+            text = f"root({end.k}, {format_poly(end.poly)}, {quoted(self.table.order[place.depth])})"
+            self.needs[text] = [(end.poly.ring.constant(1), frozenset())]
             yield text
+
+    def valued(self, end: RootFunction, count: int, place: Place, values: Mapping[int, Fraction]) -> Iterator[str]:
+        """The root as a number or by radicals, with these ``values`` in the places of variables."""
+        level, known = place.depth, end.poly
+        form = reduce(lambda form, item: form.at_rational(*item), values.items(), known)
+        parts = [factor**power for factor, power in form.factors()[1]]
+        kept = [part for part in parts if part.degree(level)]  # none of the others is zero here
+        if values and 0 < len(kept) < len(parts):
+            known = form = reduce(mul, kept)
+        if form.variables == (level,):
+            yield str(real_roots(form.to_univariate(level))[end.k - 1])
+            return
+        signs = [self.sign(c, place) for c in known.coefficients(level)]
+        degree = max((k for k, sign in enumerate(signs) if sign != 0), default=0)
+        if lead := signs[degree]:
+            for radical in radicals(form.coefficients(level)[: degree + 1], end.k, count, lead):
+                self.needs.setdefault(radical.text, [*radical.needs])
+                yield radical.text
 
     def counted(self, bases: Sequence[Place]) -> Columned:
         """Minors of Hermite's forms of factors whose roots are solutions, with those of their signs on cells that the
@@ -296,11 +320,13 @@ def _condition(
     chosen: frozenset[int],
     open_: frozenset[int],
     columns: Callable[[], Iterator[tuple[Factors, Signs]]],
+    solved: bool,
     budget: Budget,
 ) -> tuple[str, bool]:
     """The condition on the parameters that says which cells: the ``chosen`` ones, and perhaps some of those that are
     open; and whether it is a disjunction. It is a formula in the signs of the first ``columns`` that tell them, or what
-    pieces say whose ends are numbers and polynomials, if that is shorter."""
+    pieces say whose ends are numbers and polynomials, if that is shorter, or not much longer and gives values of
+    variables that are to be ``solved`` for."""
     places = [(base, i in chosen) for i, base in enumerate(bases) if i not in open_]
     formula, unlike = None, None
     for factors, signs in columns():
@@ -321,7 +347,9 @@ def _condition(
     pieces = merge(_only(table, frozenset(bases[i].path for i in chosen), True), budget=budget)
     ends = [end for piece in pieces for r in piece.ranges for end in (r.lower, r.upper) if end and end.value is None]
     if all(end.written and end.written[1] is None and end.written[2].is_constant for end in ends):
-        return min(said, (" or ".join(map(str, pieces)), len(pieces) > 1), key=lambda one: len(one[0]))
+        shown = " or ".join(map(str, pieces)), len(pieces) > 1
+        has_values = solved and any(r.is_point for piece in pieces for r in piece.ranges)
+        return shown if len(shown[0]) < len(said[0]) * (3 if has_values else 1) else said
     return said
 
 

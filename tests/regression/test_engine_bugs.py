@@ -196,3 +196,10 @@ def test_parameters_may_be_what_reading_simplified_away(objective, constraints):
 
 def test_a_witness_may_be_named_in_the_order():
     assert qe.check_witness("all a. ex x. x > a", {"x": "a + 1"}, order="a, x")
+
+
+def test_a_factor_that_is_zero_in_the_field_of_a_coordinate() -> None:
+    """``8*x^2 + y^2 = 24`` over x^2 = 3, y = 0: its fibre had no coefficients, and isolation ended in an IndexError."""
+    solutions = qe.solve("l*y^2 + 16*m*x + 16*x = 0, 2*y*(l*x + m + 1) = 0, x*y^2 = 0, 8*x^2 + y^2 = 24", "x, y, l, m")
+    assert equivalent(str(solutions), "x = 0 and y^2 = 24 and l = 0 and m = -1 or x^2 = 3 and y = 0 and m = -1")
+    assert "x = sqrt(3)" in str(solutions) and "y = 2*sqrt(6)" in str(solutions)
