@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 Operation = Callable[[Any, Any], Any]
 
-_SPECIFICATION = re.compile(r"((?:.?[<>=^])?[-+ ]?0?\d*,?)(\.\d+)?([eEfFgG%])")
+_SPECIFICATION = re.compile(r"((?:.?[<>=^])?[-+ ]?0?\d*,?)(\.\d+)?([eEfFgG%]?)")
 """A format for a number: fill and width, precision, kind."""
 
 FIRST_BITS = 64
@@ -184,11 +184,13 @@ class PythonNumber(SymPyForm):
 
     def __format__(self, specification: str) -> str:
         parts = _SPECIFICATION.fullmatch(specification)
-        if parts is None:
+        if parts is None or not (parts[2] or parts[3]):
             return format(str(self), specification)
         layout, precision, kind = parts.groups()
         precision = precision or ".6"
-        return self._rounded_by(lambda value: format(_decimal(value, int(precision[1:])), layout + precision + kind))
+        return self._rounded_by(
+            lambda value: format(_decimal(value, int(precision[1:])), layout + precision + (kind or "g"))
+        )
 
     # --- arithmetic --------------------------------------------------------------------------------------
     __add__, __radd__ = _arithmetic(operator.add, lambda a, b: a._plus(b))

@@ -75,6 +75,7 @@ def test_arithmetic_and_rounding_are_those_of_fractions(kind: type, value: Fract
     (lambda x: (x + Decimal("0.5") - Decimal("0.5")) == x, True),
     (lambda x: round(x, 3), Fraction(1414, 1000)),
     (lambda x: (round(x), int(-x), math.floor(-x), math.ceil(x), x // 1, 3 // x), (1, -1, -2, 2, 1, 2)),
+    (lambda x: f"{x:.3}|{x:>8.3}", "1.41|    1.41"),  # the text was cut: sqr
     (lambda x: f"{x:.30f}|{x:>9}|{x:8.2f}|{x:+.1%}", "1.414213562373095048801688724210|  sqrt(2)|    1.41|+141.4%"),
     (lambda x: divmod(-x, 1)[0] + divmod(-x, 1)[1] == -x, True),
     (lambda x: (bool(x - x), isinstance(x, Real), complex(x).imag, x.real == +x), (False, True, 0.0, True)),
