@@ -1,0 +1,25 @@
+"""The commands, as the distribution installs them: Ctrl-C is one line also while Python is loading what they need."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+
+
+def qe() -> int:
+    """The command ``qe``; returns the exit status."""
+    return _run("qe", "qe.cli.app")
+
+
+def bezier() -> int:
+    """The command ``bezier``; returns the exit status."""
+    return _run("bezier", "bezier.cli")
+
+
+def _run(name: str, module: str) -> int:
+    try:
+        main = import_module(module).main
+    except KeyboardInterrupt:
+        print(f"{name}: interrupted", file=sys.stderr)
+        return 130
+    return int(main())
