@@ -17,6 +17,7 @@ from typing import Annotated
 import typer
 
 import qe
+from experiments.reference import decide as reference_decides
 from experiments.z3_oracle import decide as z3_decides
 from qe.errors import InternalError
 from qe.exact.ring import Ring
@@ -25,7 +26,6 @@ from qe.formula.syntax import TRUE, Constant, Formula
 from qe.formula.traverse import bound_variables
 from qe.kernel.statements import Theorem, rows, theorem
 from qe.proof.certificate import Certificate
-from qe.reference import decide as reference_decides
 from qe.rules.closed_forms import generic, pattern, term
 
 WITHOUT = ("cubic", "roots", "balls", "stability", "quadrics", "forms", "values", "critical")

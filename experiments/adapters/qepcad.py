@@ -12,6 +12,7 @@ from experiments.adapters.answer import Answer, Limits, NotSupported, OtherForm
 from qe.errors import Unable
 from qe.formula.normal import close, prenex, rename
 from qe.formula.syntax import Constant, Formula
+from qe.io import formats
 from qe.io import qepcad as language
 from qe.io.names import names_in
 from qe.io.text import write
@@ -47,4 +48,6 @@ def qepcad(formula: Formula, limits: Limits) -> Answer:
         raise Unable(" ".join(process.stdout.split())[-300:])
     if "_root_" in found[1]:
         raise OtherForm("answer with indexed roots")
-    return Answer(write(rename(language.read(found[1]), {short: name for name, short in names.items()})), seconds)
+    return Answer(
+        write(rename(formats.read(found[1], "qepcad"), {short: name for name, short in names.items()})), seconds
+    )

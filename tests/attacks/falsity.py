@@ -1,7 +1,7 @@
 """Where a claim is false: points at which its two sides differ, by solvers that share nothing with the engine.
 
 Numbers are put in for the free variables, and what is left, a sentence, is decided by the textbook procedure
-(``qe.reference``) where it is small, and by z3 elsewhere. Nothing is counted as false that neither decides.
+(``experiments.reference``) where it is small, and by z3 elsewhere. Nothing is counted as false that neither decides.
 """
 
 from __future__ import annotations
@@ -10,8 +10,7 @@ import random
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from experiments import z3_oracle
-from qe import reference
+from experiments import reference, z3_oracle
 from qe.errors import Unable
 from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.evaluate import holds_at

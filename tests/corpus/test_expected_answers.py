@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from qe import reference
+from experiments import reference
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE
 from qe.formula.traverse import is_quantifier_free

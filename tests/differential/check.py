@@ -7,8 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from experiments import z3_oracle
-from qe import reference
+from experiments import reference, z3_oracle
 from qe.errors import BudgetExceeded
 from qe.formula.build import conj, disj
 from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Not, Or

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe import reference
+from experiments import reference
 from qe.elimination.cad import decomposed
 from qe.elimination.critical.method import CriticalValues
 from qe.elimination.protocol import Context

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from qe import reference
+from experiments import reference
 from qe.errors import BudgetExceeded, InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, iff, neg, root_atom

@@ -5,13 +5,13 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from experiments.reference import eliminate
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.evaluate import holds_at
 from qe.formula.openness import is_closed, is_open, somewhere_nonzero
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.io.text import read
-from qe.reference import eliminate
 from tests.strategies import formulas, polynomials, rationals
 from tests.tables import each
 

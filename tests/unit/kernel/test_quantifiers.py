@@ -6,11 +6,11 @@ from fractions import Fraction
 
 import pytest
 
+from experiments.reference import decide
 from qe.formula.build import exists, forall
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import Formula
 from qe.kernel.quantifiers import scoped
-from qe.reference import decide
 from tests.enough import sized
 from tests.strategies import NAMES, formulas, points
 from tests.unit.certify.claims import objection
