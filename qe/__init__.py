@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from qe.groebner.counting import RealRootClassification
     from qe.groebner.system import ComprehensiveGroebnerSystem
     from qe.io.expressions import Expression, Statement, exists, forall, variables
+    from qe.io.solver_doors import from_z3
     from qe.io.sympy import Exists, ForAll
-    from qe.io.z3_door import from_z3
     from qe.kernel.verdict import Verdict
     from qe.optimization.global_optimum import GlobalOptimum
     from qe.optimization.parametric_optimum import ParametricOptimum
@@ -67,7 +67,7 @@ _ELSEWHERE = {
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
     **dict.fromkeys(("Expression", "Statement", "exists", "forall", "variables"), "qe.io.expressions"),
-    "from_z3": "qe.io.z3_door",
+    "from_z3": "qe.io.solver_doors",
     "Optimum": "qe.convex.optimum",
     "ParametricOptimum": "qe.optimization.parametric_optimum",
     "ParametricWitness": "qe.elimination.vs.parametric",

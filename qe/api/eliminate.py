@@ -91,10 +91,7 @@ def answered_under(
     if methods and (helpers is not None or options.method is not Method.AUTO or not limits.process):
         raise InputError("race: cannot go with method, workers, cluster or process=False")
     whole = limits.shared(WHOLE_SHARE) if anytime else limits
-    if methods:
-        answer = _raced(problem, options, whole, check, methods)
-    else:
-        answer = _limited(problem, options, whole, check, helpers)
+    answer = _limited(problem, options, whole, check, helpers, methods)
     if anytime and answer.formula is None:
         answer = replace(answer, partial=_partial(problem.formula, options, limits))
     if settings["explain"]:
@@ -110,10 +107,22 @@ def _cluster(settings: Search) -> Cluster | None:
     return None if address is None and not count else Cluster(count, address)
 
 
-def _limited(problem: Posed, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
-    """The answer, found in a worker process where it takes long or a limit is to hold."""
-    work = partial(_answer, problem, options, check, cluster)
+def _limited(
+    problem: Posed,
+    options: Options,
+    limits: Limits,
+    check: bool,
+    cluster: Cluster | None,
+    methods: Iterable[Method] = (),
+) -> Answer:
+    """The answer, found in a worker process where it takes long or a limit is to hold; with ``methods`` the first one
+    that one of them has."""
     try:
+        if methods:
+            from qe.api.race import raced
+
+            return raced(partial(_answer_by, problem, options, check), methods, limits)
+        work = partial(_answer, problem, options, check, cluster)
         return performed(work, problem.formula, limits, at_once=cluster is not None)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), question=problem.formula)
@@ -140,16 +149,6 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
         return replace(known, certificate=None, reason="nothing is decided")
     guarantee, reason = judged(known.certificate, budget)
     return replace(known, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
-
-
-def _raced(problem: Posed, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:
-    """The first answer that one of the methods has."""
-    from qe.api.race import raced
-
-    try:
-        return raced(partial(_answer_by, problem, options, check), methods, limits)
-    except Unable as error:
-        return Answer(Status.UNABLE, None, reason=str(error), question=problem.formula)
 
 
 def unproved(sentence: Formula, budget: Budget) -> Answer:
@@ -230,10 +229,11 @@ def region(formula: AnyFormula, order: Order = None, **settings: Unpack[ProvedQu
     limits, names = limits_of(settings), arguments.names(order)
     whole, check = replace(limits, start=None), settings["check"]
     given = posed(formula, settings, limits).restricted
-    return performed(partial(_region, given, names, whole, check), given, limits)
+    return performed(partial(region_of, given, names, whole, check), given, limits)
 
 
-def _region(given: Formula, names: tuple[str, ...] | None, whole: Limits, check: bool, budget: Budget) -> Region:
+def region_of(given: Formula, names: tuple[str, ...] | None, whole: Limits, check: bool, budget: Budget) -> Region:
+    """The solution set, in this process; with ``check`` its table is verified."""
     from qe.api.verify import with_guarantee
     from qe.regions.build import described
 

@@ -66,17 +66,11 @@ def read_posed(given: AnyFormula, format: str = "text", total_division: bool = F
             raise InputError("formula: at least one condition expected, an empty list found")
         parts, known = zip(*(read_posed(part, format, total_division) for part in given), strict=True)
         return conj(over_one_ring(*parts)), conj(over_one_ring(*known))
-    package = type(given).__module__.partition(".")[0]
-    if package == "z3":
-        from qe.io.z3_door import from_z3
-
-        return from_z3(given), TRUE
-    if package == "pysmt":
-        from qe.io.pysmt_door import from_pysmt
-
-        return from_pysmt(given), TRUE
+    from qe.io.solver_doors import from_solver
     from qe.io.sympy import posed_from_sympy
 
+    if (formula := from_solver(given)) is not None:
+        return formula, TRUE
     return posed_from_sympy(given)
 
 

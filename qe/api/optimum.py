@@ -14,7 +14,7 @@ from qe.api.settings import Optimisation, with_settings
 from qe.convex import optimum as convex
 from qe.convex.optimum import NotConvex, Optimum
 from qe.errors import InputError
-from qe.formula.doubts import numbers_as_names
+from qe.formula.doubts import numbers_as_names, products_as_names
 from qe.formula.syntax import Formula
 from qe.formula.traverse import ring_of
 from qe.optimization.values import Goal, Objective
@@ -144,7 +144,8 @@ def _best(
     note_doubts(constraints, conditions)
     if isinstance(objective, str):
         alone = [name for name in term.names if name not in conditions.free]
-        warned(numbers_as_names(alone, objective, (*term.names, *taken)))
+        names = (*term.names, *conditions.free)
+        warned([*products_as_names(names, conditions.free), *numbers_as_names(alone, objective, (*names, *taken))])
     if not isinstance(method, str) or method not in ("auto", "convex", "elimination"):
         raise arguments.wrong("method", "auto, convex or elimination", method)
     if given is not None and method == "convex":

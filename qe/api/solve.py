@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from qe import arguments
-from qe.api.eliminate import decided
+from qe.api.eliminate import decided, region_of
 from qe.api.input import AnyFormula, read_block
 from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
@@ -21,20 +21,18 @@ from qe.formula.normal import without_clashes
 from qe.formula.syntax import TRUE, Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
 from qe.io.substitution import over_one_ring
-from qe.io.text import read
+from qe.io.text import read, solved_for
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.run_log import RunLog
 from qe.proving import certificates
-from qe.regions.build import described
 from qe.regions.by_value import cases_by_value
 from qe.regions.solutions import Solutions
 from qe.regions.walk import MOST_POINTS, different_points
 
 if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitnesses
-    from qe.regions.region import Region
 
 TEXT_WORK = 20_000
 """Units of work for the proof that a text of solutions says the same as the formula."""
@@ -49,7 +47,8 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
     Quantifiers are eliminated first. With ``check`` the decomposition and the text are proved: ``guarantee``.
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
-    limits, wanted = limits_of(settings), arguments.names(variables, "variables")
+    asked = solved_for(formula) if variables is None and isinstance(formula, str) else variables
+    limits, wanted = limits_of(settings), arguments.names(asked, "variables")
     whole = replace(limits, start=None)
     stated = posed(formula, settings, limits, solved=wanted or ())
     given = stated.restricted
@@ -68,7 +67,7 @@ def _solutions(
     check: bool,
     budget: Budget,
 ) -> Solutions:
-    region = _described(given, order, replace(whole, process=False), check, budget)
+    region = region_of(given, order, replace(whole, process=False), check, budget)
     cases = tuple(region.cells)
     lines = [str(case) for case in cases]
     by_value = cases_by_value(region.table, len(region.order) - solved, budget, known)
@@ -91,16 +90,6 @@ def _compared(text: str, given: Formula, known: Formula, budget: Budget) -> Answ
     if answer.truth is False:
         raise InternalError(f"the text says something else than the formula: {text}")
     return answer
-
-
-def _described(given: Formula, order: tuple[str, ...] | None, inner: Limits, check: bool, budget: Budget) -> Region:
-    """The solution set; with ``check`` its table is verified."""
-    region = described(given, order, budget, inner, check=check)
-    if check:
-        from qe.api.verify import with_guarantee
-
-        return with_guarantee(region, budget)
-    return region
 
 
 reduce = solve
@@ -129,7 +118,7 @@ def find_instances(formula: AnyFormula, n: int, *, seed: int = 0, **settings: Un
 
 def _found(given: Formula, count: int, seed: int, check: bool, inner: Limits, budget: Budget) -> list[Values]:
     if count != 1 or seed:
-        region = _described(given, None, inner, check, budget)
+        region = region_of(given, None, inner, check, budget)
         if check and region.guarantee is not Guarantee.CHECKED:
             raise Unable(f"the points are not proved: {region.reason}")
         return different_points(region, count, seed, budget)

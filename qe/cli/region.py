@@ -39,8 +39,10 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
 def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None) -> Reply:
     """``qe solve``."""
     import qe.api.solve as api_solve
+    from qe.io.text import solved_for
 
     start = time.perf_counter()
+    variables = variables or solved_for(request.source.text)
     formula, known = read_question(channel, request.source, solved=variables or ())
     solutions = api_solve.solve(formula, variables, **request.keywords(channel, formula, known))
     names, seconds = list(solutions.order), round(time.perf_counter() - start, 6)

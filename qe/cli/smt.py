@@ -184,8 +184,8 @@ class Solver(Checks):
     def reply(self, head: str, command: list[Expression]) -> str | None:
         rest = command[1:]
         match head:
-            case "check-sat":
-                return self.check()
+            case "check-sat":  # z3 takes assumptions behind it, too
+                return self.assuming([*command[:1], rest]) if rest else self.check()
             case "check-sat-assuming":
                 return self.assuming(command)
             case "check-sat-using":

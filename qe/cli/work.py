@@ -85,14 +85,6 @@ def in_json(data: Mapping[str, Any]) -> str:
     return json.dumps(data, indent=2, ensure_ascii=False)
 
 
-def read_formula(channel: Channel, source: Source) -> Formula:
-    """The formula of a source, with what it assumes."""
-    from qe.formula.build import conj
-
-    formula, known = read_question(channel, source)
-    return conj((known, formula))
-
-
 def read_question(channel: Channel, source: Source, *, solved: Sequence[str] = ()) -> tuple[Formula, Formula]:
     """The formula of a source, to be ``solved`` for these, and what it assumes; its size is the first thing to be known
     about the run."""
@@ -191,7 +183,10 @@ def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
 
 def convert(channel: Channel, source: Source, output: Format) -> Reply:
     """``qe convert``."""
-    return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
+    from qe.formula.build import conj
+
+    formula, known = read_question(channel, source)
+    return Reply(formats.write(conj((known, formula)), output.value).rstrip("\n"))
 
 
 def check(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import children
@@ -30,7 +30,7 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
     joined: dict[str, str] = {}
     for variables, free in (*blocks, (solved, formula.free)):
         unused |= dict.fromkeys(name for name in variables if name not in free)
-        joined |= joined_names(free, variables) if typed else {}
+        joined |= {**joined_names(free, variables), **_made_of(free)} if typed else {}
     if unused and format in _WRITTEN_OUT:  # what is used as well cancels
         bound = Counter(name for variables, _ in blocks for name in variables)
         written = Counter(_WORD.findall(text))
@@ -42,7 +42,20 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
     for name, product in joined.items():
         if unused.keys().isdisjoint(name):
             notes.append(f"{name} is one name; a product is written {product}")
+    read = [name for name in names if len(name) == 1 and re.search(rf"(?<![\w`]){name}\(", typed)]
+    notes += [f"{name}(…) is the product {name}*(…)" for name in read]
     return (*notes, *numbers_as_names(formula.free, typed, names))
+
+
+def _made_of(names: Collection[str]) -> dict[str, str]:
+    """The names that are made of others of them alone, as ``ab`` beside a and b, each with the product of these."""
+    return {name: "*".join(name) for name in names if len(name) > 1 and {*name} <= {*names}}
+
+
+def products_as_names(names: Collection[str], noted: Collection[str]) -> tuple[str, ...]:
+    """A note for every name that is made of others, but not of those ``noted`` alone."""
+    made = {name: product for name, product in _made_of(names).items() if name not in _made_of(noted)}
+    return tuple(f"{name} is one name; a product is written {product}" for name, product in made.items())
 
 
 def numbers_as_names(free: Iterable[str], text: str, names: Iterable[str] = ()) -> tuple[str, ...]:

@@ -202,13 +202,11 @@ def _formula(given: object) -> Formula:
         from qe.io.text import read
 
         return read(given)
-    if type(given).__module__.partition(".")[0] == "z3":
-        from qe.io.z3_door import from_z3
-
-        return from_z3(given)
+    from qe.io.solver_doors import from_solver
     from qe.io.sympy import from_sympy
 
-    return from_sympy(given)
+    formula = from_solver(given)
+    return from_sympy(given) if formula is None else formula
 
 
 def substituted(formula: Formula, values: Mapping[Any, object]) -> Formula:

@@ -53,29 +53,31 @@ def read(
 
     Raises ``InputError`` (with line and column where the text is wrong).
     """
-    chosen = checked(format)
-    if not isinstance(text, str):
-        raise arguments.wrong("text", "a text", text)
-    if not chosen.readable:
-        raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
-    if arguments.flag(total_division, "total_division") and chosen is Format.TEXT:
-        whole: Formula = _module(chosen).read(text, source=source, total_division=True)
-        return whole
-    formula: Formula = _module(chosen).read(text, source=source)
-    return formula
+    from qe.formula.build import conj
+    from qe.formula.syntax import TRUE
+
+    formula, known = read_posed(text, format, source=source, total_division=total_division)
+    return formula if known == TRUE else conj((known, formula))
 
 
 def read_posed(
     text: str, format: str | Format = Format.TEXT, *, source: str = "<text>", total_division: bool = False
 ) -> tuple[Formula, Formula]:
-    """As ``read``; what the text assumes (``assume`` of QEPCAD, a theory of Redlog) by itself, TRUE without."""
+    """As ``read``; what the text assumes (``assume`` of QEPCAD, a theory of Redlog) by itself, TRUE without; over one
+    ring."""
     from qe.formula.syntax import TRUE
 
     chosen = checked(format)
-    if isinstance(text, str) and chosen.readable and hasattr(module := _module(chosen), "read_posed"):
+    if not isinstance(text, str):
+        raise arguments.wrong("text", "a text", text)
+    if not chosen.readable:
+        raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
+    module, total = _module(chosen), arguments.flag(total_division, "total_division")
+    if hasattr(module, "read_posed"):
         both: tuple[Formula, Formula] = module.read_posed(text, source=source)
         return both
-    return read(text, chosen, source=source, total_division=total_division), TRUE
+    more = {"total_division": True} if total and chosen is Format.TEXT else {}
+    return module.read(text, source=source, **more), TRUE
 
 
 def write(formula: Formula, format: str | Format = Format.TEXT) -> str:

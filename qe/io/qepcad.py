@@ -53,14 +53,9 @@ FALSE FALSE
 """)
 
 
-def read(text: str, *, source: str = "<text>") -> Formula:
-    """The formula of a QEPCAD session or formula text, with what it assumes. Raises ``ParseError`` with a place."""
-    formula, known = read_posed(text, source=source)
-    return conj((known, formula))
-
-
 def read_posed(text: str, *, source: str = "<text>") -> tuple[Formula, Formula]:
-    """The formula, and what is assumed, TRUE without; over one ring."""
+    """The formula of a session or of a formula alone, and what is assumed, TRUE without; over one ring. Raises
+    ``ParseError`` with a place."""
     fail = Failing(text, source)
     session = _SESSION.fullmatch(text)
     body, start = (session["formula"], session.start("formula")) if session else (text.rstrip().removesuffix("."), 0)

@@ -57,14 +57,10 @@ _RESERVED = re.compile(
 )
 
 
-def read(text: str, *, source: str = "<text>") -> Formula:
-    """The formula that a Redlog text means, with its theory. Raises ``ParseError`` with line and column."""
-    formula, known = read_posed(text, source=source)
-    return conj((known, formula))
-
-
 def read_posed(text: str, *, source: str = "<text>") -> tuple[Formula, Formula]:
-    """The formula that a Redlog text means, and the theory under which it is asked, TRUE without; over one ring."""
+    """The formula that a Redlog text means, and the theory under which it is asked, TRUE without; over one ring.
+
+    Raises ``ParseError`` with line and column."""
     fail = Failing(text, source)
     formula, *known = (lower(part, fail) for part in parsed(_Parser, text, fail))
     ring = Ring.of(dict.fromkeys(name for f in (formula, *known) if f.ring is not None for name in f.ring.names))

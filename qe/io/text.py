@@ -3,12 +3,14 @@
 Operators from tight to loose: ``not`` (``~``), ``and`` (``/\\``), ``or`` (``\\/``), ``->`` (``==>``, to the right),
 ``<->`` (``<==>``). A quantifier is ``ex`` or ``all`` (also ``exists forall Ex All E A``); its body runs to the end of
 its brackets. Relations ``= /= < <= > >=`` may be chained. Numbers are exact: ``3/4``, ``0.75``,
-``1.5e-3``. ``x < root(2, x^2 - y)`` compares with the second smallest real root in x. A name is a word, possibly
-with primes, or anything between backquotes: `` `my name` ``. ``#`` starts a comment.
+``1.5e-3``. Products need no sign where nothing else can be meant: ``2 x (y + 1)``; commas between conditions mean "and"
+(``qe.io.conditions``). ``x < root(2, x^2 - y)`` compares with the second smallest real root in x. A name is a word,
+possibly with primes, or anything between backquotes: `` `my name` ``. ``#`` starts a comment.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Container
 from fractions import Fraction
 from typing import cast
@@ -19,9 +21,15 @@ from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
 from qe.io.surface import Comparison, Meet, Name, Quantification, Term
 from qe.io.text_errors import Failing
+from qe.io.text_lexer import COMMANDS
 from qe.io.text_parser import is_latex, parser_of
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
+from qe.spelling import WORD
+
+_ASKED = re.compile(
+    rf"\s*(?:{'|'.join(COMMANDS)})\[.*,\s*(?!Reals)(\{{[^{{}}<>=]*\}}|{WORD})\s*(?:,\s*Reals\s*)?\]\s*", re.DOTALL
+)
 
 
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
@@ -63,6 +71,12 @@ def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
     """Whether the outermost quantifier of a text that can be read is universal, and its names; None without one."""
     node = parsed(parser_of(text), text, Failing(text, "<text>"))
     return (node.universal, tuple(node.names)) if isinstance(node, Quantification) else None
+
+
+def solved_for(text: str) -> tuple[str, ...] | None:
+    """The variables of a command of Mathematica: x and y of ``Reduce[f, {x, y}, Reals]``; None where there are none."""
+    found = _ASKED.fullmatch(text)
+    return None if found is None else tuple(re.findall(WORD, found[1]))
 
 
 def _no_constants(fail: Failing, known: Container[str]) -> Meet:

@@ -156,8 +156,8 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
 
 
 _COMMANDS = re.compile(
-    r"\s*(Resolve|Reduce|Solve|FindInstance|CylindricalDecomposition|Minimize|Maximize|rlqe|rlsimpl|QuantifierElimination"
-    r"|solve|reduce|minimi[sz]e|maximi[sz]e|find|simplify|prove|show|assert|print|Assume|Piecewise|let)\b\s*[\[({]?"
+    r"\s*(Minimize|Maximize|rlqe|rlsimpl|QuantifierElimination|solve|reduce|minimi[sz]e|maximi[sz]e|find|simplify|prove|show"
+    r"|assert|print|Assume|let)\b\s*[\[({]?"
 )
 _WORDS = {
     "xor": "write Xor(p, q)",

@@ -1,13 +1,14 @@
 """The tokens of the text syntax: what people type for the same thing becomes one token.
 
-A product without a sign is read where nothing else can be meant: a number
-directly in front of a name or a bracket.
+A product without a sign is read where nothing else can be meant: between numbers, brackets and letters (and longer
+names that stand in front of an operator somewhere), on one line, and not behind a division: ``1/2 x`` is ambiguous.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from qe.errors import InputError
 from qe.io.names import check_name
@@ -71,7 +72,10 @@ CONNECTIVE And Or Not Implies Equivalent Xor
 COMPARE Eq Equal Ne Unequal Lt Less Le LessEqual Gt Greater Ge GreaterEqual Inequality
 CHOICE If ITE ite
 ELEMENT Element
+PIECEWISE Piecewise
 """)
+COMMANDS = ("Resolve", "Reduce", "Solve", "FindInstance", "CylindricalDecomposition", "FullSimplify", "Simplify")
+"""Commands of Mathematica around a formula and, perhaps, variables and Reals."""
 NOT_REAL = frozenset(
     ("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Int", "int", "Nat", "Bool")
     + ("Integer", "Integers", "Rationals", "Complexes", "Naturals")
@@ -83,6 +87,7 @@ _TOKEN = re.compile(
     rf"|(?P<QUANTITY>(?:[Tt]here\s+(?:are|is|exists?)\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{_LIST}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈)))"
     r"|(?P<NONE>∄)"
     rf"|(?P<PREFIX>\(\s*{_PREFIXES}{_LIST}\s*(?:,\s*{_LIST}\s*)*\)(?=\s*[(\[]))"
+    rf"|(?P<COMMAND>(?:{'|'.join(COMMANDS)})(?=\[))\b"
     r"|(?P<EVERY>[Ff]or\s+(?:all|every|each|any)\b)"
     r"|(?P<SOME>[Ff]or\s+some\b|[Tt]here\s+(?:is|are)\b)"
     r"|(?P<THAT>such\s+that\b|s\.\s?t\.|with\b)"
@@ -100,14 +105,23 @@ _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR", "INFINITY", "REALS", "TRUE", "FALSE"))
 """Tokens after which a term or a formula may be complete."""
 
+_SORT = re.compile(rf"\s+(?:reals?\s+)?(?:(?:numbers?|values?\s+of)\s+)?(?={_LIST})")
+"""Words behind a quantifier that say what all variables are."""
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]")
-_NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST})")
+_NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST}|$)")
 _NEXT_BOUNDED = re.compile(
     rf"\s*(?:{_LIST})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠∈]|in\b)[^:;∃∀&|∧∨→⇒]*?(?<!,)(?::(?!=)|\.(?=\s)|\bsuch\s+that\b|\bs\.t\.)"
 )
 _ANOTHER = re.compile(rf"\s+{_LIST}")
-_FACTOR = re.compile(r"[0-9.]+|[^\W\d_][0-9]*|\)")
-"""What a space between two of them multiplies: longer names may be words."""
+_LETTER = re.compile(r"[^\W\d_](?:_?[0-9]+|_[^\W\d_])?'*")
+_VARIABLE = re.compile(rf"({WORD})\s*(?:[\^*≤≥≠]|/(?!\\)|=(?!>)|<(?!-|=>)|>)")
+"""A name in front of an operator."""
+_OPENS, _CLOSING = frozenset(("OPEN", "LEFT", "BEGIN")), frozenset(("CLOSE", "RIGHT", "END"))
+_FORMULAS = frozenset(kinds("_ RELATION IN AND OR NOT IMPLIES IFF QUANTIFIER TRUE FALSE COMMA DOT THEN ELSE"))
+"""Tokens that terms do not have; all but relations begin another comparison."""
+_FUNCTIONS = frozenset("fghpqFGHPQ")
+"""Letters in front of a bracket that are no factor."""
+_ARGUMENT = re.compile(rf"\(\s*(?:{WORD}|[0-9.]+)?\s*[),]")
 _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
 _KINDS_OF_NUMBERS = {
@@ -172,6 +186,8 @@ def tokens(text: str) -> Iterator[Token]:
         at += len(value) if kind == "NUMBER" else len(token.group())
         if kind != "SPACE":
             state.end = at
+        if state.last == "QUANTIFIER" and (sort := _SORT.match(text, at, end)) is not None:
+            at = sort.end()
 
 
 def _quantity(value: str) -> str:
@@ -211,22 +227,34 @@ def quoted_name(text: str, at: int) -> str:
         raise SyntaxFailure(str(error), at) from None
 
 
+@dataclass(slots=True)
+class _Bracket:
+    """Inside a bracket: whether a division stands in front of what comes, whether it is a formula, whether a relation
+    stands before in the same comparison, and where, behind it, a space first stands for a product."""
+
+    divided: bool = False
+    is_formula: bool = False
+    compared: bool = False
+    spaced: int = -1
+
+
 class State:
     """What stands before the next token: ``end`` is the offset where the last one ends.
 
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
     condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
-    variables lie in.
+    variables lie in. ``brackets``: of those that are open, from outside; ``closed``: whether the last one that ended
+    held a term.
     """
 
     def __init__(self, text: str) -> None:
         self.text, self.end = text, 0
         self.last = ""
         self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
-        self.divided = False
         self.level, self.within = 1, 0
-        self.listing, self.word = False, ""
-        self.spaced = "ForAll[" in text or "Exists[" in text  # Mathematica's, where a space is a product
+        self.brackets = [_Bracket()]
+        self.called, self.listing, self.word, self.closed = False, False, "", False
+        self.variables: set[str] | None = None
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
@@ -242,18 +270,40 @@ class State:
             self.spoken, self.quantifier, self.bounded = value not in _SHORT, value, False
         elif self.header and kind in ("RELATION", "IN"):
             self.bounded = True
-        if kind in ("NAME", "OPEN") and self.last == "NUMBER" and self.end == at and not self.header:
-            if self.divided:
-                shown = f"{self.text[:at].split()[-1]}{value}"
+        if not (self.header or self.listing) and self.multiplies(kind, value, at):
+            if self.brackets[-1].divided:
+                shown = f"{self.text[:at].split()[-1]}{' ' * (self.end < at)}{value}"
                 hint = "write 1/2*x or 1/(2*x)"
                 raise SyntaxFailure(f"{shown} is ambiguous: a product without * after a division; {hint}", at)
+            if self.end < at and self.brackets[-1].spaced < 0:
+                self.brackets[-1].spaced = self.end
             yield from self.put("TIMES", "*", at)
-        elif self.spaced and kind in ("NAME", "NUMBER") and self.end < at and not (self.header or self.listing):
-            factors = _FACTOR.fullmatch(self.word) and _FACTOR.fullmatch(value)
-            yield from self.put("TIMES", "*", at) if factors else ()
+        if kind == "RELATION" and self.brackets[-1].compared and self.brackets[-1].spaced >= 0:
+            message = "a condition between two relations has a product without *, or an operator is missing here"
+            raise SyntaxFailure(message, self.brackets[-1].spaced)
         self.note(kind)
         self.word = value
         yield Token(kind, value, at)
+
+    def multiplies(self, kind: str, value: str, at: int) -> bool:
+        """Whether a product without a sign ends in front of this token."""
+        if kind not in ("NAME", "OPEN", "RADICAL") or "\n" in self.text[self.end : at]:
+            return False
+        if self.last == "NAME" and kind == "OPEN":
+            is_letter = _LETTER.fullmatch(self.word) is not None and self.word not in _FUNCTIONS
+            return is_letter and not _ARGUMENT.match(self.text, at)
+        factor = kind != "NAME" or self.is_factor(value) or value.lower() in FUNCTIONS
+        if self.last == "NUMBER":
+            return (factor and self.word != "0") or self.end == at
+        if self.last == "NAME":
+            return factor and self.end < at and self.is_factor(self.word)
+        return factor and self.last == "CLOSE" and self.closed
+
+    def is_factor(self, name: str) -> bool:
+        """Whether a name is surely no word of a language."""
+        if self.variables is None:
+            self.variables = {*_VARIABLE.findall(self.text)}
+        return bool(_LETTER.fullmatch(name)) or name in self.variables
 
     def prefix(self, value: str, at: int) -> Iterator[Token]:
         """``(E x, y)``, as in front of a formula in brackets."""
@@ -292,15 +342,22 @@ class State:
             self.header = True
         elif kind in ("DOT", "OPEN", "LEFT"):
             self.header, self.within = False, self.level if self.header and last in ("IN", "UNION") else self.within
-        if kind in ("BEGIN", "END"):  # the names of ForAll[{x y}, …]
-            self.listing = kind == "BEGIN" and last in ("OPEN", "LEFT")
-        if kind == "OVER":
-            self.divided = True
-        elif kind not in ("NAME", "NUMBER", "POWER", "CLOSE", "RIGHT"):
-            self.divided = False
-        if kind in ("OPEN", "LEFT", "BEGIN"):
+        if kind in ("OPEN", "LEFT"):
+            self.called = last == "QUANTIFIER"
+        elif kind in ("BEGIN", "END"):  # the names of ForAll[{x y}, …]
+            self.listing = kind == "BEGIN" and self.called and last in ("OPEN", "LEFT")
+        if kind in _OPENS:
             self.level += 1
-        elif kind in ("CLOSE", "RIGHT", "END"):
+            self.brackets.append(_Bracket())
+        elif kind in _CLOSING:
             self.level -= 1
+            self.closed = not self.brackets[-1].is_formula
+            if len(self.brackets) > 1:
+                self.brackets.pop()
             if self.within == self.level:  # the set that a quantifier ranges over is complete
                 self.header, self.within = True, 0
+        elif kind not in ("NAME", "NUMBER", "POWER"):
+            inside = self.brackets[-1]
+            inside.divided = kind == "OVER"
+            if kind in _FORMULAS:
+                inside.is_formula, inside.compared, inside.spaced = True, kind == "RELATION", -1

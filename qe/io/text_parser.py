@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
+from functools import reduce
 from itertools import chain
 from typing import Any, ClassVar, TypeAlias
 
 from qe.formula.relation import Relation
 from qe.io import parser, text_lexer
 from qe.io import surface as s
+from qe.io.conditions import SHARING, shared, together
 from qe.io.functions import RELATIONS
 from qe.io.parser import (
     BODY,
@@ -28,7 +31,7 @@ from qe.io.parser import (
     counted,
 )
 from qe.io.text_errors import SyntaxFailure
-from qe.io.tokens import Token
+from qe.io.tokens import END, Token
 
 _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
 
@@ -39,6 +42,11 @@ Within: TypeAlias = Callable[[s.Term, int], s.Node]
 
 class TextParser(Parser):
     """Reads a text that is not LaTeX."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.conditions: list[s.Node] = []
+        self.behind: Callable[[s.Node], s.Node] | None = None
 
     def lexed(self, text: str) -> Iterator[Token]:
         return text_lexer.tokens(text)
@@ -66,12 +74,63 @@ class TextParser(Parser):
         token = self.advance()
         return operator.make(left, self.set(), token)
 
+    # --- the whole -------------------------------------------------------------------------------------------
+    def whole(self, wants: int = FORMULA) -> Any:
+        if wants != FORMULA:
+            return super().whole(wants)
+        ends = END, "COMMA", "QUANTIFIER"
+        self.conditions.append(self.expression(FORMULA, *ends))
+        start = self.token.at
+        while self.token.kind != END:
+            if (comma := self.token.kind == "COMMA") and re.match(r"\d,\d", self.text[self.token.at - 1 :]):
+                raise self.unexpected(("AND",))  # a decimal number, perhaps
+            at = self.advance().at if comma else self.token.at
+            part = self.expression(FORMULA, *ends)
+            if self.behind is not None:
+                return self.behind(together(self.conditions, start, quantified=True))
+            self.conditions.append(part)
+            if not comma:
+                raise SyntaxFailure("a quantifier stands in front of its formula: all x. x^2 >= 0", at)
+        return together(self.conditions, start)
+
+    def name_or_call(self) -> s.Term | None:
+        """A name, or several with commas between them, which share the comparison that follows."""
+        waiting, at = self.stack[-1], self.token.at
+        closing = next(bracket.closing for bracket in reversed(self.stack) if bracket.level == BRACKET)
+        is_apart = bool(waiting.wants & FORMULA) and (END in closing or "COMMA" not in closing)
+        sharing = SHARING.match(self.text, at) if is_apart else None
+        if sharing is None:
+            return super().name_or_call()
+        names = []
+        for _ in range(sharing[0].count(",")):
+            names.append(s.Name(*self.take("NAME")[1:]))
+            self.take("COMMA")
+        before = self.conditions[-1] if self.conditions and len(self.stack) == 1 else None
+        self.stack.append(Waiting(NOT, FORMULA, FORMULA, lambda node: shared(names, node, before, at)))
+        return None
+
+    def command(self) -> s.Node:
+        """``Reduce[f, {x, y}, Reals]``: the formula."""
+        self.advance()
+        self.take("LEFT")
+        node: s.Node = self.expression(FORMULA, "COMMA", "RIGHT")
+        if self.token.kind == "COMMA" and self.advance() and self.token.kind != "REALS":
+            self.names_or_name()
+            if self.token.kind == "COMMA":
+                self.advance()
+                self.refuse_others()
+        if self.token.kind == "REALS":
+            self.advance()
+        self.take("RIGHT")
+        return node
+
     # --- quantifiers -----------------------------------------------------------------------------------------
-    def quantifier(self) -> None:
-        """One or more quantifiers, to the dot or the bracket that their body stands in."""
+    def quantifier(self) -> s.Node | None:
+        """One or more quantifiers, to the dot or the bracket that their body stands in, or behind it to the end."""
         token = self.advance()
         if self.token.kind in ("OPEN", "LEFT"):
-            return self.quantified_call(token)
+            self.quantified_call(token)
+            return None
         headers = [(token, *self.bound())]
         while self.token.kind == "QUANTIFIER":
             headers.append((self.advance(), *self.bound()))
@@ -83,13 +142,16 @@ class TextParser(Parser):
 
         if (kind := self.advance().kind) == "DOT":
             self.stack.append(Waiting(BODY, FORMULA, FORMULA, make))
+        elif kind == END:
+            self.behind = make
+            return s.Truth(True)
         else:
             self.open(FORMULA, CLOSES[kind], lambda parts: make(parts[0]))
         return None
 
     def bound(self) -> tuple[list[str], Within | None]:
         """The variables of a quantifier and what they range over, up to the token that has to follow them."""
-        ends = "DOT", "QUANTIFIER", "OPEN", "LEFT"
+        ends = ("DOT", "QUANTIFIER", "OPEN", "LEFT", *([END] if self.conditions and len(self.stack) == 1 else []))
         names, within = self.names(), None
         if self.token.kind == "IN":
             self.advance()
@@ -111,15 +173,19 @@ class TextParser(Parser):
             names.append(self.take("NAME").text)
         return names
 
+    def names_or_name(self) -> list[str]:
+        """Names in brackets, or one."""
+        first = self.take("NAME", *CLOSES)
+        if first.kind == "NAME":
+            return [first.text]
+        names = self.names()
+        self.take(CLOSES[first.kind], "COMMA", "NAME")
+        return names
+
     def quantified_call(self, token: Token) -> None:
         """``ForAll[{x, y}, condition, formula]``."""
         closing = CLOSES[self.advance().kind]
-        if self.token.kind == "NAME":
-            names = [self.advance().text]
-        else:
-            inner = CLOSES[self.take("NAME", *CLOSES).kind]
-            names = self.names()
-            self.take(inner, "COMMA", "NAME")
+        names = self.names_or_name()
         self.take("COMMA")
         universal = token.text in _UNIVERSAL
 
@@ -148,11 +214,15 @@ class TextParser(Parser):
             value = _intersection(value, self.simple_set())
         return value
 
-    def simple_set(self) -> Within:
+    def refuse_others(self) -> None:
+        """Refuse a set of numbers that are not all real ones."""
         if self.token.text in text_lexer.NOT_REAL:
             raise SyntaxFailure(
                 f"all variables are real (as in ex x. …), {self.token.text} cannot be asked for", self.token.at
             )
+
+    def simple_set(self) -> Within:
+        self.refuse_others()
         if self.token.text in text_lexer.ALSO_REALS:
             self.token = self.token._replace(kind="REALS")
         kind = self.take("OPEN", "LEFT", "BEGIN", "REALS").kind
@@ -235,6 +305,23 @@ class TextParser(Parser):
         self.advance()
         return s.Choice(condition, then, other, at)
 
+    def piecewise(self) -> s.Term:
+        """SymPy's ``Piecewise((a, f), (b, True))``; no value where no condition holds."""
+        at = self.advance().at
+        rows: list[tuple[s.Node, s.Term]] = []
+        while not rows or self.token.kind == "COMMA":
+            self.take("COMMA" if rows else "OPEN")
+            self.take("OPEN")
+            value = self.expression(TERM, "COMMA")
+            self.advance()
+            rows.append((self.expression(FORMULA, "CLOSE"), value))
+            self.advance()
+        self.take("CLOSE")
+        none: s.Term | None = None
+        chosen = reduce(lambda other, row: s.Choice(row[0], row[1], other, at), reversed(rows), none)
+        assert chosen is not None
+        return chosen
+
     # --- terms -----------------------------------------------------------------------------------------------
     def infinity(self) -> s.Term:
         return s.Infinity(self.advance().at)
@@ -257,6 +344,7 @@ class TextParser(Parser):
     }
     prefix = {  # noqa: RUF012
         **parser.PREFIX,
+        "NAME": Prefix(TERM, PRIMARY, name_or_call),
         "QUANTIFIER": Prefix(FORMULA, NOT, quantifier),
         "LEFT": Prefix(FORMULA, NOT, listed),
         "BEGIN": Prefix(FORMULA, NOT, listed),
@@ -265,6 +353,8 @@ class TextParser(Parser):
         "COMPARE": Prefix(FORMULA, NOT, compared),
         "IF": Prefix(EITHER, ELSE, cases),
         "CHOICE": Prefix(TERM, PRIMARY, cases_call),
+        "PIECEWISE": Prefix(TERM, PRIMARY, piecewise),
+        "COMMAND": Prefix(FORMULA, NOT, command),
         "INFINITY": Prefix(TERM, PRIMARY, infinity),
         **dict.fromkeys(("OPENBAR", "BAR"), Prefix(TERM, PRIMARY, absolute)),
         "RADICAL": Prefix(TERM, PRIMARY, radical),

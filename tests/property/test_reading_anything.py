@@ -146,7 +146,7 @@ def test_json_is_exact(formula: Formula) -> None:
 
 @given(formulas(names=PLAIN, max_quantifiers=3))
 def test_redlog(formula: Formula) -> None:
-    assert same(redlog.read(redlog.write(formula)), formula)
+    assert same(formats.read(redlog.write(formula), "redlog"), formula)
 
 
 @given(formulas(names=PLAIN, max_quantifiers=3))
@@ -173,7 +173,7 @@ def test_smtlib_without_quantifiers_keeps_the_tree(formula: Formula) -> None:
 @given(formulas(names=PLAIN, max_quantifiers=3, root_atoms=True), places)
 def test_qepcad(formula: Formula, point: dict[str, Fraction]) -> None:
     """The writer makes the formula prenex, so the meaning is compared."""
-    again = qepcad.read(qepcad.write(formula))
+    again = formats.read(qepcad.write(formula), "qepcad")
     assert holds(again, point) == holds(formula, point)
     body = again
     while isinstance(body, ExistsNode | ForAllNode):

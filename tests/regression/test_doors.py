@@ -77,6 +77,8 @@ def noted_in(given: object, format: str = "text") -> list[str]:
     ("all x. 2*ax² > b", "text", "x does not occur; did you mean a*x²?"),
     ("ex x. x > 0 and ax = 1", "text", "ax is one name; a product is written a*x"),
     ("ex x, y. a*x = 1", "text", "y does not occur"),
+    ("a + b > ab", "text", "ab is one name; a product is written a*b"),
+    ("x^2 > k(x + 1)", "text", "k(…) is the product k*(…)"),
     ("all a. (ex x. a > 0)", "text", "x does not occur"),
     (["a > 0", "ex x. ax < 1"], "text", "x does not occur; did you mean a*x?"),
     (r"\exists x\colon a > 0", "latex", "x does not occur"),
@@ -102,6 +104,13 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
 )
 def test_nothing_is_noted_where_all_occur(given: str) -> None:
     assert noted_in(given) == []
+
+
+@each(("a + b - ab", "a > 0 and b > 0"), ("a + b", "a > 0 and b > 0 and ab = 1"))
+def test_a_product_without_a_sign_is_noted_where_a_term_is_optimised(term: str, conditions: str) -> None:
+    """The least value of ``a + b - ab`` was "unbounded", that of ``a + b`` under ``ab = 1`` was 0, without a word."""
+    with pytest.warns(qe.DoubtfulInput, match=r"ab is one name; a product is written a\*b"):
+        qe.minimize(term, conditions)
 
 
 def test_a_comma_in_an_order_is_no_variable() -> None:

@@ -107,7 +107,7 @@ def test_substitution_is_evaluation_later(formula: Formula, text: str, a: Fracti
     (lambda: x + True, "a number or an expression"),
     (lambda: x + None, "a number or an expression"),
     (lambda: x / 0 > 1, "division by zero"),
-    (lambda: x + "y z", "an operator is missing"),
+    (lambda: x + "y zz", "an operator is missing"),
     (lambda: x + float("nan"), "a number or an expression"),
     (lambda: x + sympy.pi, "no algebraic number"),
     (lambda: qe.variables(""), "names of variables"),

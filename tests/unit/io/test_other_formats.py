@@ -227,12 +227,12 @@ def test_long_polynomials_stand_in_lines() -> None:
     ("x > 0 /\\ TRUE", "x > 0"),
 )
 def test_qepcad(given: str, printed: str) -> None:
-    assert str(qepcad.read(given)) == printed
+    assert str(formats.read(given, "qepcad")) == printed
 
 
 def test_a_qepcad_session() -> None:
     session = "[ Quadratic. ]\n(b,a,x)\n2\n(E x)[ a x^2 + b >= 1/2 ].\nproj-op (m,m)\nfinish\n"
-    formula = qepcad.read(session)
+    formula = formats.read(session, "qepcad")
     assert str(formula) == "ex x. 2*a*x^2 + 2*b - 1 >= 0"
     assert ring_of(formula) is Ring.of(("b", "a", "x"))
     assert qepcad.write(formula) == "[]\n(b,a,x)\n2\n(E x)[2 a x^2 + 2 b - 1 >= 0].\nfinish\n"
@@ -250,7 +250,7 @@ def test_a_qepcad_session() -> None:
 )
 def test_qepcad_mistakes(given: str, part: str) -> None:
     with pytest.raises(ParseError, match=part):
-        qepcad.read(given)
+        formats.read(given, "qepcad")
 
 
 @each(
@@ -263,13 +263,13 @@ def test_qepcad_mistakes(given: str, part: str) -> None:
     ("x neq 1/2", "2*x - 1 /= 0"),
 )
 def test_redlog(given: str, printed: str) -> None:
-    assert str(redlog.read(given)) == printed
+    assert str(formats.read(given, "redlog")) == printed
 
 
 @each(("e = 1", "constant"), ("ex x. x = 1", "unexpected"), ("x = ", "too early"))
 def test_redlog_mistakes(given: str, part: str) -> None:
     with pytest.raises(ParseError, match=part):
-        redlog.read(given)
+        formats.read(given, "redlog")
 
 
 def test_redlog_writing() -> None:

@@ -74,6 +74,8 @@ def test_what_could_have_stood_there_is_exactly_what_can_be_read() -> None:
         for kind, sign in shown.items():
             if text[-1].isalpha() and kind in ("OPEN", "LEFT"):
                 continue  # behind a name they are a call, which no name can promise
+            if text[-1].isalnum() and kind in ("OPEN", "NAME", "RADICAL"):
+                continue  # a product without a sign, which is none for the parser
             parser = TextParser(f"{text} {sign}")
             with suppress(SyntaxFailure):
                 parser.whole()
@@ -147,6 +149,25 @@ def read(text: str) -> Formula:
     ("|x| > 0 || |y| > 0", "abs(x) > 0 or abs(y) > 0"),
     ("(x > 0 | y > 0) & |x|*|y| < 1", "(x > 0 or y > 0) and abs(x)*abs(y) < 1"),
     ("Element[x | y, Reals] | |x| > 1", "true or abs(x) > 1"),
+    ("2 x y^2 > z", "2*x*y^2 > z"),
+    ("(x + 1) y > 0", "(x + 1)*y > 0"),
+    ("(x + 1)(y - 1) > 0", "(x + 1)*(y - 1) > 0"),
+    ("x (y + 1) > 0", "x*(y + 1) > 0"),
+    ("x(y + 1) > 0", "x*(y + 1) > 0"),
+    ("2(x - 1)y = x² y", "2*(x - 1)*y = x^2*y"),
+    ("(3/4)x > x sqrt(2)", "(3/4)*x > x*sqrt(2)"),
+    ("x/(2 y) > 2 alpha and alpha > 1", "x/(2*y) > 2*alpha and alpha > 1"),
+    ("Piecewise((1, x < 1), (y, True)) > 1", "(if x < 1 then 1 else y) > 1"),
+    ("x > 0, y > 1, z = 2", "x > 0 and y > 1 and z = 2"),
+    ("x > 0, ex z. z^2 = x", "x > 0 and (ex z. z^2 = x)"),
+    ("x, y, z > 0", "x > 0 and y > 0 and z > 0"),
+    ("z = 1 and x, y > 0 or z = 2", "z = 1 and x > 0 and y > 0 or z = 2"),
+    ("0 < x, y, z < 1", "0 < x and 0 < y and 0 < z and y < 1 and x < 1 and z < 1"),
+    ("x^2 >= y for all x", "all x. x^2 >= y"),
+    ("y > 0, x^2 >= y, for all real numbers x in [0, 1]", "all x. 0 <= x and x <= 1 -> y > 0 and x^2 >= y"),
+    ("x^2 = y for some x", "ex x. x^2 = y"),
+    ("for every real x: x^2 >= y", "all x. x^2 >= y"),
+    ("Reduce[{x > 0, x y > 1}, {x, y}, Reals]", "x > 0 and x*y > 1"),
 )
 def test_other_ways_to_write(text: str, plain: str) -> None:
     assert read(text) == read(plain)
