@@ -328,28 +328,28 @@ def _condition(
     pieces say whose ends are numbers and polynomials, if that is shorter, or not much longer and gives values of
     variables that are to be ``solved`` for."""
     places = [(base, i in chosen) for i, base in enumerate(bases) if i not in open_]
-    formula, unlike = None, None
+    said, unlike = None, None
     for factors, signs in columns():
+        cells = [FreeCell(base.path, tuple(signs(base)), true) for base, true in places]
         try:
-            formula = formula_of_cells(
-                factors, [FreeCell(base.path, tuple(signs(base)), true) for base, true in places]
-            )
-            break
+            formula = simplify(formula_of_cells(factors, cells))
         except Undistinguished as pair:
             unlike = pair
-    if formula is None:
-        assert unlike is not None
-        raise unlike
-    formula = simplify(formula)
-    if formula == TRUE:
-        return "", False
-    said = str(formula), isinstance(formula, Or)
+            continue
+        if formula == TRUE:
+            return "", False
+        said = str(formula), isinstance(formula, Or)
+        break
     pieces = merge(_only(table, frozenset(bases[i].path for i in chosen), True), budget=budget)
     ends = [end for piece in pieces for r in piece.ranges for end in (r.lower, r.upper) if end and end.value is None]
     if all(end.written and end.written[1] is None and end.written[2].is_constant for end in ends):
         shown = " or ".join(map(str, pieces)), len(pieces) > 1
         has_values = solved and any(r.is_point for piece in pieces for r in piece.ranges)
-        return shown if len(shown[0]) < len(said[0]) * (3 if has_values else 1) else said
+        if said is None or len(shown[0]) < len(said[0]) * (3 if has_values else 1):
+            return shown
+    if said is None:
+        assert unlike is not None
+        raise unlike
     return said
 
 

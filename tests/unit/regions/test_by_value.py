@@ -18,6 +18,11 @@ from qe.io.text import read
 from tests.tables import each
 
 EXPECTED = (
+    (
+        "x^2 + y^2 = 1 and x > y",
+        None,
+        "-sqrt(2)/2 < x <= 1 and y = -sqrt(1 - x^2) or sqrt(2)/2 < x <= 1 and y = sqrt(1 - x^2)",
+    ),
     ("x^2 = b", "x", "b >= 0 and (x = -sqrt(b) or x = sqrt(b))"),
     (
         "a*x^2 + b*x + c = 0",
