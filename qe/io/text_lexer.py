@@ -1,7 +1,7 @@
 """The tokens of the text syntax: what people type for the same thing becomes one token.
 
-A product without a sign is read where nothing else can be meant: between numbers, brackets and letters (and longer
-names that stand in front of an operator somewhere), on one line, and not behind a division: ``1/2 x`` is ambiguous.
+A product without a sign is read where nothing else can be meant: between numbers, brackets, letters, and longer names
+that stand alone in front of an operator somewhere, on one line, and not behind a division: ``1/2 x`` is ambiguous.
 """
 
 from __future__ import annotations
@@ -114,8 +114,10 @@ _NEXT_BOUNDED = re.compile(
 )
 _ANOTHER = re.compile(rf"\s+{_LIST}")
 _LETTER = re.compile(r"[^\W\d_](?:_?[0-9]+|_[^\W\d_])?'*")
-_VARIABLE = re.compile(rf"({WORD})\s*(?:[\^*≤≥≠]|/(?!\\)|=(?!>)|<(?!-|=>)|>)")
-"""A name in front of an operator."""
+_VARIABLE = re.compile(
+    rf"(?:^|[-+*/^(\[{{<>=≤≥≠,.:&|]|\b(?:and|or|not)\b)\s*({WORD})(?=\s*(?:[\^*≤≥≠]|/(?!\\)|=(?!>)|<(?!-|=>)|>))"
+)
+"""A name alone in front of an operator."""
 _OPENS, _CLOSING = frozenset(("OPEN", "LEFT", "BEGIN")), frozenset(("CLOSE", "RIGHT", "END"))
 _FORMULAS = frozenset(kinds("_ RELATION IN AND OR NOT IMPLIES IFF QUANTIFIER TRUE FALSE COMMA DOT THEN ELSE"))
 """Tokens that terms do not have; all but relations begin another comparison."""

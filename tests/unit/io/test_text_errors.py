@@ -74,6 +74,7 @@ from tests.tables import each
     ("x > 0 y > 1", 6, "a product is written 0*y", ""),
     ("x > 1 y > 2", 5, "an operator is missing here", ""),
     ("x = a y = 2", 5, "an operator is missing here", ""),
+    ("x squared > 2 and y squared > 3", 2, "a product is written x*squared", ""),
     ("x > 1 holds", 6, "a product is written 1*holds", ""),
     ("x > 0\ny > 1", 6, "conditions of several lines", ""),
     ("1/2 x > 0", 4, "1/2 x is ambiguous", ""),
