@@ -75,8 +75,8 @@ def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
 
 def solved_for(text: str) -> tuple[str, ...] | None:
     """The variables of a command of Mathematica: x and y of ``Reduce[f, {x, y}, Reals]``; None where there are none."""
-    found = _ASKED.fullmatch(text)
-    return None if found is None else tuple(re.findall(WORD, found[1]))
+    asked = _ASKED.fullmatch(text)
+    return None if asked is None else tuple(re.findall(WORD, asked[1]))
 
 
 def _no_constants(fail: Failing, known: Container[str]) -> Meet:

@@ -207,11 +207,11 @@ class _Said:
             yield str(end.value)
             return
         inner = {i: value for i, value in fixed.items() if i >= self.parameters}
-        found = [*self.valued(end, count, place, inner), *self.valued(end, count, place, {})]
-        yield from dict.fromkeys(found)
+        texts = dict.fromkeys(text for known in (inner, {}) for text in self.valued(end, count, place, known))
+        yield from texts
         if len(inner) < len(fixed):  # shorter where a parameter has one value
             yield from self.valued(end, count, place, fixed)
-        if not found:
+        if not texts:
             text = f"root({end.k}, {format_poly(end.poly)}, {quoted(self.table.order[place.depth])})"
             self.needs[text] = [(end.poly.ring.constant(1), frozenset())]
             yield text
