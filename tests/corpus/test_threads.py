@@ -1,7 +1,7 @@
 """Questions of people in public threads, typed as they were asked there: the answers are those the threads agree on.
 
-Each line of threads.jsonl names its thread. Answers were checked by SymPy, z3 or sampling, too. What other words alone
-would mend is not here: ``mx`` for ``m*x`` is noted, not read.
+Each line of threads.jsonl names its thread; the scripts were run by z3, too. What other words alone would mend is not
+here: ``mx`` for ``m*x`` is noted, not read.
 """
 
 from __future__ import annotations
