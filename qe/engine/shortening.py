@@ -73,8 +73,8 @@ RULES: tuple[Rule, ...] = (
     Rule("equations of the negation", untangled_negation, stage=Stage.EQUATIONS),
     Rule("cells", read_off_cells, _has_few_cells),
     Rule("affine hull", affine_hull_first, is_linear_conjunction, Stage.REDUNDANT, last=True),
-    Rule("signs of factors", signs_of_factors, has_products, Stage.REDUNDANT, last=True),
     Rule("redundant parts", without_redundant_parts, is_worth_questions, Stage.REDUNDANT, last=True),
+    Rule("signs of factors", signs_of_factors, has_products, Stage.REDUNDANT, last=True),
     Rule("constant", constant, last=True),
 )
 

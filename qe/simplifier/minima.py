@@ -13,7 +13,8 @@ _MOST_TERMS = 60
 
 @dataclass(frozen=True, slots=True)
 class Minimum:
-    """The polynomial is ``value`` and positive multiples of squares of polynomials that vanish together somewhere.
+    """The polynomial is ``value`` and positive multiples of squares of polynomials that vanish together somewhere; one
+    square alone may vanish nowhere, and ``value`` is a lower bound then.
 
     ``squares``: (weight, polynomial), these primitive.
     """
@@ -23,7 +24,7 @@ class Minimum:
 
     @property
     def zeros(self) -> tuple[Poly, ...]:
-        """The minimum is attained exactly where all of these vanish."""
+        """The value is attained exactly where all of these vanish."""
         return tuple(_radical(root) for _, root in self.squares)
 
     def over(self, scale: int) -> Minimum:

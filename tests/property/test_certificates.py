@@ -12,7 +12,8 @@ from flint import fmpz_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from qe import Guarantee, eliminate, reference
+from experiments import reference
+from qe import Guarantee, eliminate
 from qe.certify.claims import is_about
 from qe.certify.verify import verify
 from qe.decomposition.decompose import Decomposed, Tactics, decompose

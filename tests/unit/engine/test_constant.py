@@ -35,8 +35,10 @@ def test_a_far_exception_is_found():
 
 def test_text_is_read_once(monkeypatch):
     read = []
-    original = formats.read
-    monkeypatch.setattr(formats, "read", lambda *given, **keywords: read.append(given) or original(*given, **keywords))
+    original = formats.read_posed
+    monkeypatch.setattr(
+        formats, "read_posed", lambda *given, **keywords: read.append(given) or original(*given, **keywords)
+    )
     assert str(qe.eliminate("ex x. x^2 = a").formula) == "a >= 0"
     assert len(read) == 1
 

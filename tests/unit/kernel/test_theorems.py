@@ -26,7 +26,6 @@ from qe.rules.closed_forms import (
     matches,
     pattern,
     relations_in,
-    square_root,
     term,
     undirected,
     variables_in,
@@ -61,7 +60,7 @@ class Case:
         a, b, f, g = (RING.var(name) for name in "abfg")
         zero = dict.fromkeys(self.letters, RING.constant(0))
         self.letters = {**zero, "c": f, "k": g, "b0": 2 * a * f, "e": f * (a * a - b * b), "m": -g}
-        root = square_root(term(used, tree, self.letters, RING))  # type: ignore[arg-type]
+        root = term(used, tree, self.letters, RING).square_root()  # type: ignore[arg-type]
         assert root is not None
         self.letters[name] = root
 
