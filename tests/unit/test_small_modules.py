@@ -5,7 +5,6 @@ import sys
 
 import pytest
 
-import bezier_qe
 from qe import services
 from qe.proof.on_demand import OnDemand
 from qe.services import Service
@@ -37,20 +36,6 @@ def test_the_package_is_the_command(monkeypatch: pytest.MonkeyPatch, capsys: pyt
     import qe.__main__ as imported  # importing runs nothing
 
     assert callable(imported.main)
-
-
-@pytest.mark.parametrize("name", ("qe", "bezier"))
-def test_an_interrupt_while_a_command_is_loaded_is_one_line(
-    name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Ctrl-C while Python imported the package gave a traceback."""
-
-    def interrupted(module: str) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("bezier_qe.import_module", interrupted)
-    assert getattr(bezier_qe, name)() == 130
-    assert capsys.readouterr().err == f"{name}: interrupted\n"
 
 
 def test_certificates_are_made_when_asked_for() -> None:
