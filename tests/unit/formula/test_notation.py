@@ -11,7 +11,7 @@ from qe.formula.doubts import doubts, numbers_as_names
 from qe.formula.features import features
 from qe.formula.notation import Level, bracketed, chain, monomials, oriented, polynomial, positive
 from qe.formula.relation import Relation
-from qe.formula.syntax import Exists, ForAll
+from qe.formula.syntax import Atom, Exists, ForAll
 from qe.formula.text import TEXT, text_notation
 from qe.formula.traverse import subformulas
 from qe.io import formats
@@ -63,6 +63,10 @@ def test_the_first_coefficient_becomes_positive(poly: Poly) -> None:
 )
 def test_products_that_are_no_longer(given_text: str, printed: str) -> None:
     assert str(read(given_text)) == printed
+
+
+def test_a_product_with_a_negative_leading_coefficient_turns_the_relation() -> None:
+    assert str(Atom(-(X - 1) * (Y - 1), Relation.GT)) == "(x - 1)*(y - 1) < 0"
 
 
 @given(polynomials(RING), polynomials(RING), RELATIONS)
