@@ -195,3 +195,8 @@ def test_what_is_printed_is_proved(question: str, variables: str | None, expecte
     solutions = qe.solve(question, variables, check=True)
     assert solutions.guarantee is qe.Guarantee.CHECKED and not solutions.reason
     assert qe.verify(solutions.certificate) and str(solutions.certificate.to_json()).count('"text"') == 1
+
+
+def test_a_sample_of_a_parameter_that_varies_is_no_value_of_it() -> None:
+    """On b = 2*a the sample may be a = b = 0, where a + b is a."""
+    assert "x = a + b" in str(qe.solve("x = a + b and b = 2*a", ["x"]))
