@@ -19,6 +19,8 @@ from qe.spelling import QUOTED, WORD, unquoted
 
 _LIST = rf"(?:{WORD}|{QUOTED})"
 QUANTITY = r"infinitely\s+many|all\s+but\s+finitely\s+many|almost\s+all|exactly\s+(?:[0-9]+|one)|connected"
+_THERE = r"[Tt]here\s+(?:is|are|exists?)"
+_THAT = r"(?:such\s+that\b|s\.\s?t\.|with\b)"
 _PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
 KEYWORDS = kinds("""
 QUANTIFIER ex exists Ex Exists EXISTS all forall All ForAll Forall FORALL
@@ -83,14 +85,14 @@ NOT_REAL = frozenset(
 ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
 _TYPE = re.compile(rf"\s*(?:{'|'.join((*NOT_REAL, *ALSO_REALS))}|Reals|ℝ)\s*[.,]")
 _TOKEN = re.compile(
-    rf"(?P<SPACE>\s+|\#[^\n]*|[Tt]here\s+(?=exists\b))"
-    rf"|(?P<QUANTITY>(?:[Tt]here\s+(?:are|is|exists?)\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{_LIST}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈)))"
-    r"|(?P<NONE>∄)"
+    rf"(?P<SPACE>\s+|\#[^\n]*)"
+    rf"|(?P<QUANTITY>(?:{_THERE}\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{_LIST}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈|{_THAT})))"
+    rf"|(?P<NONE>∄|{_THERE}\s+no\b)"
     rf"|(?P<PREFIX>\(\s*{_PREFIXES}{_LIST}\s*(?:,\s*{_LIST}\s*)*\)(?=\s*[(\[]))"
     rf"|(?P<COMMAND>(?:{'|'.join(COMMANDS)})(?=\[))\b"
     r"|(?P<EVERY>[Ff]or\s+(?:all|every|each|any)\b)"
-    r"|(?P<SOME>[Ff]or\s+some\b|[Tt]here\s+(?:is|are)\b)"
-    r"|(?P<THAT>such\s+that\b|s\.\s?t\.|with\b)"
+    rf"|(?P<SOME>[Ff]or\s+some\b|{_THERE}\b(?:\s+an?\b(?!\s+(?:in\b|{_THAT}))(?=\s+{_LIST}))?)"
+    rf"|(?P<THAT>{_THAT})"
     r"|(?P<NOTIN>not\s+in\b|∉)"
     rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*[.:]))\b"
     rf"|(?P<CALL>(?:{'|'.join(_CALLS)})(?=\s*[(\[]))\b"
@@ -133,6 +135,10 @@ _KINDS_OF_NUMBERS = {
     "nonzero": "a condition stands behind the variable, as in exists x /= 0",
     **dict.fromkeys(("nonnegative", "non"), "a condition stands behind the variable, as in exists x >= 0"),
     **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),
+    **dict.fromkeys(
+        ("an", "the", "no", "at", "one", "two", "only", "some", "given", "many", "infinitely", "real", "number"),
+        "names of variables alone stand behind a quantifier, with commas between them: exists x, y: …",
+    ),
 }
 """Words in front of the variables of a quantifier that would otherwise be taken for a variable."""
 

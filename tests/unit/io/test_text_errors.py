@@ -39,6 +39,8 @@ from tests.tables import each
     ("exists unique x. x^2 = a", 7, "there is no ∃!", ""),
     ("exists positive x. x^2 = a", 7, "exists x > 0", ""),
     ("∃ integer n. n = x", 2, "all variables are real", ""),
+    ("there are two x with x^2 = a", 10, "names of variables alone", ""),
+    ("exists a real x. x^2 = a", 9, "names of variables alone", ""),
     ("x >= 1\ny >= 2", 7, "of several lines", ""),
     ("(and (> x 0) (< y 1))", 1, "format smtlib", ""),
     ("x := 0", 2, "':=' is not used", ""),

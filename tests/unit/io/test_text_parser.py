@@ -167,6 +167,12 @@ def read(text: str) -> Formula:
     ("y > 0, x^2 >= y, for all real numbers x in [0, 1]", "all x. 0 <= x and x <= 1 -> y > 0 and x^2 >= y"),
     ("x^2 = y for some x", "ex x. x^2 = y"),
     ("for every real x: x^2 >= y", "all x. x^2 >= y"),
+    ("there is a x with x^2 = a", "ex x. x^2 = a"),  # an article is no variable
+    ("There exists a real number x such that x^2 = a", "ex x. x^2 = a"),
+    ("there is a with a > x", "ex a. a > x"),
+    ("there exists a in [0, x] such that a > 1", "ex a in [0, x]. a > 1"),
+    ("there are no x, z with x*z = y", "not (ex x, z. x*z = y)"),  # "no" was a variable, and it said the opposite
+    ("there are infinitely many x with x^2 < y", "infinitely many x. x^2 < y"),
     ("Reduce[{x > 0, x y > 1}, {x, y}, Reals]", "x > 0 and x*y > 1"),
 )
 def test_other_ways_to_write(text: str, plain: str) -> None:
