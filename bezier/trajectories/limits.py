@@ -61,7 +61,7 @@ class Limit:
 
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """Where sign * p is largest: at the time ``breaks[piece] + at``; its value there lies in ``value``."""
+    """Where sign * p is largest: at the time ``breaks[piece] + at``; the largest value lies in ``value``."""
 
     piece: int
     sign: int
@@ -236,13 +236,13 @@ def _ranges(polys: Sequence[RationalPoly], lengths: Sequence[Fraction]) -> tuple
 
 
 def _peak(sign: int, tops: Any, polys: Sequence[RationalPoly], lengths: Sequence[Fraction]) -> Peak:
-    """The largest value of sign * p. Pieces in the order of what they may reach, until the rest cannot reach it."""
+    """Where sign * p may be largest. Pieces in the order of what they may reach, until the rest cannot reach it."""
     best: Peak | None = None
     for i in np.argsort(-tops, kind="stable").tolist():
         if best is not None and tops[i] < best.value[0]:
             break
         for at, value in _extremes(polys[i], lengths[i], sign):
-            if best is None or value[0] > best.value[0]:
+            if best is None or value[1] > best.value[1]:
                 best = Peak(i, sign, at, value)
     assert best is not None
     return best

@@ -54,6 +54,19 @@ def samples(path: CubicSpline, law: tuple[Any, ...], breaks: Any, count: int) ->
     return np.array([np.abs(velocity).max((0, 1)), np.abs(bend + path(s, 1) * force[..., None]).max((0, 1))]).ravel()
 
 
+@each(-1, 0, 1)
+def test_a_limit_exceeded_by_less_than_any_enclosure_tells_where_an_end_just_reaches_it(sign: int) -> None:
+    """1 - t*(t^2 - c)^2 + sign*t/10^k is 1 at t = 0 and, next to the square root of c, above 1 by 10^-k."""
+    rng = Random(sign)
+    for k in rng.sample(range(30, 200), 12):
+        t, c = RationalPoly.of([0, 1]), F(rng.randint(1, 9), 11)
+        square = RationalPoly.of([-c, 0, 1])
+        above = t * (RationalPoly.of([sign * F(1, 10**k)]) - square * square)
+        side = rng.choice((1, -1))
+        moving = Trajectory(("x",), (F(0), F(1)), ((RationalPoly.of([side]) + RationalPoly.of([side]) * above,),))
+        assert decided(moving, [Limit(0, 0, F(1), F(-1))], TOLERANCE).is_kept == (sign <= 0)
+
+
 @each((3, 100), (6, 100), (6, 1000), (3, 1000), daily=3)
 def test_paths_timed_by_toppra_break_their_limits_between_grid_points(axes: int, count: int) -> None:
     pytest.importorskip("toppra")
