@@ -29,7 +29,7 @@ from bezier.trajectories.limits import Limit, Verdict, decided
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.readers import load
 from bezier.trajectories.words import in_words, to_json
-from qe.errors import InputError
+from qe.errors import InputError, Unable
 from qe.options import Budget
 from qe.processes.channel import Channel
 
@@ -227,7 +227,7 @@ class Certified:
     @property
     def certificate(self) -> qe.Certificate:
         """The proof of all that is said of limits, obstacles and a path; ``qe.verify`` checks it. Raises ``qe.Unable``
-        where there is none: for what is not continuous."""
+        where there is none: for what is not continuous, for instance."""
         verdict, near = self.verdict, () if self.along is None else self.along.members()
         return qe.Certificate.bundle([*(members(verdict) if verdict.outcomes else ()), *near, *self._scene()])
 
@@ -238,7 +238,10 @@ class Certified:
 
     def _scene(self) -> list[tuple[str, qe.Certificate]]:
         parts = [] if self.scene is None else proved(dict(surfaces(self.scene)), Budget())
-        return [*survey.certificates(self.findings or ()), *parts]
+        listed = survey.certificates(self.findings or ())
+        if len(listed) < len(self.findings or ()):
+            raise Unable("an obstacle has no certificate: touched at an irrational time, or of too high a degree")
+        return [*listed, *parts]
 
     def page(self, title: str = "trajectory") -> str:
         """An HTML page with a chart of each quantity, and of each distance, over time."""

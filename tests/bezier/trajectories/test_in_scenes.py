@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from fractions import Fraction
+from fractions import Fraction as F
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,9 @@ from bezier.cli.app import main
 from bezier.input.toml_table import Table
 from bezier.trajectories.command import Certified
 from bezier.trajectories.objects import from_scipy
+from bezier.trajectories.piecewise import Trajectory
 from qe.errors import InputError
+from qe.exact.rational_poly import RationalPoly
 from tests.tables import each
 
 Away = Callable[[Any], Any]
@@ -148,7 +150,7 @@ def test_a_half_plane_counts_far_from_where_the_point_begins_and_ends() -> None:
     assert not bezier.certify(moving, obstacles=[wall]).kept
     assert bezier.certify(moving, obstacles=[{**wall, "offset": -60}]).kept
     table = Table({"domain": {"low": ["-1", "-1"], "high": ["1", "1"]}, "obstacle": [wall]})
-    left = Certified.of(from_scipy(moving), (), table, Fraction(0))
+    left = Certified.of(from_scipy(moving), (), table, F(0))
     assert not left.kept and not left.clear
 
 
@@ -157,3 +159,12 @@ def test_a_scene_of_another_dimension_is_one_clear_line() -> None:
         bezier.certify(CubicSpline([0, 1], [0, 1]), obstacles=[{"kind": "disc", "centre": [0, 0], "radius": 1}])
     with pytest.raises(InputError, match=r"obstacles\[0\].kind: expected one of .*found \"cylinder\""):
         bezier.certify(motion(0, 2), obstacles=[{"kind": "cylinder", "centre": [0, 0], "radius": 1}])
+
+
+def test_what_has_no_proof_is_not_left_out_of_a_certificate() -> None:
+    """A plane touched at an irrational time: the certificate was an empty bundle, which its own check rejected."""
+    touching = Trajectory(("x", "y"), (F(0), F(1)), ((RationalPoly.of([0, 1]), RationalPoly.of([1, 0, -4, 0, 4])),))
+    found = Certified.of(touching, [], Table({"obstacle": [{"kind": "formula", "formula": "y <= 0"}]}, ""), F(0))
+    assert not found.clear
+    with pytest.raises(qe.Unable, match="irrational time"):
+        found.certificate
