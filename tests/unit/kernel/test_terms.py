@@ -47,6 +47,7 @@ REJECTED: dict[str, tuple[str, str, Terms, Terms]] = {
     "not onto": ("ex x. x = a", "ex x. x^2 = a", {"x": "x^2"}, {"x": "x"}),
     "the variable is free outside": ("ex x. x = y", "ex y. y = y + 1 - 1", {"x": "y"}, {"y": "x"}),
     "bound on one side, free on the other": ("ex x. x = y", "x = y", {"x": "y"}, {}),
+    "denominator 0": ("ex x. x = 5 and x^3 = 3", "true", {"x": ("1", "0")}, {}),
     "captured inside": ("ex x. (ex y. x^2 - y = 1)", "ex z. (ex y. z^2 - y = 1)", {"x": "y"}, {"z": "x"}),
     "a variable without a term": ("ex x, y. x > y", "ex z. z > 0", {"x": "z"}, {"z": "x - y"}),
 }
