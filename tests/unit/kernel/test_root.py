@@ -72,6 +72,7 @@ def test_a_value_that_is_taken(block: str, low: Any, high: Any, rising: int, giv
         ("ex x. x^2 < b", None, None, 1, "true"),
         ("ex x. x^2 = b and x >= 0", ["x", "1"], None, 1, "b >= 0"),
         ("ex x. x^2 = b and x >= 0", ["0", "-1"], None, 1, "b >= 0"),
+        ("ex x. x^3 = b and x <= 0", ["0", "-1"], None, 1, "b >= 0"),  # the other side of the place
         ("ex x, y. x^2 = y", ZERO, None, 1, "true"),
         ("ex x. b = 0", None, None, 0, "true"),
     ],
