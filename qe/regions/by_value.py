@@ -328,13 +328,12 @@ def _condition(
     pieces say whose ends are numbers and polynomials, if that is shorter, or not much longer and gives values of
     variables that are to be ``solved`` for."""
     places = [(base, i in chosen) for i, base in enumerate(bases) if i not in open_]
-    said, unlike = None, None
+    said = None
     for factors, signs in columns():
         cells = [FreeCell(base.path, tuple(signs(base)), true) for base, true in places]
         try:
             formula = simplify(formula_of_cells(factors, cells))
-        except Undistinguished as pair:
-            unlike = pair
+        except Undistinguished:
             continue
         if formula == TRUE:
             return "", False
@@ -342,15 +341,57 @@ def _condition(
         break
     pieces = merge(_only(table, frozenset(bases[i].path for i in chosen), True), budget=budget)
     ends = [end for piece in pieces for r in piece.ranges for end in (r.lower, r.upper) if end and end.value is None]
-    if all(end.written and end.written[1] is None and end.written[2].is_constant for end in ends):
-        shown = " or ".join(map(str, pieces)), len(pieces) > 1
-        has_values = solved and any(r.is_point for piece in pieces for r in piece.ranges)
-        if said is None or len(shown[0]) < len(said[0]) * (3 if has_values else 1):
-            return shown
+    parts = _parts([tuple(str(r) for r in piece.ranges if r.is_bounded) for piece in pieces])
+    shown = " or ".join(parts), len(parts) > 1
     if said is None:
-        assert unlike is not None
-        raise unlike
+        over = _over_cells(table, bases, chosen, open_, budget)
+        return over if len(over[0]) < len(shown[0]) else shown
+    if all(end.written and end.written[1] is None and end.written[2].is_constant for end in ends):
+        has_values = solved and any(r.is_point for piece in pieces for r in piece.ranges)
+        if len(shown[0]) < len(said[0]) * (3 if has_values else 1):
+            return shown
     return said
+
+
+def _over_cells(
+    table: CellTable, bases: list[Place], chosen: frozenset[int], open_: frozenset[int], budget: Budget
+) -> tuple[str, bool]:
+    """As ``_condition``, where signs do not tell: what has to hold of the last parameter is said over each cell of those
+    before it, by signs if they tell there, and once for all cells over which the same is said."""
+    depth = max(base.depth for base in bases)
+    before = list(leaves(table, depth=depth - 1))
+    over: list[list[int]] = [[] for _ in before]
+    position = {base.path: k for k, base in enumerate(before)}
+    for i, base in enumerate(bases):
+        over[position[base.path[: depth - 1]]].append(i)
+    said: dict[tuple[str, bool], set[int]] = {}
+    for k, inner in enumerate(over):
+        if not chosen.isdisjoint(inner):
+            said.setdefault(_over_cell(table, [(bases[i], i in chosen) for i in inner if i not in open_]), set()).add(k)
+    undecided = frozenset(k for k, inner in enumerate(over) if open_.issuperset(inner))
+    parts = []
+    columns = partial(_columns, table.factors[: depth - 1], dict, before)
+    for what, cells in said.items():
+        where = _condition(table, before, frozenset(cells), undecided, columns, False, budget)
+        if what[0] and where[0]:
+            parts.append(" and ".join(f"({text})" if has_or else text for text, has_or in (where, what)))
+        else:
+            parts.append(what[0] or where[0])
+    return " or ".join(parts), len(parts) > 1
+
+
+def _over_cell(table: CellTable, places: list[tuple[Place, bool]]) -> tuple[str, bool]:
+    """What has to hold of the last parameter over a cell of those before it; "" where nothing has to."""
+    level = max(place.depth for place, _ in places) - 1
+    if all(true for _, true in places):
+        return "", False
+    cells = [FreeCell(p.path, (placed_signs(p.used[level], p.signs[level]),), true) for p, true in places]
+    try:
+        formula = simplify(formula_of_cells(table.factors[level : level + 1], cells))
+    except Undistinguished:
+        pieces = merge(_only(table, frozenset(place.path for place, true in places if true), True))
+        return " or ".join(str(piece.ranges[level]) for piece in pieces), len(pieces) > 1
+    return str(formula), isinstance(formula, Or)
 
 
 def _columns(
