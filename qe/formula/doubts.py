@@ -15,6 +15,7 @@ _NUMBERS = ("e", "i", "E", "I")
 """Letters that are numbers to many readers, and variables here."""
 _WORD = re.compile(WORD)
 _EXPONENT = rf"(?![^\W{NUMERALS}])\s*((?:\^|\*\*)\s*\d+|[²³⁴-⁹]+)?"
+_RELATED = re.compile(r"[<>=≠≤≥⩽⩾∈∉\[]|\b(?:not|in|true|false|Eq|Ne|Lt|Le|Gt|Ge)\b", re.IGNORECASE)
 _WRITTEN_OUT = ("text", "latex", "smtlib", "redlog")
 """Formats in which a variable stands at its quantifier and where it is used, and nowhere else."""
 
@@ -44,6 +45,8 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
             notes.append(f"{name} is one name; a product is written {product}")
     read = [name for name in names if len(name) == 1 and re.search(rf"(?<![\w`]){name}\(", typed)]
     notes += [f"{name}(…) is the product {name}*(…)" for name in read]
+    if typed and not _RELATED.search(typed):
+        notes.append("a term alone is taken as an equation with 0")
     return (*notes, *numbers_as_names(formula.free, typed, names))
 
 

@@ -4,8 +4,8 @@ Operators from tight to loose: ``not`` (``~``), ``and`` (``/\\``), ``or`` (``\\/
 ``<->`` (``<==>``). A quantifier is ``ex`` or ``all`` (also ``exists forall Ex All E A``); its body runs to the end of
 its brackets. Relations ``= /= < <= > >=`` may be chained. Numbers are exact: ``3/4``, ``0.75``,
 ``1.5e-3``. Products need no sign where nothing else can be meant: ``2 x (y + 1)``; commas between conditions mean "and"
-(``qe.io.conditions``). ``x < root(2, x^2 - y)`` compares with the second smallest real root in x. A name is a word,
-possibly with primes, or anything between backquotes: `` `my name` ``. ``#`` starts a comment.
+(``qe.io.conditions``), terms alone are zero. ``x < root(2, x^2 - y)`` compares with the second smallest real root in
+x. A name is a word, possibly with primes, or anything between backquotes: `` `my name` ``. ``#`` starts a comment.
 """
 
 from __future__ import annotations
@@ -15,12 +15,13 @@ from collections.abc import Container
 from fractions import Fraction
 from typing import cast
 
+from qe.errors import ParseError
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, Relation
 from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
-from qe.io.surface import Comparison, Meet, Name, Quantification, Term
-from qe.io.text_errors import Failing
+from qe.io.surface import Comparison, Every, Meet, Name, Node, Number, Quantification, Term
+from qe.io.text_errors import Failing, SyntaxFailure
 from qe.io.text_lexer import COMMANDS
 from qe.io.text_parser import is_latex, parser_of
 from qe.io.total import Total
@@ -42,8 +43,22 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = (), total
     """
     fail = Failing(text, source)
     total = Total() if total_division else None
-    formula = lower(parsed(parser_of(text), text, fail), fail, meet=_no_constants(fail, known), total=total)
+    formula = lower(_node(text, fail), fail, meet=_no_constants(fail, known), total=total)
     return formula if total is None else total.checked(formula)
+
+
+def _node(text: str, fail: Failing) -> Node:
+    """What a text is; terms alone, one or a list, are equations with zero, as for SymPy's ``solve``."""
+    try:
+        return cast(Node, parsed(parser_of(text), text, fail))
+    except ParseError:
+        try:
+            terms = parser_of(text)(text).terms()
+        except SyntaxFailure:
+            terms = []
+        if not terms or isinstance(terms[0], Name | Number):
+            raise
+    return Every([Comparison([term, Number(0)], [Relation.EQ], -1) for term in terms])
 
 
 def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] = ()) -> tuple[Poly, Fraction]:

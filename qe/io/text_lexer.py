@@ -184,7 +184,7 @@ def tokens(text: str) -> Iterator[Token]:
             yield from state.put("NOT", "not", at)
             yield from state.put("QUANTIFIER", "∃", at)
         elif kind == "THAT" and state.header:
-            yield from state.put("DOT", ".", at)
+            yield from state.put("DOT", value, at)
         elif value == "with":
             yield from state.put("NAME", value, at)
         elif kind == "THAT":

@@ -1,14 +1,14 @@
-"""The text syntax beyond operators: quantifiers and what they range over, sets, lists, cases. LaTeX has the same."""
+"""The text syntax beyond operators and quantifiers: conditions with commas, lists, cases. LaTeX has the same."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import reduce
 from itertools import chain
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, ClassVar
 
-from qe.formula.relation import Relation
 from qe.io import parser, text_lexer
 from qe.io import surface as s
 from qe.io.conditions import SHARING, shared, together
@@ -25,28 +25,20 @@ from qe.io.parser import (
     RELATION,
     TERM,
     Infix,
-    Parser,
     Prefix,
     Waiting,
-    counted,
 )
 from qe.io.text_errors import SyntaxFailure
+from qe.io.text_quantifiers import QuantifiedParser
 from qe.io.tokens import END, Token
+from qe.spelling import WORD
 
-_UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
-
-
-Within: TypeAlias = Callable[[s.Term, int], s.Node]
-"""A set: the formula that a term, at an offset, is in it."""
+_COMPARED = re.compile(rf"\{{\s*{WORD}(?:\s*,\s*{WORD})*\s*\}}(?=\s*(?:[<>=≤≥≠]|!=|/=))")
+"""A list of variables that are compared, as Mathematica does."""
 
 
-class TextParser(Parser):
+class TextParser(QuantifiedParser):
     """Reads a text that is not LaTeX."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__(text)
-        self.conditions: list[s.Node] = []
-        self.behind: Callable[[s.Node], s.Node] | None = None
 
     def lexed(self, text: str) -> Iterator[Token]:
         return text_lexer.tokens(text)
@@ -93,6 +85,16 @@ class TextParser(Parser):
                 raise SyntaxFailure("a quantifier stands in front of its formula: all x. x^2 >= 0", at)
         return together(self.conditions, start)
 
+    def terms(self) -> list[s.Term]:
+        """Terms with commas between them, perhaps in brackets, to the end of the text."""
+        if self.token.kind in CLOSES and self.text.rstrip("; \t\r\n")[-1:] in (")", "]", "}"):
+            with suppress(SyntaxFailure):
+                terms = self.arguments(CLOSES[self.advance().kind])
+                self.take(END)
+                return terms
+            return type(self)(self.text).arguments(END)
+        return self.arguments(END)
+
     def name_or_call(self) -> s.Term | None:
         """A name, or several with commas between them, which share the comparison that follows."""
         waiting, at = self.stack[-1], self.token.at
@@ -124,151 +126,18 @@ class TextParser(Parser):
         self.take("RIGHT")
         return node
 
-    # --- quantifiers -----------------------------------------------------------------------------------------
-    def quantifier(self) -> s.Node | None:
-        """One or more quantifiers, to the dot or the bracket that their body stands in, or behind it to the end."""
-        token = self.advance()
-        if self.token.kind in ("OPEN", "LEFT"):
-            self.quantified_call(token)
-            return None
-        headers = [(token, *self.bound())]
-        while self.token.kind == "QUANTIFIER":
-            headers.append((self.advance(), *self.bound()))
-
-        def make(body: s.Node) -> s.Node:
-            for header in reversed(headers):
-                body = _quantified(*header, body)
-            return body
-
-        if (kind := self.advance().kind) == "DOT":
-            self.stack.append(Waiting(BODY, FORMULA, FORMULA, make))
-        elif kind == END:
-            self.behind = make
-            return s.Truth(True)
-        else:
-            self.open(FORMULA, CLOSES[kind], lambda parts: make(parts[0]))
-        return None
-
-    def bound(self) -> tuple[list[str], Within | None]:
-        """The variables of a quantifier and what they range over, up to the token that has to follow them."""
-        ends = ("DOT", "QUANTIFIER", "OPEN", "LEFT", *([END] if self.conditions and len(self.stack) == 1 else []))
-        names, within = self.names(), None
-        if self.token.kind == "IN":
-            self.advance()
-            within = self.set()
-        elif self.token.kind == "RELATION":
-            relation = RELATIONS[self.advance().text]
-            bound = self.expression(TERM, *ends)
-            within = lambda term, at: s.Comparison([term, bound], [relation], at)  # noqa: E731
-        if self.token.kind not in ends:
-            raise self.unexpected(ends if within else {*ends, "COMMA", "NAME", "IN", "RELATION"})
-        return names, within
-
-    def names(self) -> list[str]:
-        """Names with commas or nothing between them."""
-        names = [self.take("NAME").text]
-        while self.token.kind in ("COMMA", "NAME"):
-            if self.token.kind == "COMMA":
-                self.advance()
-            names.append(self.take("NAME").text)
-        return names
-
-    def names_or_name(self) -> list[str]:
-        """Names in brackets, or one."""
-        first = self.take("NAME", *CLOSES)
-        if first.kind == "NAME":
-            return [first.text]
-        names = self.names()
-        self.take(CLOSES[first.kind], "COMMA", "NAME")
-        return names
-
-    def quantified_call(self, token: Token) -> None:
-        """``ForAll[{x, y}, condition, formula]``."""
-        closing = CLOSES[self.advance().kind]
-        names = self.names_or_name()
-        self.take("COMMA")
-        universal = token.text in _UNIVERSAL
-
-        def make(formulas: list[s.Node]) -> s.Node:
-            if len(formulas) > 2:
-                usage = "a quantifier takes variables, perhaps a condition, and a formula"
-                raise SyntaxFailure(f"{usage}: ForAll[{{x, y}}, x > y, x^3 > y^3]", token.at)
-            *conditions, body = formulas
-            return s.Quantification(universal, names, _under(universal, conditions, body))
-
-        self.open(FORMULA, closing, make, many=True)
-
-    # --- sets ------------------------------------------------------------------------------------------------
-    def set(self) -> Within:
-        """Intersections, then from the left unions and differences."""
-        value = self.intersection()
-        while self.token.kind in ("UNION", "WITHOUT") or self.token.text in ("union", "Union"):
-            combine = _difference if self.advance().kind == "WITHOUT" else _union
-            value = combine(value, self.intersection())
-        return value
-
-    def intersection(self) -> Within:
-        value = self.simple_set()
-        while self.token.kind == "COMMON":
-            self.advance()
-            value = _intersection(value, self.simple_set())
-        return value
-
-    def refuse_others(self) -> None:
-        """Refuse a set of numbers that are not all real ones."""
-        if self.token.text in text_lexer.NOT_REAL:
-            raise SyntaxFailure(
-                f"all variables are real (as in ex x. …), {self.token.text} cannot be asked for", self.token.at
-            )
-
-    def simple_set(self) -> Within:
-        self.refuse_others()
-        if self.token.text in text_lexer.ALSO_REALS:
-            self.token = self.token._replace(kind="REALS")
-        kind = self.take("OPEN", "LEFT", "BEGIN", "REALS").kind
-        if kind == "REALS":
-            return lambda term, at: s.Comparison([term, term], [Relation.EQ], at)
-        if kind == "BEGIN":
-            values = self.arguments("END")
-            return lambda term, at: s.Some([s.Comparison([term, value], [Relation.EQ], at) for value in values])
-        left = self.expression(TERM, "COMMA")
-        self.advance()
-        right = self.expression(TERM, "CLOSE", "RIGHT")
-        end = left.part if isinstance(left, s.Minus) else left
-        low = Relation.GE if kind == "LEFT" and not isinstance(end, s.Infinity) else Relation.GT
-        high = Relation.LE if self.advance().kind == "RIGHT" and not isinstance(right, s.Infinity) else Relation.LT
-        bounds = (left, low), (right, high)  # behind the term, whose names stand in front of theirs
-        return lambda term, at: s.Every([s.Comparison([term, end], [relation], at) for end, relation in bounds])
-
-    def arguments(self, closing: str) -> list[s.Term]:
-        """Terms with commas between them, and the bracket behind them."""
-        values = [self.expression(TERM, "COMMA", closing)]
-        while self.advance().kind == "COMMA":
-            values.append(self.expression(TERM, "COMMA", closing))
-        return values
-
-    def element(self) -> s.Node:
-        """``Element[x | y, Reals]``."""
-        at = self.advance().at
-        closing = CLOSES[self.take("OPEN", "LEFT").kind]
-        if self.token.kind == "BEGIN":
-            self.advance()
-            members = self.arguments("END")
-        else:
-            members = [self.expression(TERM, "ALSO", "COMMA")]
-            while self.token.kind == "ALSO":
-                self.advance()
-                members.append(self.expression(TERM, "ALSO", "COMMA"))
-        self.take("COMMA")
-        within = self.set()
-        self.take(closing)
-        return _all_within(members, within, at)
-
     # --- lists and cases -------------------------------------------------------------------------------------
-    def listed(self) -> None:
-        """Formulas that hold together."""
+    def listed(self) -> s.Name | None:
+        """Formulas that hold together, or variables with one comparison behind them."""
+        if _COMPARED.match(self.text, self.token.at):  # {a, b} >= 0
+            at = self.advance().at
+            *others, last = [s.Name(name, at) for name in self.names()]
+            self.take("END")
+            self.stack.append(Waiting(NOT, FORMULA, FORMULA, lambda node: shared(others, node, None, at)))
+            return last
         kind = self.advance().kind
         self.open(FORMULA, CLOSES[kind], lambda parts: s.Every(parts) if len(parts) > 1 else parts[0], many=True)
+        return None
 
     def connective(self) -> None:
         token = self.advance()
@@ -345,10 +214,10 @@ class TextParser(Parser):
     prefix = {  # noqa: RUF012
         **parser.PREFIX,
         "NAME": Prefix(TERM, PRIMARY, name_or_call),
-        "QUANTIFIER": Prefix(FORMULA, NOT, quantifier),
+        "QUANTIFIER": Prefix(FORMULA, NOT, QuantifiedParser.quantifier),
         "LEFT": Prefix(FORMULA, NOT, listed),
         "BEGIN": Prefix(FORMULA, NOT, listed),
-        "ELEMENT": Prefix(FORMULA, NOT, element),
+        "ELEMENT": Prefix(FORMULA, NOT, QuantifiedParser.element),
         "CONNECTIVE": Prefix(FORMULA, NOT, connective),
         "COMPARE": Prefix(FORMULA, NOT, compared),
         "IF": Prefix(EITHER, ELSE, cases),
@@ -389,52 +258,6 @@ def is_latex(text: str) -> bool:
 
         return latex_lexer.is_latex(text)
     return False
-
-
-def _quantified(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
-    """A quantifier over names, which may be bounded by a set."""
-    if quantifier.text.partition(" ")[0] in s.QUANTITIES:
-        return _quantity(quantifier, names, within, body)
-    universal = quantifier.text in _UNIVERSAL
-    if within is None:
-        return s.Quantification(universal, names, body)
-    condition = _all_within([s.Name(name, quantifier.at) for name in names], within, quantifier.at)
-    return s.Quantification(universal, names, _under(universal, [condition], body))
-
-
-def _quantity(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
-    """How many values of one variable, which may be bounded by a set."""
-    kind, _, number = quantifier.text.partition(" ")
-    if len(names) != 1:
-        raise SyntaxFailure(f"{s.QUANTITIES[kind]}: one variable expected, {', '.join(names)} found", quantifier.at)
-    conditions = [] if within is None else [within(s.Name(names[0], quantifier.at), quantifier.at)]
-    return s.Quantity(
-        kind, counted(number, quantifier.at), names[0], _under(kind == "G", conditions, body), quantifier.at
-    )
-
-
-def _under(universal: bool, conditions: list[s.Node], body: s.Node) -> s.Node:
-    """The body of a quantifier that ranges over what has at most one condition."""
-    if not conditions:
-        return body
-    return s.Implication(conditions[0], body) if universal else s.Every([*conditions, body])
-
-
-def _all_within(terms: list[Any], within: Within, at: int) -> s.Node:
-    inside = [within(term, at) for term in terms]
-    return inside[0] if len(inside) == 1 else s.Every(inside)
-
-
-def _union(one: Within, other: Within) -> Within:
-    return lambda term, at: s.Some([one(term, at), other(term, at)])
-
-
-def _difference(one: Within, other: Within) -> Within:
-    return lambda term, at: s.Every([one(term, at), s.Negation(other(term, at))])
-
-
-def _intersection(one: Within, other: Within) -> Within:
-    return lambda term, at: s.Every([one(term, at), other(term, at)])
 
 
 def _connected(token: Token, parts: list[s.Node]) -> s.Node:

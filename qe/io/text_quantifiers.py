@@ -1,0 +1,227 @@
+"""Quantifiers of the text syntax and what they range over: sets, bounds, conditions. LaTeX has the same."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from qe.formula.relation import Relation
+from qe.io import surface as s
+from qe.io import text_lexer
+from qe.io.functions import RELATIONS
+from qe.io.parser import BODY, CLOSES, FORMULA, TERM, Parser, Waiting, counted
+from qe.io.text_errors import SyntaxFailure
+from qe.io.tokens import END, Token
+
+_UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
+
+Within: TypeAlias = Callable[[s.Term, int], s.Node]
+"""A set: the formula that a term, at an offset, is in it."""
+
+
+class QuantifiedParser(Parser):
+    """Reads quantifiers. ``conditions``: those of a whole text that stand in front of a quantifier, which then waits
+    ``behind`` them."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.conditions: list[s.Node] = []
+        self.behind: Callable[[s.Node], s.Node] | None = None
+
+    def quantifier(self) -> s.Node | None:
+        """One or more quantifiers, to the dot or the bracket that their body stands in, or behind it to the end."""
+        token = self.advance()
+        if self.token.kind in ("OPEN", "LEFT"):
+            self.quantified_call(token)
+            return None
+        headers = [(token, *self.bound())]
+        while self.token.kind == "QUANTIFIER":
+            headers.append((self.advance(), *self.bound()))
+
+        def make(body: s.Node) -> s.Node:
+            body = _under(True, conditions, body)
+            for header in reversed(headers):
+                body = _quantified(*header, body)
+            return body
+
+        kind, text, _ = self.advance()
+        conditions = self.condition(headers[-1][0]) if kind == "DOT" and text not in ".:," else []
+        if kind == END or (conditions and self.token.kind == END):
+            self.behind = make
+            return s.Truth(True)
+        if conditions:
+            self.advance()
+        if kind == "DOT":
+            self.stack.append(Waiting(BODY, FORMULA, FORMULA, make))
+        else:
+            self.open(FORMULA, CLOSES[kind], lambda parts: make(parts[0]))
+        return None
+
+    def condition(self, quantifier: Token) -> list[s.Node]:
+        """What has to hold of the variables of ``for all x, y with x < y: f``, also behind its formula."""
+        is_behind = bool(self.conditions) and len(self.stack) == 1
+        if quantifier.text in _UNIVERSAL and (is_behind or re.search(r":(?!=)|\.\s", self.text[self.token.at :])):
+            return [self.expression(FORMULA, END if is_behind else "DOT")]
+        return []
+
+    def bound(self) -> tuple[list[str], Within | None]:
+        """The variables of a quantifier and what they range over, up to the token that has to follow them."""
+        ends = ("DOT", "QUANTIFIER", "OPEN", "LEFT", *([END] if self.conditions and len(self.stack) == 1 else []))
+        names, within = self.names(), None
+        if self.token.kind == "IN":
+            self.advance()
+            within = self.set()
+        elif self.token.kind == "RELATION":
+            relation = RELATIONS[self.advance().text]
+            bound = self.expression(TERM, *ends)
+            within = lambda term, at: s.Comparison([term, bound], [relation], at)  # noqa: E731
+        if self.token.kind not in ends:
+            raise self.unexpected(ends if within else {*ends, "COMMA", "NAME", "IN", "RELATION"})
+        return names, within
+
+    def names(self) -> list[str]:
+        """Names with commas or nothing between them."""
+        names = [self.take("NAME").text]
+        while self.token.kind in ("COMMA", "NAME"):
+            if self.token.kind == "COMMA":
+                self.advance()
+            names.append(self.take("NAME").text)
+        return names
+
+    def names_or_name(self) -> list[str]:
+        """Names in brackets, or one."""
+        first = self.take("NAME", *CLOSES)
+        if first.kind == "NAME":
+            return [first.text]
+        names = self.names()
+        self.take(CLOSES[first.kind], "COMMA", "NAME")
+        return names
+
+    def quantified_call(self, token: Token) -> None:
+        """``ForAll[{x, y}, condition, formula]``."""
+        closing = CLOSES[self.advance().kind]
+        names = self.names_or_name()
+        self.take("COMMA")
+        universal = token.text in _UNIVERSAL
+
+        def make(formulas: list[s.Node]) -> s.Node:
+            if len(formulas) > 2:
+                usage = "a quantifier takes variables, perhaps a condition, and a formula"
+                raise SyntaxFailure(f"{usage}: ForAll[{{x, y}}, x > y, x^3 > y^3]", token.at)
+            *conditions, body = formulas
+            return s.Quantification(universal, names, _under(universal, conditions, body))
+
+        self.open(FORMULA, closing, make, many=True)
+
+    # --- sets ------------------------------------------------------------------------------------------------
+    def set(self) -> Within:
+        """Intersections, then from the left unions and differences."""
+        value = self.intersection()
+        while self.token.kind in ("UNION", "WITHOUT") or self.token.text in ("union", "Union"):
+            combine = _difference if self.advance().kind == "WITHOUT" else _union
+            value = combine(value, self.intersection())
+        return value
+
+    def intersection(self) -> Within:
+        value = self.simple_set()
+        while self.token.kind == "COMMON":
+            self.advance()
+            value = _intersection(value, self.simple_set())
+        return value
+
+    def refuse_others(self) -> None:
+        """Refuse a set of numbers that are not all real ones."""
+        if self.token.text in text_lexer.NOT_REAL:
+            raise SyntaxFailure(
+                f"all variables are real (as in ex x. …), {self.token.text} cannot be asked for", self.token.at
+            )
+
+    def simple_set(self) -> Within:
+        self.refuse_others()
+        if self.token.text in text_lexer.ALSO_REALS:
+            self.token = self.token._replace(kind="REALS")
+        kind = self.take("OPEN", "LEFT", "BEGIN", "REALS").kind
+        if kind == "REALS":
+            return lambda term, at: s.Comparison([term, term], [Relation.EQ], at)
+        if kind == "BEGIN":
+            values = self.arguments("END")
+            return lambda term, at: s.Some([s.Comparison([term, value], [Relation.EQ], at) for value in values])
+        left = self.expression(TERM, "COMMA")
+        self.advance()
+        right = self.expression(TERM, "CLOSE", "RIGHT")
+        end = left.part if isinstance(left, s.Minus) else left
+        low = Relation.GE if kind == "LEFT" and not isinstance(end, s.Infinity) else Relation.GT
+        high = Relation.LE if self.advance().kind == "RIGHT" and not isinstance(right, s.Infinity) else Relation.LT
+        bounds = (left, low), (right, high)  # behind the term, whose names stand in front of theirs
+        return lambda term, at: s.Every([s.Comparison([term, end], [relation], at) for end, relation in bounds])
+
+    def arguments(self, closing: str) -> list[s.Term]:
+        """Terms with commas between them, and the bracket behind them."""
+        values = [self.expression(TERM, "COMMA", closing)]
+        while self.advance().kind == "COMMA":
+            values.append(self.expression(TERM, "COMMA", closing))
+        return values
+
+    def element(self) -> s.Node:
+        """``Element[x | y, Reals]``."""
+        at = self.advance().at
+        closing = CLOSES[self.take("OPEN", "LEFT").kind]
+        if self.token.kind == "BEGIN":
+            self.advance()
+            members = self.arguments("END")
+        else:
+            members = [self.expression(TERM, "ALSO", "COMMA")]
+            while self.token.kind == "ALSO":
+                self.advance()
+                members.append(self.expression(TERM, "ALSO", "COMMA"))
+        self.take("COMMA")
+        within = self.set()
+        self.take(closing)
+        return all_within(members, within, at)
+
+
+def _quantified(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
+    """A quantifier over names, which may be bounded by a set."""
+    if quantifier.text.partition(" ")[0] in s.QUANTITIES:
+        return _quantity(quantifier, names, within, body)
+    universal = quantifier.text in _UNIVERSAL
+    if within is None:
+        return s.Quantification(universal, names, body)
+    condition = all_within([s.Name(name, quantifier.at) for name in names], within, quantifier.at)
+    return s.Quantification(universal, names, _under(universal, [condition], body))
+
+
+def _quantity(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
+    """How many values of one variable, which may be bounded by a set."""
+    kind, _, number = quantifier.text.partition(" ")
+    if len(names) != 1:
+        raise SyntaxFailure(f"{s.QUANTITIES[kind]}: one variable expected, {', '.join(names)} found", quantifier.at)
+    conditions = [] if within is None else [within(s.Name(names[0], quantifier.at), quantifier.at)]
+    return s.Quantity(
+        kind, counted(number, quantifier.at), names[0], _under(kind == "G", conditions, body), quantifier.at
+    )
+
+
+def _under(universal: bool, conditions: list[s.Node], body: s.Node) -> s.Node:
+    """The body of a quantifier that ranges over what has at most one condition."""
+    if not conditions:
+        return body
+    return s.Implication(conditions[0], body) if universal else s.Every([*conditions, body])
+
+
+def all_within(terms: list[Any], within: Within, at: int) -> s.Node:
+    inside = [within(term, at) for term in terms]
+    return inside[0] if len(inside) == 1 else s.Every(inside)
+
+
+def _union(one: Within, other: Within) -> Within:
+    return lambda term, at: s.Some([one(term, at), other(term, at)])
+
+
+def _difference(one: Within, other: Within) -> Within:
+    return lambda term, at: s.Every([one(term, at), s.Negation(other(term, at))])
+
+
+def _intersection(one: Within, other: Within) -> Within:
+    return lambda term, at: s.Every([one(term, at), other(term, at)])
