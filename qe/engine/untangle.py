@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from qe.elimination.protocol import Context
 from qe.errors import InternalError, Unable
 from qe.formula.build import conj, convert, disj
@@ -14,7 +17,8 @@ from qe.proof.run_log import RunLog
 from qe.rules.block import reduce_block
 from qe.rules.block_context import BlockContext
 from qe.rules.step import POINTWISE_STEPS, StepKind
-from qe.rules.tree import All, Any, Leaf, Node
+from qe.rules.tree import All, Leaf, Node
+from qe.rules.tree import Any as AnyOf
 from qe.simplifier.simplify import simplify
 
 UNTANGLE_WORK = 2000
@@ -24,8 +28,17 @@ UNTANGLED_ATOMS = 120
 """The equations of an answer of more atoms are left as they are."""
 
 
-def untangled(formula: Formula, context: Context, start: object = None) -> Formula:
-    """The answer with its equations by a better basis of their ideal, factor by factor, where that makes it shorter.
+Size = Callable[[Formula], Any]
+
+
+def degrees(formula: Formula) -> int:
+    """The total degrees of the polynomials: what decomposing costs goes by them."""
+    return sum(poly.total_degree for poly in {a.poly for a in atoms(formula)})
+
+
+def untangled(formula: Formula, context: Context, start: object = None, *, size: Size = length) -> Formula:
+    """The answer with its equations by a better basis of their ideal, factor by factor, where that makes it shorter,
+    or less in another ``size``.
 
     The rules about equations (``qe.rules.cases``) are equivalences at every point, of whatever variables the block is
     made: here of the free ones, so that what the side conditions exclude goes with the factor that it belongs to.
@@ -34,7 +47,7 @@ def untangled(formula: Formula, context: Context, start: object = None) -> Formu
         return formula
     for enabled in (POINTWISE_STEPS, POINTWISE_STEPS - {StepKind.FACTOR_SPLIT}):
         try:
-            shorter = _untangled_by(enabled, formula, context)
+            shorter = _untangled_by(enabled, formula, context, size)
         except Unable:
             context.budget.check("shorten")
         else:
@@ -64,14 +77,14 @@ def has_equations(formula: Formula, context: Context) -> bool:
     return any(isinstance(a, Atom) and a.relation is Relation.EQ for part in parts for a in part)
 
 
-def _untangled_by(enabled: frozenset[StepKind], formula: Formula, context: Context) -> Formula:
+def _untangled_by(enabled: frozenset[StepKind], formula: Formula, context: Context, size: Size) -> Formula:
     """As ``untangled``, by these rules."""
     rules, steps = BlockContext(context.budget.part(UNTANGLE_WORK), enabled), RunLog()
     matrix = _matrix(reduce_block(formula.free, formula, rules))
     shorter = simplify(matrix, watch=context.budget.check)
     ring = ring_of(formula)
     shorter = shorter if ring is None else convert(shorter, ring)
-    if length(shorter) >= length(formula):
+    if size(shorter) >= size(formula):
         return formula
     for step in rules.log.steps():
         rule = StepKind.SIMPLIFY.value if step.rule == StepKind.MINISCOPE.value else step.rule
@@ -85,7 +98,7 @@ def _matrix(node: Node) -> Formula:
     match node:
         case Leaf(_, body):
             return body
-        case Any(children):
+        case AnyOf(children):
             return disj(map(_matrix, children))
         case All(children):
             return conj(map(_matrix, children))

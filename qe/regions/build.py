@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from qe.elimination.protocol import Context, Outcome
 from qe.engine.run import answer_to, answered, proved, solve
+from qe.engine.untangle import degrees, untangled
 from qe.formula.counting import without_root_atoms
-from qe.formula.syntax import Formula
-from qe.formula.traverse import is_quantifier_free
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import conjuncts, is_quantifier_free
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Status
@@ -34,11 +36,17 @@ def described(
         shadow = shadow_of(given, Elimination(names))
         if shadow is not None:
             return ConvexRegion(shadow, names, limits=limits)
+    options = Options(order=names, certify=check)
+    if many and not quantified and has_system(given):
+        log = RunLog()
+        better = untangled(given, Context(options, budget, log), size=degrees)
+        region = Region.of(better, names or given.free, budget=budget, limits=limits)
+        region.answer = answer_to(formula, proved(formula, Outcome(better, log=log), options, budget))
+        return region
     if not quantified:
         region = Region.of(given, names, budget=budget, limits=limits)
         region.answer = None if given is formula else _counted(formula, given)
         return region
-    options = Options(order=names, certify=check)
     outcome = answered(formula, options, budget)
     region = Region.of(outcome.formula, names or outcome.order, budget=budget, limits=limits)
     if check:
@@ -48,6 +56,11 @@ def described(
         region.reason = ""
     region.answer = answer_to(formula, proved(formula, outcome, options, budget))
     return region
+
+
+def has_system(formula: Formula) -> bool:
+    """Whether several equations hold together, of which others may be made that are easier to decompose."""
+    return sum(isinstance(part, Atom) and part.relation is Relation.EQ for part in conjuncts(formula)) > 1
 
 
 def _counted(formula: Formula, given: Formula) -> Answer:

@@ -356,8 +356,8 @@ def _condition(
 def _over_cells(
     table: CellTable, bases: list[Place], chosen: frozenset[int], open_: frozenset[int], budget: Budget
 ) -> tuple[str, bool]:
-    """As ``_condition``, where signs do not tell: what has to hold of the last parameter is said over each cell of those
-    before it, by signs if they tell there, and once for all cells over which the same is said."""
+    """As ``_condition``, where signs do not tell: what has to hold of the last parameter is said over each cell of the
+    others, by signs if they tell there, and once for all cells over which the same is said."""
     depth = max(base.depth for base in bases)
     before = list(leaves(table, depth=depth - 1))
     over: list[list[int]] = [[] for _ in before]
