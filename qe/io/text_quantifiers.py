@@ -211,6 +211,7 @@ def _under(universal: bool, conditions: list[s.Node], body: s.Node) -> s.Node:
 
 
 def all_within(terms: list[Any], within: Within, at: int) -> s.Node:
+    """That all of these terms are in a set."""
     inside = [within(term, at) for term in terms]
     return inside[0] if len(inside) == 1 else s.Every(inside)
 

@@ -51,7 +51,7 @@ def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: For
 
     ``parameters``: how many variables are not solved for; ``known``: what the conditions on them need not say. Where a
     variable before the last has neither finitely many values nor all, it is a parameter, too. None where there are too
-    many cells, and where signs do not tell which ones are meant.
+    many cells.
     """
     ring, lines = Ring.of(table.order), list[str]()
     given = convert(conj(f for f in conjuncts(known) if {*f.free} <= {*table.order[:parameters]}), ring)
@@ -62,11 +62,8 @@ def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: For
             return None
         last = depth == len(table.order) - 1
         determined = {i for i, base in enumerate(bases) if last or _is_determined(base.cell, len(table.order) - depth)}
-        try:
-            outside = _outside(table, bases, given)
-            lines += _lines(table, depth, bases, determined, everything, outside, depth > parameters, budget)
-        except Undistinguished:
-            return None
+        outside = _outside(table, bases, given)
+        lines += _lines(table, depth, bases, determined, everything, outside, depth > parameters, budget)
         rest = frozenset(base.path for i, base in enumerate(bases) if i not in determined)
         if not rest:
             return lines
@@ -206,12 +203,16 @@ class _Said:
         if end.value is not None:
             yield str(end.value)
             return
-        inner = {i: value for i, value in fixed.items() if i >= self.parameters}
-        texts = dict.fromkeys(text for known in (inner, {}) for text in self.valued(end, count, place, known))
+        seen = [(i, value) for i, value in fixed.items() if i in end.poly.variables]
+        inner = {i: value for i, value in seen if i >= self.parameters}
+        outer = len(seen) - len(inner)  # with these values, too, it may be shorter
+        ways = [{**dict(seen[:size]), **more} for size in range(outer + 1) for more in (inner, {})]
+        texts: dict[str, bool] = {}
+        for k, known in enumerate(ways):
+            if known not in ways[:k]:
+                texts = {**dict.fromkeys(self.valued(end, count, place, known), k < 2), **texts}
         yield from texts
-        if len(inner) < len(fixed):  # shorter where a parameter has one value
-            yield from self.valued(end, count, place, fixed)
-        if not texts:
+        if not any(texts.values()):
             text = f"root({end.k}, {format_poly(end.poly)}, {quoted(self.table.order[place.depth])})"
             self.needs[text] = [(end.poly.ring.constant(1), frozenset())]
             yield text
@@ -373,10 +374,7 @@ def _over_cells(
     columns = partial(_columns, table.factors[: depth - 1], dict, before)
     for what, cells in said.items():
         where = _condition(table, before, frozenset(cells), undecided, columns, False, budget)
-        if what[0] and where[0]:
-            parts.append(" and ".join(f"({text})" if has_or else text for text, has_or in (where, what)))
-        else:
-            parts.append(what[0] or where[0])
+        parts.append(_both(where, what))
     return " or ".join(parts), len(parts) > 1
 
 
@@ -435,12 +433,13 @@ def _cases(given: tuple[str, bool], said: list[Terms]) -> list[str]:
     (condition, is_or), parts = given, _parts(said)
     if not (condition and parts):
         return parts or [condition or "true"]
-    return [
-        " and ".join(
-            f"({text})" if has_or else text
-            for text, has_or in ((condition, is_or), (" or ".join(parts), len(parts) > 1))
-        )
-    ]
+    return [_both((condition, is_or), (" or ".join(parts), len(parts) > 1))]
+
+
+def _both(*parts: tuple[str, bool]) -> str:
+    """What both texts say, each perhaps a disjunction; one that is empty says nothing."""
+    said = [part for part in parts if part[0]]
+    return " and ".join(f"({text})" if is_or and len(said) > 1 else text for text, is_or in said)
 
 
 def _parts(said: list[Terms]) -> list[str]:

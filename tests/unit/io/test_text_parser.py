@@ -1,11 +1,12 @@
 """From tokens to surface trees: operators, the grammar against the plain way to write the same, names, depth."""
 
 from collections.abc import Collection
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from itertools import product
 
 import pytest
 
+import qe
 from qe.errors import InputError, ParseError
 from qe.formula.evaluate import holds_at
 from qe.formula.relation import Relation
@@ -166,6 +167,10 @@ def read(text: str) -> Formula:
     ("x^2 >= y for all x", "all x. x^2 >= y"),
     ("y > 0, x^2 >= y, for all real numbers x in [0, 1]", "all x. 0 <= x and x <= 1 -> y > 0 and x^2 >= y"),
     ("x^2 = y for some x", "ex x. x^2 = y"),
+    ("for all x, y with x < y: x^3 < z*y", "all x, y. x < y -> x^3 < z*y"),
+    ("for all x > 0 such that x < y: x^3 < z", "all x. x > 0 -> (x < y -> x^3 < z)"),
+    ("x^3 < y^3 for all x, y with x < y", "all x, y. x < y -> x^3 < y^3"),
+    ("{x, y} > z and x < 2", "x > z and y > z and x < 2"),
     ("for every real x: x^2 >= y", "all x. x^2 >= y"),
     ("there is a x with x^2 = a", "ex x. x^2 = a"),  # an article is no variable
     ("There exists a real number x such that x^2 = a", "ex x. x^2 = a"),
@@ -177,6 +182,23 @@ def read(text: str) -> Formula:
 )
 def test_other_ways_to_write(text: str, plain: str) -> None:
     assert read(text) == read(plain)
+
+
+@each(
+    ("[x*y - 1, z^2 - x]", "x*y - 1 = 0 and z^2 - x = 0"),
+    ("(x*y - 1, z^2 - x)", "x*y - 1 = 0 and z^2 - x = 0"),
+    ("(x - 1)*(x + 1), (y - 1)*(y + 1)", "x^2 - 1 = 0 and y^2 - 1 = 0"),
+    ("x^2 - 4", "x^2 - 4 = 0"),
+)
+def test_terms_alone_are_zero(text: str, plain: str) -> None:
+    with pytest.warns(qe.DoubtfulInput, match="a term alone") if "[" not in text else nullcontext():
+        assert qe.equivalent(text, plain)
+
+
+@each("[x > 0, y]", "x, y", "x", "ex x. x^2 - 1", "x + 1 and y")
+def test_terms_among_conditions_are_refused(text: str) -> None:
+    with pytest.raises(ParseError):
+        formats.read(text)
 
 
 @each("(if x > 0 then y else z) > 1", "If[x > 0, y, z] > 1")
