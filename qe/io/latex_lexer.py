@@ -64,6 +64,8 @@ _LETTERS = re.compile(
     r"|upsilon|chi|psi|omega|Gamma|Delta|Theta|Lambda|Xi|Pi|Sigma|Upsilon|Phi|Psi|Omega|ell|hbar|imath|jmath|aleph"
 )
 _FUNCTIONS = frozenset(("min", "max", "sin", "cos", "tan", "exp", "log", "ln", "arctan", "arcsin", "arccos"))
+_WHICH = re.compile(r"_\{(-?)([0-9]+)\}\s*(?:\\left\s*)?\(")
+"""Which root of a polynomial."""
 _TOKEN = re.compile(
     r"(?P<SPACE>[\s&~$]+|%[^\n]*)"
     r"|\\(?:begin|end)\{(?P<FRAME>[a-z]+\*?)\}(?:\{[a-z|]*\})?"
@@ -251,6 +253,13 @@ class _Source:
             yield from self.put("NAME", word, at)
         elif font == "text" and word in _WORDS:
             yield from self.put(_WORDS[word], word, at)
+        elif word == "root" and (number := _WHICH.match(self.text, behind)):
+            yield from self.function(word, at)
+            yield from self.put("OPEN", "(", at)
+            yield from self.put(*(("MINUS", "-") if number[1] else ("PLUS", "+")), at)
+            yield from self.put("NUMBER", number[2], at)
+            yield from self.put("COMMA", ",", at)
+            behind = number.end()
         elif font != "mathit" and word in _WORDS:
             raise SyntaxFailure(f"\\{font}{{{word}}} is a variable in LaTeX; the connective is \\text{{{word}}}", at)
         elif not re.fullmatch(r"[^\W\d_]\w*", word):

@@ -183,7 +183,7 @@ def tokens(text: str) -> Iterator[Token]:
         elif kind == "NONE":
             yield from state.put("NOT", "not", at)
             yield from state.put("QUANTIFIER", "∃", at)
-        elif kind == "THAT" and state.header:
+        elif kind == "THAT" and state.header and state.last in OPERAND_ENDS:
             yield from state.put("DOT", value, at)
         elif value == "with":
             yield from state.put("NAME", value, at)

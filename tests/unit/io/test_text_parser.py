@@ -172,6 +172,7 @@ def read(text: str) -> Formula:
     ("x^3 < y^3 for all x, y with x < y", "all x, y. x < y -> x^3 < y^3"),
     ("{x, y} > z and x < 2", "x > z and y > z and x < 2"),
     ("for every real x: x^2 >= y", "all x. x^2 >= y"),
+    ("ex x, with. x > with", "ex x, `with`. x > `with`"),
     ("there is a x with x^2 = a", "ex x. x^2 = a"),  # an article is no variable
     ("There exists a real number x such that x^2 = a", "ex x. x^2 = a"),
     ("there is a with a > x", "ex a. a > x"),
