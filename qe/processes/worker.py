@@ -43,14 +43,16 @@ class Worker:
         self.process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
         )
-        self.owner, self.is_late, self.is_fit = os.getpid(), False, True
+        self.owner, self.is_late, self.is_fit, self.is_loaded = os.getpid(), False, True, False
+        with contextlib.suppress(OSError):
+            self.send(pickle.dumps([name for name in sys.modules if name.startswith(PACKAGES)]))
 
     def load(self) -> None:
-        """It loads what is loaded here."""
+        """Wait until it has loaded what is loaded here."""
         assert self.process.stdout is not None
-        with contextlib.suppress(OSError, EOFError):  # where it has ended already, that is the outcome of its question
-            self.send(pickle.dumps([name for name in sys.modules if name.startswith(PACKAGES)]))
-            pickle.load(self.process.stdout)
+        if not self.is_loaded:
+            with contextlib.suppress(OSError, EOFError):  # where it has ended, that is the outcome of its question
+                self.is_loaded = bool(pickle.load(self.process.stdout))
 
     @property
     def is_usable(self) -> bool:
@@ -99,6 +101,9 @@ class Worker:
             IDLE.append(self)
         else:
             self.end()
+            if self.is_late and not IDLE:
+                with contextlib.suppress(OSError):
+                    IDLE.append(Worker())  # it loads until there is a next question
 
     def kill(self) -> None:
         """The process is gone, whatever it was doing; who waits for its outcome gets None."""
@@ -146,14 +151,13 @@ def begun(work: bytes, limits: Limits, deadline: float) -> tuple[Worker, float]:
             worker, is_new = Worker(), True
         is_sent = False
         try:
-            if is_new:
-                worker.load()
-                deadline += time.monotonic() - start
-            question = pickle.dumps((work, deadline, limits.memory, general))
+            worker.load()
+            until = deadline + time.monotonic() - start
+            question = pickle.dumps((work, until, limits.memory, general))
             if is_new or worker.is_usable:
                 worker.send(question)
                 is_sent = True
-                return worker, deadline
+                return worker, until
         except OSError:  # it was killed while it waited
             if is_new:
                 raise

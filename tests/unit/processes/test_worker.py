@@ -200,6 +200,17 @@ def test_a_worker_that_was_killed_while_it_waited_is_replaced() -> None:
     assert is_gone(before) and run(works.process, Limits()) != before
 
 
+def test_where_the_limit_killed_a_worker_the_next_one_loads_before_it_is_asked() -> None:
+    end_idle()
+    for killed in (False, True):
+        with pytest.raises(WorkerStopped):
+            run(works.stuck, Limits(timeout=0.1))
+        (spare,) = IDLE
+        if killed:  # also while it loads
+            spare.kill()
+        assert (run(works.process, Limits()) == spare.process.pid) != killed
+
+
 def test_a_worker_that_is_killed_from_outside_is_a_clear_unable() -> None:
     pids: list[int] = []
 
