@@ -1,4 +1,4 @@
-"""The primitives "steps" and "no exception": one step made of others."""
+"""The primitives "steps", "converse" and "no exception": one step made of others."""
 
 from __future__ import annotations
 
@@ -21,6 +21,14 @@ def test_the_steps_lead_from_the_block_to_what_became_of_it() -> None:
     assert "do not lead there" in objection("steps", "ex x. x = a and x > b", "a > b", {"steps": []})
     assert "do not lead there" in objection("steps", "all x. x /= a or x <= b", "a > b", steps)
     assert "does not stand there" in objection("steps", "all x. x = a and x > b", "a > b", steps)
+
+
+def test_the_steps_of_a_converse_lead_from_what_became_of_it_back() -> None:
+    steps = {"steps": [solved("ex x. x = a and x > b", "a > b")]}
+    assert objection("converse", "a > b", "ex x. x = a and x > b", steps) == ""
+    assert "do not lead back" in objection("converse", "a >= b", "ex x. x = a and x > b", steps)
+    assert "do not lead back" in objection("converse", "a > b", "ex x. x = a and x > b", {"steps": []})
+    assert "does not stand there" in objection("converse", "ex x. x = a and x > b", "a > b", steps)
 
 
 def test_a_wrong_step_inside_is_named() -> None:
