@@ -49,6 +49,7 @@ from qe.io.surface import (
 )
 from qe.io.terms import TermError, Value
 from qe.io.total import Total
+from qe.io.unfolding import Sums
 from qe.io.valuation import Valuation
 
 MOST_RESERVED = 4096
@@ -130,6 +131,7 @@ class Lowering:
         self.ring, self.fail = ring, fail
         self.values = Valuation(ring, fail, extra, total, self.node)
         self.nodes: dict[int, Formula] = {}
+        self.sums = Sums(self.values.terms, self.values.term)
 
     def remember(self, part: Part) -> None:
         """Lower a part that others share; the caller keeps it alive, so its identity is a key."""
@@ -201,6 +203,9 @@ class Lowering:
                 return self.root_comparison(other, seen, side)
             if (sign := _infinite(side)) is not None:
                 return self.bounded(other, seen, sign, place)
+            if not isinstance(other, Root) and (parts := self.sums.unfolded(side, seen.flipped)):
+                join, sides = parts
+                return join([self.link(part, seen.flipped, other, place) for part in sides])
         a = self.values.term(left)
         if isinstance(a, Value) and isinstance(right, Number) and not right.value:
             return atom(a.poly, relation)

@@ -25,7 +25,7 @@ HALF = sp.Rational(1, 2)
     (x < -sp.Float("1.5e-3"), "2000*x + 3 < 0"),
     (x > sp.Float("1e30"), "x - 1000000000000000000000000000000 > 0"),
     (x < sp.Float("0.1", 60), "10*x - 1 < 0"),
-    (sp.Abs(x) <= 1, "x >= 0 and x - 1 <= 0 or x < 0 and x + 1 >= 0"),
+    (sp.Abs(x) <= 1, "x - 1 <= 0 and x + 1 >= 0"),
     (sp.Implies(x > 0, y > 0), "x <= 0 or y > 0"),
     (sp.Xor(x > 0, y > 0), "not ((x <= 0 or y > 0) and (y <= 0 or x > 0))"),
     (sp.Equivalent(x > 0, y > 0), "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
