@@ -114,6 +114,7 @@ _NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST}|$)")
 _NEXT_BOUNDED = re.compile(
     rf"\s*(?:{_LIST})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠∈]|in\b)[^:;∃∀&|∧∨→⇒]*?(?<!,)(?::(?!=)|\.(?=\s)|\bsuch\s+that\b|\bs\.t\.)"
 )
+_ENDS_A_NAME = re.compile(r"\s*[,.:]")
 _ANOTHER = re.compile(rf"\s+{_LIST}")
 _LETTER = re.compile(r"[^\W\d_](?:_?[0-9]+|_[^\W\d_])?'*")
 _VARIABLE = re.compile(
@@ -136,7 +137,7 @@ _KINDS_OF_NUMBERS = {
     **dict.fromkeys(("nonnegative", "non"), "a condition stands behind the variable, as in exists x >= 0"),
     **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),
     **dict.fromkeys(
-        ("an", "the", "no", "at", "one", "two", "only", "some", "given", "many", "infinitely", "real", "number"),
+        ("an", "the", "no", "at", "one", "two", "only", "some", "given", "many", "infinitely", "real", "number", "st"),
         "names of variables alone stand behind a quantifier, with commas between them: exists x, y: …",
     ),
 }
@@ -185,7 +186,7 @@ def tokens(text: str) -> Iterator[Token]:
             yield from state.put("QUANTIFIER", "∃", at)
         elif kind == "THAT" and state.header and state.last in OPERAND_ENDS:
             yield from state.put("DOT", value, at)
-        elif value == "with":
+        elif value == "with" and (not state.header or _ENDS_A_NAME.match(text, at + len(value))):
             yield from state.put("NAME", value, at)
         elif kind == "THAT":
             raise SyntaxFailure(f"'{value}' stands only behind the variables of a quantifier", at)

@@ -83,10 +83,13 @@ class QuantifiedParser(Parser):
     def names(self) -> list[str]:
         """Names with commas or nothing between them."""
         names = [self.take("NAME").text]
-        while self.token.kind in ("COMMA", "NAME"):
-            if self.token.kind == "COMMA":
+        while (kind := self.token.kind) in ("COMMA", "NAME"):
+            if kind == "COMMA":
                 self.advance()
-            names.append(self.take("NAME").text)
+            name = self.take("NAME")
+            if kind == "NAME" and name.text in names:
+                raise SyntaxFailure(f"{name.text} stands twice behind one quantifier", name.at)
+            names.append(name.text)
         return names
 
     def names_or_name(self) -> list[str]:
