@@ -174,7 +174,7 @@ class _Source:
         elif name in _FUNCTIONS:
             if name not in FUNCTIONS:
                 raise SyntaxFailure(f"\\{name}: {way_out(name)}", at)
-            yield from self.function(name, at)
+            yield from self.put("FUNCTION", name, at)
         elif name == "\\" and self.rows and self.state.last in OPERAND_ENDS:
             if not re.match(r"\s*\\end\b", self.text[after:]):
                 yield from self.put("AND", "and", at)
@@ -183,10 +183,6 @@ class _Source:
         elif name not in _SKIPPED and name not in "()[]":
             raise SyntaxFailure(f"\\{visible(name)} cannot be read in LaTeX", at)
         return after
-
-    def function(self, name: str, at: int) -> Iterator[Token]:
-        """The name of a function, behind which a bracket opens its arguments."""
-        yield from self.put("FUNCTION", name, at)
 
     def negated(self, at: int, after: int) -> Generator[Token, None, int]:
         """``\\not`` and the relation behind it; returns the offset behind both."""
@@ -229,13 +225,13 @@ class _Source:
         index = re.compile(r"\s*\[\s*([0-9]{1,4})\s*\]").match(self.text, after)
         degree, inside = ("2", after) if index is None else (index[1], index.end())
         if degree == "3":
-            yield from self.function("cbrt", at)
+            yield from self.put("FUNCTION", "cbrt", at)
             return (yield from self.group(inside))
         if int(degree) % 2:
-            yield from self.function("sign", at)
+            yield from self.put("FUNCTION", "sign", at)
             yield from self.group(inside)
             yield from self.put("TIMES", "*", at)
-            yield from self.function("abs", at)
+            yield from self.put("FUNCTION", "abs", at)
         after = yield from self.group(inside)
         yield from self.put("POWER", "^", at)
         for kind, value in (("OPEN", "("), ("NUMBER", "1"), ("OVER", "/"), ("NUMBER", degree), ("CLOSE", ")")):
@@ -254,18 +250,16 @@ class _Source:
         elif font == "text" and word in _WORDS:
             yield from self.put(_WORDS[word], word, at)
         elif word == "root" and (number := _WHICH.match(self.text, behind)):
-            yield from self.function(word, at)
-            yield from self.put("OPEN", "(", at)
-            yield from self.put(*(("MINUS", "-") if number[1] else ("PLUS", "+")), at)
-            yield from self.put("NUMBER", number[2], at)
-            yield from self.put("COMMA", ",", at)
+            sign = "MINUS" if number[1] else "PLUS"
+            for kind, value in (("FUNCTION", word), ("OPEN", "("), (sign, ""), ("NUMBER", number[2]), ("COMMA", ",")):
+                yield from self.put(kind, value, at)
             behind = number.end()
         elif font != "mathit" and word in _WORDS:
             raise SyntaxFailure(f"\\{font}{{{word}}} is a variable in LaTeX; the connective is \\text{{{word}}}", at)
         elif not re.fullmatch(r"[^\W\d_]\w*", word):
             behind = yield from self.name(_unescaped(word, at), at, behind)
         elif len(word) > 1 and re.match(r"\s*(\\left|\\bigl?)?\s*\(", self.text[behind:]):
-            yield from self.function(word, at)
+            yield from self.put("FUNCTION", word, at)
         else:
             behind = yield from self.name(word, at, behind)
         return behind

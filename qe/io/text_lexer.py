@@ -131,10 +131,10 @@ _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
 _KINDS_OF_NUMBERS = {
     **dict.fromkeys(("unique", "exactly"), "there is no ∃! here; write exactly 1 x. f"),
-    "positive": "a condition stands behind the variable, as in exists x > 0",
-    "negative": "a condition stands behind the variable, as in exists x < 0",
-    "nonzero": "a condition stands behind the variable, as in exists x /= 0",
-    **dict.fromkeys(("nonnegative", "non"), "a condition stands behind the variable, as in exists x >= 0"),
+    **dict.fromkeys(
+        ("positive", "negative", "nonzero", "nonnegative", "non"),
+        "a condition stands behind the variable, as in exists x > 0",
+    ),
     **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),
     **dict.fromkeys(
         ("an", "the", "no", "at", "one", "two", "only", "some", "given", "many", "infinitely", "real", "number", "st"),
@@ -175,12 +175,10 @@ def tokens(text: str) -> Iterator[Token]:
             yield from state.put(_CALLS[value], value, at)
         elif kind == "PREFIX":
             yield from state.prefix(value, at)
-        elif kind == "EVERY":
-            yield from state.put("QUANTIFIER", "forall", at)
+        elif kind in ("EVERY", "SOME"):
+            yield from state.put("QUANTIFIER", "forall" if kind == "EVERY" else "exists", at)
         elif kind == "QUANTITY":
             yield from state.put("QUANTIFIER", _quantity(value), at)
-        elif kind == "SOME":
-            yield from state.put("QUANTIFIER", "exists", at)
         elif kind == "NONE":
             yield from state.put("NOT", "not", at)
             yield from state.put("QUANTIFIER", "∃", at)
