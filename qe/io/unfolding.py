@@ -67,7 +67,7 @@ class Sums:
             return None
         match term:
             case Apply() | Choice():
-                return None if (found := self.extreme(term)) is None else (*found, lambda other: other)
+                return None if (known := self.extreme(term)) is None else (*known, lambda other: other)
             case Minus(part) if (place := self.first(part)) is not None:
                 return not place[0], place[1], lambda other: Minus(place[2](other))
             case Sum(parts):
@@ -86,8 +86,8 @@ class Sums:
         if id(term) in self.known:
             return 1
         match term:
-            case Apply() | Choice() if (found := self.extreme(term)) is not None:
-                return sum(map(self.count, found[1]))
+            case Apply() | Choice() if (known := self.extreme(term)) is not None:
+                return sum(map(self.count, known[1]))
             case Minus(part):
                 return self.count(part)
             case Product() | Quotient() if (scaled := self.scaled(term)) is not None:

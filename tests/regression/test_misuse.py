@@ -167,7 +167,7 @@ def test_a_list_holds_together() -> None:
     (lambda: qe.eliminate("x mod 2 = 1"), "an operator is missing"),
     (lambda: qe.eliminate("ex x x > 1"), "'.'"),
     (lambda: qe.eliminate(""), "empty"),
-    (lambda: qe.eliminate("x + 1"), "a relation"),
+    (lambda: qe.eliminate("ex x. x + 1"), "a relation"),
     (lambda: qe.eliminate(X**2 == Y), "Eq"),
     (lambda: qe.eliminate(X + 1), "Boolean combination"),
     (lambda: qe.eliminate(sympy.sin(X) > 0), "not algebraic"),
