@@ -88,7 +88,9 @@ class QuantifiedParser(Parser):
                 self.advance()
             name = self.take("NAME")
             if kind == "NAME" and name.text in names:
-                raise SyntaxFailure(f"{name.text} stands twice behind one quantifier", name.at)
+                raise SyntaxFailure(
+                    f"{name.text} stands twice behind one quantifier; what is said of it begins after '.'", name.at
+                )
             names.append(name.text)
         return names
 
