@@ -138,7 +138,7 @@ def packed(work: Callable[..., object]) -> bytes | None:
 
 
 def begun(work: bytes, limits: Limits, deadline: float) -> tuple[Worker, float]:
-    """A worker that has this question, and its deadline: the start of a worker is not in the time for the question.
+    """A worker that has this question, and its deadline: half of the time is left where the start of a worker took it.
 
     What holds for the whole of this interpreter goes with it.
     """
@@ -152,7 +152,7 @@ def begun(work: bytes, limits: Limits, deadline: float) -> tuple[Worker, float]:
         is_sent = False
         try:
             worker.load()
-            until = deadline + time.monotonic() - start
+            until = max(deadline, time.monotonic() + (deadline - start) / 2)
             question = pickle.dumps((work, until, limits.memory, general))
             if is_new or worker.is_usable:
                 worker.send(question)
