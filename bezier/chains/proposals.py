@@ -3,10 +3,10 @@ Nothing of it is believed."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import sqrt
+from math import isfinite, sqrt
 from typing import Any
 
 from bezier.chains.chain import Chain
@@ -44,84 +44,56 @@ def _solved(
     chain: Chain, size: int, rows: Sequence[Requirement], objective: Form | None, balls_only: bool
 ) -> Proposal | None:
     with wanted():
-        import clarabel
-        import numpy as np
-        from scipy import sparse
+        from bezier.conic import Conic
     d, unit = chain.dimension, max(abs(float(c)) for p in chain.points for c in p)
-    n = size * d
-    width = n + (objective is None)
-    if not width:
+    if not size * d and objective is not None:
         return Proposal((), (0.0,) * len(rows))
-    lines: list[Any] = []
-    right: list[float] = []
-    cones: list[Any] = []
-    lengths: list[float] = []
+    program, lengths = Conic(*TOLERANCES), list[float]()
+    at = program.variables((size, d)).tolist()
+    excess = [(int(k), 1.0) for k in program.variables((int(objective is None),), 1.0)]
     for row in rows:
-        slack = np.zeros(width)
         if row.squares:
-            slack[n:] = -1.0 if row.is_ball or not balls_only else 0.0
-            blocks = [_block(point, sqrt(w), d, width, unit) for w, point in row.squares]
             lengths.append(sqrt(max(float(row.right), 0.0)) / unit)
-            lines += [slack, *(-line for block, _ in blocks for line in block)]
-            right += [lengths[-1], *(c for _, constant in blocks for c in constant)]
-            cones.append(clarabel.SecondOrderConeT(1 + d * len(blocks)))
+            parts = [part for w, point in row.squares for part in _scaled(point, sqrt(w), at, d, unit)]
+            program.cone([(excess if row.is_ball or not balls_only else [], lengths[-1]), *parts])
         else:
-            line = np.zeros(width)
-            for i, g in row.form.gradient.items():
-                line[i * d : (i + 1) * d] = [float(c) for c in g]
-            lengths.append(float(np.linalg.norm(line)))
-            slack[n:] = 0.0 if balls_only else -1.0
-            lines.append(slack + line / lengths[-1])
-            right.append(-float(row.form.constant) / lengths[-1] / unit)
-            cones.append(clarabel.NonnegativeConeT(1))
-    quadratic, linear = np.zeros((width, width)), np.zeros(width)
+            line = [(at[i][k], float(c)) for i, g in row.form.gradient.items() for k, c in enumerate(g)]
+            lengths.append(sqrt(sum(c * c for _, c in line)))
+            downhill = [(k, -c / lengths[-1]) for k, c in line]
+            level = float(row.form.constant) / lengths[-1] / unit
+            program.at_least([*downhill, *([] if balls_only else excess)], level)
     scale = 1.0
     if objective is None:
-        linear[n] = 1.0
-        lines.append(np.array([0.0] * n + [-1.0]))
-        right.append(max(lengths, default=1.0) or 1.0)
-        cones.append(clarabel.NonnegativeConeT(1))
+        program.at_least(excess, -(max(lengths, default=1.0) or 1.0))
     else:
         scale = max((abs(float(m)) for m in objective.matrix.values()), default=1.0)
         for (i, j), m in objective.matrix.items():
-            for k in range(d):
-                quadratic[i * d + k, j * d + k] = 2 * float(m) / scale
+            for k in range(d if i <= j else 0):
+                program.add_product(at[i][k], at[j][k], float(m) * (1 + (i < j)) / scale)
         for i, g in objective.gradient.items():
-            linear[i * d : (i + 1) * d] = [float(c) / unit / scale for c in g]
-    upper, matrix = sparse.csc_matrix(np.triu(quadratic)), sparse.csc_matrix(np.array(lines).reshape(-1, width))
-    settings = clarabel.DefaultSettings()
-    settings.verbose = False
-    for tolerance in TOLERANCES:
-        settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
-        answer = clarabel.DefaultSolver(upper, linear, matrix, np.array(right), cones, settings).solve()
-        if str(answer.status) == "Solved":
-            break
-    x = np.array(answer.x)
-    if not np.all(np.isfinite(x)) or not np.all(np.isfinite(np.array(answer.z))):
+            program.add_cost([(at[i][k], float(c) / unit / scale) for k, c in enumerate(g)])
+    x = program.solved()
+    if x is None or not all(map(isfinite, program.multipliers)):
         return None
-    excess = float(x[n]) if objective is None else 0.0
-    weights, at = [], 0
+    most = x[-1] if objective is None else 0.0
+    weights, first = [], 0
     for row, length in zip(rows, lengths, strict=True):
-        z = max(float(answer.z[at]), 0.0)
+        z = max(program.multipliers[first], 0.0)
         if row.squares:
-            weights.append(scale * z / 2 / max(length + (excess if row.is_ball else 0.0), 1e-9))
-            at += 1 + d * len(row.squares)
+            weights.append(scale * z / 2 / max(length + (most if row.is_ball else 0.0), 1e-9))
         else:
             weights.append(scale * z * unit / length)
-            at += 1
-    point = tuple(tuple(float(c) * unit for c in x[i * d : (i + 1) * d]) for i in range(size))
-    return Proposal(point, tuple(weights), excess * unit)
+        first += 1 + d * len(row.squares)
+    return Proposal(tuple(tuple(x[k] * unit for k in place) for place in at), tuple(weights), most * unit)
 
 
-def _block(point: Affine, factor: float, dimension: int, width: int, unit: float) -> tuple[Any, Any]:
-    """A multiple of a point as lines in the free coordinates, and its constant part, in the unit."""
-    import numpy as np
-
-    block = np.zeros((dimension, width))
-    for i, a in point.coefficients.items():
-        for k in range(dimension):
-            block[k, i * dimension + k] = factor * float(a)
-    return block, np.array([factor * float(c) for c in point.constant]) / unit
+def _scaled(
+    point: Affine, factor: float, at: Sequence[Sequence[int]], dimension: int, unit: float
+) -> Iterator[tuple[list[tuple[int, float]], float]]:
+    """The coordinates of a multiple of a point, as forms in the variables, in the unit."""
+    for k in range(dimension):
+        terms = [(at[i][k], factor * float(a)) for i, a in point.coefficients.items()]
+        yield terms, factor * float(point.constant[k]) / unit
 
 
 def fitted_weights(

@@ -31,15 +31,16 @@ def clearance(
     channel: Channel,
     source: FilePath,
     other: FilePath | None = None,
-    certificate_file: FilePath | None = None,
     *,
+    evidence: bool = False,
     as_json: bool = False,
     timeout: float | None = None,
-) -> str:
-    """What to print. Raises ``InputError`` for bad input, ``Unable`` when a problem has no path to examine.
+) -> tuple[str, str]:
+    """What to print, and the certificates where ``evidence`` is wanted. Raises ``InputError`` for bad input, ``Unable``
+    when a problem has no path to examine.
 
     ``source``: a folder of ``bezier plan``, a problem, or a file with ``[[curve]]`` and ``[[obstacle]]`` tables;
-    ``other``: a file whose obstacles are taken instead. ``certificate_file``: where to write the certificates.
+    ``other``: a file whose obstacles are taken instead.
     """
     clock = Clock(limit=timeout, listener=channel.event, note=channel.fact)
     curves, obstacles, answers = _read(source, clock)
@@ -51,21 +52,13 @@ def clearance(
         findings = survey.survey(curves, obstacles)
     with clock.step("certificates"):
         members = survey.certificates(findings)
-        if certificate_file is not None:
+        if evidence:
             derived, _ = derivations.proved({**answers, **derivations.of_obstacles(obstacles)}, clock)
             members += derivations.members(derived)
         certificate = qe.Certificate.bundle(members)
         verdict = qe.verify(certificate) if members else None
-    if certificate_file is not None:
-        _write(certificate_file, certificate.to_json())
-    return _as_json(findings, verdict) if as_json else _in_words(findings, verdict)
-
-
-def _write(path: FilePath, text: str) -> None:
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"--certificate {path}: expected a writable file, found: {error.strerror}") from None
+    text = _as_json(findings, verdict) if as_json else _in_words(findings, verdict)
+    return text, certificate.to_json() if evidence else ""
 
 
 def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], Mapping[str, Any]]:

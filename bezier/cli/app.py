@@ -95,8 +95,12 @@ def clearance(
     """Prove each curve clear of each obstacle for all t, or say where it first meets it."""
     from bezier.check.clearance import clearance as examine
 
-    work = partial(examine, source=source, other=obstacles, certificate_file=certificate, as_json=json, timeout=timeout)
-    print(limited(work, timeout=timeout, memory=memory, plain=json))
+    check_writable(certificate)
+    work = partial(examine, source=source, other=obstacles, as_json=json, timeout=timeout)
+    work = partial(work, evidence=certificate is not None)
+    text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
+    _write((certificate,), files)
+    print(text)
     return OK
 
 
@@ -148,9 +152,8 @@ def ik(
     turned = None if quaternion is None else tuple(read_exact(text) for text in quaternion)
     certified = certificate is not None
     work = partial(inverse, arm=model, point=point, quaternion=turned, json=json, certified=certified)
-    text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
-    if certificate is not None:
-        write_file(certificate, evidence)
+    text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
+    _write((certificate,), files)
     print(text)
     return OK
 

@@ -23,7 +23,7 @@ from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
-from bezier.curves.nonnegative import Interval, Negative, Nonnegative, decide
+from bezier.curves.nonnegative import Interval, Negative, Nonnegative, decide, subdivided
 from bezier.curves.scalar import Terms, Vector, exactly, sign
 from bezier.curves.sentences import CurveSentence
 from bezier.curves.workspace import Ball, Condition, HalfSpace
@@ -113,24 +113,11 @@ def _breaks(curve: Bezier, inside: Inside) -> list[Fraction] | None:
     touches = {low for low, high in inside.touches if low == high}
     result = [Fraction(0)]
     for low, high in pairwise(sorted({Fraction(0), Fraction(1), *touches})):
-        ends = _bisected(bs.restrict(margin, low, high), low, high, 0)
-        if ends is None:
+        boxes = subdivided(bs.restrict(margin, low, high), MAX_DEPTH)
+        if not isinstance(boxes, tuple):
             return None
-        result += ends
+        result += (low + end * (high - low) for _, end in boxes)
     return result
-
-
-def _bisected(b: bs.Coefficients, low: Fraction, high: Fraction, depth: int) -> list[Fraction] | None:
-    """Right ends of parts of [low, high] on each of which all coefficients are nonnegative."""
-    if all(sign(c) >= 0 for c in b):
-        return [high]
-    if depth == MAX_DEPTH:
-        return None
-    middle = (low + high) / 2
-    left, right = bs.split(b)
-    first = _bisected(left, low, middle, depth + 1)
-    second = None if first is None else _bisected(right, middle, high, depth + 1)
-    return None if first is None or second is None else first + second
 
 
 def margin_terms(condition: Condition) -> Terms:

@@ -64,7 +64,7 @@ def decide(b: Sequence[Any]) -> Nonnegative | Negative:
     if all(map(is_zero, whole)):
         return Nonnegative((UNIT,), (UNIT,))
     is_rational = all(isinstance(c, (int, Fraction)) for c in whole)
-    outcome = _subdivide(whole, QUICK_DEPTH_RATIONAL if is_rational else QUICK_DEPTH)
+    outcome = subdivided(whole, QUICK_DEPTH_RATIONAL if is_rational else QUICK_DEPTH)
     if isinstance(outcome, Negative):
         return outcome
     if outcome is not None:
@@ -76,7 +76,7 @@ def decide(b: Sequence[Any]) -> Nonnegative | Negative:
     return Nonnegative((), tuple(event.t for event in events if event.signs == (0,)))
 
 
-def _subdivide(b: bs.Coefficients, depth: int) -> tuple[Interval, ...] | Negative | None:
+def subdivided(b: bs.Coefficients, depth: int) -> tuple[Interval, ...] | Negative | None:
     """Boxes with nonnegative coefficients covering [0, 1]; a negative point; None when ``depth`` is reached."""
     done: list[Interval] = []
     todo = [(b, Fraction(0), Fraction(1), 0)]

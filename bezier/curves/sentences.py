@@ -17,7 +17,7 @@ the coordinates are put in, and the numbers for what is left.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -28,7 +28,9 @@ from typing import Any
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Terms, rational
+from qe.certify.claims import is_about
 from qe.certify.registry import RULES
+from qe.certify.verify import verify
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
@@ -315,3 +317,32 @@ def _size(value: Fraction) -> int:
     """The e with 2^e <= |value| < 2^(e + 1)."""
     result = value.numerator.bit_length() - value.denominator.bit_length()
     return result if abs(value) >= Fraction(2) ** result else result - 1
+
+
+Said = tuple[str, Formula, Formula]
+"""A label, a sentence, and its truth."""
+
+
+def said_of(sentences: Mapping[str, Formula], truth: Formula = TRUE) -> list[Said]:
+    """That all of these are true, or false."""
+    return [(label, sentence, truth) for label, sentence in sentences.items()]
+
+
+def verified(
+    certificate: Certificate | None, said: Sequence[Said], exactly: Sequence[tuple[str, Certificate]] = ()
+) -> None:
+    """Whether a certificate is accepted and its members say just this, and then are just these. Raises
+    ``CertificateRejected``."""
+    members = certificate.payload if certificate is not None and isinstance(certificate.payload, tuple) else ()
+    labels = [*(label for label, _, _ in said), *(label for label, _ in exactly)]
+    if certificate is None or not members or [member.label for member in members] != labels:
+        raise CertificateRejected("members", f"expected {', '.join(labels) or 'some'}")
+    for member, (label, sentence, truth) in zip(members, said, strict=False):
+        if is_about(member.certificate, sentence) != truth:
+            raise CertificateRejected(label, f"it does not say that the sentence is {truth}")
+    for member, (label, proof) in zip(members[len(said) :], exactly, strict=True):
+        if member.certificate != proof:
+            raise CertificateRejected(label, "another proof than the one that is made anew")
+    verdict = verify(certificate)
+    if not verdict.accepted:
+        raise CertificateRejected(verdict.step, verdict.reason)

@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 
 from bezier.curves.scalar import described
+from bezier.curves.sentences import verified
 from bezier.motion.timelaw import Law
 from bezier.retiming.bound import Weights, bound, weights
 from bezier.retiming.grid import Bounds, Grid, even, stops_of
 from bezier.retiming.law import Step, fastest, is_motion, timed, usual
 from bezier.retiming.proposals import Proposal, proposal
-from bezier.trajectories.evidence import claims, compare, exceeding, refuted, whole
+from bezier.trajectories.evidence import claims, exceeding, refuted, whole
 from bezier.trajectories.limits import Limit, Verdict, decided
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.words import in_words, to_json
@@ -104,7 +105,8 @@ class LeastTime:
 
     def check(self, certificate: Certificate) -> None:
         """Whether a certificate proves just this. Raises ``CertificateRejected``."""
-        _compare(self, certificate)
+        stated = [*self._kept, *(_bounding(self.path, part) for part in self.weights)]
+        verified(certificate, [(label, sentence, FALSE) for label, _, sentence in stated])
 
     def page(self, title: str = "path") -> str:
         """An HTML page with a chart of each quantity over time and its limit."""
@@ -284,10 +286,5 @@ def checked(path: Trajectory, limits: Sequence[Limit], certificate: Certificate)
     if verdict.breaking or seconds <= 0:
         raise CertificateRejected("bundle", "a motion that jumps, or no bound")
     result = LeastTime(path, steps, verdict, proved, seconds)
-    _compare(result, certificate)
+    result.check(certificate)
     return result
-
-
-def _compare(result: LeastTime, certificate: Certificate) -> None:
-    stated = [*result._kept, *(_bounding(result.path, part) for part in result.weights)]
-    compare(certificate, [(label, sentence, FALSE) for label, _, sentence in stated])

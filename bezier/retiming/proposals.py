@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from math import comb
 from typing import Any
 
+from bezier.conic import Conic
 from bezier.retiming.grid import Bounds, Grid
-from bezier.scenes.conic import Conic
 from qe.errors import Unable
 from qe.extras import wanted
 

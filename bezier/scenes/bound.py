@@ -23,10 +23,10 @@ from fractions import Fraction
 from itertools import permutations, product
 from math import ceil, hypot, lcm
 
+from bezier.conic import Conic
 from bezier.curves.enclosure import root_below
 from bezier.curves.scalar import dot, subtract
 from bezier.scenes.cells import Cell, FreeCells, Point, Side, common_side
-from bezier.scenes.conic import Conic
 from bezier.scenes.scene import Scene
 from bezier.scenes.sentences import coordinates, enclosing, every, of_sides
 from bezier.scenes.solid import directions

@@ -12,7 +12,7 @@ empty. All of this but where start and goal are is said in sentences, proved by 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice, pairwise
@@ -21,6 +21,7 @@ from math import ceil
 import qe
 from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, subtract
+from bezier.curves.sentences import said_of, verified
 from bezier.input.numbers import NotANumber, parse, shorten
 from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
@@ -40,14 +41,12 @@ from bezier.scenes.sentences import (
 )
 from bezier.scenes.shortest import chains
 from bezier.scenes.solid import Solid, directions, in_space
-from qe.certify.claims import is_about
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.formula.build import conj, disj, neg
-from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.formula.syntax import FALSE, Formula
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 
-NONE: Mapping[str, Formula] = {}
 DISJOINT = "none beside the walls is on both sides"
 PLANE_STEPS, SPACE_STEPS, MOST_WAYS = (1, 2, 3), (0, 1, 2, 3), 64
 """How fine the polytopes around round bodies are, one after the other: see ``directions``."""
@@ -108,7 +107,7 @@ class Route:
             raise CertificateRejected("length", "the bound is about another scene")
         if self.bound is not None and self.bound.value > self.bound.sentences(Budget())[0]:
             raise CertificateRejected("length", "the bound is larger than what is said")
-        verified(certificate or self.certificate, self.sentences, self.refuted)
+        verified(certificate or self.certificate, [*said_of(self.refuted, FALSE), *said_of(self.sentences)])
 
     def to_json(self) -> dict[str, object]:
         """The corners as texts of exact numbers, control points where it is curved; lengths as floats."""
@@ -173,7 +172,7 @@ class Blocked:
         for side, point, name in ((self.start_side, scene.start, "start"), (self.goal_side, scene.goal, "goal")):
             if not any(cell.contains(point) for cell in side):
                 raise CertificateRejected("sides", f"the {name} is not on its side")
-        verified(certificate or self.certificate, self.sentences)
+        verified(certificate or self.certificate, said_of(self.sentences))
 
     def to_json(self) -> dict[str, object]:
         """The two sides by the corners of their polytopes; why there are none where start or goal is not free."""
@@ -365,21 +364,3 @@ def proved(sentences: dict[str, Formula], budget: Budget) -> list[tuple[str, Cer
             raise Unable(f"not proved: {label} ({answer.reason or answer.truth})")
         members.append((label, answer.certificate))
     return members
-
-
-def verified(
-    certificate: Certificate | None, sentences: Mapping[str, Formula], refuted: Mapping[str, Formula] = NONE
-) -> None:
-    """Whether the members refute some sentences and prove others, just these. Raises ``CertificateRejected``."""
-    if certificate is None:
-        raise CertificateRejected("members", "there is no certificate")
-    members = certificate.payload if isinstance(certificate.payload, tuple) else ()
-    said = [(k, s, FALSE) for k, s in refuted.items()] + [(k, s, TRUE) for k, s in sentences.items()]
-    if [m.label for m in members] != [label for label, _, _ in said]:
-        raise CertificateRejected("members", f"expected {', '.join(label for label, _, _ in said)}")
-    for member, (label, sentence, truth) in zip(members, said, strict=True):
-        if is_about(member.certificate, sentence) != truth:
-            raise CertificateRejected(label, f"it does not say that the sentence is {truth}")
-    verdict = qe.verify(certificate)
-    if not verdict.accepted:
-        raise CertificateRejected(verdict.step, verdict.reason)

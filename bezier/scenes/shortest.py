@@ -17,9 +17,9 @@ from fractions import Fraction
 from itertools import pairwise, product
 from math import dist
 
+from bezier.conic import Conic
 from bezier.curves.scalar import dot
 from bezier.scenes.cells import Cell, FreeCells, Point, Side
-from bezier.scenes.conic import Conic
 from bezier.scenes.scene import Scene
 from bezier.scenes.sentences import Curve
 

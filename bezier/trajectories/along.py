@@ -19,7 +19,8 @@ from bezier.arm.model import Arm
 from bezier.arm.reader import load_route
 from bezier.arm.tip import axes_of, tip_of
 from bezier.curves.scalar import described, exactly
-from bezier.trajectories.evidence import Stated, members, stated
+from bezier.curves.sentences import Said
+from bezier.trajectories.evidence import members, stated
 from bezier.trajectories.exact import by_control_points
 from bezier.trajectories.limits import Limit, Verdict, decided
 from bezier.trajectories.piecewise import Trajectory
@@ -106,7 +107,7 @@ class Along:
         """The proof. Raises ``Unable``."""
         return ((self._label(label), certificate) for label, certificate in members(self.verdict))
 
-    def stated(self) -> list[Stated]:
+    def stated(self) -> list[Said]:
         """What it has to say."""
         return [(self._label(label), sentence, answer) for label, sentence, answer in stated(self.verdict)]
 

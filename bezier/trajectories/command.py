@@ -14,6 +14,7 @@ from bezier.arm.model import Arm
 from bezier.arm.tip import tip_of
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
+from bezier.curves.sentences import verified
 from bezier.input import stored
 from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
@@ -24,7 +25,7 @@ from bezier.scenes.route import proved
 from bezier.scenes.scene import Scene, load_table, read_scene
 from bezier.scenes.sentences import beyond, surfaces
 from bezier.trajectories.along import Along, arm_limits, load_path
-from bezier.trajectories.evidence import compare, members, stated
+from bezier.trajectories.evidence import members, stated
 from bezier.trajectories.limits import Limit, Verdict, decided
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.readers import load
@@ -234,7 +235,7 @@ class Certified:
     def check(self, certificate: qe.Certificate) -> None:
         """Whether a certificate proves just this. Raises ``CertificateRejected``."""
         near = [] if self.along is None else self.along.stated()
-        compare(certificate, [*(stated(self.verdict) if self.verdict.outcomes else ()), *near], self._scene())
+        verified(certificate, [*(stated(self.verdict) if self.verdict.outcomes else ()), *near], self._scene())
 
     def _scene(self) -> list[tuple[str, qe.Certificate]]:
         parts = [] if self.scene is None else proved(dict(surfaces(self.scene)), Budget())

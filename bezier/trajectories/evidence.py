@@ -11,8 +11,8 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import comb, lcm
 
-import qe
 from bezier.curves import bernstein as bs
+from bezier.curves.sentences import Said
 from bezier.trajectories.limits import Limit, Outcome, Verdict, limited
 from bezier.trajectories.piecewise import Trajectory
 from qe.certify.registry import RULES
@@ -25,8 +25,8 @@ from qe.kernel.block import block_goals
 from qe.kernel.derivation import limits_of
 from qe.kernel.step import Claim
 from qe.options import Budget
-from qe.proof.certificate import Certificate, Evidence, Kind
-from qe.proof.entry import Entry, Json
+from qe.proof.certificate import Certificate, Evidence
+from qe.proof.entry import Entry
 from qe.proving.lemma_list import Lemmas, with_cases
 
 RING = Ring.of(("t",))
@@ -156,41 +156,10 @@ def _by_bernstein(poly: Poly, length: Fraction) -> list[tuple[int, tuple[tuple[P
     return [(below, ((poly, 1),)), *((c, tuple(pair for pair in pairs if pair[1])) for c, pairs in listed)]
 
 
-Stated = tuple[str, Formula, Formula]
-"""A label, a sentence, and its truth."""
-
-
-def stated(verdict: Verdict) -> list[Stated]:
+def stated(verdict: Verdict) -> list[Said]:
     """What a certificate has to say about a trajectory: the sentences, made anew from it and its limits."""
-    listed: list[Stated] = [(*_broken(verdict.trajectory, o)[::2], TRUE) for o in verdict.outcomes if not o.is_kept]
+    listed: list[Said] = [(*_broken(verdict.trajectory, o)[::2], TRUE) for o in verdict.outcomes if not o.is_kept]
     if verdict.factor is None:
         return listed
     every = claims(verdict.trajectory, [o.limit for o in verdict.outcomes], verdict.factor)
     return [*listed, *((label, sentence, FALSE) for label, _, sentence in every)]
-
-
-def compare(given: Certificate, stated: Sequence[Stated], scene: Sequence[tuple[str, Certificate]] = ()) -> None:
-    """Whether a certificate has just these members, labels with sentences and answers, then those of the scene as they
-    are, and is accepted. Raises ``CertificateRejected``."""
-    if not (stated or scene) or given.kind != Kind.BUNDLE or not isinstance(given.payload, tuple):
-        raise CertificateRejected("bundle", "expected a bundle")
-    if len(given.payload) != len(stated) + len(scene):
-        raise CertificateRejected("bundle", f"expected {len(stated) + len(scene)} members about this trajectory")
-    for member, (label, proved) in zip(given.payload[len(stated) :], scene, strict=True):
-        if (member.label, member.certificate) != (label, proved):
-            raise CertificateRejected(member.label, f"expected {label}")
-    for member, (label, sentence, answer) in zip(given.payload, stated, strict=False):
-        payload, expected = member.certificate.payload, _payload(sentence, answer)
-        if member.label != label or member.certificate.kind != Kind.DERIVATION or not isinstance(payload, dict):
-            raise CertificateRejected(member.label, f"expected the derivation of: {label}")
-        if any(payload.get(key) != value for key, value in expected.items()):
-            raise CertificateRejected(member.label, "another sentence than that about this trajectory and these limits")
-    outcome = qe.verify(given)
-    if not outcome.accepted:
-        raise CertificateRejected(outcome.step, outcome.reason)
-
-
-def _payload(start: Formula, answer: Formula) -> dict[str, Json]:
-    listed = Certificate.derivation(RING.names, start, [], answer).payload
-    assert isinstance(listed, dict)
-    return {key: value for key, value in listed.items() if key != "steps"}

@@ -1,4 +1,4 @@
-"""Arguments, and names under which things were formerly found."""
+"""Arguments of the public functions, and the command at its place."""
 
 from __future__ import annotations
 
@@ -177,20 +177,6 @@ def test_the_largest_and_smallest_numbers_are_written_and_checked(case: str, tmp
     for key, value in (("duration", 10**51), ("max_speed", Fraction(1, 10**51))):
         with pytest.raises(qe.InputError, match=f"limits.{key}: expected a number of at most 10"):
             bezier.plan(**CUBIC, limits={key: value})
-
-
-def test_names_of_the_documents_at_their_former_places() -> None:
-    import bezier.input.task
-    import bezier.methods.cubic.existence
-    import bezier.methods.single.formula
-    from bezier.cubic.existence import existence, sentence, trivial_witness
-    from bezier.single.formula import Symbol, eliminate
-    from bezier.single.program import Axis, task
-
-    assert (Axis, task) == (bezier.input.task.Axis, bezier.input.task.task)
-    assert (Symbol, eliminate) == (bezier.methods.single.formula.Symbol, bezier.methods.single.formula.eliminate)
-    moved = bezier.methods.cubic.existence
-    assert (existence, sentence, trivial_witness) == (moved.existence, moved.sentence, moved.trivial_witness)
 
 
 def test_the_command_is_found_at_its_place() -> None:

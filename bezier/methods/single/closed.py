@@ -12,7 +12,7 @@ first one to the optima of the programs (Veinott 1967), with the bound that its 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor, log10
 
@@ -25,12 +25,12 @@ from bezier.methods.single.program import curve, program
 from bezier.methods.single.simplex import (
     Check,
     Contradiction,
-    Duals,
     LinearOptimum,
     LinearProgram,
     LinearRow,
     Outcome,
     certificate,
+    narrowed,
     solve,
 )
 from qe.errors import BudgetExceeded, InputError, InternalError
@@ -147,11 +147,11 @@ class _Search:
         return self.model.program(self.cuts, self.rigid)
 
     def tight(self, outcome: LinearOptimum) -> set[str]:
-        """The axes (empty: the ball) whose cuts leave no slack at all, by the duals."""
+        """The axes (empty: the ball) whose cuts leave no slack at all, by the multipliers."""
         cuts = (*self.model.tangents, *self.cuts)
         equations = len(self.model.task.raised) * 2
-        duals = outcome.duals.rows[equations:]
-        return {cut.axis for cut, dual in zip(cuts, duals, strict=False) if dual and cut.kind is not CutKind.TANGENT}
+        used = (cut for cut, factor in zip(cuts, outcome.multipliers[equations:], strict=False) if factor)
+        return {cut.axis for cut in used if cut.kind is not CutKind.TANGENT}
 
     def counted(self) -> Iterator[int]:
         """Rounds, at most ``MAX_ROUNDS`` for each of the two stages."""
@@ -206,9 +206,9 @@ class _Search:
         return point
 
     def certificate(self, outcome: Outcome) -> Certificate:
-        """The outcome for the program without the slack: its column is zero there, and its multipliers go with it."""
+        """The outcome for the program without the slack: where s has a part in a proof, s = 0 gives another."""
         plain, costs = plain_program(self.model, self.cuts)
-        return certificate(plain, costs, _without_slack(outcome, len(plain.rows)))
+        return certificate(plain, costs, narrowed(outcome, len(plain.rows) + 1, plain))
 
 
 def plain_program(model: Model, cuts: Sequence[Cut]) -> tuple[LinearProgram, Values]:
@@ -231,14 +231,6 @@ def _short(share: Fraction) -> Fraction:
 
 def _between(inner: Values, outer: Values, share: Fraction) -> Values:
     return tuple(a + share * (b - a) for a, b in zip(inner, outer, strict=True))
-
-
-def _without_slack(outcome: Outcome, rows: int) -> Outcome:
-    """The outcome without the last variable and the last row: where s has a part in a proof, s = 0 gives another."""
-    duals = Duals(outcome.duals.rows[:rows], outcome.duals.bounds[:-1])
-    if isinstance(outcome, Contradiction):
-        return Contradiction(duals)
-    return replace(outcome, point=outcome.point[:-1], duals=duals)
 
 
 def _rounded(task: Task, point: Values, step: Fraction) -> Values | None:

@@ -163,11 +163,12 @@ def _programs(plan: SinglePlan) -> Section:
     for item in plan.chosen:
         labels = [f"P_{item.axis.name}(t_{end}) = h" for end in ("a", "b")]
         labels += [f"{name} >= {low}" for name, low in zip(item.program.names, item.program.lower, strict=True)]
-        duals = (*item.outcome.duals.rows, *item.outcome.duals.bounds)
         result = (
             f"the least sum {brief(item.outcome.value)}" if isinstance(item.outcome, LinearOptimum) else "no solution"
         )
-        rows = [(label, parts.number(dual)) for label, dual in zip(labels, duals, strict=True) if dual]
+        rows = [
+            (label, parts.number(dual)) for label, dual in zip(labels, item.outcome.multipliers, strict=True) if dual
+        ]
         content.append(html.heading(Markup("{}: {}").format(item.axis.name, result)))
         content.append(html.table(("condition", "multiplier of the dual proof"), rows))
     said = "The maximum norm keeps this choice linear and all numbers rational."

@@ -9,7 +9,7 @@ over p+1..q is smallest. (4) does not say that the curve stays above h between, 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from math import comb
 
@@ -17,7 +17,7 @@ from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import Negative, decide
 from bezier.input.task import Axis, Task, Values, equally_spaced
-from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, LinearRow, solve
+from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, LinearRow, narrowed, solve
 
 TIE_BREAK = (
     "among the minima of the sum the one whose largest |coordinate| is least, then the lexicographically smallest"
@@ -84,10 +84,7 @@ def choose(given: Task, axis: Axis) -> Chosen:
         (*(LinearRow((*row.coefficients, Fraction(0)), row.bound, row.equation) for row in base.rows), *at_most),
     )
     outcome = solve(wider, [(*cost, Fraction(0)), unit[-1], *unit[:-1]])
-    duals = Duals(outcome.duals.rows[: len(base.rows)], outcome.duals.bounds[:size])
-    if isinstance(outcome, Contradiction):
-        return Chosen(axis, base, cost, Contradiction(duals))
-    return Chosen(axis, base, cost, replace(outcome, point=outcome.point[:size], duals=duals))
+    return Chosen(axis, base, cost, narrowed(outcome, len(wider.rows), base))
 
 
 def lowest(given: Task, axis: Axis, t: Fraction) -> Values | None:

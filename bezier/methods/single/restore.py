@@ -34,7 +34,7 @@ from bezier.methods.single.plan import (
     task_of,
 )
 from bezier.methods.single.program import Chosen, curve, dips, objective, program
-from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, certificate
+from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, certificate
 from bezier.paths.path import prove
 from bezier.plans import Stated
 from bezier.problem import Problem
@@ -75,14 +75,13 @@ def _outcome(base: LinearProgram, cost: Values, label: str, evidence: Certificat
     if status not in ("optimal", "infeasible"):
         raise CertificateRejected(f"{label}: status", "expected an optimum or a contradiction")
     numbers = _numbers(payload["multipliers"], label)
-    duals = Duals(numbers[: len(base.rows)], numbers[len(base.rows) :])
-    outcome: LinearOptimum | Contradiction = Contradiction(duals)
+    outcome: LinearOptimum | Contradiction = Contradiction(numbers)
     if status == "optimal":
         point = _numbers(payload["point"], label)
         if len(point) != len(cost):
             raise CertificateRejected(f"{label}: point", f"expected {len(cost)} numbers")
         value = sum((c * x for c, x in zip(cost, point, strict=True)), Fraction(0))
-        outcome = LinearOptimum(value, point, duals)
+        outcome = LinearOptimum(value, point, numbers)
     expected: Any = certificate(base, cost, outcome).evidence_for("multipliers")
     for key in expected:
         if payload.get(key) != expected[key]:

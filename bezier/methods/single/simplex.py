@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.convex.evidence import optimum_certificate
 from qe.convex.linear import LinearConflict, LinearFall, linear_optimum
+from qe.convex.minimise import evidence_about
+from qe.convex.system import ConvexSystem
 from qe.errors import InternalError, Unable
-from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Quadratic, combine, independent_rows
 from qe.proof.certificate import Certificate
-from qe.proof.multipliers import FormRelation, OptimumEvidence, OptimumStatus
+from qe.proof.multipliers import FormRelation, OptimumStatus
 
 Numbers = tuple[Fraction, ...]
 Check = Callable[[], object]
@@ -54,34 +55,35 @@ class LinearProgram:
 
 
 @dataclass(frozen=True, slots=True)
-class Duals:
-    """One number per row (>= 0 unless it is an equation) and one >= 0 per lower bound."""
-
-    rows: Numbers
-    bounds: Numbers
-
-
-@dataclass(frozen=True, slots=True)
 class LinearOptimum:
     """``point`` minimises the first objective c, among those points the second one, and so on.
 
-    ``duals`` prove it for the first: c.x + sum rows_i (a_i.x - b_i) + sum bounds_j (lower_j - x_j) = ``value`` for all
-    x.
+    ``multipliers`` of ``LinearProgram.forms``, >= 0 unless it is an equation, prove it for the first: c.x + sum
+    multipliers_i forms_i(x) = ``value`` for all x.
     """
 
     value: Fraction
     point: Numbers
-    duals: Duals
+    multipliers: Numbers
 
 
 @dataclass(frozen=True, slots=True)
 class Contradiction:
-    """No point: sum rows_i (a_i.x - b_i) + sum bounds_j (lower_j - x_j) is a positive constant (Farkas 1902)."""
+    """No point: sum multipliers_i forms_i is a positive constant (Farkas 1902)."""
 
-    duals: Duals
+    multipliers: Numbers
 
 
 Outcome = LinearOptimum | Contradiction
+
+
+def narrowed(outcome: Outcome, rows: int, program: LinearProgram) -> Outcome:
+    """The outcome for ``program``, of the first rows (of so many) and variables, if the others play no part in it."""
+    kept, size = outcome.multipliers, len(program.names)
+    kept = (*kept[: len(program.rows)], *kept[rows : rows + size])
+    if isinstance(outcome, Contradiction):
+        return Contradiction(kept)
+    return replace(outcome, point=outcome.point[:size], multipliers=kept)
 
 
 def solve(program: LinearProgram, objectives: Sequence[Sequence[Fraction]], *, check: Check = lambda: None) -> Outcome:
@@ -96,7 +98,7 @@ def solve(program: LinearProgram, objectives: Sequence[Sequence[Fraction]], *, c
     equal = [k for k, row in enumerate(program.rows) if row.equation]
     forms += _negated(forms, equal)
     zero = {*equal}
-    first: Duals | None = None
+    first: Numbers | None = None
     point: Numbers = ()
     for objective in objectives:
         if first is not None and len(independent_rows([forms[k].gradient for k in zero])) == len(program.names):
@@ -104,7 +106,7 @@ def solve(program: LinearProgram, objectives: Sequence[Sequence[Fraction]], *, c
         optimum = linear_optimum(_linear(tuple(objective), Fraction(0)), forms, check=check)
         if isinstance(optimum, LinearFall):
             raise Unable("a linear objective falls without bound")
-        first = first or _duals(program, equal, optimum.weights)
+        first = first or _multipliers(program, equal, optimum.weights)
         if isinstance(optimum, LinearConflict):
             return Contradiction(first)
         forms += _negated(forms, optimum.weights)
@@ -120,33 +122,23 @@ def _negated(forms: Sequence[Quadratic], which: Iterable[int]) -> list[Quadratic
     return [combine((Fraction(-1),), (forms[k],)) for k in which]
 
 
-def _duals(program: LinearProgram, equal: Sequence[int], weights: dict[int, Fraction]) -> Duals:
-    """The multipliers of the forms: those of the program, and then the negative ones of its equations."""
-    rows, names = len(program.rows), len(program.names)
-    numbers = [weights.get(k, Fraction(0)) for k in range(rows + names)]
-    for place, k in enumerate(equal, rows + names):
-        numbers[k] -= weights.get(place, Fraction(0))
-    return Duals(tuple(numbers[:rows]), tuple(numbers[rows:]))
+def _multipliers(program: LinearProgram, equal: Sequence[int], weights: Mapping[int, Fraction]) -> Numbers:
+    """Of the forms of the program, which the negative ones of its equations follow."""
+    size = len(program.rows) + len(program.names)
+    negative = {k: weights.get(place, Fraction(0)) for place, k in enumerate(equal, size)}
+    return tuple(weights.get(k, Fraction(0)) - negative.get(k, 0) for k in range(size))
 
 
 def certificate(program: LinearProgram, objective: Sequence[Fraction], outcome: Outcome) -> Certificate:
     """The outcome as a certificate that ``qe.verify`` accepts: constraints in the order rows, then lower bounds."""
     relations = [FormRelation.EQ if row.equation else FormRelation.LE for row in program.rows]
-    optimal = isinstance(outcome, LinearOptimum)
-    evidence = OptimumEvidence(
-        names=program.names,
-        objective=_linear(tuple(objective), Fraction(0)),
-        forms=tuple(program.forms),
-        relations=(*relations, *[FormRelation.LE] * len(program.names)),
-        status=OptimumStatus.OPTIMAL if optimal else OptimumStatus.INFEASIBLE,
-        field=NumberField.rationals(),
-        faces=(),
-        point=outcome.point if isinstance(outcome, LinearOptimum) else program.lower,
-        multipliers=(*outcome.duals.rows, *outcome.duals.bounds),
-        attained=True if optimal else None,
-        unique=False if optimal else None,
-    )
-    return optimum_certificate(evidence)
+    relations += [FormRelation.LE] * len(program.names)
+    least = _linear(tuple(objective), Fraction(0))
+    system = ConvexSystem(program.names, least, tuple(program.forms), tuple(relations))
+    said: dict[str, object] = {"status": OptimumStatus.INFEASIBLE, "point": program.lower}
+    if isinstance(outcome, LinearOptimum):
+        said = {"status": OptimumStatus.OPTIMAL, "point": outcome.point, "attained": True, "unique": False}
+    return optimum_certificate(evidence_about(system, multipliers=outcome.multipliers, **said))
 
 
 def _linear(gradient: Numbers, constant: Fraction) -> Quadratic:

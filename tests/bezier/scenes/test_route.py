@@ -18,6 +18,7 @@ from scipy.ndimage import label
 import bezier
 import qe
 from bezier.cli import main
+from bezier.conic import Conic
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, subtract
 from bezier.interface.function import table_value
@@ -25,7 +26,6 @@ from bezier.scenes import route as route_module
 from bezier.scenes.barrier import barrier
 from bezier.scenes.bound import least_length
 from bezier.scenes.cells import Cell, FreeCells
-from bezier.scenes.conic import Conic
 from bezier.scenes.region import decomposed
 from bezier.scenes.route import Blocked, Route, Wish, decided, proved
 from bezier.scenes.scene import Scene, given_scene, load_scene

@@ -15,7 +15,8 @@ from scipy.interpolate import BSpline, CubicSpline
 
 import qe
 from bezier.cli import main
-from bezier.trajectories.evidence import compare, members, stated
+from bezier.curves.sentences import verified
+from bezier.trajectories.evidence import members, stated
 from bezier.trajectories.exact import composed
 from bezier.trajectories.limits import Limit, Verdict, decided, is_below
 from bezier.trajectories.objects import from_scipy
@@ -143,7 +144,7 @@ def proved() -> tuple[Verdict, str]:
 
 def test_a_certificate_is_accepted_and_says_the_repair(proved: tuple[Verdict, str]) -> None:
     verdict, text = proved
-    compare(qe.Certificate.from_json(text), stated(verdict))
+    verified(qe.Certificate.from_json(text), stated(verdict))
 
 
 @pytest.mark.parametrize("count", [100, pytest.param(1000, marks=pytest.mark.deep)])
@@ -155,7 +156,7 @@ def test_altered_sentences_are_rejected(proved: tuple[Verdict, str], count: int)
         data.pop("digest", None)
         altered = _altered(data, random)
         with pytest.raises(QEError):
-            compare(qe.Certificate.from_json(json.dumps(altered)), stated(verdict))
+            verified(qe.Certificate.from_json(json.dumps(altered)), stated(verdict))
 
 
 def _altered(data: Any, random: Random) -> Any:
@@ -184,7 +185,7 @@ def test_the_certificate_of_another_trajectory_is_rejected(proved: tuple[Verdict
     verdict, text = proved
     other = decided(slowed(verdict.trajectory, F(101, 100)), [o.limit for o in verdict.outcomes], TOLERANCE)
     with pytest.raises(CertificateRejected):
-        compare(qe.Certificate.from_json(text), stated(other))
+        verified(qe.Certificate.from_json(text), stated(other))
 
 
 # --- readers ----------------------------------------------------------------------------------------------------------

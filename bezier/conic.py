@@ -13,17 +13,18 @@ Terms = Sequence[tuple[int, float]]
 
 
 class Conic:
-    """Least cost (linear, with squares) under inequalities, equations and |(r_1, ..., r_k)| <= r_0. ``tolerance``: of
-    the solver, where it is not its own."""
+    """Least cost (linear, with squares) under inequalities, equations and |(r_1, ..., r_k)| <= r_0. ``tolerances``: of
+    the solver, where they are not its own, in the order in which they are tried. ``multipliers``: of all rows."""
 
-    def __init__(self, tolerance: float | None = None) -> None:
-        self._tolerance = tolerance
+    def __init__(self, *tolerances: float) -> None:
+        self._tolerances, self.multipliers = tolerances, list[float]()
         self._width = self._height = 0
         self._rows: list[tuple[Any, Any, Any]] = []
         self._right: list[Any] = []
         self._cones: list[tuple[str, int]] = []
         self._costs: list[tuple[Any, Any]] = []
         self._squares: list[Terms] = []
+        self._products: list[tuple[int, int, float]] = []
 
     def variables(self, shape: tuple[int, ...], cost: Any = 0.0) -> Any:
         """The numbers of new variables, an array."""
@@ -82,6 +83,10 @@ class Conic:
         """The square of a form as a part of the cost."""
         self._squares.append(terms)
 
+    def add_product(self, i: int, j: int, factor: float) -> None:
+        """factor times a product of two variables, i <= j, as a part of the cost, which is to be convex."""
+        self._products.append((i, j, factor * (1 + (i == j))))
+
     def solved(self) -> list[float] | None:
         """The variables, as well as clarabel knows them, which may be badly; None where it says that there are none."""
         with wanted():
@@ -90,8 +95,6 @@ class Conic:
 
         settings = clarabel.DefaultSettings()
         settings.verbose = False
-        if self._tolerance is not None:
-            settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = self._tolerance
         cost = np.zeros(self._width)
         for k, c in self._costs:
             np.add.at(cost, k, c)
@@ -101,8 +104,15 @@ class Conic:
         i, k, c = zip(*listed, strict=True) if listed else ((), (), ())
         squares = sparse.csc_matrix((c, (i, k)), shape=(len(self._squares), self._width))
         quadratic = sparse.triu(2 * squares.T @ squares, format="csc")
+        i, k, c = zip(*self._products, strict=True) if self._products else ((), (), ())
+        quadratic = sparse.csc_matrix(quadratic + sparse.csc_matrix((c, (i, k)), shape=quadratic.shape))
         cones = [getattr(clarabel, name)(count) for name, count in self._cones]
-        answer = clarabel.DefaultSolver(quadratic, cost, matrix, np.concatenate(self._right), cones, settings).solve()
-        values = list(map(float, answer.x))
+        for tolerance in self._tolerances or (settings.tol_feas,):
+            settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+            solver = clarabel.DefaultSolver(quadratic, cost, matrix, np.concatenate(self._right), cones, settings)
+            answer = solver.solve()
+            if str(answer.status) == "Solved":
+                break
+        values, self.multipliers = list(map(float, answer.x)), list(map(float, answer.z))
         hopeless = "Infeasible" in str(answer.status) or not np.isfinite(values).all()
         return None if hopeless else values
