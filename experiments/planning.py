@@ -23,7 +23,7 @@ import numpy as np
 
 import bezier
 import qe
-from bezier.pictures.route import drawing
+from bezier.pictures.route import inline
 from bezier.report import html
 from bezier.report.chain import pictures
 from bezier.report.html import Card, Page, Section, document
@@ -288,7 +288,7 @@ def run(out: Path, count: int, note: Callable[[str], object]) -> list[Path]:
         scene, answer = scene_row(name, given)
         scenes.append(scene)
         note(f"scene {name}: {scene.ours} ({scene.seconds:.2f} s)")
-        drawn.append((drawing(answer), f"{name}: {scene.ours}"))
+        drawn.append((inline(answer), f"{name}: {scene.ours}"))
     out.mkdir(parents=True, exist_ok=True)
     data = {
         "chains": [asdict(row) for row in chains],

@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import partial
 from json import dumps
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -24,6 +24,18 @@ from qe.arguments import mebibytes, seconds
 from qe.cli.shell import OK, UNABLE, check_writable, enter, examples, limited, write_file
 from qe.errors import InputError, Unable
 
+
+def ending(option: str, *known: str, help: str) -> Any:
+    """The option for a file that is written in one of these forms, by its ending; a device has none."""
+
+    def checked(given: Path | None) -> Path | None:
+        if given is not None and given.suffix.lower() not in known and not (given.exists() and not given.is_file()):
+            raise InputError(f"{option} {given}: expected a name that ends in {' or '.join(known)}")
+        return given
+
+    return typer.Option(option, callback=checked, help=help)
+
+
 ProblemFile = Annotated[Path, typer.Argument(metavar="PROBLEM.toml", help="The planning problem.", show_default=False)]
 ArmName = Annotated[
     str, typer.Argument(metavar="ARM", help="ev3-112, ev3-120, … or a file ARM.toml.", show_default=False)
@@ -32,7 +44,7 @@ RouteFile = Annotated[Path, typer.Argument(metavar="PATH.toml", help="[[curve]] 
 Out = Annotated[Path, typer.Option("--out", help="Folder for the report and all other files.")]
 TimedPath = Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .yaml, .npz", show_default=False)]
 Against = Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the file.")]
-Charts = Annotated[Path | None, typer.Option("--page", help="Write a page with each quantity over time here.")]
+Charts = Annotated[Path | None, ending("--page", ".html", help="Write a page with each quantity over time here.")]
 Evidence = Annotated[Path | None, typer.Option("--certificate", help="Write the certificates here.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 NoPlots = Annotated[bool, typer.Option("--no-plots", help="No pictures.")]
@@ -279,7 +291,7 @@ def certify(
     return OK
 
 
-def _write(names: Sequence[Path | None], contents: Sequence[str]) -> None:
+def _write(names: Sequence[Path | None], contents: Sequence[str | bytes]) -> None:
     """Whole files, of what is wanted and is not empty."""
     for name, content in zip(names, contents, strict=True):
         if name is not None and content:
@@ -290,7 +302,7 @@ def chain(
     file: Annotated[Path, typer.Argument(metavar="CHAIN.toml", help="Points and conditions.", show_default=False)],
     certificate: Evidence = None,
     check: Against = None,
-    page: Annotated[Path | None, typer.Option("--page", help="Write a page with pictures here.")] = None,
+    page: Annotated[Path | None, ending("--page", ".html", help="Write a page with pictures here.")] = None,
     region: Annotated[str | None, typer.Option("--region", help="Where a point may be: start, via[0], C2.1, …")] = None,
     json: Json = False,
     timeout: Timeout = None,
@@ -319,7 +331,9 @@ def route(
     file: Annotated[Path, typer.Argument(metavar="SCENE", help="JSON or TOML.", show_default=False)],
     certificate: Evidence = None,
     check: Against = None,
-    picture: Annotated[Path | None, typer.Option("--picture", help="Write an SVG picture here.")] = None,
+    picture: Annotated[
+        Path | None, ending("--picture", ".svg", ".png", ".pdf", help="Write a picture here (.svg, .png, .pdf).")
+    ] = None,
     shortest: Annotated[bool, typer.Option("--shortest", help="A short path, with a bound for all paths.")] = False,
     degree: Annotated[int, typer.Option("--degree", help="Of its curves, 1 for segments.")] = 3,
     continuity: Annotated[int, typer.Option("--continuity", help="Derivatives of it that are continuous.")] = 1,
@@ -336,9 +350,10 @@ def route(
     if check is not None and certificate is not None:
         raise InputError("--check: expected no --certificate with it, found one")
     wish = Wish.of(degree, continuity, gap) if shortest or gap else None
-    work = partial(command.run, file=file, against=check, picture=picture is not None, wish=wish, as_json=json)
-    text, *files, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
-    _write((certificate, picture), files)  # no certificate where the start or the goal itself is in an obstacle
+    kind = "" if picture is None else picture.suffix.lower().removeprefix(".") or "svg"
+    work = partial(command.run, file=file, against=check, picture=kind, wish=wish, as_json=json)
+    text, proof, drawn, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
+    _write((certificate, picture), (proof, drawn))  # no certificate where start or goal itself is in an obstacle
     print(text)
     return OK if is_free else UNABLE
 
@@ -348,7 +363,7 @@ def retime(
     limits: Annotated[Path, typer.Option("--limits", help="A TOML file: velocity, acceleration, …, as for certify.")],
     law: Annotated[Law, typer.Option("--law", help="The fastest motion, or a law with a formula.")] = Law.LEAST,
     accuracy: Annotated[str, typer.Option("--accuracy", help="Share above the bound at which to stop.")] = "1/250",
-    out: Annotated[Path | None, typer.Option("--out", help="Write the motion here (.csv), for certify.")] = None,
+    out: Annotated[Path | None, ending("--out", ".csv", help="Write the motion here (.csv), for certify.")] = None,
     certificate: Evidence = None,
     check: Against = None,
     page: Charts = None,
@@ -363,8 +378,6 @@ def retime(
     check_writable(out, certificate, page)
     if check is not None and (certificate is not None or law is not Law.LEAST):
         raise InputError("--check: expected no --certificate and --law with it, found one")
-    if out is not None and out.suffix.lower() != ".csv":
-        raise InputError(f"--out {out}: expected a name that ends in .csv")
     share = _number(accuracy, "--accuracy", above=True)
     work = partial(command.run, file=file, limits=limits, law=law, accuracy=share, against=check, as_json=json)
     work = partial(work, evidence=certificate is not None, page=page is not None)

@@ -68,7 +68,7 @@ def _heights(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture], a
         points = sampled(curve.points, 81)
         axis.plot(points[:, 0], points[:, 2], color=COLOURS.get(name, INK), linewidth=2.2)
     axis.set_aspect("equal", adjustable="datalim")
-    _titled(axis, "height over x", "x", "z")
+    _titled(axis, "height over x", "x (mm)", "z (mm)")
 
 
 def _clearances(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture], axis: Any) -> None:
@@ -136,4 +136,4 @@ def _profile(given: Task, curves: Mapping[str, Bezier], axis: Axis, panel: Any) 
         colour = COLOURS["P"] if i == 0 else PALE
         panel.plot(polygon[:, 0], polygon[:, column], "--o", color=colour, linewidth=0.8, markersize=3, alpha=0.8)
         panel.plot(points[:, 0], points[:, column], color=colour, linewidth=2.2, label=label)
-    _titled(panel, f"{axis.name} over x", "x", legend=True)
+    _titled(panel, f"{axis.name} over x", "x (mm)", f"{axis.name} (mm)", legend=True)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.obstacle import Constraint, Obstacle
@@ -102,14 +101,15 @@ def _cloud(obstacle: Obstacle, reach: float) -> Array:
     axis = np.linspace(-reach, reach, GRID)
     grid = np.stack(np.meshgrid(axis, axis, axis), axis=-1).reshape(-1, 3)
     grid = grid[np.linalg.norm(grid, axis=1) <= reach]
-    result: Array = grid[held([piece.constraints for piece in obstacle.pieces], grid)]
-    return result
+    return np.asarray(grid[excess([piece.constraints for piece in obstacle.pieces], grid) >= 0])
 
 
-def held(pieces: Sequence[Sequence[Constraint]], points: Array) -> NDArray[np.bool_]:
-    """Which points (n, 3) satisfy all conditions of a piece."""
-    inside = np.zeros(len(points), dtype=bool)
-    for piece in pieces:
-        values = [sum(float(x) * np.prod(points ** np.array(e), axis=1) for e, x in c.terms) for c in piece]
-        inside |= np.all([value + np.zeros(len(points)) >= 0 for value in values], axis=0)
-    return inside
+def excess(pieces: Sequence[Sequence[Constraint]], points: Array) -> Array:
+    """Numbers that are not negative at those points (n, 3) that satisfy all conditions of a piece, at most 1."""
+
+    def values(condition: Constraint) -> Array:
+        terms = (float(x) * np.prod(points ** np.array(e), axis=1) for e, x in condition.terms)
+        return np.asarray(sum(terms, np.zeros(len(points))))
+
+    ones = np.ones(len(points))
+    return np.asarray(np.max([np.min([ones, *map(values, piece)], axis=0) for piece in pieces], axis=0))

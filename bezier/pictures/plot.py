@@ -119,7 +119,7 @@ def save_region(picture: PathPicture, path: Path, title: str) -> None:
             else:
                 axis.text2D(0.5, 0.97, "from the other side", transform=axis.transAxes, ha="center", fontsize=9)
         for column, (title, a, b) in enumerate(VIEWS):
-            _region_view(figure.add_axes((0.055 + 0.325 * column, 0.07, 0.27, 0.23)), region, title, a, b)
+            _region_view(figure.add_axes((0.065 + 0.325 * column, 0.07, 0.25, 0.23)), region, title, a, b)
     _save(figure, path, picture.hatted_names)
 
 
@@ -143,7 +143,7 @@ def save_path(picture: PathPicture, path: Path) -> None:
         handles, texts = axis.get_legend_handles_labels()
         figure.legend(handles, texts, loc="upper left", bbox_to_anchor=(0.02, 0.98), frameon=False)
     for column, (title, i, j) in enumerate(VIEWS):
-        path_view(figure.add_axes((0.055 + 0.325 * column, 0.055, 0.27, 0.26)), picture, title, i, j)
+        path_view(figure.add_axes((0.065 + 0.325 * column, 0.055, 0.25, 0.26)), picture, title, i, j)
     _save(figure, path, picture.hatted_names)
 
 
@@ -252,7 +252,7 @@ def _frame(axis: Any, points: Array, pad: float, view: tuple[float, float] = (20
     widest = float((high - low).max()) or 1.0
     for name, a, b in zip(AXES, low - extra, high + extra, strict=True):
         getattr(axis, f"set_{name}lim")(a, b)
-        getattr(axis, f"set_{name}label")(name)
+        getattr(axis, f"set_{name}label")(name, labelpad=12)
         getattr(axis, f"{name}axis").set_major_locator(MaxNLocator(max(1, round(5 * (b - a) / widest))))
     axis.set_box_aspect((high - low) + 1e-12, zoom=zoom)
     axis.view_init(elev=view[0], azim=view[1])

@@ -2,91 +2,92 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from io import BytesIO
 from typing import Any
 
 import numpy as np
 
 from bezier.pictures.mesh import Array, hull, sampled
-from bezier.pictures.obstacles import held
-from bezier.pictures.picture import numbers
-from bezier.scenes.barrier import Wall
+from bezier.pictures.obstacles import excess
+from bezier.pictures.picture import COLOURS, GRID, PALE, numbers
+from bezier.pictures.plot import AXES, new_figure, svg_text
 from bezier.scenes.route import Blocked, Route
 from bezier.scenes.scene import Scene
 from bezier.scenes.solid import Solid
 
-WIDTH, GRID = 340.0, 96
-WAY, WALL, SIDE, BODY, START, GOAL = "#175cd3", "#b42318", "#fda29b", "#98a2b3", "#067647", "#b42318"
+WIDTH, SAMPLES = 4.6, 160
+"""Of a view, in inches; of conditions, along an axis."""
+WAY, WALL, SIDE, BODY = COLOURS["P"], "#b42318", "#fedad6", "#adb4c0"
+KINDS = ("svg", "png", "pdf")
 
 
-def drawing(known: Route | Blocked) -> str:
-    """An SVG picture of the plane, or of space from above and from the front."""
+def drawing(known: Route | Blocked, kind: str = "svg") -> bytes:
+    """A picture of the plane, or of space from above and from the front, as a file of one of ``KINDS``."""
+    buffer, unsaid = BytesIO(), {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    _figure(known).savefig(buffer, format=kind, dpi=150, metadata=unsaid.get(kind))
+    return buffer.getvalue()
+
+
+def inline(known: Route | Blocked) -> str:
+    """The same as an element of a page."""
+    return svg_text(_figure(known))
+
+
+def _figure(known: Route | Blocked) -> Any:
     views = ((0, 1),) if known.scene.dimension == 2 else ((0, 1), (0, 2))
-    parts, right, tall = list[str](), 0.0, 0.0
-    for i, j in views:
-        body, height = _view(known, i, j)
-        parts.append(f'<g transform="translate({right:.0f} 0)">{body}</g>')
-        right, tall = right + WIDTH + 16, max(tall, height)
-    view = f'xmlns="http://www.w3.org/2000/svg" viewBox="-4 -4 {right - 8:.0f} {tall + 8:.0f}" width="{right - 8:.0f}"'
-    return f'<svg {view} role="img">{"".join(parts)}</svg>'
+    wide, *tall = (float(b - a) for a, b in zip(known.scene.low, known.scene.high, strict=True))
+    shape = min(max(*tall, wide / 3) / wide, 2.0)
+    figure = new_figure(WIDTH * len(views) + 0.5, WIDTH * shape + 0.7)
+    for axis, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True):
+        _view(axis, known, *view)
+    figure.tight_layout()
+    return figure
 
 
-def _view(known: Route | Blocked, i: int, j: int) -> tuple[str, float]:
+def _view(axis: Any, known: Route | Blocked, i: int, j: int) -> None:
+    from matplotlib.patches import Polygon
+
     scene = known.scene
-    low, high = (np.array([float(c[i]), float(c[j])]) for c in (scene.low, scene.high))
-    unit = WIDTH / (high - low)[0]
-    height = float((high - low)[1] * unit)
-
-    def at(points: Array) -> str:
-        return " ".join(
-            f"{x:.2f},{y:.2f}" for x, y in zip(*(points - [low[0], high[1]]).T * [[unit], [-unit]], strict=True)
-        )
-
-    def shape(points: Array, look: str) -> str:
-        return f'<polygon points="{at(points)}" {look}/>'
-
-    parts = [shape(p, 'fill="#ffffff" stroke="#667085"') for p in _workspace(scene, i, j)]
+    low, high = numbers([scene.low, scene.high])[:, (i, j)]
+    rims = [outline(part, i, j) for part in scene.domain if part.corners and not part.is_polytope]
+    rims = rims or [hull(np.array([low, [high[0], low[1]], high, [low[0], high[1]]]))]
+    axis.add_patch(rim := Polygon(rims[0], fill=False, edgecolor=PALE, zorder=3))
+    drawn = []
     if isinstance(known, Blocked) and scene.dimension == 2:
-        sides = (np.array(cell.floats) for cell in known.start_side)
-        parts += [shape(hull(p), f'fill="{SIDE}" opacity="0.4"') for p in sides if len(p) > 2]
-    bodies = (shape(outline(body, i, j), f'fill="{BODY}"') for body in scene.solids)
-    crisp = f'fill="{BODY}" shape-rendering="crispEdges"'
-    rows = (shape(row, crisp) for body in scene.formulas for row in _shaded(scene, body, i, j))
-    parts.append(f'<g opacity="0.8">{"".join((*bodies, *rows))}</g>')  # as one: parts of a mesh overlap
+        sides = (hull(np.array(cell.floats)) for cell in known.start_side if len(cell.floats) > 2)
+        drawn += [axis.fill(*side.T, color=SIDE)[0] for side in sides]
+    drawn += [axis.fill(*outline(body, i, j).T, color=BODY)[0] for body in scene.solids]
+    drawn += [axis.contourf(*_shadow(scene, body, i, j), [0, np.inf], colors=[BODY]) for body in scene.formulas]
+    for part in drawn:
+        part.set_clip_path(rim)
     if isinstance(known, Route):
-        way = at(np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])[:, (i, j)])
-        parts.append(f'<polyline points="{way}" fill="none" stroke="{WAY}" stroke-width="2"/>')
-    else:
-        walls = (at(numbers([wall.start, wall.end])) for wall in known.walls if isinstance(wall, Wall))
-        parts += [f'<polyline points="{wall}" stroke="{WALL}" stroke-width="2"/>' for wall in walls]
-    for point, colour in ((scene.start, START), (scene.goal, GOAL)):
-        cx, cy = at(numbers([point])[:, (i, j)]).split(",")
-        parts.append(f'<circle cx="{cx}" cy="{cy}" r="4" fill="{colour}"/>')
-    name = f"view{i}{j}"
-    clip = f'<clipPath id="{name}"><rect x="-4" y="-4" width="{WIDTH + 8}" height="{height + 8:.0f}"/></clipPath>'
-    return f'{clip}<g clip-path="url(#{name})">{"".join(parts)}</g>', height
+        way = np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])
+        axis.plot(*way[:, (i, j)].T, color=WAY, linewidth=2)
+    elif scene.dimension == 2:
+        for wall in known.walls:
+            axis.plot(*numbers([wall.start, wall.end]).T, color=WALL, linewidth=2)  # type: ignore[union-attr]
+    for name, point, mark in (("start", scene.start, "o"), ("goal", scene.goal, "s")):
+        axis.plot(*numbers([point])[0, [i, j]], mark, color=WAY, label=name, zorder=4)
+    pad = 0.02 * (high - low)
+    xs, ys = zip(low - pad, high + pad, strict=True)
+    axis.set(xlim=xs, ylim=ys, xlabel=AXES[i], ylabel=AXES[j], aspect="equal")
+    axis.grid(color=GRID, linewidth=0.6)
+    axis.set_axisbelow(True)
+    axis.legend(loc="best", fontsize=8)
 
 
-def _workspace(scene: Scene, i: int, j: int) -> list[Array]:
-    """The box around it; the other bounded parts over it."""
-    (a, b), (c, d) = numbers([scene.low, scene.high])[:, (i, j)]
-    box = np.array([[a, b], [c, b], [c, d], [a, d]])
-    return [box, *(outline(part, i, j) for part in scene.domain if part.corners and not part.is_polytope)]
-
-
-def _shaded(scene: Scene, body: Solid, i: int, j: int) -> Iterator[Array]:
-    """The shadow of conditions in two coordinates, as rectangles in the rows of a grid."""
-    steps = [(float(b - a) / GRID, float(a)) for a, b in zip(scene.low, scene.high, strict=True)]
-    axes = [low + step * (np.arange(GRID) + 0.5) for step, low in steps] + [np.zeros(1)] * (3 - len(steps))
-    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    inside = held(body.pieces, points.reshape(-1, 3)).reshape(points.shape[:3])
-    (dx, left), (dy, bottom) = steps[i], steps[j]
-    filled: Any = inside.any(axis=tuple(k for k in range(3) if k not in (i, j)))
-    for k, row in enumerate(filled.T):
-        ends = np.flatnonzero(np.diff(np.concatenate(([0], row.astype(int), [0]))))
-        for a, b in ends.reshape(-1, 2):
-            corners = [(a, k), (b, k), (b, k + 1), (a, k + 1)]
-            yield np.array([(left + dx * x, bottom + dy * y) for x, y in corners])
+def _shadow(scene: Scene, body: Solid, i: int, j: int) -> tuple[Array, Array, Array]:
+    """Two coordinates of a grid, and numbers that are positive in the shadow of conditions."""
+    count = SAMPLES if scene.dimension == 2 else SAMPLES // 2
+    ends = zip(scene.low, scene.high, strict=True)
+    axes = [np.linspace(float(a), float(b), count) for a, b in ends] + [np.zeros(1)] * (3 - scene.dimension)
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    most = (
+        excess(body.pieces, points)
+        .reshape([len(axis) for axis in axes])
+        .max(axis=tuple(k for k in range(3) if k not in (i, j)))
+    )
+    return axes[i], axes[j], most.T
 
 
 def outline(body: Solid, i: int, j: int) -> Array:

@@ -57,7 +57,7 @@ class Quantity:
                 axis.plot(self.times[beyond], self.values[beyond], ".", color=BAD, markersize=3)
         axis.plot(*self.worst, "o", color=INK if self.is_kept else BAD, markersize=6, fillstyle="none")
         axis.set_title(self.words, fontsize=10, color=INK)
-        axis.set_xlabel("t")
+        axis.set_xlabel("t (s)")
         axis.grid(color=GRID, linewidth=0.6)
         return svg_text(figure)
 

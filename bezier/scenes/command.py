@@ -9,6 +9,7 @@ import qe
 from bezier.input import stored
 from bezier.scenes.route import Wish, decided
 from bezier.scenes.scene import load_scene
+from qe.extras import wanted
 from qe.options import Budget
 from qe.processes.channel import Channel
 
@@ -18,11 +19,12 @@ def run(
     file: Path,
     *,
     against: Path | None = None,
-    picture: bool = False,
+    picture: str = "",
     wish: Wish | None = None,
     as_json: bool = False,
-) -> tuple[str, str, str, bool]:
-    """What to print, the texts of the certificate and of the picture, and whether there is a way.
+) -> tuple[str, str, bytes, bool]:
+    """What to print, the certificate, a ``picture`` of this kind (svg, png, pdf) where one is wanted, and whether there
+    is a way.
 
     ``against``: the file of a certificate that is checked about this scene, in place of a proof that is made; the way
     or the two sides are looked for again. Raises ``CertificateRejected`` where it is not about them.
@@ -33,10 +35,11 @@ def run(
         known.check(qe.Certificate.from_json(stored.text(against)))
         data["checked"] = True
         lines.append("accepted")
-    drawn = ""
+    drawn = b""
     if picture:
-        from bezier.pictures.route import drawing
+        with wanted():
+            from bezier.pictures.route import drawing
 
-        drawn = drawing(known)
+        drawn = drawing(known, picture)
     text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
     return text, "" if known.certificate is None else known.certificate.to_json(), drawn, not known.blocked

@@ -456,7 +456,32 @@ def test_the_example_in_toml_is_planned_and_drawn(tmp_path: Path, capsys: pytest
     file, picture = ROOT / "examples" / "scenes" / "ring.toml", tmp_path / "ring.svg"
     assert main(["route", str(file), "--picture", str(picture)]) == 0
     assert "clear of all obstacles" in capsys.readouterr().out
-    assert picture.read_text().count("<polygon") > 5 and "<polyline" in picture.read_text()
+    assert "<svg" in picture.read_text() and picture.read_text().count("<path") > 9
+
+
+@each((".png", b"\x89PNG"), (".pdf", b"%PDF"), (".SVG", b"<?xml"))
+def test_a_picture_is_what_its_ending_says(ending: str, begin: bytes, tmp_path: Path) -> None:
+    """It was SVG under every name."""
+    file, picture = ROOT / "examples" / "scenes" / "slit.json", tmp_path / f"slit{ending}"
+    assert main(["route", str(file), "--picture", str(picture)]) == 0
+    assert picture.read_bytes().startswith(begin)
+
+
+@each(
+    ("route", "examples/scenes/slit.json", "--picture", "x.jpg", ".svg or .png or .pdf"),
+    ("route", "examples/scenes/slit.json", "--picture", "x", ".svg or .png or .pdf"),
+    ("chain", "examples/chains/plane.toml", "--page", "x.png", ".html"),
+    ("retime", "examples/joints/path.csv", "--page", "x.txt", ".html"),
+    ("certify", "examples/joints/path.csv", "--page", "x.svg", ".html"),
+)
+def test_other_endings_are_refused_in_one_line(
+    command: str, file: str, option: str, name: str, expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    more = ["--limits", str(ROOT / "examples/joints/limits.toml")] if command == "retime" else []
+    assert main([command, str(ROOT / file), *more, option, str(tmp_path / name)]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and f"{option} {tmp_path / name}: expected a name that ends in {expected}" in said
+    assert not (tmp_path / name).exists()
 
 
 def test_a_wall_is_in_its_body_by_its_sides_and_not_by_the_corners_it_names() -> None:
