@@ -63,9 +63,9 @@ def joint_plan(
 
     ``parts``: what each curve takes of the path's parameter; all the same by default.
     """
+    path = joint_path(arm, curves)
     sizes = [Fraction(1) if parts is None else parts[name] for name in curves]
     ends = tuple(total / sum(sizes) for total in accumulate(sizes))
-    path = joint_path(arm, curves)
     moments = samples_of(ends, law, samples)
     remarks: list[str] = []
     if path.is_stopped and (path.excesses or path.is_reachable):

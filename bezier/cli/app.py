@@ -349,9 +349,10 @@ def route(
     check_writable(certificate, picture)
     if check is not None and certificate is not None:
         raise InputError("--check: expected no --certificate with it, found one")
-    wish = Wish.of(degree, continuity, gap) if shortest or gap else None
+    wish = Wish.of(degree, continuity, gap)
     kind = "" if picture is None else picture.suffix.lower().removeprefix(".") or "svg"
-    work = partial(command.run, file=file, against=check, picture=kind, wish=wish, as_json=json)
+    work = partial(command.run, file=file, against=check, picture=kind, as_json=json)
+    work = partial(work, wish=wish if shortest or gap is not None else None)
     text, proof, drawn, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
     _write((certificate, picture), (proof, drawn))  # no certificate where start or goal itself is in an obstacle
     print(text)

@@ -8,6 +8,7 @@ from bezier.interface.function import table_value
 from bezier.interface.work import limited
 from bezier.scenes.route import Blocked, Route, Wish, decided
 from bezier.scenes.scene import given_scene
+from qe import arguments
 from qe.progress import Listener, silent
 
 
@@ -50,5 +51,7 @@ def route(
     blocked: the obstacles and the domain separate start and goal
     """
     given = given_scene(scene, "bezier.route", table_value)
-    wish = Wish.of(degree, continuity, gap) if shortest or gap is not None else None
-    return limited(partial(decided, given, wish=wish), timeout, memory, progress)
+    short = arguments.flag(shortest, "shortest") or gap is not None
+    degree, continuity = arguments.whole(degree, "degree"), arguments.whole(continuity, "continuity")
+    wish = Wish.of(degree, continuity, gap)
+    return limited(partial(decided, given, wish=wish if short else None), timeout, memory, progress)

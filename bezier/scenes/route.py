@@ -205,13 +205,13 @@ class Wish:
     @staticmethod
     def of(degree: int, continuity: int, gap: object) -> Wish:
         """With a gap that is a number, or has a percent sign."""
-        text = "" if gap is None else str(gap)
+        text = str(gap)
         try:
-            value = parse(text.removesuffix("%")) / (100 if text.endswith("%") else 1) if text else None
+            value = None if gap is None else parse(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
         except NotANumber:
             value = Fraction(-1)
         if value is not None and value < 0:
-            raise InputError(f"gap: expected a share such as 5% or 0.05, found {shorten(text)}")
+            raise InputError(f"gap: expected a share such as 5% or 0.05, found '{shorten(text)}'")
         return Wish(degree, continuity, value)
 
 
