@@ -12,7 +12,7 @@ from typing import Any
 
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, same
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
-from bezier.input.numbers import NotANumber, describe, read_squared, shorten
+from bezier.input.numbers import describe, shorten
 from bezier.input.task import SingleCurve, Via, read_single, stated_via
 from bezier.input.toml_table import LARGEST, POINT, Table, read_text
 from bezier.motion.motion import Timing, read_timing
@@ -138,15 +138,14 @@ def problem_of(table: Table) -> Problem:
         raise table.error("workspace", "an arm with the true reachable set as workspace", "no arm")
     start, goal, obstacles = table.point("start"), table.point("goal"), read_obstacles(table)
     via = stated_via(table, start, goal) or _via(table, start, goal, obstacles)
-    raw_radius = table.values.get("radius", "auto")
-    auto = raw_radius == "auto"
+    auto = table.values.get("radius", "auto") == "auto"
     points = {"start": start, "via[0]": via[0], "via[1]": via[1], "goal": goal}
     _check_distinct(table, points)
     for name, point in points.items():
         if any(abs(exactly(c)) > LARGEST for c in point):  # of via points that were computed
             raise table.error(name, "coordinates of at most 10^50", "a larger one")
-    squared = max(dot(p, p) for p in points.values()) if auto else _radius(table, raw_radius)
-    workspace = Workspace(kind, squared)
+    expected = 'a positive number, "sqrt(27)" or "auto"'
+    workspace = Workspace(kind, max(dot(p, p) for p in points.values()) if auto else table.squared("radius", expected))
     _check_inside(table, points, workspace, is_computed=not {"via", "single"} & {*table.values})
     return Problem(
         method=method,
@@ -187,19 +186,6 @@ def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, .
     if not isinstance(raw, list) or len(raw) != 2 or not all(isinstance(p, list) for p in raw):
         raise table.error("via", expected, describe(raw))
     return table.as_point("via[0]", raw[0]), table.as_point("via[1]", raw[1])
-
-
-def _radius(table: Table, raw: object) -> Fraction:
-    expected = 'a positive number, "sqrt(27)" or "auto"'
-    try:
-        squared = read_squared(raw)
-    except NotANumber as error:
-        raise table.error("radius", expected, str(error)) from None
-    if squared == 0:
-        raise table.error("radius", expected, "zero")
-    if squared > LARGEST**2:
-        raise table.error("radius", "a radius of at most 10^50", "a larger one")
-    return squared
 
 
 def _half_spaces(table: Table, method: PlanMethod) -> tuple[PointCondition, ...]:

@@ -26,6 +26,7 @@ from typing import Any
 
 from flint import arb, arb_mat
 
+from bezier.obstacles.polyhedron import cross
 from bezier.proofs.square_roots import rational_ball
 from qe.exact.balls import precision
 from qe.exact.field import FieldElement
@@ -139,7 +140,7 @@ class MotionChain:
         """(J, end point, axes, columns of J)."""
         axes, tip = self._frames(q)
         columns = [
-            _cross(z, [a - b for a, b in zip(tip, o, strict=True)]) if turns else z
+            list(cross(z, [a - b for a, b in zip(tip, o, strict=True)])) if turns else z
             for (z, o), turns in zip(axes, self._turning, strict=True)
         ]
         rows = [[column[i] for column in columns] for i in range(3)]
@@ -152,7 +153,7 @@ class MotionChain:
             for i in range(j + 1):
                 if self._turning[i]:
                     weight = rate[i] * rate[j] * (1 if i == j else 2)
-                    total = [t + weight * c for t, c in zip(total, _cross(axes[i], column), strict=True)]
+                    total = [t + weight * c for t, c in zip(total, cross(axes[i], column), strict=True)]
         return total
 
     def solve(self, track: Track, s: Fraction, start: Sequence[float]) -> list[float] | None:
@@ -229,10 +230,6 @@ def _motion(value: arb, turns: bool) -> arb_mat:
         return arb_mat([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, value], [0, 0, 0, 1]])
     s, c = value.sin(), value.cos()
     return arb_mat([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
-
-
-def _cross(a: Sequence[arb], b: Sequence[arb]) -> list[arb]:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def _times(m: arb_mat, v: Sequence[arb]) -> list[arb]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from bezier.curves.curve import Bezier
+from bezier.curves.scalar import dot
 from qe.exact.quadratic_form import Quadratic, solve_linear
 
 Point = tuple[Fraction, ...]
@@ -57,8 +58,8 @@ class Form:
         total = self.constant
         for (i, j), m in self.matrix.items():
             if i <= j:
-                total += (m if i == j else 2 * m) * _dot(free[i], free[j])
-        return sum((_dot(g, free[i]) for i, g in self.gradient.items()), total)
+                total += (m if i == j else 2 * m) * dot(free[i], free[j])
+        return sum((dot(g, free[i]) for i, g in self.gradient.items()), total)
 
     @property
     def is_constant(self) -> bool:
@@ -125,13 +126,13 @@ def squared_length(vector: Affine) -> Form:
             matrix[i, j] = matrix[j, i] = a * b
     twice = tuple(2 * c for c in vector.constant)
     gradient = {i: tuple(a * c for c in twice) for i, a in entries} if any(twice) else {}
-    return Form(matrix, gradient, _dot(vector.constant, vector.constant))
+    return Form(matrix, gradient, dot(vector.constant, vector.constant))
 
 
 def linear_form(normal: Point, point: Affine) -> Form:
     """normal . point."""
     gradient = {i: tuple(a * c for c in normal) for i, a in point.coefficients.items()}
-    return Form({}, {i: g for i, g in gradient.items() if any(g)}, _dot(normal, point.constant))
+    return Form({}, {i: g for i, g in gradient.items() if any(g)}, dot(normal, point.constant))
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +150,7 @@ class Requirement:
     @property
     def right(self) -> Fraction:
         """The bound of the sum of squares."""
-        return sum((w * _dot(p.constant, p.constant) for w, p in self.squares), -self.form.constant)
+        return sum((w * dot(p.constant, p.constant) for w, p in self.squares), -self.form.constant)
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +165,3 @@ class Solved:
     def curves(self, free: Sequence[Point]) -> tuple[Bezier, ...]:
         """The curves for these free points."""
         return tuple(Bezier(tuple(p.at(free) for p in piece)) for piece in self.controls)
-
-
-def _dot(u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:
-    return sum((a * b for a, b in zip(u, v, strict=True) if a and b), _ZERO)

@@ -11,6 +11,7 @@ from itertools import combinations
 
 from bezier.chains.form import Point
 from bezier.curves.scalar import dot, subtract
+from bezier.obstacles.polyhedron import cross
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +35,7 @@ def facet(points: Sequence[Point], corners: tuple[int, ...], inside: Point) -> F
         ((x, y),) = spans
         normal: Point = (-y, x)
     else:
-        (a, b, c), (d, e, f) = spans
-        normal = (b * f - c * e, c * d - a * f, a * e - b * d)
+        normal = cross(*spans)
     largest = max(abs(c) for c in normal)
     if not largest:
         raise ValueError("no facet through these points")

@@ -7,8 +7,8 @@ from typing import Any
 
 from bezier.chains.chain import Chain, Ends, Objective
 from bezier.chains.form import Point
-from bezier.input.numbers import NotANumber, describe, read_squared
-from bezier.input.toml_table import LARGEST, Table
+from bezier.input.numbers import describe
+from bezier.input.toml_table import Table
 from qe.errors import InputError
 
 KEYS = (
@@ -41,7 +41,7 @@ def read_chain(table: Table) -> Chain:
         closed,
         table.choice("objective", Objective, Objective.LEGS),
         centre,
-        _radius_squared(table),
+        table.squared("radius", 'a number above zero, or such as "sqrt(27)"') if "radius" in table.values else None,
         tuple(_half_space(entry, size) for entry in table.tables("half_space")),
         velocities=_velocities(table, size),
         free_total=table.positive("total", Fraction(len(points) - (not closed))) if free else None,
@@ -97,19 +97,6 @@ def _velocities(table: Table, size: int) -> tuple[Point, ...]:
     if not isinstance(raw, list) or len(raw) != 2:
         raise table.error("velocities", "two points, those at the start and at the goal", describe(raw))
     return tuple(table.as_point(f"velocities[{i}]", entry, size) for i, entry in enumerate(raw))
-
-
-def _radius_squared(table: Table) -> Fraction | None:
-    if "radius" not in table.values:
-        return None
-    expected = 'a number above zero, or such as "sqrt(27)"'
-    try:
-        squared = read_squared(table.values["radius"])
-    except NotANumber as error:
-        raise table.error("radius", expected, str(error)) from None
-    if not 0 < squared <= LARGEST**2:
-        raise table.error("radius", expected, "zero" if not squared else "one beyond 10^50")
-    return squared
 
 
 def _half_space(entry: Table, size: int) -> tuple[Point, Fraction]:

@@ -277,8 +277,8 @@ def validity(chain: Chain, name: str) -> Validity:
             break
         state = _looked(places, state, low, lambda _: False)
     corners = [state.supports[i] for i in sorted({i for f in state.facets for i in f.corners})]
-    least = min(root_below(f.beyond(here) ** 2 / _square(f.normal)) for f in state.facets)
-    most = root_above((high.offset - Fraction(dot(high.normal, here))) ** 2 / _square(high.normal))
+    least = min(root_below(f.beyond(here) ** 2 / dot(f.normal, f.normal)) for f in state.facets)
+    most = root_above((high.offset - Fraction(dot(high.normal, here))) ** 2 / dot(high.normal, high.normal))
     if any(f.beyond(here) > 0 for f in state.facets):
         raise Unable(f"there may be no chain with {name} where it is")
     proofs = [(at_label(name, s.corner), places.witness(s.corner, s.at)) for s in corners]
@@ -288,9 +288,5 @@ def validity(chain: Chain, name: str) -> Validity:
 
 def _away(normal: Point, offset: Fraction, here: Point) -> float:
     """How far outside a half-space a point lies, in floating point."""
-    length: float = float(_square(normal)) ** 0.5
+    length: float = float(dot(normal, normal)) ** 0.5
     return float(Fraction(dot(normal, here)) - offset) / length
-
-
-def _square(vector: Point) -> Fraction:
-    return sum((c * c for c in vector), _ZERO)

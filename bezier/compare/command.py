@@ -60,9 +60,9 @@ def _cards(comparison: Comparison) -> list[Card]:
         side = comparison.sides[method]
         good = side.plan.outcome.is_success
         facts = [f"eliminated in {duration(side.plan.seconds['elimination'])}"]
-        if side.length is not None and side.curvature is not None:
-            bend = "a cusp" if side.curvature.high is None else f"curvature at most {side.curvature.shown()} per mm"
-            facts = [f"length {side.length.shown()} mm", bend, *facts]
+        if side.quality is not None and (worst := side.quality.curvature) is not None:
+            bend = "a cusp" if worst.high is None else f"curvature at most {worst.shown()} per mm"
+            facts = [f"length {side.quality.length.shown()} mm", bend, *facts]
         cards.append(
             Card(f"{method.value} curves", "path found" if good else "no path", html.tone(good), "; ".join(facts))
         )

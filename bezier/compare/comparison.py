@@ -7,7 +7,7 @@ import signal
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import partial, reduce
+from functools import partial
 from operator import mul
 from typing import Any, TypeVar, cast
 
@@ -15,12 +15,13 @@ import qe
 from bezier.compare import whole_curve
 from bezier.compare.planar import Plane, plane_coordinates
 from bezier.curves.area import convex_area
-from bezier.curves.enclosure import Enclosure, curvature_enclosure, length_enclosure
+from bezier.curves.enclosure import REL, Enclosure
 from bezier.methods.control.statements import Statement, exists
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.cubic.existence import Existence, existence, sentence
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic.plan import QuadraticPlan
+from bezier.motion.motion import Quality, quality_of
 from bezier.planner import avoid, derivations
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Derived, Plan, derivation_page
@@ -57,25 +58,10 @@ AREA_REL, VOLUME_REL = Fraction(1, 1000), 0.05
 
 @dataclass(frozen=True, slots=True)
 class Side:
-    """One method: its plan, and for every curve of the path its length and its largest curvature."""
+    """One method: its plan, and how long and bent the curves of its path are."""
 
     plan: Plan
-    lengths: Mapping[str, Enclosure]
-    curvatures: Mapping[str, Enclosure]
-
-    @property
-    def length(self) -> Enclosure | None:
-        """Of the whole path."""
-        return reduce(Enclosure.__add__, self.lengths.values()) if self.lengths else None
-
-    @property
-    def curvature(self) -> Enclosure | None:
-        """The largest one on the whole path."""
-        result = list(self.curvatures.values())
-        if not result:
-            return None
-        tops = [c.high for c in result if c.high is not None]
-        return Enclosure(max(c.low for c in result), max(tops) if len(tops) == len(result) else None)
+    quality: Quality | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,11 +222,9 @@ def _side(problem: Problem, method: PlanMethod, clock: Clock) -> Side:
     watch = Clock(limit=clock.remaining(), listener=clock.listener, note=clock.note)
     made: Plan = method_of(method).make(for_method(problem, method), watch)
     plan = avoid.examined(made)
-    curves = plan.path.curves if plan.path else {}
     with watch.step("length and curvature"):
-        lengths = {name: length_enclosure(c) for name, c in curves.items()}
-        curvatures = {name: curvature_enclosure(c) for name, c in curves.items()}
-    return Side(replace(plan, seconds=dict(watch.seconds)), lengths, curvatures)
+        quality = None if plan.path is None else quality_of(plan.path, None, REL)
+    return Side(replace(plan, seconds=dict(watch.seconds)), quality)
 
 
 @dataclass(frozen=True, slots=True)

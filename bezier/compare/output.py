@@ -37,8 +37,8 @@ def rows(comparison: Comparison) -> list[Row]:
         both("active conditions", lambda s: ", ".join(s.plan.active) or "none"),
         both("joins, proved", lambda s: "" if s.plan.path is None else s.plan.path.smoothness.name),
         both("whole path in the workspace", _inside),
-        both("length, mm", lambda s: bracket(s.length)),
-        both("largest curvature, 1/mm", lambda s: bracket(s.curvature)),
+        both("length, mm", lambda s: bracket(s.quality.length if s.quality else None)),
+        both("largest curvature, 1/mm", lambda s: bracket(s.quality.curvature if s.quality else None)),
         both("certificates", lambda s: "accepted" if s.plan.certified else "not all accepted"),
         (
             "region in space",
@@ -165,14 +165,14 @@ def to_json(comparison: Comparison, files: list[str]) -> dict[str, Any]:
 
 
 def _side_json(side: Side, paper: str) -> dict[str, Any]:
-    total, bend = side.length, side.curvature
+    made, bend = side.quality, side.quality.curvature if side.quality else None
     return {
         **summary(side.plan, [], sum(side.plan.seconds.values())),
         "smoothness": None if side.plan.path is None else side.plan.path.smoothness.name,
-        "length": None if total is None else total.to_json(),
-        "lengths": {name: e.to_json() for name, e in side.lengths.items()},
+        "length": None if made is None else made.length.to_json(),
+        "lengths": {name: e.to_json() for name, e in made.lengths.items()} if made else {},
         "curvature": None if bend is None else bend.to_json(),
-        "curvatures": {name: e.to_json() for name, e in side.curvatures.items()},
+        "curvatures": {name: e and e.to_json() for name, e in made.curvatures.items()} if made else {},
         "paper": paper,
     }
 

@@ -88,11 +88,16 @@ def multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     """The product: c_k = sum_{i+j=k} C(m,i) C(n,j) / C(m+n,k) a_i b_j (Farouki 2012, section 4)."""
     m, n = len(a) - 1, len(b) - 1
     (one, below), (other, under) = _whole(a), _whole(b)
-    sums = _convolved([comb(m, i) * x for i, x in enumerate(one)], [comb(n, j) * y for j, y in enumerate(other)])
+    sums = convolved([comb(m, i) * x for i, x in enumerate(one)], [comb(n, j) * y for j, y in enumerate(other)])
     return tuple(_over(s, comb(m + n, k) * below * under) for k, s in enumerate(sums))
 
 
-def _convolved(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
+def convolved(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
+    """The sums of a_i b_j with i + j = k, for all k."""
+    if len(a) == 1 and a[0] == 1:
+        return list(b)
+    if len(b) == 1 and b[0] == 1:
+        return list(a)
     out: list[Any] = [0] * (len(a) + len(b) - 1)
     for i, x in enumerate(a):
         for j, y in enumerate(b):
@@ -157,7 +162,7 @@ def power_multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     if not a or not b:
         return ()
     (one, below), (other, under) = _whole(a), _whole(b)
-    return tuple(_over(s, below * under) for s in _convolved(one, other))
+    return tuple(_over(s, below * under) for s in convolved(one, other))
 
 
 def divide(a: Sequence[Any], b: Sequence[Any]) -> tuple[Coefficients, Coefficients]:
@@ -210,8 +215,3 @@ def halves(b: Numbers) -> tuple[Numbers, Numbers]:
         left.append(row[0] << (n - k))
         right.append(row[-1] << (n - k))
     return tuple(left), tuple(reversed(right))
-
-
-def exact(b: Numbers) -> Numbers:
-    """The same numbers ready for division: integers as fractions."""
-    return tuple(Fraction(c) if isinstance(c, int) else c for c in b)

@@ -16,7 +16,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, TypeVar
 
-from bezier.input.numbers import NUMBER, Literal, NotANumber, describe, read, shorten
+from bezier.input.numbers import NUMBER, Literal, NotANumber, describe, read, read_squared, shorten
 from qe.errors import InputError
 
 MAX_BYTES = 1_000_000
@@ -167,6 +167,20 @@ class Table:
         if not isinstance(raw, dict):
             raise self.error(key, "a mapping" if self.names else f"a table [{key}]", describe(raw))
         return replace(self, values=raw, prefix=f"{self.prefix}{key}.")
+
+    def squared(self, key: str, expected: str) -> Fraction:
+        """The exact square of a number above zero, which may be given as a root: ``expected`` says how."""
+        try:
+            square = read_squared(self.required(key, expected))
+        except NotANumber as error:
+            raise self.error(key, expected, str(error)) from None
+        if not 0 < square <= LARGEST**2:
+            raise (
+                self.error(key, "a number of at most 10^50", "a larger one")
+                if square
+                else self.error(key, expected, "zero")
+            )
+        return square
 
     def _exact(self, key: str, raw: object) -> Fraction:
         try:

@@ -11,8 +11,6 @@ from bezier.chains.plan import ChainPlan, planned
 from bezier.chains.reader import read_chain
 from bezier.interface.function import given_table, keyed
 from bezier.interface.work import limited, unlimited
-from qe import arguments
-from qe.errors import InputError
 from qe.progress import Listener, silent
 
 if TYPE_CHECKING:
@@ -63,24 +61,15 @@ def chain(
     limit, and ``Unable`` where neither a chain nor a contradiction could be proved, or no optimum (conditions that
     touch, or nearly).
     """
-    given = keyed(locals(), NAMES) | {"half_space": _half_spaces(half_spaces)}
+    given = keyed(locals(), NAMES)
+    listed = half_spaces if isinstance(half_spaces, list | tuple) else []
+    if any(isinstance(pair, list | tuple) and len(pair) == 2 for pair in listed):
+        given["half_space"] = [
+            dict(zip(("normal", "offset"), p, strict=False)) if isinstance(p, list | tuple) else p for p in listed
+        ]
     return limited(partial(unlimited, partial(planned, chain_from(given))), timeout, memory, progress, at_once=True)
 
 
 def chain_from(given: Mapping[str, object]) -> Chain:
     """The chain of these arguments; None for one that is not given. Raises ``InputError``."""
     return read_chain(given_table(given, SOURCE, NAMES))
-
-
-def _half_spaces(given: object) -> list[object]:
-    if not isinstance(given, Sequence) or isinstance(given, str):
-        raise InputError(f"{SOURCE}: half_spaces: expected mappings or pairs, found {arguments.shown(given)}")
-    return [_half_space(entry) for entry in given]
-
-
-def _half_space(given: object) -> object:
-    if isinstance(given, Mapping):
-        return given
-    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
-        raise InputError(f"{SOURCE}: half_spaces: expected mappings or pairs, found {arguments.shown(given)}")
-    return {"normal": given[0], "offset": given[1]}

@@ -157,12 +157,20 @@ class Quality:
         """The length of the whole path."""
         return sum(self.lengths.values(), Enclosure(Fraction(0), Fraction(0)))
 
+    @property
+    def curvature(self) -> Enclosure | None:
+        """The largest one on the whole path."""
+        bends = [bend for bend in self.curvatures.values() if bend is not None]
+        tops = [bend.high for bend in bends if bend.high is not None]
+        highest = max(tops) if tops and len(tops) == len(bends) else None
+        return Enclosure(max(bend.low for bend in bends), highest) if bends else None
 
-def quality_of(path: Path, timing: Timing | None) -> Quality:
+
+def quality_of(path: Path, timing: Timing | None, rel: Fraction = REL) -> Quality:
     """Enclosures for every curve of the path."""
-    lengths = {name: length_enclosure(curve, REL) for name, curve in path.curves.items()}
+    lengths = {name: length_enclosure(curve, rel) for name, curve in path.curves.items()}
     curvatures = {
-        name: None if is_zero(lengths[name].low) else curvature_enclosure(curve, REL)
+        name: None if is_zero(lengths[name].low) else curvature_enclosure(curve, rel)
         for name, curve in path.curves.items()
     }
     has_law = timing is not None and timing.law is not Law.LEAST

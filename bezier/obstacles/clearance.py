@@ -25,7 +25,7 @@ from math import comb, lcm
 from typing import Any
 
 from bezier.curves import bernstein as bs
-from bezier.curves.bernstein import Numbers, exact, halves
+from bezier.curves.bernstein import Numbers, halves
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds
 from bezier.curves.nonnegative import UNIT, WIDTH, Interval, events_of, located
@@ -72,7 +72,7 @@ class Along:
         for exponents, coefficient in constraint.terms:
             missing = degree - sum(exponents)
             factor = int(coefficient * common) * self.scale**missing
-            for k, c in enumerate(_convolved(self._monomial(exponents), _binomials(n * missing))):
+            for k, c in enumerate(bs.convolved(self._monomial(exponents), _binomials(n * missing))):
                 total[k] = total[k] + factor * c
         weights = _weights(n * degree)
         return tuple(c * w for c, w in zip(total, weights, strict=True))
@@ -82,21 +82,9 @@ class Along:
         if found is None:
             axis = next(i for i, e in enumerate(exponents) if e)
             lower = tuple(e - (i == axis) for i, e in enumerate(exponents))
-            found = _convolved(self._monomial(lower), self.coordinates[axis])
+            found = tuple(bs.convolved(self._monomial(lower), self.coordinates[axis]))
             self._monomials[exponents] = found
         return found
-
-
-def _convolved(a: Sequence[Any], b: Sequence[Any]) -> Numbers:
-    if len(a) == 1 and isinstance(a[0], int):
-        return tuple(b) if a[0] == 1 else tuple(a[0] * y for y in b)
-    if len(b) == 1 and isinstance(b[0], int):
-        return tuple(a) if b[0] == 1 else tuple(x * b[0] for x in a)
-    out: list[Any] = [0] * (len(a) + len(b) - 1)
-    for i, x in enumerate(a):
-        for j, y in enumerate(b):
-            out[i + j] = out[i + j] + x * y
-    return tuple(out)
 
 
 @lru_cache(maxsize=64)
@@ -232,7 +220,7 @@ class ContactSearch:
     def _by_roots(self, part: _Part) -> Hit | None:
         """The first contact in a short interval, exactly: at its left end, at a root, or right after one of these."""
         constraints = [self.piece.constraints[i] for i, _ in part.open]
-        forms = [exact(form) for _, form in part.open]
+        forms = [form for _, form in part.open]
         events = events_of(forms)
         for event, after in zip(events, [*events[1:], None], strict=True):
             if all(c.holds(side) for c, side in zip(constraints, event.signs, strict=True)):
@@ -258,7 +246,7 @@ def _crosses_up(form: Numbers) -> bool:
 
 def _crossing(part: _Part, *, attained: bool) -> Hit:
     """The contact where the only open constraint crosses zero once."""
-    form = exact(part.open[0][1])
+    form = part.open[0][1]
     return _on_curve(part, located(0, UNIT, [form], [form], WIDTH).t, attained)
 
 

@@ -23,7 +23,6 @@ from operator import itemgetter
 from typing import Any
 
 from bezier.curves import bernstein as bs
-from bezier.curves.bernstein import exact
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.nonnegative import Event, Interval, events_of
@@ -102,7 +101,7 @@ def heights_of(strip: Strip | None, path: Path) -> Heights:
 
 def _below(name: str, along: Along, strip: Strip, axis: str) -> list[Below]:
     outline = strip.outline(axis)
-    forms = [exact(along.form(c)) for c in outline]
+    forms = [along.form(c) for c in outline]
     events = events_of(forms)
     at = [_violated(outline, event.signs) for event in events]
     between = [

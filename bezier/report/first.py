@@ -44,9 +44,7 @@ def cards(plan: Plan) -> list[Card]:
     if plan.findings:
         result.append(_clearance(plan))
     if plan.quality is not None:
-        result += _motion(plan)
-        bends = [bend for bend in plan.quality.curvatures.values() if bend is not None]
-        result.append(_curvature(bends))
+        result += [*_motion(plan), _curvature(plan.quality.curvature)]
     if plan.radius_rule is not None and plan.path is not None:
         result.append(Card("the radius forces", f"a stop at {' and '.join(plan.radius_rule.forced)}", "bad"))
     if plan.heights is not None and plan.heights.strip is not None:
@@ -94,8 +92,7 @@ def _motion(plan: Plan) -> list[Card]:
     ]
 
 
-def _curvature(bends: Iterable[Enclosure]) -> Card:
-    worst = max(bends, key=lambda bend: float("inf") if bend.high is None else float(bend.high), default=None)
+def _curvature(worst: Enclosure | None) -> Card:
     if worst is None:
         return Card("largest curvature", "none: the path is one point")
     if worst.high is None:

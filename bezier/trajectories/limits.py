@@ -14,7 +14,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import accumulate
 from math import ceil, comb
 from typing import Any
 
@@ -159,26 +158,12 @@ class Verdict:
 def decided(trajectory: Trajectory, limits: Sequence[Limit], tolerance: Fraction) -> Verdict:
     """Everything about these limits, exactly."""
     highest = max((limit.order for limit in limits), default=0)
-    tables = _Tables(trajectory)
-    jumps = [trajectory.jump(order, tables.rows[order]) for order in range(max(highest, 1))]
-    outcomes = tuple(_outcome(limit, tables.of(limit), trajectory) for limit in limits)
+    rows = [trajectory.pieces]
+    for _ in range(highest):
+        rows.append(tuple(tuple(p.derivative() for p in row) for row in rows[-1]))
+    jumps = [trajectory.jump(order, rows[order]) for order in range(max(highest, 1))]
+    outcomes = tuple(_outcome(limit, limited(rows[limit.order], limit), trajectory) for limit in limits)
     return Verdict(trajectory, outcomes, tuple(j for j in jumps if j), tolerance)
-
-
-@dataclass(frozen=True)
-class _Tables:
-    """The polynomials that limits speak of, each made once."""
-
-    trajectory: Trajectory
-
-    @cached_property
-    def rows(self) -> list[tuple[tuple[RationalPoly, ...], ...]]:
-        step = lambda rows, _: tuple(tuple(p.derivative() for p in row) for row in rows)  # noqa: E731
-        return list(accumulate(range(3), step, initial=self.trajectory.pieces))
-
-    def of(self, limit: Limit) -> list[RationalPoly]:
-        """One for each piece."""
-        return limited(self.rows[limit.order], limit)
 
 
 def limited(rows: Sequence[Sequence[RationalPoly]], limit: Limit) -> list[RationalPoly]:

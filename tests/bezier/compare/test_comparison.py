@@ -16,7 +16,7 @@ import pytest
 import qe
 from bezier.compare import comparison, whole_curve
 from bezier.compare.command import render
-from bezier.compare.comparison import METHODS, Comparison, Side, _Parts, compare, for_method
+from bezier.compare.comparison import METHODS, Comparison, _Parts, compare, for_method
 from bezier.compare.output import NOT_REACHED, bracket, duration, notes, rows, table, to_json
 from bezier.compare.pictures import outline
 from bezier.compare.planar import Plane
@@ -27,6 +27,7 @@ from bezier.curves.scalar import dot
 from bezier.curves.workspace import Ball, HalfSpace
 from bezier.methods.cubic.existence import existence, sentence, trivial_witness
 from bezier.methods.quadratic import formula as quadratic
+from bezier.motion.motion import Quality
 from bezier.plans import Clock
 from bezier.problem import PlanMethod, Problem, read_problem
 from qe.errors import BudgetExceeded, InputError, Unable
@@ -65,12 +66,12 @@ def test_other_methods_are_refused() -> None:
         compare(replace(read_problem(CUBIC), method=PlanMethod.SINGLE))
 
 
-def test_totals_of_a_side() -> None:
+def test_totals_of_a_path() -> None:
     one, two = Enclosure(Fraction(1), Fraction(2)), Enclosure(Fraction(3), Fraction(7, 2))
-    side = Side(None, {"P": one, "Q": two}, {"P": one, "Q": Enclosure(Fraction(0), None)})  # type: ignore[arg-type]
-    assert side.length == Enclosure(Fraction(4), Fraction(11, 2))
-    assert side.curvature == Enclosure(Fraction(1), None)
-    assert Side(None, {}, {}).length is None and Side(None, {}, {}).curvature is None  # type: ignore[arg-type]
+    quality = Quality({"P": one, "Q": two}, {"P": one, "Q": Enclosure(Fraction(0), None), "R": None}, None)
+    assert quality.length == Enclosure(Fraction(4), Fraction(11, 2))
+    assert quality.curvature == Enclosure(Fraction(1), None)
+    assert Quality({}, {"P": None}, None).curvature is None
 
 
 def test_ends_are_rounded_outwards() -> None:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import qe
 from bezier.curves import bernstein as bs
 from bezier.curves.area import convex_area
-from bezier.curves.bernstein import exact, halves
+from bezier.curves.bernstein import halves
 from bezier.curves.curve import Bezier, Smoothness, curvature_squared, join
 from bezier.curves.nonnegative import events_of
 from bezier.curves.scalar import add, brief, dot, is_zero, same, scale, sign, subtract, with_decimal
@@ -306,11 +306,6 @@ def test_fractions_are_split_as_they_are(b: list[Fraction]) -> None:
     left, right = halves(tuple(b))
     for t in PLACES:
         assert value(left, t) == value(b, t / 2) and value(right, t) == value(b, (1 + t) / 2)
-
-
-def test_integers_ready_for_division() -> None:
-    found = exact((1, Fraction(1, 2), -3))
-    assert found == (1, Fraction(1, 2), -3) and all(isinstance(c, Fraction) for c in found)
 
 
 TINY = Fraction(1, 10**30)
