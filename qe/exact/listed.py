@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from fractions import Fraction
 from functools import cached_property
-from math import gcd
+from math import gcd, prod
 
-from flint import fmpz_mpoly
+from flint import fmpq, fmpz, fmpz_mpoly
 
 from qe.exact.ring import Poly, Ring, SparseTerm
 from qe.exact.wide import WidePoly
@@ -47,6 +48,27 @@ class ListedPoly(WidePoly):
         values = [c for _, c in self._terms]
         unit = gcd(*values) if values[0] > 0 else -gcd(*values)
         return unit, (self if unit == 1 else ListedPoly(self.ring, [(powers, c // unit) for powers, c in self._terms]))
+
+    def __mul__(self, other: Poly | int) -> Poly:
+        if not isinstance(other, int) or not other:
+            return super().__mul__(other)
+        return ListedPoly(self.ring, [(powers, c * other) for powers, c in self._terms])
+
+    def __sub__(self, other: Poly | int) -> Poly:
+        rest = [term for term in self._terms if term[0]]
+        if not isinstance(other, int) or not rest:
+            return super().__sub__(other)
+        constant = (0 if self._terms[-1][0] else self._terms[-1][1]) - other
+        return ListedPoly(self.ring, [*rest, ((), constant)] if constant else rest)
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, ListedPoly):
+            return self.ring is other.ring and self._terms == other._terms
+        return super().__eq__(other)
+
+    def _at(self, values: Iterable[Fraction | int]) -> fmpq | fmpz | int:
+        point = [v if isinstance(v, int) else fmpq(v.numerator, v.denominator) for v in values]
+        return sum(c * prod(point[i] ** k for i, k in powers) for powers, c in self._terms)
 
     def __hash__(self) -> int:
         if self._hash is None:

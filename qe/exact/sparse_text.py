@@ -30,6 +30,9 @@ def sum_text(terms: Iterable[tuple[int, list[str]]], times: str = "*") -> str:
 def in_order(terms: Iterable[SparseTerm]) -> list[SparseTerm]:
     """The terms as people write them: by falling degree, then few of the late variables first, as in b^2 - 4*a*c; where
     the first one has no powers, the early variables first, as in a*d - b*c."""
+    terms = list(terms)
+    if all(len(used) < 2 and (not used or used[0][1] == 1) for used, _ in terms):
+        return sorted(terms, key=lambda term: (not term[0], term[0]))
     late_last = sorted(terms, key=lambda term: (_degree(term), [(-i, -k) for i, k in reversed(term[0])]), reverse=True)
     if late_last and any(k > 1 for _, k in late_last[0][0]):
         return late_last

@@ -22,12 +22,12 @@ _LARGE = 1 << 2048
 ZERO = Number(0)
 
 
-def add(terms: Coefficients, part: Term, scale: int = 1) -> bool:
+def add(terms: Coefficients, part: Term, scale: int = 1, most: int = SHORT) -> bool:
     """Add a multiple of a part to a polynomial that is being collected; False, and nothing, where it is not short."""
     if isinstance(part, Name):
         name = (part.name,)
         terms[name] = terms[name] + scale if name in terms else scale
-    elif isinstance(part, Polynomial) and len(part.terms) <= SHORT:
+    elif isinstance(part, Polynomial) and len(part.terms) <= most:
         for names, value in part.terms.items():
             value = value if scale == 1 else scale * value
             terms[names] = terms[names] + value if names in terms else value
@@ -110,10 +110,10 @@ def power(base: Term, exponent: Number) -> Term | None:
     return product((base,) * int(k)) if k.denominator == 1 and 1 <= k <= SHORT else None
 
 
-def sides(first: Term, second: Term) -> list[Term]:
-    """The sides of a comparison: of two that are short, their difference and zero."""
+def sides(first: Term, second: Term, most: int = SHORT) -> list[Term]:
+    """The sides of a comparison: of two that are collected, with ``most`` terms, their difference and zero."""
     terms: Coefficients = {}
-    if second == ZERO or not (add(terms, first) and add(terms, second, -1)):
+    if second == ZERO or not (add(terms, first, 1, most) and add(terms, second, -1, most)):
         return [first, second]
     return [polynomial(terms), ZERO]
 

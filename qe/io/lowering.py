@@ -22,6 +22,7 @@ from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import has_root_atoms
 from qe.io import terms
 from qe.io.auxiliaries import Exhausted
+from qe.io.collected import sides
 from qe.io.collecting import Names
 from qe.io.radicals import Place
 from qe.io.sharing import ordered, refuse_long
@@ -181,11 +182,11 @@ class Lowering:
         return connected(name, holds, denied, spare) if kind == "C" else exactly(count, name, holds, denied, spare)
 
     def equivalence(self, left: Node, right: Node, place: Place) -> Formula:
-        sides = self.node(left, place), self.node(right, place)
+        asserted = self.node(left, place), self.node(right, place)
         if not self.values.loose:
-            return iff(*sides)
+            return iff(*asserted)
         denied = self.node(left, place.denied), self.node(right, place.denied)
-        return conj((implies(denied[0], sides[1]), implies(denied[1], sides[0])))
+        return conj((implies(denied[0], asserted[1]), implies(denied[1], asserted[0])))
 
     def comparison(self, node: Comparison, place: Place) -> Formula:
         links = zip(pairwise(node.sides), node.relations, strict=True)
@@ -204,8 +205,10 @@ class Lowering:
             if (sign := _infinite(side)) is not None:
                 return self.bounded(other, seen, sign, place)
             if not isinstance(other, Root) and (parts := self.sums.unfolded(side, seen.flipped)):
-                join, sides = parts
-                return join([self.link(part, seen.flipped, other, place) for part in sides])
+                join, cases = parts
+                return join([self.link(part, seen.flipped, other, place) for part in cases])
+        if isinstance(left, Polynomial) or isinstance(right, Polynomial):
+            left, right = sides(left, right, terms.MAX_TERMS)
         a = self.values.term(left)
         if isinstance(a, Value) and isinstance(right, Number) and not right.value:
             return atom(a.poly, relation)

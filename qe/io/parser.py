@@ -255,6 +255,8 @@ def _only(value: Any) -> Any:
 
 
 def _negative(part: s.Term) -> s.Term:
+    if isinstance(part, s.Number):
+        return s.Number(-part.value)
     return part.part if isinstance(part, s.Minus) else s.Minus(part)
 
 

@@ -15,7 +15,7 @@ from qe.io.names import check_name
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_character
 from qe.io.tokens import Token, kinds
-from qe.spelling import QUOTED, WORD, unquoted
+from qe.spelling import CONSTANTS, QUOTED, WORD, unquoted
 
 _LIST = rf"(?:{WORD}|{QUOTED})"
 QUANTITY = r"infinitely\s+many|all\s+but\s+finitely\s+many|almost\s+all|exactly\s+(?:[0-9]+|one)|connected"
@@ -103,6 +103,15 @@ _TOKEN = re.compile(
     r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\*\*|\\\[\w+\]"
     r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
+_MULTIPLE = (
+    r"(?:(?:[0-9]{1,18}|\(-?[0-9]{1,18}\))\s*\*\s*)?"
+    rf"(?!(?:{'|'.join(filter(str.isascii, (*KEYWORDS, *CONSTANTS)))})\b)[A-Za-z][A-Za-z0-9_]*+|[0-9]{{1,18}}+"
+)
+_LINEAR = re.compile(
+    rf"(?:-\s*)?(?:{_MULTIPLE})(?:\s*[-+]\s*(?:{_MULTIPLE})){{2,}}(?=\s*(?:[<>=≤≥)]|/=|!=|/\\|\\/|and\b|or\b|$))"
+)
+"""At least three multiples of names and numbers, and nothing else up to the end of a side or of a bracket."""
+_BEFORE_LINEAR = frozenset(("", "AND", "OR", "NOT", "IMPLIES", "DOT", "OPEN", "RELATION"))
 _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR", "INFINITY", "REALS", "TRUE", "FALSE"))
 """Tokens after which a term or a formula may be complete."""
@@ -151,6 +160,10 @@ def tokens(text: str) -> Iterator[Token]:
     if end and text[end - 1] == ".":
         end -= 1  # a full stop
     while at < end:
+        if state.last in _BEFORE_LINEAR and not state.header and (linear := _LINEAR.match(text, at, end)) is not None:
+            yield from state.put("LINEAR", linear.group(), at)
+            at = state.end = linear.end()
+            continue
         token = match(text, at, end)
         if token is None:
             raise unknown_character(text, at)

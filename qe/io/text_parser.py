@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 from qe.io import parser, text_lexer
 from qe.io import surface as s
+from qe.io.collected import Coefficients
 from qe.io.conditions import SHARING, shared, together
 from qe.io.functions import RELATIONS
 from qe.io.parser import (
@@ -36,6 +37,7 @@ from qe.spelling import WORD
 _COMPARED = re.compile(rf"\{{\s*{WORD}(?:\s*,\s*{WORD})*\s*\}}(?=\s*(?:[<>=≤≥≠]|!=|/=))")
 """A list of variables that are compared, as Mathematica does."""
 
+_MULTIPLES = re.compile(r"([-+]?)\s*\(?(-?[0-9]+|)\)?[\s*]*([A-Za-z][A-Za-z0-9_]*|)")
 
 class TextParser(QuantifiedParser):
     """Reads a text that is not LaTeX."""
@@ -192,6 +194,17 @@ class TextParser(QuantifiedParser):
         return chosen
 
     # --- terms -----------------------------------------------------------------------------------------------
+    def linear(self) -> s.Term:
+        """A sum of multiples of names: wide systems have a million of them, so their tokens are not read alone."""
+        _, text, at = self.advance()
+        found = ((name, sign + "1", number or 1) for sign, number, name in _MULTIPLES.findall(text) if number or name)
+        parts = [(name, int(sign) * int(number)) for name, sign, number in found]
+        terms: Coefficients = {(name,) if name else (): number for name, number in parts}
+        if len(terms) == len(parts) and all(terms.values()):
+            return s.Polynomial(terms)
+        # a name that cancels is a name all the same
+        return s.Sum([s.Product(s.Number(c), s.Name(name, at), at) if name else s.Number(c) for name, c in parts])
+
     def infinity(self) -> s.Term:
         return s.Infinity(self.advance().at)
 
@@ -225,6 +238,7 @@ class TextParser(QuantifiedParser):
         "PIECEWISE": Prefix(TERM, PRIMARY, piecewise),
         "COMMAND": Prefix(FORMULA, NOT, command),
         "INFINITY": Prefix(TERM, PRIMARY, infinity),
+        "LINEAR": Prefix(TERM, PRIMARY, linear),
         **dict.fromkeys(("OPENBAR", "BAR"), Prefix(TERM, PRIMARY, absolute)),
         "RADICAL": Prefix(TERM, PRIMARY, radical),
     }

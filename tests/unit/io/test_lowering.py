@@ -125,11 +125,11 @@ def name(letter: str, at: int) -> s.Name:
 
 
 @each(
-    ("a + b - c", s.Sum([name("a", 0), name("b", 4), s.Minus(name("c", 8))])),
+    ("a + b - (c)", s.Sum([name("a", 0), name("b", 4), s.Minus(name("c", 9))])),
     ("a - (b - c)", s.Sum([name("a", 0), s.Minus(s.Sum([name("b", 5), s.Minus(name("c", 9))]))])),
     ("a*b/c", s.Quotient(s.Product(name("a", 0), name("b", 2), 1), name("c", 4), 3)),
     ("-a^2", s.Minus(s.Power(name("a", 1), s.Number(2), 2))),
-    ("a^-2", s.Power(name("a", 0), s.Minus(s.Number(2)), 1)),
+    ("a^-2", s.Power(name("a", 0), s.Number(-2), 1)),
     ("--a", name("a", 2)),
     ("---a", s.Minus(name("a", 3))),
     ("+a", name("a", 1)),

@@ -21,6 +21,15 @@ from qe.io.text_parser import LatexParser, TextParser, parser_of
 from tests.tables import each
 
 
+def test_sums_of_multiples_read_at_once_mean_what_their_tokens_mean() -> None:
+    multiples = ("x", "2*x", "(-3) * y", "0*w", "7", "- y", "a_1", "x")
+    for parts in product(multiples, multiples, ("+", "-")):
+        side = f"{parts[0]} + z {parts[2]} {parts[1]}".replace("- -", "-").replace("+ -", "-")
+        apart = side.replace("z", "(z)")  # brackets around a name: each token is read
+        for text in ("{} <= 3", "x > 0 or ({})^2 < {} and true", "all x. 5 - x = {}"):
+            assert formats.read(text.replace("{}", side)) == formats.read(text.replace("{}", apart)), side
+
+
 @each(
     ("x > 0 and\n  y + > 1", (2, 7), "unexpected '>'", "a number, a variable or '('"),
     ("x > 0 and\nsin(y) > 1", (2, 1), "sin(y): sin is not algebraic", ""),
