@@ -26,6 +26,7 @@ Point = tuple[Number, ...]
 MAX_DEGREE = 40  # of the number field: beyond, lattice reduction takes seconds
 NEAR_BITS = 160
 _PATIENCE = 6  # Newton steps without a gain, although each should double the digits
+_TALL = 4  # degree up to which coefficients longer than those of the problem are looked for
 _MANY_TRIALS = 12  # degree up to which several generators are tried
 
 
@@ -274,9 +275,12 @@ def _recognise(
     # one unknown alone mostly generates the field; otherwise small generic combinations do
     generic = [[0] * n + [1 + 2 * k for k in range(len(rest))], [3 * k + 1 for k in range(total)]]
     trials = [unit[n], unit[0], *unit[n + 1 :], *generic]
+    numbers = (c for q in (f, *rest) for row in (*q.hessian, (*q.gradient, q.constant)) for c in row)
+    height = max(c.numerator.bit_length() for c in numbers)
     for degree, bits in SCHEDULE:
         if degree > max_degree:
             break
+        bits += 2 * (degree + 1) * height if degree <= _TALL else 0  # what such coefficients need
         for weights in trials if degree <= _MANY_TRIALS else trials[:2]:
             check()
             theta = algebraic_candidate(combination(weights), degree, bits)

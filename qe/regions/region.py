@@ -29,7 +29,7 @@ from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import Formula, FormulaNode
 from qe.options import Budget
-from qe.processes.execution import perform
+from qe.processes.execution import leave, perform
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
@@ -109,12 +109,14 @@ class Region(SetOperations):
         """The answer to a question, found under the limits; what was learned on the way is kept. ``work`` knows the
         region, as a method or argument, and can be pickled.
 
-        A question that is part of another shares its budget.
+        A question that is part of another shares its budget; where it may take long, both move to another process.
         """
-        if self._budget is not None:
-            return work()
         limits = self.limits if timeout is None else replace(self.limits, timeout=seconds(timeout))
         at_once = at_once and limits.timeout is not None
+        if self._budget is not None:
+            if at_once:
+                leave()
+            return work()
         answer, learned = perform(partial(self._learned, work), limits, at_once=at_once)
         for learnt, value in learned.items():
             setattr(self, learnt, value)

@@ -297,6 +297,15 @@ def test_closedness_and_membership_of_a_region_do_not_depend_on_what_was_read() 
     assert before == after == (True, True, True)
 
 
+def test_a_fibre_over_many_digits_is_found_at_once() -> None:
+    """Lattices of the schedule for short numbers took 11 s, then the decomposition had to answer."""
+    region = qe.region("ex u. x^2 + y^2 + u^2 <= 2 and x + y >= u", process=False)
+    over = F(-(7**85), 11**70)
+    ((low, high),) = region.fibre([over])
+    assert region._table is None  # no decomposition
+    assert region.contains([over, rational_between(low, high)])
+
+
 def test_a_fibre_of_one_point_is_closed() -> None:
     (fibre,) = qe.region("ex z. x >= 0 and x + y <= 0 and y >= 0 and z > 0 and z < 1/4").fibre([0])
     assert (fibre.lower, fibre.upper, fibre.lower_closed, fibre.upper_closed) == (0, 0, True, True)
