@@ -78,41 +78,49 @@ class Polyhedron:
     def irredundant(self, check: Check, sums: Sums | None = None) -> Polyhedron | None:
         """The same without half-spaces that follow from the others; None where it is empty. ``sums`` gets the reasons.
 
-        A half-space follows iff its complement and the others have no common point; one after the other is tested and
-        left out at once.
+        A half-space follows iff its complement and the others have no common point. Each is tested against those that
+        are kept so far, so that there are never many more than there will be, then each of these against the others.
         """
         sums = {} if sums is None else sums
         halves = _tightest(self.halves, sums)
-        if halves is None:
+        if halves is None or any(row.constant and not row.normal for row in self.equations):
             return None
         bounds = LinearBounds()
         columns = [bounds.variable() for _ in range(self.size)]
-        forms = [_form(bounds, columns, row) for row in (*self.equations, *halves)]
-        for row, x in zip(self.equations, forms):
-            if x is None and row.constant:
-                return None
-            if x is not None:  # no form has two variables, so that bounds conflict only with those of others
-                bounds.at_least(x, -row.constant, strict=False, reason=row)
-                bounds.at_most(x, -row.constant, strict=False, reason=row)
-        kept = dict(zip(forms[len(self.equations) :], halves))
-        for x, row in kept.items():
-            _below(bounds, x, row)
+
+        def form(row: HalfSpace) -> int:
+            return bounds.form({columns[j]: Fraction(c) for j, c in row.normal})
+
+        def follows(x: int, row: HalfSpace) -> bool:
+            bounds.free(x)
+            bounds.at_least(x, -row.constant, strict=not row.strict, reason=None)
+            if excluded := bounds.conflict(check) is not None:
+                sums[row] = _reasons(bounds)
+            bounds.free(x)
+            return excluded
+
+        equations = tuple(row for row in self.equations if row.normal)
+        for row in equations:  # no form has two variables, so that bounds conflict only with those of others
+            x = form(row)
+            bounds.at_least(x, -row.constant, strict=False, reason=row)
+            bounds.at_most(x, -row.constant, strict=False, reason=row)
+        kept: dict[HalfSpace, int] = {}
+        for row in sorted(halves, key=lambda row: len(row.normal)):
+            x = form(row)
+            if follows(x, row):
+                bounds.forget(x)
+            else:
+                kept[row] = x
+                bounds.at_most(x, -row.constant, strict=row.strict, reason=row)
         if bounds.conflict(check) is not None:
             sums[None] = _reasons(bounds)
             return None
-        for x, row in sorted(kept.items(), key=lambda pair: -len(pair[1].normal)):
-            assert x is not None
-            bounds.free(x)
-            bounds.at_least(x, -row.constant, strict=not row.strict, reason=None)
-            if bounds.conflict(check) is not None:
-                sums[row] = _reasons(bounds)
-                del kept[x]
-                bounds.free(x)
+        for row in sorted(kept, key=lambda row: -len(row.normal)):
+            if follows(kept[row], row):
+                del kept[row]
             else:
-                bounds.free(x)
-                _below(bounds, x, row)
-        equations = tuple(row for row in self.equations if row.normal)
-        return Polyhedron(self.size, equations, tuple(kept.values()))
+                bounds.at_most(kept[row], -row.constant, strict=row.strict, reason=row)
+        return Polyhedron(self.size, equations, tuple(row for row in halves if row in kept))
 
     def growth(self, column: int) -> int:
         """How many half-spaces more there are without a column."""
@@ -164,14 +172,3 @@ def _tightest(halves: Iterable[HalfSpace], sums: Sums) -> tuple[HalfSpace, ...] 
 def _reasons(bounds: LinearBounds) -> list[tuple[HalfSpace, Fraction]]:
     """The half-spaces in a contradiction, beside the one that is tested."""
     return [(row, weight) for row, weight in bounds.contradiction() if isinstance(row, HalfSpace)]
-
-
-def _form(bounds: LinearBounds, columns: Sequence[int], row: HalfSpace) -> int | None:
-    """A variable equal to the terms of a row; None for none."""
-    return bounds.form({columns[j]: Fraction(c) for j, c in row.normal}) if row.normal else None
-
-
-def _below(bounds: LinearBounds, x: int | None, row: HalfSpace) -> None:
-    """Bound a row from above."""
-    if x is not None:
-        bounds.at_most(x, -row.constant, strict=row.strict, reason=row)

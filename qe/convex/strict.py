@@ -20,7 +20,7 @@ from qe.convex.minimise import evidence_about
 from qe.convex.system import ConvexSystem
 from qe.errors import InternalError
 from qe.exact.kkt_system import Point
-from qe.exact.quadratic_form import Number, Quadratic, Vector, solve_linear
+from qe.exact.quadratic_form import Number, Quadratic, Vector, dot, solve_linear
 from qe.options import Budget
 from qe.proof.multipliers import (
     FaceLink,
@@ -108,13 +108,13 @@ def _strictly_inside(system: ConvexSystem, x: Point, equations: Sequence[Vector]
     for _ in range(len(system.names) + 1):
         solution = solve_linear(rows, [_ZERO] * len(rows), len(system.names))
         assert solution is not None
-        along = {i: [_dot(slopes[i], d) for d in solution.kernel] for i in active}
+        along = {i: [dot(slopes[i], d) for d in solution.kernel] for i in active}
         along = {i: row for i, row in along.items() if not _vanishes(system, i, row, solution.kernel)}
         keys = sorted(along, key=lambda i: system.relations[i] is not FormRelation.LT)
         outcome = alternative([along[i] for i in keys], len(solution.kernel), budget=budget)
         if not isinstance(outcome, Balance):
             return _moved(
-                system, x, [_dot(outcome.direction, column) for column in zip(*solution.kernel, strict=True)], budget
+                system, x, [dot(outcome.direction, column) for column in zip(*solution.kernel, strict=True)], budget
             )
         link = _link(system, slopes, {keys[k]: w for k, w in outcome.weights.items()}, rows)
         links.append(link)
@@ -128,7 +128,7 @@ def _vanishes(system: ConvexSystem, i: int, slope: Sequence[Number], directions:
     """Whether a weak constraint that is active at a point is zero on the whole flat there: it excludes nothing."""
     if system.relations[i] is FormRelation.LT or any(slope):
         return False
-    return not any(_dot(row, d) for d in directions for row in system.forms[i].hessian)
+    return not any(dot(row, d) for d in directions for row in system.forms[i].hessian)
 
 
 def _link(
@@ -164,7 +164,3 @@ def _moved(system: ConvexSystem, x: Point, step: Sequence[Number], budget: Budge
 def _holds(form: Quadratic, relation: FormRelation, point: Point) -> bool:
     value_sign = sign(form.value(point))
     return value_sign < 0 or (value_sign == 0 and relation is not FormRelation.LT)
-
-
-def _dot(u: Vector, v: Vector) -> Number:
-    return sum((a * b for a, b in zip(u, v, strict=True) if a and b), _ZERO)

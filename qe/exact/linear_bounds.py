@@ -139,6 +139,15 @@ class LinearBounds(Bounds):
         self.upper.pop(x, None)
         self._changed.clear()
 
+    def forget(self, x: int) -> None:
+        """A form without bounds, whose row is no longer needed."""
+        if x not in self.rows and self.using[x]:
+            y, value = min(self.using[x]), self.values[min(self.using[x])]
+            value = max(value, self.lower[y][0]) if y in self.lower else value
+            self._pivot(y, x, min(value, self.upper[y][0]) if y in self.upper else value)
+        for y in self.rows.pop(x, ()):
+            self.using[y].discard(x)
+
     def start(self, x: int, value: Fraction) -> None:
         """Give a variable a value to start from, where it is free to have one; without bounds only."""
         if x not in self.rows:

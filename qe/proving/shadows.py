@@ -34,9 +34,9 @@ from qe.proving.linear import put_in
 from qe.proving.made import Made, solved
 from qe.proving.primitive_names import SIGNS
 
-MOST_PAIRS, MOST_POINTS = 500, 20
-"""Pairs of bounds, and bounds of one kind among which the largest is looked for, at most: beyond these a certificate
-has 100,000 characters and more, and takes tens of seconds."""
+MOST_PAIRS, MOST_POINTS = 1000, 30
+"""Pairs of bounds, and bounds of one kind among which the largest is looked for, at most: such a step of a certificate
+has half a million characters, and takes seconds."""
 
 
 def projected(claim: Claim, context: Context, limits: Limits) -> list[Json]:

@@ -2,10 +2,9 @@
 
 import pytest
 from flint import fmpq, fmpq_mat
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.exact.division import divided
 from qe.exact.fglm import changed_order
 from qe.exact.groebner import Basis, MonomialOrder, groebner_basis
 from qe.exact.ideals import has_zeros
@@ -13,7 +12,7 @@ from qe.exact.quotient import PositiveDimensional, Quotient, dimension, independ
 from qe.exact.ring import Poly, Ring
 from tests.unit.exact.ideal_membership import in_ideal, in_radical
 
-# Change of order, and division with cofactors.
+# Change of order.
 
 RING = Ring.of(("z", "y", "x"))
 z, y, x = (RING.gen(i) for i in range(3))
@@ -47,26 +46,6 @@ def test_the_unit_ideal_and_infinitely_many_zeros() -> None:
     assert curve is not None
     with pytest.raises(PositiveDimensional):
         changed_order(curve, MonomialOrder.LEX)
-
-
-@st.composite
-def polynomials(draw: st.DrawFn) -> Poly:
-    terms = st.dictionaries(st.tuples(*[st.integers(0, 3)] * 3), st.integers(-9, 9).filter(bool), max_size=5)
-    return RING.from_terms(draw(terms))
-
-
-@settings(max_examples=40)
-@given(polynomials(), st.sampled_from(list(MonomialOrder)))
-def test_division_is_an_identity_and_reduces(poly: Poly, order: MonomialOrder) -> None:
-    basis = groebner_basis(SYSTEM, variables=(2, 1, 0), order=order)
-    assert basis is not None
-    found = divided(poly, basis)
-    total = found.remainder
-    for quotient, divisor in zip(found.quotients, basis.polys, strict=True):
-        total = total + quotient * divisor
-    assert total == poly * found.scale and found.scale > 0
-    scale, rest = basis.reduce(poly)
-    assert found.remainder * scale == rest * found.scale
 
 
 def test_membership_in_radicals() -> None:
