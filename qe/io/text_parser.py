@@ -39,6 +39,7 @@ _COMPARED = re.compile(rf"\{{\s*{WORD}(?:\s*,\s*{WORD})*\s*\}}(?=\s*(?:[<>=â‰¤â‰
 
 _MULTIPLES = re.compile(r"([-+]?)\s*\(?(-?[0-9]+|)\)?[\s*]*([A-Za-z][A-Za-z0-9_]*|)")
 
+
 class TextParser(QuantifiedParser):
     """Reads a text that is not LaTeX."""
 
@@ -197,8 +198,8 @@ class TextParser(QuantifiedParser):
     def linear(self) -> s.Term:
         """A sum of multiples of names: wide systems have a million of them, so their tokens are not read alone."""
         _, text, at = self.advance()
-        found = ((name, sign + "1", number or 1) for sign, number, name in _MULTIPLES.findall(text) if number or name)
-        parts = [(name, int(sign) * int(number)) for name, sign, number in found]
+        listed = ((name, sign + "1", number or 1) for sign, number, name in _MULTIPLES.findall(text) if number or name)
+        parts = [(name, int(sign) * int(number)) for name, sign, number in listed]
         terms: Coefficients = {(name,) if name else (): number for name, number in parts}
         if len(terms) == len(parts) and all(terms.values()):
             return s.Polynomial(terms)
