@@ -79,6 +79,8 @@ def _by_generators(problem: Block, check: Check) -> Formula | None:
         return None
     given = others[0].args if isinstance(others[0], Or) else others
     forms = [_form(a, names) for a in given]
+    if all(c.is_constant for form in forms for c in (form[0][:-1] if form else ())):
+        return None  # substitution answers that, with evidence
     if (cone := _generated(LinearRows.of(atoms), names, check)) is None:
         return FALSE
     is_closed = not any(a.relation.is_strict for a in atoms)
