@@ -17,6 +17,7 @@ from qe.errors import InputError
 from qe.formula.doubts import numbers_as_names, products_as_names
 from qe.formula.syntax import Formula
 from qe.formula.traverse import ring_of
+from qe.io.text import optimum_asked
 from qe.optimization.values import Goal, Objective
 from qe.options import Budget
 from qe.proof.answer import Guarantee
@@ -60,7 +61,8 @@ def minimize(
     """The exact global minimum of a term where it has a value and the constraints hold.
 
     ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; a polynomial, or made
-    with quotients, roots, ``abs``, ``min`` and ``max``. ``constraints``: a formula, or a list of them to be conjoined.
+    with quotients, roots, ``abs``, ``min`` and ``max``; or ``Minimize[{f, c}, {x, y}]``, as Mathematica has it.
+    ``constraints``: a formula, or a list of them to be conjoined.
     Convex quadratic (or linear) problems get an ``Optimum`` with multipliers; all others are solved by elimination,
     with quantifiers in the constraints if need be, and get a ``GlobalOptimum`` with all minimisers. ``method``:
     "convex" or "elimination" takes that way only.
@@ -131,6 +133,12 @@ def _best(
 ) -> AnyOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     limits = limits_of(settings)
+    if isinstance(objective, str) and (asked := optimum_asked(objective)) is not None:
+        goal, objective, more, variables = asked
+        if goal != sign:
+            raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
+        constraints = [constraints, more]
+        parameters = sorted(names_typed([objective, more]) - {*variables}) or parameters
     read = read_under(limits, partial(read_posed_constraints, constraints), constraints)
     stated = under(*read, settings["assuming"], limits, others=names_typed([objective]))
     conditions = stated.restricted

@@ -31,6 +31,7 @@ from qe.spelling import WORD
 _ASKED = re.compile(
     rf"\s*(?:{'|'.join(COMMANDS)})\[.*,\s*(?!Reals)(\{{[^{{}}<>=]*\}}|{WORD})\s*(?:,\s*Reals\s*)?\]\s*", re.DOTALL
 )
+_OPTIMUM = re.compile(r"\s*(Min|Max)imize\[(.*)\]\s*", re.DOTALL)
 
 
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
@@ -92,6 +93,28 @@ def solved_for(text: str) -> tuple[str, ...] | None:
     """The variables of a command of Mathematica: x and y of ``Reduce[f, {x, y}, Reals]``; None where there are none."""
     asked = _ASKED.fullmatch(text)
     return None if asked is None else tuple(re.findall(WORD, asked[1]))
+
+
+def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
+    """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``."""
+    asked = _OPTIMUM.fullmatch(text)
+    if asked is None:
+        return None
+    objective, *constraints = [part for part in _parts(asked[2]) if part != "Reals"]
+    variables = constraints.pop() if constraints else ""
+    if objective.startswith("{"):
+        objective, *constraints = _parts(objective[1:-1])
+    sign = 1 if asked[1] == "Min" else -1
+    return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
+
+
+def _parts(text: str) -> list[str]:
+    """What stands between the commas outside of brackets."""
+    depth, parts = 0, [""]
+    for character in text:
+        depth += (character in "([{") - (character in ")]}")
+        parts[-1:] = [parts[-1], ""] if character == "," and not depth else [parts[-1] + character]
+    return [part.strip() for part in parts]
 
 
 def _no_constants(fail: Failing, known: Container[str]) -> Meet:
