@@ -156,6 +156,10 @@ class PythonNumber(SymPyForm):
     def __float__(self) -> float:
         return float(self.ball(64).mid())
 
+    def _mpmath_(self, precision: int, rounding: str) -> str:
+        """What mpmath makes a number of, with more digits than it keeps."""
+        return f"{self:.{precision // 3 + 9}e}"
+
     # --- rounding ----------------------------------------------------------------------------------------
     def _rounded_by(self, function: Callable[[Fraction], T]) -> T:
         """The value of a function that changes at rational numbers only."""

@@ -15,7 +15,7 @@ _NUMBERS = ("e", "i", "E", "I")
 """Letters that are numbers to many readers, and variables here."""
 _WORD = re.compile(WORD)
 _EXPONENT = rf"(?![^\W{NUMERALS}])\s*((?:\^|\*\*)\s*\d+|[²³⁴-⁹]+)?"
-_RELATED = re.compile(r"[<>=≠≤≥⩽⩾∈∉\[]|\b(?:not|in|true|false|Eq|Ne|Lt|Le|Gt|Ge)\b", re.IGNORECASE)
+_RELATED = re.compile(r"[<>=≠≤≥⩽⩾∈∉\[{]|\b(?:not|in|true|false|Eq|Ne|Lt|Le|Gt|Ge)\b", re.IGNORECASE)
 _WRITTEN_OUT = ("text", "latex", "smtlib", "redlog")
 """Formats in which a variable stands at its quantifier and where it is used, and nowhere else."""
 

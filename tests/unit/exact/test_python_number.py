@@ -71,6 +71,7 @@ def test_arithmetic_and_rounding_are_those_of_fractions(kind: type, value: Fract
     (lambda x: x != math.nan and x != "a" and x != 1j, True),
     (lambda x: x + 0.5, math.sqrt(2) + 0.5),
     (lambda x: 2.0**x, 2.0 ** math.sqrt(2)),
+    (lambda x: mpmath.mpf(x) - mpmath.sqrt(2) + mpmath.sqrt(x) - mpmath.root(2, 4), 0),
     (lambda x: x * np.float64(2), 2 * math.sqrt(2)),
     (lambda x: (x + Decimal("0.5") - Decimal("0.5")) == x, True),
     (lambda x: round(x, 3), Fraction(1414, 1000)),
