@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
+from qe.decomposition.decompose import decompose
 from qe.decomposition.pieces import Range, RootFunction, merge
 from qe.decomposition.sampled_cells import free_part
-from qe.formula.build import atom, conj, disj, root_atom
-from qe.formula.syntax import Formula, Relation
-from qe.proof.cells import CellTable
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, convert, disj, root_atom
+from qe.formula.normal import nnf
+from qe.formula.syntax import Formula, Relation, RootAtom
+from qe.formula.traverse import map_atoms
+from qe.options import Budget
+from qe.proof.cells import Cell, CellTable
 
 
 def extended_formula(table: CellTable) -> Formula:
@@ -19,6 +25,23 @@ def extended_formula(table: CellTable) -> Formula:
     """
     pieces = merge(free_part(table), distinct=True)
     return disj(conj(part for r in piece.ranges for part in _range(r)) for piece in pieces)
+
+
+def true_everywhere(formula: Formula, order: tuple[str, ...], budget: Budget) -> CellTable:
+    """A table that says that a formula, perhaps with root atoms, is true at every point; whether it is, checkers see.
+
+    Signs of the polynomials of root atoms take their places for the decomposition, which isolates the roots that they
+    count wherever those signs are needed.
+    """
+    matrix = nnf(convert(formula, Ring.of(order)))
+    signs = map_atoms(matrix, lambda a: atom(a.poly, a.relation) if isinstance(a, RootAtom) else a)
+    table = decompose(signs, order, ("",) * len(order), budget=budget).table
+    return replace(table, matrix=matrix, quantifiers=("A",) * len(order), root=_true(table.root))
+
+
+def _true(cell: Cell) -> Cell:
+    stack = cell.stack
+    return replace(cell, truth=True, stack=stack and replace(stack, cells=tuple(map(_true, stack.cells))))
 
 
 def _range(r: Range) -> Iterator[Formula]:

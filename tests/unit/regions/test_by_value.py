@@ -12,9 +12,11 @@ from statistics import median
 import pytest
 
 import qe
+from qe.decomposition.extended_tarski import true_everywhere
 from qe.errors import Unable
 from qe.formula.evaluate import holds_at
 from qe.io.text import read
+from qe.options import Budget
 from tests.tables import each
 
 EXPECTED = (
@@ -183,12 +185,22 @@ def test_two_linear_equations_with_parameters_have_few_cases() -> None:
     assert len(lines) <= 7 and any("x = (e*d - b*f)/(a*d - b*c)" in line for line in lines)
 
 
-@pytest.mark.deep
-@each("x^3 + a*x + b > 0", "x^3 + a*x + b >= 0", "a*x^3 + b*x + 1 > 0")
+@each("x^3 + a*x + b > 0", "a*x^3 + b*x + 1 > 0", "x^4 + a*x^2 + b*x + c < 0", "x^5 + a*x^3 + b*x + c > 0")
 def test_cases_by_numbers_of_roots_are_proved(question: str) -> None:
     solutions = qe.solve(question, "x", check=True)
     assert solutions.guarantee is qe.Guarantee.CHECKED and not solutions.reason
     assert qe.verify(solutions.certificate)
+
+
+@each(
+    ("x > root(1, x^3 + a*x + b, x) <-> x^3 + a*x + b > 0", "ab"),
+    ("x > root(2, x^2 - a, x) <-> x^2 > a", "a"),
+    ("x^2 + 1 > 0 and x = root(1, x^3 - a, x)", "a"),
+)
+def test_what_does_not_hold_everywhere_is_not_proved(claim: str, names: str) -> None:
+    table = true_everywhere(read(claim), (*names, "x"), Budget())
+    verdict = qe.verify(qe.Certificate.cells(table))
+    assert not verdict and verdict.decided
 
 
 def test_quartics_have_a_case_for_each_root() -> None:
