@@ -133,8 +133,8 @@ def _best(
 ) -> AnyOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     limits = limits_of(settings)
-    if isinstance(objective, str) and (asked := optimum_asked(objective)) is not None:
-        goal, objective, more, variables = asked
+    if isinstance(objective, str) and (command := optimum_asked(objective)) is not None:
+        goal, objective, more, variables = command
         if goal != sign:
             raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
         constraints = [constraints, more]

@@ -97,14 +97,14 @@ def solved_for(text: str) -> tuple[str, ...] | None:
 
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``."""
-    asked = _OPTIMUM.fullmatch(text)
-    if asked is None:
+    command = _OPTIMUM.fullmatch(text)
+    if command is None:
         return None
-    objective, *constraints = [part for part in _parts(asked[2]) if part != "Reals"]
+    objective, *constraints = [part for part in _parts(command[2]) if part != "Reals"]
     variables = constraints.pop() if constraints else ""
     if objective.startswith("{"):
         objective, *constraints = _parts(objective[1:-1])
-    sign = 1 if asked[1] == "Min" else -1
+    sign = 1 if command[1] == "Min" else -1
     return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
 
 
