@@ -11,7 +11,7 @@ from qe.decomposition.sampled_cells import free_part
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, root_atom
 from qe.formula.normal import nnf
-from qe.formula.syntax import Formula, Relation, RootAtom
+from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import map_atoms
 from qe.options import Budget
 from qe.proof.cells import Cell, CellTable
@@ -34,7 +34,7 @@ def true_everywhere(formula: Formula, order: tuple[str, ...], budget: Budget) ->
     count wherever those signs are needed.
     """
     matrix = nnf(convert(formula, Ring.of(order)))
-    signs = map_atoms(matrix, lambda a: atom(a.poly, a.relation) if isinstance(a, RootAtom) else a)
+    signs = map_atoms(matrix, lambda a: a if isinstance(a, Atom) else atom(a.poly, a.relation))
     table = decompose(signs, order, ("",) * len(order), budget=budget).table
     return replace(table, matrix=matrix, quantifiers=("A",) * len(order), root=_true(table.root))
 
