@@ -23,7 +23,8 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, disj
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, Atom, Formula, Or, Relation
+from qe.formula.syntax import FALSE, Atom, Constant, Formula, Relation
+from qe.formula.traverse import connected, disjuncts
 from qe.options import Options
 
 _STEP = 10
@@ -71,21 +72,35 @@ def _formula(projected: Polyhedron, names: tuple[str, ...], free: tuple[str, ...
 
 
 def _by_generators(problem: Block, check: Check) -> Formula | None:
-    """The positive answer by the second theorem; None where the body is not of its kind."""
-    names = problem.variables
-    plain = [f for f in problem.conditions if {*f.free} <= {*names}]
-    others = [f for f in problem.conditions if f not in plain]
-    if len(others) != 1 or not plain or len(atoms := linear_atoms(conj(plain))) < len(plain):
+    """The positive answer by the second theorem, for variables that conditions join at a time (those of a box one after
+    the other); None where the body is not of its kind."""
+    plain = [f for f in problem.conditions if {*f.free} <= {*problem.variables} and linear_atoms(f)]
+    curved = [f for f in problem.conditions if f not in plain]
+    if len(curved) != 1 or not plain:
         return None
-    given = others[0].args if isinstance(others[0], Or) else others
-    forms = [_form(a, names) for a in given]
-    if all(c.is_constant for form in forms for c in (form[0][:-1] if form else ())):
+    forms = [_form(f, problem.variables) for f in disjuncts(curved[0])]
+    if all(form is not None and all(c.is_constant for c in form[0][:-1]) for form in forms):
         return None  # substitution answers that, with evidence
-    if (cone := _generated(LinearRows.of(atoms), names, check)) is None:
-        return FALSE
-    is_closed = not any(a.relation.is_strict for a in atoms)
-    parts = [_somewhere(*form, cone, is_closed) if form else None for form in forms]
-    return disj(part for part in parts if part is not None) if None not in parts else None
+    joined = [(sorted(names), parts) for names, parts in connected(plain, lambda part: frozenset(part.free))[1]]
+    single = [([v], ()) for v in problem.variables if not any(v in names for names, _ in joined)]
+    for names, parts in (*joined, *single):
+        atoms = linear_atoms(conj(parts))
+        if (cone := _generated(LinearRows.of(atoms), names, check)) is None:
+            return FALSE
+        is_closed = not any(a.relation.is_strict for a in atoms)
+        images = [_image(f, names, cone, is_closed) for f in disjuncts(curved[0])]
+        if None in images:
+            return None
+        curved = [disj(image for image in images if image is not None)]
+    return curved[0]
+
+
+def _image(given: Formula, names: Sequence[str], cone: Cone, is_closed: bool) -> Formula | None:
+    """That a condition that is linear in variables holds at a point of their polyhedron; None of any other."""
+    if isinstance(given, Constant):
+        return given
+    form = _form(given, names)
+    return None if form is None else _somewhere(*form, cone, is_closed)
 
 
 def _form(given: Formula, names: Sequence[str]) -> tuple[list[Poly], Relation] | None:

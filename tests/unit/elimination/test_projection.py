@@ -37,6 +37,11 @@ def test_universal_blocks_and_empty_sets():
     ("ex x, y. x + y = 1 and a*x + b*y = 0", "a /= b or a = 0"),
     ("ex x. 0 <= x and x <= 1 and a*x = b", "b >= 0 and a >= b or b <= 0 and a <= b"),
     ("ex x. x > 1 and x < 0 and a*x > b", "false"),
+    ("ex x, y. 0 <= x and x <= 1 and y > 2 and y < 1 and a*x*y >= b*x - b*x", "false"),
+    (
+        "all x, y, z. max(abs(x), abs(y), abs(2*z - 1)) <= 1 -> a*x*y*z <= b",
+        "abs(a) <= b",
+    ),
     (
         "all x, y. x > 0 and y > 0 and x + y < 1 -> a*x <= b and b*y <= a + 1",
         "b >= 0 and a <= b and a + 1 >= b and a >= -1",
