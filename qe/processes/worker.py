@@ -151,11 +151,10 @@ def begun(work: bytes, limits: Limits, deadline: float) -> tuple[Worker, float]:
             worker, is_new = Worker(), True
         is_sent = False
         try:
-            worker.load()
-            until = max(deadline, time.monotonic() + (deadline - start) / 2)
-            question = pickle.dumps((work, until, limits.memory, general))
             if is_new or worker.is_usable:
-                worker.send(question)
+                worker.load()
+                until = max(deadline, time.monotonic() + (deadline - start) / 2)
+                worker.send(pickle.dumps((work, until, limits.memory, general)))
                 is_sent = True
                 return worker, until
         except OSError:  # it was killed while it waited

@@ -339,6 +339,19 @@ print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), t.run(t.process, t.Lim
         assert parent.communicate(timeout=60)[0] == "0 True\n"
 
 
+def test_a_process_that_was_forked_while_a_worker_loads_does_not_wait_for_it() -> None:
+    code = """
+from qe.processes import worker
+worker.IDLE.append(worker.Worker())
+child = os.fork()
+if not child:
+    os._exit(t.run(t.process, t.Limits()) == os.getppid())
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), t.run(t.process, t.Limits()) > 0, flush=True)
+"""
+    with ending(in_another(code)) as parent:
+        assert parent.communicate(timeout=60)[0] == "0 True\n"
+
+
 WITHOUT = """
 import os, sys, flint, tests.unit.processes.works  # the standard library has branches of its own
 for name in ("resource", "fcntl", "termios", "pwd", "grp"):
