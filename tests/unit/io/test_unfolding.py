@@ -33,6 +33,8 @@ def test_unfolded(text: str, plain: str) -> None:
     ("max(1/x, y) > 1", {"x": 0, "y": 2}),
     ("min(sqrt(x), y) < 1", {"x": -1, "y": 0}),
     ("max(x/y, 3) > 1", {"x": 1, "y": 0}),
+    ("abs(x/y) + 1 > 0 or max(-1, abs(1/y)) > -2", {"x": 1, "y": 0}),
+    ("max(abs(sqrt(x)), 5) > 1", {"x": -1, "y": 0}),
 )
 def test_a_maximum_has_no_value_where_a_term_has_none(text: str, point: dict[str, int]) -> None:
     assert not holds_at(formats.read(text), point)
