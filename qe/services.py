@@ -18,6 +18,7 @@ class Service(Enum):
 
     CONNECTED = "formulas connected by an operator of Python"
     SUBSTITUTED = "a formula with terms in the place of variables"
+    COMPARISON = "a comparison as people write it"
     WRITTEN = "a formula in one of the formats"
     SYMPY = "a value as SymPy writes it"
     REGION = "the solution set of a formula"

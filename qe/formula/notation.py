@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from math import prod
 from operator import attrgetter
 from typing import Protocol
 
@@ -13,9 +12,7 @@ from qe.exact.digits import digits as digits
 from qe.exact.ring import Poly
 from qe.exact.sparse_text import in_order, sum_text
 from qe.formula.relation import Relation
-
-MOST_FACTORED = 40
-"""Terms, and total degree, up to which a polynomial is factored to be written."""
+from qe.services import Service, service
 
 Monomial = tuple[int, tuple[tuple[str, int], ...]]
 
@@ -51,8 +48,8 @@ def positive(poly: Poly) -> list[Monomial]:
 class Notation:
     """The tokens of a line format. ``quantifier(universal, names)`` gives a prefix; ``root(variable, relation, poly,
     k)`` prints a root atom. ``scope``: brackets around the body of a quantifier (None: the body runs on to the right).
-    ``strict``: what follows a negation is bracketed, and so is ``and`` inside ``or``. ``products``: a polynomial is
-    written as the product of its factors where that is no longer."""
+    ``strict``: what follows a negation is bracketed, and so is ``and`` inside ``or``. ``customary``: comparisons have
+    the form of ``qe.formula.comparison``; else they are a sum and 0."""
 
     name: Callable[[str], str]
     quantifier: Callable[[bool, tuple[str, ...]], str]
@@ -67,8 +64,9 @@ class Notation:
     power: Callable[[str, int], str] = "{}^{}".format
     brackets: tuple[str, str] = ("(", ")")
     scope: tuple[str, str] | None = None
+    quotient: Callable[[str, str], str] = "{}/{}".format
     strict: bool = False
-    products: bool = False
+    customary: bool = False
 
 
 class Written(Protocol):
@@ -86,27 +84,11 @@ def polynomial(parts: list[Monomial], notation: Notation) -> str:
 
 
 def comparison(poly: Poly, relation: Relation, notation: Notation) -> str:
-    """``poly relation 0``, as a sum, or as a product that is no longer; first coefficients are positive."""
-    parts, turned = oriented(poly, relation)
-    text = polynomial(parts, notation)
-    if notation.products and 1 < len(parts) <= MOST_FACTORED and poly.total_degree <= MOST_FACTORED:
-        unit, factors = poly.factors()
-        product = _product(poly.ring.constant(1), factors, notation)
-        if len(factors) > 1 and len(product) <= len(text):
-            negative = (unit < 0) + sum(exponent for f, exponent in factors if monomials(f)[0][0] < 0)
-            text, turned = product, relation.flipped if negative % 2 else relation
-    return f"{text} {notation.relation(turned)} 0"
-
-
-def _product(one: Poly, factors: Sequence[tuple[Poly, int]], notation: Notation) -> str:
-    """The single term among the factors, and sums in brackets, short ones first."""
-    before, after = notation.brackets
-    term = prod((f**k for f, k in factors if f.term_count() == 1), start=one)
-    sums = [(before + polynomial(positive(f), notation) + after, k) for f, k in factors if f.term_count() > 1]
-    powers = sorted(
-        (text if k == 1 else notation.power(text, k) for text, k in sums), key=lambda text: (len(text), text)
-    )
-    return notation.times.join([*([] if term.is_constant else [polynomial(positive(term), notation)]), *powers])
+    """``poly relation 0``; first coefficients are positive."""
+    if notation.customary:
+        return str(service(Service.COMPARISON)(poly, relation, notation))
+    parts, relation = oriented(poly, relation)
+    return f"{polynomial(parts, notation)} {notation.relation(relation)} 0"
 
 
 def bracketed(part: Written, brackets: tuple[str, str], notation: Notation) -> str:

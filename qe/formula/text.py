@@ -29,7 +29,7 @@ def _notation(spelled: Callable[[str], str]) -> Notation:
         name=spelled,
         quantifier=quantifier,
         root=root,
-        products=True,
+        customary=True,
     )
     return notation
 

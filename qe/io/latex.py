@@ -111,4 +111,6 @@ _NOTATION = Notation(
     times=r"\,",
     power=lambda base, k: f"{{{base}}}^{{{k}}}" if base.endswith("'") else f"{base}^{{{k}}}",
     brackets=(r"\left(", r"\right)"),
+    quotient=r"\frac{{{}}}{{{}}}".format,
+    customary=True,
 )

@@ -8,8 +8,9 @@ from html import escape
 from itertools import pairwise
 from typing import Never
 
+from qe.formula.comparison import sides
 from qe.formula.features import length
-from qe.formula.notation import Monomial, digits, oriented, positive
+from qe.formula.notation import Monomial, digits, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 from qe.io.latex import GREEK
 from qe.spelling import visible
@@ -77,8 +78,11 @@ def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, br
         case Constant(value):
             return f"<mi>{'true' if value else 'false'}</mi>"
         case Atom():
-            parts, relation = oriented(formula.poly, formula.relation)
-            end = f"{_relation(relation)}<mn>0</mn>"
+            parts, relation, right, divisor = sides(formula.poly, formula.relation)
+            side = polynomial(right, draw)
+            if divisor > 1:
+                side = f"<mfrac>{side}<mn>{digits(divisor)}</mn></mfrac>"
+            end = f"{_relation(relation)}{side}"
             lines = _line_starts(parts) if broken else [0]
             if len(lines) > 1:
                 return _in_lines(parts, lines, draw, end)

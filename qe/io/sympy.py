@@ -20,6 +20,8 @@ from qe.errors import InputError, NoTruthValue
 from qe.exact.field import FieldElement
 from qe.exact.ring import Poly
 from qe.formula.build import JOINS, conj, exists, forall, implies
+from qe.formula.comparison import sides
+from qe.formula.notation import Monomial, monomials
 from qe.formula.operators import Connected
 from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Not, Or
 from qe.io import surface as s
@@ -282,11 +284,13 @@ def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> A
 
 def polynomial_to_sympy(poly: Poly, symbols: Mapping[str, Any]) -> Any:
     """The SymPy expression of a polynomial, with these symbols (or other terms) for its variables."""
+    return _sum(monomials(poly), symbols)
+
+
+def _sum(parts: list[Monomial], symbols: Mapping[str, Any]) -> Any:
     import sympy as sp
 
-    terms = [((poly.ring.names[i], k) for i, k in powers) for powers, _ in poly.sparse_terms()]
-    numbers = [c for _, c in poly.sparse_terms()]
-    return sp.Add(*(sp.Mul(sp.Integer(c), *(symbols[v] ** k for v, k in term)) for c, term in zip(numbers, terms)))
+    return sp.Add(*(sp.Mul(sp.Integer(c), *(symbols[v] ** k for v, k in powers)) for c, powers in parts))
 
 
 def _boolean(formula: Formula, symbols: Mapping[str, Any], sp: Any) -> Any:
@@ -294,7 +298,8 @@ def _boolean(formula: Formula, symbols: Mapping[str, Any], sp: Any) -> Any:
         case Constant(value):
             return sp.true if value else sp.false
         case Atom(poly, relation):
-            return getattr(sp, relation.name.title())(polynomial_to_sympy(poly, symbols), 0)
+            left, between, right, divisor = sides(poly, relation)
+            return getattr(sp, between.name.title())(_sum(left, symbols), _sum(right, symbols) / divisor)
         case And(args) | Or(args):
             return getattr(sp, type(formula).__name__)(*(_boolean(arg, symbols, sp) for arg in args))
         case Not(arg):

@@ -351,8 +351,8 @@ def test_first_contacts_are_certified(certificate: Certificate) -> None:
 
 def test_the_first_contact_is_said_exactly_where_it_is_rational() -> None:
     words = claim_of(CONTACTS[1]).words
-    assert "not before: the sentence  ex t, x, y, z. t >= 0 and 2*t - 1 < 0 and" in words[1]
-    assert "there: the sentence  ex t, x, y, z. 2*t - 1 = 0 and" in words[4] and words[5] == "there: is true"
+    assert "not before: the sentence  ex t, x, y, z. t >= 0 and t < 1/2 and" in words[1]
+    assert "there: the sentence  ex t, x, y, z. t = 1/2 and" in words[4] and words[5] == "there: is true"
 
 
 def test_contact_at_the_start_and_an_irrational_tangency() -> None:

@@ -281,7 +281,7 @@ def test_what_it_claims() -> None:
     at_point = inverse_certificate(solve(load_arm("cylindrical"), (100, 20, 150)))
     first, *rest = claim_of(at_pose).words
     assert first.startswith("the sentence  ex c1_1, s1_1, c2_1, s2_1, c3_1, s3_1, c1_2, s1_2, c2_2, s2_2, c3_2, s3_2. ")
-    assert "all c1, s1, c2, s2, c3, s3. (not (c1^2 + s1^2 - 1 = 0 and" in first
+    assert "all c1, s1, c2, s2, c3, s3. (not (c1^2 + s1^2 = 1 and" in first
     assert rest == ["is true", "by joint positions"] and at_pose.trusts == ("joint positions",)
     assert "ex c1_1, s1_1, d2_1, d3_1, c1_2, s1_2, d2_2, d3_2. " in claim_of(at_point).words[0]
 

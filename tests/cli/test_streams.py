@@ -277,7 +277,7 @@ def test_the_loop() -> None:
     lines = iter(["ex x. x^2 +", "b*x + c = 0", "", "(%", ") and c = 1", ":quit", "x > 0"])
     shown: list[str] = []
     assert run(lambda prompt: next(lines), shown.append) == 0
-    assert shown == ["b^2 - 4*c >= 0", "c - 1 = 0 and b^2 - 4 >= 0"] and next(lines) == "x > 0"
+    assert shown == ["b^2 - 4*c >= 0", "c = 1 and b^2 >= 4"] and next(lines) == "x > 0"
 
 
 def test_interrupts_and_the_end() -> None:
@@ -291,7 +291,7 @@ def test_interrupts_and_the_end() -> None:
 
 def test_pipes() -> None:
     done = subprocess.run([QE, "prompt"], input="x > 1\n:quit\n", capture_output=True, text=True, timeout=60)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "x - 1 > 0\n", "")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "x > 1\n", "")
     bare = subprocess.run([QE], input="", capture_output=True, text=True, timeout=60)
     first, _, rest = bare.stdout.partition("\n")
     assert bare.returncode == 0 and first.startswith("Usage: qe") and "...\n" not in rest

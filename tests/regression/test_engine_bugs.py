@@ -29,7 +29,7 @@ from tests.tables import each
 @pytest.mark.parametrize("projection", list(Projection), ids=lambda p: p.value)
 def test_root_isolation_over_a_quintic_point_ends(projection: Projection) -> None:
     """The tolerance asked of the root balls was out of reach at every precision, so the precision grew for ever."""
-    formula = read("all x. not (3*a*x^2 + 2*a*x + 3*b - 3 > 0 and b*x - 2*x^2 <= 0 and a*b^2 - a*b*x - 1 = 0)")
+    formula = read("all x. not (3*a*x^2 + 2*a*x + 3*b > 3 and b*x - 2*x^2 <= 0 and a*b^2 - a*b*x - 1 = 0)")
     answer = by_cad(projection)(formula, Budget(30))
     ring = Ring.of(("a", "b"))
     for a, b, expected in ((0, 0, True), (1, 1, True), (1, 2, False), (2, -1, True), (-1, -1, True), (1, -1, True)):
@@ -56,7 +56,7 @@ def test_a_simplified_answer_is_never_certified_with_polynomials_that_the_table_
 
 @each("auto", "cad")
 @each(
-    "all x. not (3*a*b - x^2 - 1 > 0 or a^2 + x > 0 and a*b + 3*a - 3 /= 0)",
+    "all x. not (3*a*b - x^2 - 1 > 0 or a^2 + x > 0 and a*b + 3*a /= 3)",
     "all x. x^3 + a^2 /= 0 or 2*a*b*x + a*x^2 - a^2 - a*b - b*x <= 0",
     "ex x. (all y. y^4 + x*y + a >= 0) and x > 1",
 )
@@ -80,11 +80,11 @@ def test_open_sets_that_barely_exist_have_a_witness() -> None:
 @each(("+ 1", False), ("- 9", True))
 def test_a_negated_disjunction_of_inequations_was_true_whatever_they_say(first: str, expected: bool) -> None:
     """Gröbner systems passed over what was no atom: "not (p /= 0 or q /= 0)" lost its equations, all of them."""
-    system = f"x^2 + y^2 + z^2 + w^2 {first} /= 0 or x*y - z /= 0 or x^2*w - 1 /= 0 or y*z*w /= 1"
+    system = f"x^2 + y^2 + z^2 + w^2 {first} /= 0 or z /= x*y or x^2*w /= 1 or y*z*w /= 1"
     assert eliminate(f"ex x, y, z, w. not ({system})").truth is expected
     assert eliminate(f"all x, y, z, w. {system}").truth is not expected
     parametric = eliminate("ex x. not (x /= 0 and x^2 + 2*a + 1 /= 0 or a^2*x + a*x^2 + 2 /= 0)", method="cgs")
-    assert equivalent(parametric.formula, "a + 1 = 0")
+    assert equivalent(parametric.formula, "a = -1")
 
 
 def test_a_block_that_comes_back_beside_a_condition_ran_for_ever() -> None:
@@ -95,10 +95,10 @@ def test_a_block_that_comes_back_beside_a_condition_ran_for_ever() -> None:
 
 def test_a_disjunct_without_the_quantified_variables_does_not_end_critical_values_with_an_error() -> None:
     """The parts of the answer were over rings of their own: "number of generators does not match"."""
-    question = "ex y. y^2 <= 1 and p + 2 >= 0 and (2*p*q - 1 >= 0 or p + y = 0)"
+    question = "ex y. y^2 <= 1 and p >= -2 and (2*p*q >= 1 or p + y = 0)"
     answer = qe.eliminate(question, method="critical")
     assert answer.formula is not None
-    assert qe.equivalent(answer.formula, "p + 2 >= 0 and (2*p*q >= 1 or p <= 1 and p >= -1)")
+    assert qe.equivalent(answer.formula, "p >= -2 and (2*p*q >= 1 or p <= 1 and p >= -1)")
     assert qe.equivalent(question, answer.formula)
 
 
@@ -148,7 +148,7 @@ def test_a_root_that_cannot_be_is_false_at_once(k):
 
 
 def test_a_root_that_can_be_stays():
-    assert str(qe.eliminate("x < root(1, x^3 - a)").formula) == "x^3 - a < 0"
+    assert str(qe.eliminate("x < root(1, x^3 - a)").formula) == "a > x^3"
     assert qe.eliminate("ex x. x >= root(3, x^3 - a*x)").formula == formats.read("a > 0", "text")
 
 

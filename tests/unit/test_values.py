@@ -57,7 +57,7 @@ def test_reprs_say_what_it_is() -> None:
     assert repr(qe.eliminate("ex x. x^2 = b")) == "Answer(b >= 0; derived)"
     assert repr(qe.eliminate("ex x. x^2 = 2")).startswith("Answer(true, x = ")
     assert repr(DISC.bounds("x")) == "Interval[-1, 1]" and repr(qe.region("x > 0").bounds("x")) == "Interval(0, oo)"
-    assert repr(DISC) == "Region(x, y: x^2 + y^2 - 1 <= 0)" and repr(DISC.certificate) == "Certificate(derivation)"
+    assert repr(DISC) == "Region(x, y: x^2 + y^2 <= 1)" and repr(DISC.certificate) == "Certificate(derivation)"
     assert repr(qe.minimize("x^2 + y", "y >= x")) == "Optimum(-1/4 at x = -1/2, y = -1/2)"
     assert repr(qe.minimize("x", "x > 0")) == "Optimum(0, not attained)" and "unbounded" in repr(qe.minimize("x"))
 
@@ -70,13 +70,13 @@ def test_notebooks() -> None:
     assert "unable" in qe.eliminate("ex x. a*x^5 + x = 1", method="vs")._repr_html_()
     assert "data:image/png" in DISC._repr_html_() and "<img" not in qe.region("x < y*z")._repr_html_()
     long = read_formula(" and ".join(f"x^{k} > {k}" for k in range(1, LONGEST // 4)))
-    assert long._repr_latex_() is None and (x < y)._repr_latex_() == r"$\displaystyle x - y < 0$"
+    assert long._repr_latex_() is None and (x < y)._repr_latex_() == r"$\displaystyle x < y$"
 
 
 def test_formulas_have_operators() -> None:
     f, g = read_formula("x > 0"), read_formula("y > x")
-    assert str(f & g) == "x > 0 and x - y < 0" and str(f | "z > 1") == "x > 0 or z - 1 > 0"
-    assert str(~f) == "x <= 0" and qe.equivalent(f >> g, "x > 0 -> y > x") and str("z > 1" & f) == "z - 1 > 0 and x > 0"
+    assert str(f & g) == "x > 0 and x < y" and str(f | "z > 1") == "x > 0 or z > 1"
+    assert str(~f) == "x <= 0" and qe.equivalent(f >> g, "x > 0 -> y > x") and str("z > 1" & f) == "z > 1 and x > 0"
     assert isinstance(f & (x < y), qe.Statement) and isinstance((x < y) & f, qe.Statement)
     assert qe.equivalent(f & (sp.Symbol("y") > 3), "x > 0 and y > 3")
     with pytest.raises(qe.InputError):
@@ -117,7 +117,7 @@ def test_limits_are_numbers_of_seconds(limit: object) -> None:
 
 
 def test_numbers_of_numpy_in_terms() -> None:
-    assert str(np.float64(1.5) < x) == "2*x - 3 > 0" and str(x + np.int64(2) > 0) == "x + 2 > 0"
+    assert str(np.float64(1.5) < x) == "x > 3/2" and str(x + np.int64(2) > 0) == "x > -2"
     assert str((x < y).substitute({x: np.float32(0.25), "y": sp.Rational(1, 2)})) == "true"
     assert qe.check_witness("ex x. 2*x = 1", {x: np.float64(0.5)})
     assert qe.solve(x * y < 1, [y]).order == qe.solve("x*y < 1", y).order == ("x", "y")

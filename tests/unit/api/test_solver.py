@@ -19,7 +19,7 @@ def test_levels_models_and_cores() -> None:
     solver.add("z = 0")
     solver.assert_and_track("x > 2", "far")
     assert solver.check() == "unsat" and solver.reason_unknown() == ""
-    assert [str(part) for part in solver.core()] == ["x^2 + y^2 - 1 <= 0", "far"]
+    assert [str(part) for part in solver.core()] == ["x^2 + y^2 <= 1", "far"]
     assert solver.unsat_core() == solver.core() and len(solver.assertions()) == 4
     solver.pop()
     assert solver.check() == "sat" and len(solver.assertions()) == 2

@@ -26,11 +26,11 @@ def test_shadows_are_equivalent_to_what_substitution_says():
 
 def test_nothing_is_left_that_follows_from_the_rest():
     text = "ex x, y, z. a <= x and x <= y and y < z and z <= b and x + 1 <= z + 5 and a <= b + 7"
-    assert str(qe.eliminate(text, process=False).formula) in ("a - b < 0", "b - a > 0")
+    assert str(qe.eliminate(text, process=False).formula) in ("a < b", "b > a")
 
 
 def test_universal_blocks_and_empty_sets():
-    assert str(qe.eliminate("all x, y, z. x > a or y > x or z >= y or z < b", process=False).formula) == "a - b <= 0"
+    assert str(qe.eliminate("all x, y, z. x > a or y > x or z >= y or z < b", process=False).formula) == "a <= b"
     assert str(qe.eliminate("ex x, y, z. x < y and y < z and z < x and x > a", process=False).formula) == "false"
 
 
@@ -91,7 +91,7 @@ def test_linear_forms_over_polyhedra_have_the_truth_of_their_values() -> None:
     ("x >= 0 and y >= 0 and x + y <= 1 and z = 1 and a*x*y + z > b", None),  # not linear along the edges
     ("x >= 0 and y >= 1 and z >= 0 and a*x >= b", "a > 0 or b <= 0"),
     ("x > 0 and x < 0 and y > 0 and z > 0 and a*x > b", "false"),
-    ("x >= 1 and x + 1 <= 0 and y > 0 and z > 0 and a*x /= b", "false"),
+    ("x >= 1 and x <= -1 and y > 0 and z > 0 and a*x /= b", "false"),
     ("x >= 0 and x <= 0 and y > x and y < x and z = 1 and a*z > b", "false"),
     ("x >= 0 and y >= 0 and z = 0 and a*x + b*y >= 1", "a > 0 or b > 0"),
 )

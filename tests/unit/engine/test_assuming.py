@@ -29,10 +29,10 @@ QUADRATIC = "ex x. a*x^2 + b*x + c = 0"
     ("ex x. x^2 = a", "a = c^2", "true"),
     ("ex x. x^3 + p*x + q = 0 and x > 0", "p > 0", "q < 0"),
     ("ex x. x > 0 and a*x^2 + b*x + c = 0", "a > 0 and c < 0", "true"),
-    ("all x. ex y. x^2 + y^2 = a*x*y + b", "a > 0 and b > 0", "a - 2 >= 0"),
-    ("a^2 >= 4", "a > 0", "a - 2 >= 0"),
+    ("all x. ex y. x^2 + y^2 = a*x*y + b", "a > 0 and b > 0", "a >= 2"),
+    ("a^2 >= 4", "a > 0", "a >= 2"),
     ("a*b > 0", ["a > 0"], "b > 0"),
-    ("a > 3", "a > 0", "a - 3 > 0"),
+    ("a > 3", "a > 0", "a > 3"),
     ("ex x. x^2 = 2", "a > 0", "true"),
 )
 @pytest.mark.filterwarnings("ignore::qe.DoubtfulInput")
@@ -86,8 +86,8 @@ def test_contradicting_assumptions(monkeypatch: pytest.MonkeyPatch) -> None:
     (QUADRATIC, "b^2 - 4*a*c >= 0", ["a /= 0"]),
     ("ex x. a*x = b", "true", ["a /= 0"]),
     ("ex x. a*x = b and c*x = d", "a*d - b*c = 0", ["c /= 0"]),
-    ("ex x. (a*b - 1)*x^2 + x + 1 < 0", "4*a*b - 5 < 0", []),
-    ("ex x. x = a and x = b", "a - b = 0", []),
+    ("ex x. (a*b - 1)*x^2 + x + 1 < 0", "4*a*b < 5", []),
+    ("ex x. x = a and x = b", "a = b", []),
     ("a = 0 and b > 0 or a /= 0 and b < 0", "b < 0", ["a /= 0"]),
 )
 def test_generic_answers_list_what_they_assume(text: str, said: str, listed: list[str]) -> None:

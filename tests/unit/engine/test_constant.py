@@ -66,14 +66,14 @@ def test_equations_of_an_answer_are_taken_apart():
         powers[k] = real, imaginary
     lower = " and ".join(f"({powers[k][0]} /= 1 or {powers[k][1]} /= 0)" for k in range(1, 6))
     answer = qe.eliminate(f"{powers[6][0]} = 1 and {powers[6][1]} = 0 and {lower}")
-    assert str(answer.formula) == "2*a - 1 = 0 and 4*b^2 - 3 = 0"
+    assert str(answer.formula) == "a = 1/2 and 4*b^2 = 3"
     kept = qe.eliminate("x*y = 0 and x + y > 1")
     assert qe.equivalent(kept.formula, "x*y = 0 and x + y > 1")
 
 
 @each(
     "x^2 + y^2 + z^2 <= 25 and (x - 7)^2 + y^2 + (z - 1)^2 <= 9 and (x - 5)^2 + (y - 5)^2 + z^2 < 16",
-    "(x - 100)^2 + (y + 70)^2 <= 4 and (x - 103)^2 + (y + 70)^2 <= 4 and 10*y + 703 < 0",
+    "(x - 100)^2 + (y + 70)^2 <= 4 and (x - 103)^2 + (y + 70)^2 <= 4 and y < -703/10",
     "x >= 1000 and y >= 1000 and x + y <= 2001",
 )
 def test_the_conditions_pull_a_point_into_a_convex_set(text):

@@ -13,14 +13,14 @@ POINT = """x + 2*y <= 5 and 3*x + y <= 8 and 2*x + y + 4 >= 0 and x + 4*y + 7 >=
 
 def test_the_only_optimum_of_a_linear_programme_is_two_equations() -> None:
     answer = qe.eliminate(POINT, check=True)
-    assert str(answer.formula) == "5*x - 11 = 0 and 5*y - 7 = 0"
+    assert str(answer.formula) == "x = 11/5 and y = 7/5"
     assert answer.guarantee is Guarantee.CHECKED and not answer.unchecked_steps
 
 
 @each(
     ("x + y <= 1 and 2*x + y >= 1 and x <= 0 and y <= 1", "x = 0 and y = 1"),
-    ("x + y + z <= 1 and x + y + z >= 1 and 2*x - y >= 0 and 2*x - y - z >= 3 and x <= 5", None),
-    ("x >= 1 and y >= 1 and x + y <= 1 and x - y >= 0", "false"),
+    ("x + y + z <= 1 and x + y + z >= 1 and 2*x >= y and 2*x - y - z >= 3 and x <= 5", None),
+    ("x >= 1 and y >= 1 and x + y <= 1 and x >= y", "false"),
     ("x >= 0 and y >= 0 and x + y <= 1", None),
 )
 def test_equations_come_first(text: str, wanted: str | None) -> None:

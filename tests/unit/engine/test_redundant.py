@@ -176,8 +176,8 @@ def test_a_region_of_balls_in_space_is_not_looked_at_for_minutes() -> None:
 
 def test_the_part_at_a_place() -> None:
     formula = read_formula("a < 1 and (b < 1 or c < 2)")
-    assert str(without_part(formula, (1, 0))) == "a - 1 < 0 and c - 2 < 0"
-    assert str(without_part(formula, (0,))) == "b - 1 < 0 or c - 2 < 0"
+    assert str(without_part(formula, (1, 0))) == "a < 1 and c < 2"
+    assert str(without_part(formula, (0,))) == "b < 1 or c < 2"
 
 
 def test_large_answers_are_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:

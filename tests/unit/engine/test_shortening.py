@@ -32,7 +32,7 @@ def test_where_an_equation_is_denied_the_others_are_reduced(monkeypatch: pytest.
     monkeypatch.setattr(shortening, "SHORTEN_DEGREE", {})
     given_ = context()
     found = shortened(read("c > 0 and (a /= b or a^4*b - b^5 + a^2*c - b^2*c + c*d > 0)"), given_)
-    assert str(found) == "c > 0 and (a - b /= 0 or d > 0)"
+    assert str(found) == "c > 0 and (a /= b or d > 0)"
     assert rules(given_) == ["negation normal form", "equations taken apart", "negation normal form"]
 
 
@@ -46,8 +46,7 @@ def test_products_are_not_split_where_that_makes_it_longer(monkeypatch: pytest.M
 @each(
     (  # an ellipse inside the unit circle
         "all x, y. a > 0 and b > 0 and (b^2*(x-c)^2 + a^2*y^2 - a^2*b^2 = 0 -> x^2 + y^2 - 1 <= 0)",
-        "a > 0 and b > 0 and c + a - 1 <= 0 and c - a + 1 >= 0 and"
-        " (b^2 - a < 0 or b^2*c^2 + b^4 - a^2*b^2 - b^2 + a^2 <= 0)",
+        "a > 0 and b > 0 and c + a <= 1 and c + 1 >= a and (a > b^2 or b^2*c^2 + b^4 - a^2*b^2 - b^2 + a^2 <= 0)",
         160,
     ),
     (
@@ -125,6 +124,6 @@ def test_the_steps_have_evidence() -> None:
 def test_no_condition_is_left_that_follows_from_the_others() -> None:
     """Bounds of a coordinate beside a disc said nothing: every point of the disc has them."""
     answer = qe.eliminate("all x, y. x^2 + y^2 <= 1 -> a*x + b*y <= 1", check=True)
-    assert str(answer.formula) == "a^2 + b^2 - 1 <= 0"
+    assert str(answer.formula) == "a^2 + b^2 <= 1"
     assert answer.unchecked_steps == ()
-    assert str(shortened(read("a^2 + b^2 <= 1 and b <= 1 and b >= -1"), context())) == "a^2 + b^2 - 1 <= 0"
+    assert str(shortened(read("a^2 + b^2 <= 1 and b <= 1 and b >= -1"), context())) == "a^2 + b^2 <= 1"

@@ -63,9 +63,9 @@ def test_a_contradiction_of_conjuncts(before: str, after: str, evidence: Any, re
 
 
 SAID = [
-    (optimum("x + y >= 1", "x^2 + y^2"), "2*value - 1 = 0 and 2*x - 1 = 0 and 2*y - 1 = 0"),
-    (optimum("x + y >= 1", "x + y"), "value - 1 = 0"),
-    (optimum("x > 1", "x"), "value - 1 = 0"),
+    (optimum("x + y >= 1", "x^2 + y^2"), "value = 1/2 and x = 1/2 and y = 1/2"),
+    (optimum("x + y >= 1", "x + y"), "value = 1"),
+    (optimum("x > 1", "x"), "value = 1"),
     (optimum("y > 1", "x"), "true"),
     (optimum(EMPTY, "x"), "false"),
 ]
@@ -88,11 +88,11 @@ def test_evidence_for_one_sentence_proves_no_other(certificate: Certificate, oth
 @pytest.mark.parametrize(
     ("old", "new"),
     [
-        ("value - 1 = 0", "value - 2 = 0"),
-        ("x - value > 0", "x - value >= 0"),
-        ("x - below < 0", "x - below <= 0"),
-        ("value - below >= 0", "value - below > 0"),
-        ("x - 1 > 0", "x - 1 >= 0"),
+        ("value = 1", "value = 2"),
+        ("x > value", "x >= value"),
+        ("x < below", "x <= below"),
+        ("value >= below", "value > below"),
+        ("x > 1", "x >= 1"),
     ],
 )
 def test_another_infimum_is_not_proved(old: str, new: str) -> None:

@@ -97,7 +97,7 @@ def test_prenex_has_few_blocks(text: str, blocks: str) -> None:
 
 def test_shadowing_and_clashes_are_resolved() -> None:
     apart = rename_apart(read("x > 0 and (ex x. x < y and (all x. x^2 >= y)) and (ex y. y = x)"))
-    assert str(apart) == "x > 0 and (ex x_1. y - x_1 > 0 and all x_2. x_2^2 - y >= 0) and ex y_1. x - y_1 = 0"
+    assert str(apart) == "x > 0 and (ex x_1. y > x_1 and all x_2. y <= x_2^2) and ex y_1. x = y_1"
     ring = ring_of(apart)
     assert ring is not None and ring.names[:2] == ("x", "y")
 
@@ -106,7 +106,7 @@ def test_shadowing_and_clashes_are_resolved() -> None:
     {
         "fresh names avoid all names in use": (
             "x + x_1 > 0 and (ex x. x > x_1)",
-            "x + x_1 > 0 and ex x_2. x_1 - x_2 < 0",
+            "x + x_1 > 0 and ex x_2. x_1 < x_2",
         ),
         "a bound root variable is renamed with its polynomial": (
             "x > 0 and (ex x. x < root(1, x^2 - y))",
@@ -114,7 +114,7 @@ def test_shadowing_and_clashes_are_resolved() -> None:
         ),
         "a first quantifier keeps its name": (
             "(ex x. x > a) and (ex x. x < a)",
-            "(ex x. a - x < 0) and ex x_1. a - x_1 > 0",
+            "(ex x. a < x) and ex x_1. a > x_1",
         ),
     }
 )
@@ -124,7 +124,7 @@ def test_names_apart(text: str, apart: str) -> None:
 
 def test_rename_keeps_the_meaning() -> None:
     formula = read("x > y and x < root(1, x^2 - y)")
-    assert str(rename(formula, {"x": "u"})) == "u - y > 0 and u < root(1, u^2 - y)"
+    assert str(rename(formula, {"x": "u"})) == "u > y and u < root(1, u^2 - y)"
 
 
 def test_quantifier_dual() -> None:

@@ -46,7 +46,7 @@ def test_the_cubic() -> None:
 
 def test_a_circle_and_a_hyperbola() -> None:
     found = qe.real_root_classification(["x^2 + y^2 - r", "x*y - 1"], "x y")
-    assert [(c.count, str(c.condition)) for c in found] == [(0, "r - 2 < 0"), (2, "r - 2 = 0"), (4, "r - 2 > 0")]
+    assert [(c.count, str(c.condition)) for c in found] == [(0, "r < 2"), (2, "r = 2"), (4, "r > 2")]
 
 
 def test_degenerate_leading_coefficients() -> None:

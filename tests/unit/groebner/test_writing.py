@@ -16,11 +16,11 @@ def test_latex() -> None:
     assert text.startswith("\\begin{array}{l|l}\n") and text.endswith("\n\\end{array}")
     lines = text.split("\n")[1:-1]
     assert lines == [
-        r"a \neq 0 & \begin{array}{l}a\,x - 1 = 0 \\ x = 0\end{array} \\ \hline",
+        r"a \neq 0 & \begin{array}{l}a\,x = 1 \\ x = 0\end{array} \\ \hline",
         r"a = 0 & \begin{array}{l}\bot\end{array} \\ \hline",
         r"\top & \begin{array}{l}\top\end{array}",
     ] or [line.count(" & ") for line in lines] == [1, 1, 1]
-    assert r"a\,x - 1 = 0 \\ " in lines[0] and r"\bot" in lines[1] and lines[2].count(r"\top") == 2
+    assert r"a\,x = 1 \\ " in lines[0] and r"\bot" in lines[1] and lines[2].count(r"\top") == 2
 
 
 def test_html() -> None:

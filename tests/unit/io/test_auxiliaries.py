@@ -81,7 +81,7 @@ def test_outside_a_domain() -> None:
     free = made(Total())
     assert free.outside("/", x) != free.outside("/", y) and free.outside("/", x)[0].value.poly == S
     assert free.total is not None and free.total.values["s2"] == ("/", (y,)) and not free.loose
-    assert str(free.agreements()[0]) in ("x - y /= 0 or s1 - s2 = 0", "s1 - s2 = 0 or x - y /= 0")
+    assert str(free.agreements()[0]) in ("x /= y or s1 = s2", "s1 = s2 or x /= y")
     bound = made(Total(frozenset("x")))
     bound.outside("/", x)
     assert bound.loose and bound.total is not None and bound.total.weakened and not bound.total.values

@@ -52,13 +52,13 @@ def test_every_public_function_takes_them() -> None:
     assert qe.minimize(x + y, [disc]).value == -ROOT2
     assert qe.region(disc, order=[y, x]).order == ("y", "x")
     assert qe.find_instance(disc & (x > y)) is not None
-    assert str(qe.eliminate(qe.exists(y, disc)).formula) == "x^2 - 1 <= 0"
+    assert str(qe.eliminate(qe.exists(y, disc)).formula) == "x^2 <= 1"
     assert pickle.loads(pickle.dumps(disc)) == disc
 
 
 def test_parts() -> None:
     f = qe.exists(x, (x > y) & (x < 1)) | (y > 2)
-    assert f.free == ("y",) and [str(a) for a in f.atoms] == ["x - y > 0", "x - 1 < 0", "y - 2 > 0"]
+    assert f.free == ("y",) and [str(a) for a in f.atoms] == ["x > y", "x < 1", "y > 2"]
     assert repr(x) == "x" and repr(2 * x - 1) == "(2*x - 1)"
 
 

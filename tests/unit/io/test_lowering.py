@@ -60,7 +60,7 @@ def test_comparisons_are_true_where_both_sides_have_a_value(text: str, holds: ob
 def test_roots_in_comparisons() -> None:
     assert str(meaning("x < root(2, x^2 - y)")) == "x < root(2, x^2 - y)"
     assert meaning("root(2, x^2 - y) > x") == meaning("x < root(2, x^2 - y)")
-    assert str(meaning("y < root(1, 2*x - 6)")) == "y - 3 < 0"  # a number, since there is only x
+    assert str(meaning("y < root(1, 2*x - 6)")) == "y < 3"  # a number, since there is only x
     for text in ("x < root(0, x^2 - y)", "z < root(1, x^2 - y, z)", "x < root(1/2, x^2 - y)", "x < root(1, 1/x, x)"):
         with pytest.raises(InputError):
             meaning(text)
@@ -89,7 +89,7 @@ def test_shared_parts_are_lowered_once() -> None:
     for _ in range(12):
         parts.append(s.Sum([parts[-1], parts[-1]]))  # type: ignore[list-item]
     last = s.Comparison([parts[-1], s.Number(2**12)], [Relation.EQ], 0)  # type: ignore[list-item]
-    assert str(lower(last, fail, names=["x"], shared=parts[1:])) == "x - 1 = 0"
+    assert str(lower(last, fail, names=["x"], shared=parts[1:])) == "x = 1"
     nodes: list[s.Part] = [s.Comparison([s.Name("x", 0), s.Number(0)], [Relation.GT], 0)]
     for _ in range(150):
         nodes.append(s.Negation(nodes[-1]))  # type: ignore[arg-type]

@@ -74,8 +74,8 @@ def test_mistakes_are_told_in_one_line(source: str, part: str) -> None:
 
 
 def test_letters_are_single_in_the_format_and_words_in_text() -> None:
-    assert str(formats.read("ab < 1", "latex")) == "a*b - 1 < 0"
-    assert str(formats.read("ab < 1")) == "ab - 1 < 0"
+    assert str(formats.read("ab < 1", "latex")) == "a*b < 1"
+    assert str(formats.read("ab < 1")) == "ab < 1"
 
 
 @each(
@@ -99,7 +99,7 @@ def test_names_and_polynomials() -> None:
     names |= {"pi2": r"\pi_{2}", "pi_2": r"\pi_{\mathrm{2}}", "pI": r"\mathrm{pI}", "or": r"\mathit{or}"}
     assert {name: latex.name(name) for name in names} == names
     assert latex.name("a b^") == r"\mathrm{a\ b\char94 }"
-    poly = next(iter(polynomials(read("x^2*y - 1 > 0"))))
+    poly = next(iter(polynomials(read("x^2*y > 1"))))
     assert latex.term(poly) == r"x^{2}\,y - 1"
 
 
@@ -218,9 +218,9 @@ def test_long_polynomials_stand_in_lines() -> None:
 
 @each(
     ("(E x)[ a x^2 + b x + c = 0 /\\ ~[x < 0] ]", "ex x. a*x^2 + b*x + c = 0 and x >= 0"),
-    ("(A x)(E y)[ x < y ].", "all x. ex y. x - y < 0"),
+    ("(A x)(E y)[ x < y ].", "all x. ex y. x < y"),
     ("[2 (x+1)(y-1) /= 0]", "(x + 1)*(y - 1) /= 0"),
-    ("[1/2 x^2 y - 3 >= 0]", "x^2*y - 6 >= 0"),
+    ("[1/2 x^2 y >= 3]", "x^2*y >= 6"),
     ("[x > _root_-2 x^2 - 2 y \\/ y = 0]", "x > root(-2, x^2 - 2*y) or y = 0"),
     ("[x = 0 ==> y = 0]", "x /= 0 or y = 0"),
     ("[x = 0 <== y = 0]", "y /= 0 or x = 0"),
@@ -234,9 +234,9 @@ def test_qepcad(given: str, printed: str) -> None:
 def test_a_qepcad_session() -> None:
     session = "[ Quadratic. ]\n(b,a,x)\n2\n(E x)[ a x^2 + b >= 1/2 ].\nproj-op (m,m)\nfinish\n"
     formula = formats.read(session, "qepcad")
-    assert str(formula) == "ex x. 2*a*x^2 + 2*b - 1 >= 0"
+    assert str(formula) == "ex x. 2*a*x^2 + 2*b >= 1"
     assert ring_of(formula) is Ring.of(("b", "a", "x"))
-    assert qepcad.write(formula) == "[]\n(b,a,x)\n2\n(E x)[2 a x^2 + 2 b - 1 >= 0].\nfinish\n"
+    assert qepcad.write(formula) == "[]\n(b,a,x)\n2\n(E x)[2 a x^2 + 2 b >= 1].\nfinish\n"
 
 
 @each(
@@ -256,12 +256,12 @@ def test_qepcad_mistakes(given: str, part: str) -> None:
 
 @each(
     ("ex(x, a*x**2 + b*x + c = 0)", "ex x. a*x^2 + b*x + c = 0"),
-    ("phi := all({x,y}, x<>y impl not(x>0 and y geq 0));", "all x, y. x - y = 0 or not (x > 0 and y >= 0)"),
-    ("x=1 repl y=2", "y - 2 /= 0 or x - 1 = 0"),
-    ("ex(x, x = 1) and y = 2 $", "(ex x. x - 1 = 0) and y - 2 = 0"),
+    ("phi := all({x,y}, x<>y impl not(x>0 and y geq 0));", "all x, y. x = y or not (x > 0 and y >= 0)"),
+    ("x=1 repl y=2", "y /= 2 or x = 1"),
+    ("ex(x, x = 1) and y = 2 $", "(ex x. x = 1) and y = 2"),
     ("x = 0 equiv y = 0", "(x /= 0 or y = 0) and (y /= 0 or x = 0)"),
     ("!A1 + a1 = 0 % comment", "A1 + a1 = 0"),
-    ("x neq 1/2", "2*x - 1 /= 0"),
+    ("x neq 1/2", "x /= 1/2"),
 )
 def test_redlog(given: str, printed: str) -> None:
     assert str(formats.read(given, "redlog")) == printed
@@ -287,7 +287,7 @@ def test_reserved_names_are_renamed_injectively(format_name: str, name: str) -> 
 
 
 def test_json_is_readable_and_checked() -> None:
-    formula = read("ex x. x^2 - y >= 0 and not (x < root(1, x^2 - y))")
+    formula = read("ex x. y <= x^2 and not (x < root(1, x^2 - y))")
     data = encode(formula)
     assert data["ring"] == ["y", "x"]
     assert decode(json.loads(json.dumps(data))) == formula

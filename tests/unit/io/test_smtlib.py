@@ -113,7 +113,7 @@ def test_macros_keep_the_scope_of_their_definition() -> None:
     terms.globals["f"] = Macro([("u", "Real")], "Real", body, dict(terms.globals))
     expression = parse("(let ((x z)) (= (f y) (f x)))", fail)[0]
     lowered = lower(terms.formula(expression, terms.globals), fail, names=terms.names, shared=terms.shared)
-    assert str(lowered) == "y - z = 0"  # x + y = x + z, with the x outside
+    assert str(lowered) == "y = z"  # x + y = x + z, with the x outside
     for term, said in (("f", "f needs 1 arguments"), ("(f)", "1 arguments expected"), ("(f p)", "sort Real expected")):
         with pytest.raises(InputError, match=said):
             terms.meaning(parse(term, fail)[0], terms.globals)
@@ -141,29 +141,29 @@ def test_algebraic_numbers_of_models() -> None:
 def test_names_of_formulas_are_definitions() -> None:
     terms = made()
     terms.meaning(parse("(! (< x y) :pattern p :named n)", fail)[0], terms.globals)
-    assert str(lower(terms.formula(parse("(not n)", fail)[0], terms.globals), fail)) == "x - y >= 0"
+    assert str(lower(terms.formula(parse("(not n)", fail)[0], terms.globals), fail)) == "x >= y"
 
 
 X = "(declare-const x Real)(declare-fun y () Real)(declare-const p Bool)"
 
 
 @each(
-    ("(> x 1.5)", "2*x - 3 > 0"),
-    ("(= (* 2 x y) (/ 1 3) )", "6*x*y - 1 = 0"),
-    ("(< x y 3)", "x - y < 0 and y - 3 < 0"),
-    ("(<= (- x) (- 3) (- x y 1))", "x - 3 >= 0 and x - y + 2 >= 0"),
-    ("(distinct x y 0)", "x - y /= 0 and x /= 0 and y /= 0"),
-    ("(=> (> x 0) (> y 0) (> x y))", "x <= 0 or y <= 0 or x - y > 0"),
+    ("(> x 1.5)", "x > 3/2"),
+    ("(= (* 2 x y) (/ 1 3) )", "6*x*y = 1"),
+    ("(< x y 3)", "x < y and y < 3"),
+    ("(<= (- x) (- 3) (- x y 1))", "x >= 3 and x + 2 >= y"),
+    ("(distinct x y 0)", "x /= y and x /= 0 and y /= 0"),
+    ("(=> (> x 0) (> y 0) (> x y))", "x <= 0 or y <= 0 or x > y"),
     ("(not (or (> x 0) (< y 0)))", "not (x > 0 or y < 0)"),
     ("(xor (> x 0) true)", "x <= 0"),
-    ("(let ((a (+ x 1)) (x 5)) (> a x))", "x - 4 > 0"),
-    ("(let ((x y) (y x)) (> x (* 2 y)))", "2*x - y < 0"),
-    ("(exists ((x Real)) (> x y))", "ex x_1. y - x_1 < 0"),
-    ("(let ((a x)) (exists ((x Real)) (> x a)))", "ex x_1. x - x_1 < 0"),
+    ("(let ((a (+ x 1)) (x 5)) (> a x))", "x > 4"),
+    ("(let ((x y) (y x)) (> x (* 2 y)))", "2*x < y"),
+    ("(exists ((x Real)) (> x y))", "ex x_1. y < x_1"),
+    ("(let ((a x)) (exists ((x Real)) (> x a)))", "ex x_1. x < x_1"),
     ("(forall ((u Real) (q Bool)) (=> q (> u 0)))", "all u, q. q <= 0 or u > 0"),
     ("(and p (not p))", "p > 0 and p <= 0"),
     ("(! (> x 0) :named first)", "x > 0"),
-    ("(> (ite (> x 0) x (- x)) 1)", "x > 0 and x - 1 > 0 or x <= 0 and x + 1 < 0"),
+    ("(> (ite (> x 0) x (- x)) 1)", "x > 0 and x > 1 or x <= 0 and x < -1"),
     ("(ite (> x 0) (> y 0) (< y 0))", "(x <= 0 or y > 0) and (x > 0 or y < 0)"),
     ("(= (> x 0) (> y 0) )", "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
     ("true", "true"),
@@ -198,10 +198,10 @@ SCRIPT = """
         "a whole script": (SCRIPT, "2*`my name`^2 - 8*`my name` + 7 < 0 and `my name` > 0"),
         "a definition does not capture": (
             "(define-fun below ((x Real)) Bool (exists ((y Real)) (< x y)))(declare-const y Real)(assert (below y))",
-            "ex y_1. y - y_1 < 0",
+            "ex y_1. y < y_1",
         ),
-        "long chains of definitions": (chain("1", 500, "0"), "x + 500 > 0"),
-        "shared definitions are evaluated once": (chain("y{}", 60, f"(* {2**60} 3)"), "x - 3 > 0"),
+        "long chains of definitions": (chain("1", 500, "0"), "x > -500"),
+        "shared definitions are evaluated once": (chain("y{}", 60, f"(* {2**60} 3)"), "x > 3"),
     }
 )
 def test_scripts(script: str, printed: str) -> None:
@@ -263,7 +263,7 @@ def test_too_deep_is_said() -> None:
 
 
 def test_writing() -> None:
-    written = smtlib.write(text("ex y. 2*x^2*y - 5 <= 0 and not x = 0"))
+    written = smtlib.write(text("ex y. 2*x^2*y <= 5 and not x = 0"))
     assert written == (
         "(set-logic NRA)\n(declare-const x Real)\n"
         "(assert (exists ((y Real)) (and (<= (+ (* 2 x x y) (- 5)) 0) (not (= x 0)))))\n"
@@ -306,7 +306,7 @@ def test_an_unknown_symbol_between_bars_is_said_without_them() -> None:
     with pytest.raises(ParseError, match="the symbol a b is not declared"):
         smtlib.read("(assert (> |a b| 0))")
     assert str(smtlib.read("(declare-const |x| Real)(declare-const |1| Real)(assert (> x |1| 1))")) == (
-        "x - `1` > 0 and `1` - 1 > 0"
+        "x > `1` and `1` > 1"
     )
 
 
@@ -315,7 +315,7 @@ def test_linear_forms_of_many_names_are_read_without_a_value_in_flint() -> None:
     script = f"{declared}(assert (<= (+ (* 2 x3) (- x39 (* (/ 2 3) x5)) 7) (* 4 (- x3 1))))"
     formula = smtlib.read(script)
     assert isinstance(formula, Atom) and "p" not in formula.poly.__dict__
-    assert str(formula) == "6*x3 + 2*x5 - 3*x39 - 33 >= 0"
+    assert str(formula) == "6*x3 + 2*x5 >= 3*x39 + 33"
     assert smtlib.read(f"{script} ; (a comment)") == formula  # which is read by another way than blanks
     with pytest.raises(ParseError, match="malformed number"):
         smtlib.read(script.replace("7", "7x"))

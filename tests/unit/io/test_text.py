@@ -12,53 +12,53 @@ from tests.tables import each
 
 @each(
     ("x>0", "x > 0"),
-    ("x >= 1/2", "2*x - 1 >= 0"),
-    ("1 <= x", "x - 1 >= 0"),
-    ("y - x > 0", "y - x > 0"),
-    ("0.75*x = 1.5e-3", "500*x - 1 = 0"),
-    ("(x + 1)*(x - 1) /= 0", "x^2 - 1 /= 0"),
+    ("x >= 1/2", "x >= 1/2"),
+    ("1 <= x", "x >= 1"),
+    ("y > x", "y > x"),
+    ("0.75*x = 1.5e-3", "x = 1/500"),
+    ("(x + 1)*(x - 1) /= 0", "x^2 /= 1"),
     ("(x - y)^3/3 < 0", "x^3 - 3*x^2*y + 3*x*y^2 - y^3 < 0"),
-    ("-x^2 <= -4", "x^2 - 4 >= 0"),
-    ("2*-x = --1", "2*x + 1 = 0"),
+    ("-x^2 <= -4", "x^2 >= 4"),
+    ("2*-x = --1", "x = -1/2"),
     ("x^0 = 1", "true"),
     ("x^abs(-2) = y^max(1, 3)", "y^3 - x^2 = 0"),
     ("1 < 0", "false"),
     ("x = x and y > 0", "y > 0"),
-    ("0 < x <= 1", "x > 0 and x - 1 <= 0"),
-    ("x = 1 and y = 2 or z = 3", "x - 1 = 0 and y - 2 = 0 or z - 3 = 0"),
-    ("x = 1 and (y = 2 or z = 3)", "x - 1 = 0 and (y - 2 = 0 or z - 3 = 0)"),
+    ("0 < x <= 1", "x > 0 and x <= 1"),
+    ("x = 1 and y = 2 or z = 3", "x = 1 and y = 2 or z = 3"),
+    ("x = 1 and (y = 2 or z = 3)", "x = 1 and (y = 2 or z = 3)"),
     ("x = 0 -> y = 0 -> z = 0", "x /= 0 or y /= 0 or z = 0"),
     ("(x = 0 -> y = 0) -> z = 0", "not (x /= 0 or y = 0) or z = 0"),
     ("x = 0 <-> y = 0", "(x /= 0 or y = 0) and (y /= 0 or x = 0)"),
     ("not x < 0", "x >= 0"),
     ("not not (x < 0 and y < 0)", "x < 0 and y < 0"),
-    ("ex x, y. all z. x*y > z", "ex x, y. all z. x*y - z > 0"),
+    ("ex x, y. all z. x*y > z", "ex x, y. all z. z < x*y"),
     ("ex x. x > 0 and y > 0", "ex x. x > 0 and y > 0"),
     ("(ex x. x > 0) and y > 0", "(ex x. x > 0) and y > 0"),
-    ("y > 0 and ex x. x > y", "y > 0 and ex x. y - x < 0"),
-    ("y > 0 and (ex x. x > y) or z > 0", "y > 0 and (ex x. y - x < 0) or z > 0"),
-    ("not ex x. x > y", "not ex x. y - x < 0"),
-    ("x > 0 and not (ex y. y > x) and x < 5", "x > 0 and not (ex y. x - y < 0) and x - 5 < 0"),
-    ("ex x. ex x. x = a", "ex x. a - x = 0"),
-    ("ex x, x. x = a", "ex x. a - x = 0"),
+    ("y > 0 and ex x. x > y", "y > 0 and ex x. y < x"),
+    ("y > 0 and (ex x. x > y) or z > 0", "y > 0 and (ex x. y < x) or z > 0"),
+    ("not ex x. x > y", "not ex x. y < x"),
+    ("x > 0 and not (ex y. y > x) and x < 5", "x > 0 and not (ex y. x < y) and x < 5"),
+    ("ex x. ex x. x = a", "ex x. a = x"),
+    ("ex x, x. x = a", "ex x. a = x"),
     ("ex x. true", "true"),
     ("x < root(2, x^2 - y, x)", "x < root(2, x^2 - y)"),
     ("root(-1, y - x^2) >= x", "x <= root(-1, x^2 - y)"),
     ("not x = root(1, x^2 - y)", "not (x = root(1, x^2 - y))"),
-    ("E + A > 0 and (E x. x > E)", "E + A > 0 and ex x. E - x < 0"),
-    ("A y, z. y > A + z", "all y, z. A - y + z < 0"),
-    ("x' + x'' = `my name`", "x' + x'' - `my name` = 0"),
-    ("`and` > `x`", "`and` - x > 0"),
+    ("E + A > 0 and (E x. x > E)", "E + A > 0 and ex x. E < x"),
+    ("A y, z. y > A + z", "all y, z. A + z < y"),
+    ("x' + x'' = `my name`", "x' + x'' = `my name`"),
+    ("`and` > `x`", "`and` > x"),
     ("`a\\`b` > `a\\u{a}b`", "`a\\`b` - `a\\u{a}b` > 0"),
-    ("`pi` > 3", "`pi` - 3 > 0"),
-    ("ex e. e > 0 and x < e", "ex e. e > 0 and x - e < 0"),
-    ("ex e. e > 0 and x < e or i = 0", "ex e. e > 0 and x - e < 0 or i = 0"),
-    ("`pi` = 0 or (ex pi. pi > x)", "`pi` = 0 or ex `pi`. `pi` - x > 0"),
-    ("x + E > I", "x + E - I > 0"),
-    ("∃x. x·y ≥ 1 ∧ ¬(x ≠ y)", "ex x. y*x - 1 >= 0 and y - x = 0"),
-    ("Ex u, v. (x-u*v = 0 /\\ ~(y = 0 \\/ z < 1))", "ex u, v. u*v - x = 0 and not (y = 0 or z - 1 < 0)"),
-    ("All x. x != 1 ==> x /= 2 <==> true", "all x. x - 1 = 0 or x - 2 /= 0"),
-    ("forall x. exists y. x < y # a comment\n and y > 0", "all x. ex y. x - y < 0 and y > 0"),
+    ("`pi` > 3", "`pi` > 3"),
+    ("ex e. e > 0 and x < e", "ex e. e > 0 and x < e"),
+    ("ex e. e > 0 and x < e or i = 0", "ex e. e > 0 and x < e or i = 0"),
+    ("`pi` = 0 or (ex pi. pi > x)", "`pi` = 0 or ex `pi`. `pi` > x"),
+    ("x + E > I", "x + E > I"),
+    ("∃x. x·y ≥ 1 ∧ ¬(x ≠ y)", "ex x. y*x >= 1 and y = x"),
+    ("Ex u, v. (x-u*v = 0 /\\ ~(y = 0 \\/ z < 1))", "ex u, v. x = u*v and not (y = 0 or z < 1)"),
+    ("All x. x != 1 ==> x /= 2 <==> true", "all x. x = 1 or x /= 2"),
+    ("forall x. exists y. x < y # a comment\n and y > 0", "all x. ex y. x < y and y > 0"),
 )
 def test_meaning_and_printing(text: str, printed: str) -> None:
     formula = read(text)
@@ -73,7 +73,7 @@ def test_lines_are_counted() -> None:
 
 
 def test_nesting_has_a_limit_and_says_so() -> None:
-    assert write(read("(" * 500 + "x = 1" + ")" * 500)) == "x - 1 = 0"
+    assert write(read("(" * 500 + "x = 1" + ")" * 500)) == "x = 1"
     deep = "x = 1"
     for _ in range(200):
         deep = f"x = 2 or (y = 1 and ({deep}))"
@@ -90,7 +90,7 @@ DIGITS = "1234567890" * 1000
     (" and ".join(f"x > {i}" for i in range(1, 1000)), " and ".join(f"x - {i} > 0" for i in range(1, 1000))),
     (f"x = {DIGITS}", f"x - {DIGITS} = 0"),
     (f"x = {DIGITS}.0", f"x - {DIGITS} = 0"),
-    ("ex x. x = y and (ex y. y > x)", "ex x. y - x = 0 and ex y. y - x > 0"),  # free and bound
+    ("ex x. x = y and (ex y. y > x)", "ex x. y = x and ex y. y > x"),  # free and bound
 )
 def test_long_inputs_are_not_deep_and_numbers_have_any_length(text: str, printed: str) -> None:
     assert write(read(text)) == printed

@@ -27,26 +27,26 @@ def kept(text: str, known: str = "true") -> str | None:
 
 
 @each(
-    ("x^2 < 2 and x < 2", "x^2 - 2 < 0"),
-    ("x^2 <= 2 and x < 2", "x^2 - 2 <= 0"),
-    ("x^2 <= 4 and x <= 2", "x^2 - 4 <= 0"),
-    ("x^2 <= 4 and x < 2", "x - 2 < 0 and x^2 - 4 <= 0"),
-    ("x^2 > 2 and x > 3", "x - 3 > 0"),
-    ("x^2 >= 4 and x >= 2", "x - 2 >= 0"),
+    ("x^2 < 2 and x < 2", "x^2 < 2"),
+    ("x^2 <= 2 and x < 2", "x^2 <= 2"),
+    ("x^2 <= 4 and x <= 2", "x^2 <= 4"),
+    ("x^2 <= 4 and x < 2", "x < 2 and x^2 <= 4"),
+    ("x^2 > 2 and x > 3", "x > 3"),
+    ("x^2 >= 4 and x >= 2", "x >= 2"),
     ("x^2 < 2 and x > 2", None),
-    ("x^2 = 2 and x > 0 and x^3 > 0", "x > 0 and x^2 - 2 = 0"),
+    ("x^2 = 2 and x > 0 and x^3 > 0", "x > 0 and x^2 = 2"),
     ("x^2 <= 0 and x^3 >= 1", None),
-    ("x^2 <= 4 and x = 2", "x - 2 = 0"),
-    ("x^3 > 1 and x /= 1", "x^3 - 1 > 0"),
+    ("x^2 <= 4 and x = 2", "x = 2"),
+    ("x^3 > 1 and x /= 1", "x^3 > 1"),
     ("x^2 > -1 and x^4 + x^2 > -1", ""),
     ("x^2 < -1 and x > 1", None),
-    ("x^2 = 2 and x^4 = 4", "x^2 - 2 = 0"),
+    ("x^2 = 2 and x^4 = 4", "x^2 = 2"),
     ("x^2 - x <= 0 and x^2 = x", "x^2 - x = 0"),
     (
         "10^30*x > 1 and x^3 > 0 and x*(10^30*x - 2) < 0",
-        "1000000000000000000000000000000*x - 1 > 0 and 500000000000000000000000000000*x^2 - x < 0",
+        "x > 1/1000000000000000000000000000000 and 500000000000000000000000000000*x^2 - x < 0",
     ),
-    ("x^3 >= 1 and x /= 1", "x - 1 /= 0 and x^3 - 1 >= 0"),
+    ("x^3 >= 1 and x /= 1", "x /= 1 and x^3 >= 1"),
 )
 def test_atoms_of_one_variable(text: str, left: str | None) -> None:
     found = kept(text)
@@ -56,10 +56,10 @@ def test_atoms_of_one_variable(text: str, left: str | None) -> None:
 
 
 @each(
-    ("x^2 < 9 and y < 1", "0 < x and x < 2", "y - 1 < 0"),
+    ("x^2 < 9 and y < 1", "0 < x and x < 2", "y < 1"),
     ("x^2 > 9", "0 < x and x < 2", None),
-    ("x^2 > 1", "0 < x and x < 2", "x^2 - 1 > 0"),
-    ("x^2 > 1 and x > 0", "x > -5", "x^2 - 1 > 0 and x > 0"),
+    ("x^2 > 1", "0 < x and x < 2", "x^2 > 1"),
+    ("x^2 > 1 and x > 0", "x > -5", "x^2 > 1 and x > 0"),
     ("x^2 > 1", "x > 1", ""),
 )
 def test_what_is_known_counts(text: str, known: str, left: str | None) -> None:

@@ -61,7 +61,7 @@ def test_any_set_as_a_table() -> None:
     at = dict(zip(stack.sectors, [c.truth for c in stack.cells[::2]], strict=True))
     assert at == {x: min(abs(x - r) for r in (-2, 0, 2)) < 1 for x in at} and set(at.values()) == {True, False}
     borders = [c.truth for c in stack.cells[1::2] if "0" in c.signs]
-    assert False in borders, "a - 1 = 0 among others: the conditions are strict"
+    assert False in borders, "a = 1 among others: the conditions are strict"
 
 
 def test_a_single_point_is_no_body() -> None:
@@ -98,7 +98,7 @@ def test_in_space_only_bounded_convex_sets_are_taken_for_convex(
 def test_sentences_and_disjuncts() -> None:
     parts = found("ex x. x^2 <= 2 and x^2 = 2 or x^2 <= 1 and x > 2")
     assert [p.found for p in parts] == [True, False]
-    assert str(parts[1].body) == "x^2 - 1 <= 0 and x - 2 > 0"
+    assert str(parts[1].body) == "x^2 <= 1 and x > 2"
 
 
 @each("ex x. x > a", "ex x. a*x = 1", "ex x. x^2 <= 1 or x > a")

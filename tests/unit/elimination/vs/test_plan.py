@@ -33,7 +33,7 @@ def test_an_equation_gives_all_points() -> None:
 def test_an_equation_that_may_vanish_leaves_a_problem() -> None:
     found = plan("a*x = b and x^2 < c")
     assert found is not None and found.infinities == () and found.degenerate != FALSE
-    assert str(found.degenerate) in ("a = 0 and b = 0 and c - x^2 > 0", "a = 0 and b = 0 and x^2 - c < 0")
+    assert str(found.degenerate) in ("a = 0 and b = 0 and c - x^2 > 0", "a = 0 and b = 0 and c > x^2")
 
 
 @each(("x > a and x > b and x < c", 1, 1), ("x < a and x < b and x > c", -1, 1))
@@ -49,7 +49,7 @@ def test_degree_shift() -> None:
     strict = plan("x^4 > a and x^4 < b", strict=True)
     assert strict is not None and "x > 0" in str(strict.formula)
     odd = plan("x^3 > a and x^3 < b")
-    assert odd is not None and odd.exponent == 3 and str(odd.formula) == "a - x < 0 and b - x > 0"
+    assert odd is not None and odd.exponent == 3 and str(odd.formula) == "a < x and b > x"
     assert (found := plan("x > a and x < b")) is not None and found.exponent == 1
 
 
@@ -67,6 +67,6 @@ def test_the_cheapest_variable() -> None:
 
 def test_equations_that_factor() -> None:
     found = split_equation(over("x*(x - a) = 0 and b > 0"), frozenset({3}))
-    assert found is not None and {str(f) for f in found} == {"x = 0 and b > 0", "a - x = 0 and b > 0"}
+    assert found is not None and {str(f) for f in found} == {"x = 0 and b > 0", "a = x and b > 0"}
     assert split_equation(over("x*(x - a) = 0 and b > 0"), frozenset({4})) is None
     assert split_equation(over("x*(x - a) > 0 and x + a = 0"), frozenset({3})) is None
