@@ -21,7 +21,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import count
+from itertools import count, zip_longest
 from math import floor, lcm
 from typing import Any
 
@@ -335,8 +335,11 @@ def verified(
     ``CertificateRejected``."""
     members = certificate.payload if certificate is not None and isinstance(certificate.payload, tuple) else ()
     labels = [*(label for label, _, _ in said), *(label for label, _ in exactly)]
-    if certificate is None or not members or [member.label for member in members] != labels:
-        raise CertificateRejected("members", f"expected {', '.join(labels) or 'some'}")
+    pairs = zip_longest(labels, (member.label for member in members), fillvalue="none")
+    if differing := next(((wanted, found) for wanted, found in pairs if wanted != found), None):
+        raise CertificateRejected("members", "expected {:.60}, found {:.60}".format(*differing))
+    if certificate is None or not members:
+        raise CertificateRejected("members", "expected some")
     for member, (label, sentence, truth) in zip(members, said, strict=False):
         if is_about(member.certificate, sentence) != truth:
             raise CertificateRejected(label, f"it does not say that the sentence is {truth}")

@@ -64,6 +64,11 @@ def rational(raw: object, place: str) -> Fraction:
         raise CertificateRejected(place, f"expected an exact number, found {error}") from None
 
 
+def row(text: str, place: str) -> tuple[Fraction, ...]:
+    """Exact numbers with spaces between."""
+    return tuple(rational(word, place) for word in text.split())
+
+
 def numbers(rows: Sequence[Any], field: Mapping[str, Any] | None, place: str) -> Vector:
     """Exact numbers from their coefficients in a number field, which is Q for None."""
     if field is None:

@@ -20,12 +20,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import permutations, product
 from math import ceil, hypot, lcm
 
 from bezier.conic import Conic
 from bezier.curves.enclosure import root_below
 from bezier.curves.scalar import dot, subtract
+from bezier.input import stored
 from bezier.scenes.cells import Cell, FreeCells, Point, Side, common_side
 from bezier.scenes.scene import Scene
 from bezier.scenes.sentences import coordinates, enclosing, every, of_sides
@@ -42,32 +44,61 @@ Level = tuple[Point, Fraction]
 """The affine function n . x + c of a door."""
 Key = tuple[int, int]
 START, GOAL = (-1, -1), (-2, -2)
+LENGTH = "length in cell"
+"""How labels of the bound begin."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LengthBound:
-    """``levels``: of every door, by the numbers of its cells; of START and GOAL."""
+    """``levels``: of every door, by the numbers of its cells; of START and GOAL. Without them: the straight line."""
 
     scene: Scene
     fine: int
-    levels: tuple[tuple[Key, Level], ...]
-    slack: Fraction
-    value: Fraction
-    """What no path is shorter than."""
+    levels: tuple[tuple[Key, Level], ...] = ()
+    slack: Fraction = Fraction(0)
 
-    def sentences(self, budget: Budget) -> tuple[Fraction, dict[str, Formula]]:
-        """The bound, and what is to be proved for it: a sentence for each cell; nothing for the straight line."""
+    @property
+    def value(self) -> Fraction:
+        """What no path is shorter than. Raises ``CertificateRejected``."""
+        return self._said[0]
+
+    @property
+    def sentences(self) -> dict[str, Formula]:
+        """What is to be proved for it: a sentence for each cell. Raises ``CertificateRejected``."""
+        return self._said[1]
+
+    @cached_property
+    def _said(self) -> tuple[Fraction, dict[str, Formula]]:
         if not self.levels:
             away = subtract(self.scene.goal, self.scene.start)
             return root_below(Fraction(dot(away, away)), 40), {}
-        (around, walls, free), known = relaxed(self.scene, self.fine, budget), dict(self.levels)
-        rows = {f"length in cell {i}": _matrix(pairs, known, self.slack) for i, pairs in _pairs(self.scene, free)}
-        if free.holding(self.scene.start) is None or any(key not in known for key, _ in _ends(self.scene)):
-            raise CertificateRejected("length", "start or goal is in no cell")
+        (around, walls, free), known = relaxed(self.scene, self.fine, Budget()), dict(self.levels)
+        cells = dict(_pairs(self.scene, free))
+        keys = {START, GOAL, *(key for pairs in cells.values() for pair in pairs for key, _ in pair)}
+        if free.holding(self.scene.start) is None or not keys <= known.keys():
+            raise CertificateRejected("length", "start or goal is in no cell, or a door without a function")
+        rows = {_label(i, pairs, known, self.slack): _matrix(pairs, known, self.slack) for i, pairs in cells.items()}
         first, last = (_value(known[key], p) for key, p in _ends(self.scene))
         quantified = {k: exists(_names(matrix), matrix) for k, matrix in rows.items()}
         said = dict(enclosing(self.scene, around, walls)) | dict(_exits(self.scene, around, walls, free))
         return last - first - len(free.cells) * self.slack, said | quantified
+
+    @staticmethod
+    def read(scene: Scene, labels: Sequence[str]) -> LengthBound | None:
+        """What the labels of a certificate state; None where none does. Raises ``CertificateRejected``."""
+        texts = [label.partition(": ")[2] for label in labels if label.startswith(LENGTH)]
+        levels, slack = dict[Key, Level](), Fraction(0)
+        for text in texts:
+            first, *rows = (stored.row(part, LENGTH) for part in text.split("; "))
+            if len(first) != 1 or any(len(row) != 3 + scene.dimension for row in rows):
+                raise CertificateRejected(LENGTH, "expected a number, then of each door its cells and a function")
+            slack, levels = first[0], levels | {(int(a), int(b)): (tuple(n), c) for a, b, *n, c in rows}
+        return LengthBound(scene, usual(scene), tuple(levels.items()), slack) if texts else None
+
+
+def usual(scene: Scene) -> int:
+    """How fine the polytopes within the obstacles are."""
+    return 2 if scene.dimension == 2 else 0
 
 
 def relaxed(scene: Scene, fine: int, budget: Budget) -> tuple[Cell, list[Cell], FreeCells]:
@@ -86,7 +117,7 @@ def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, 
     there are too many cells or nothing better was proposed."""
     away = subtract(scene.goal, scene.start)
     least = root_below(Fraction(dot(away, away)), 40)
-    straight = LengthBound(scene, fine, (), Fraction(0), least), list[tuple[str, Certificate]]()
+    straight = LengthBound(scene, fine), list[tuple[str, Certificate]]()
     _, _, free = relaxed(scene, fine, budget)
     size, program = scene.dimension, Conic()
     cells = list(_pairs(scene, free))
@@ -131,11 +162,11 @@ def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, 
     value = last - first - len(free.cells) * slack
     if value <= least:
         return straight
-    bound, proofs = LengthBound(scene, fine, tuple(levels.items()), slack, value), []
+    bound, proofs = LengthBound(scene, fine, tuple(levels.items()), slack), []
     for i, pairs in cells:
         matrix = _matrix(pairs, levels, slack)
         place = [c for (a, _), (b, _) in pairs for c in values[i, a, b]]
-        proofs.append((f"length in cell {i}", Certificate.witness(matrix, _names(matrix), place)))
+        proofs.append((_label(i, pairs, levels, slack), Certificate.witness(matrix, _names(matrix), place)))
     return bound, proofs
 
 
@@ -177,6 +208,13 @@ def _leads(side: Side, door: Cell, other: Cell) -> bool:
 
 def _value(level: Level, point: Point) -> Fraction:
     return Fraction(dot(level[0], point)) + level[1]
+
+
+def _label(i: int, pairs: Sequence[tuple[Door, Door]], levels: dict[Key, Level], slack: Fraction) -> str:
+    """What is said of a cell, with the functions of its doors."""
+    keys = dict.fromkeys(key for pair in pairs for key, _ in pair)
+    rows = (" ".join(map(str, (*key, *levels[key][0], levels[key][1]))) for key in keys)
+    return f"{LENGTH} {i}: {'; '.join((str(slack), *rows))}"
 
 
 def _names(matrix: Formula) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import qe
 from bezier.input import stored
-from bezier.scenes.route import Wish, decided
+from bezier.scenes.route import Wish, checked, decided
 from bezier.scenes.scene import load_scene
 from qe.extras import wanted
 from qe.options import Budget
@@ -26,13 +26,16 @@ def run(
     """What to print, the certificate, a ``picture`` of this kind (svg, png, pdf) where one is wanted, and whether there
     is a way.
 
-    ``against``: the file of a certificate that is checked about this scene, in place of a proof that is made; the way
-    or the two sides are looked for again. Raises ``CertificateRejected`` where it is not about them.
+    ``against``: the file of a certificate that is checked about this scene, in place of a search. Raises
+    ``CertificateRejected`` where it is not about it.
     """
-    known = decided(load_scene(file), Budget(), proof=against is None, wish=wish)
+    scene = load_scene(file)
+    if against is None:
+        known = decided(scene, Budget(), wish=wish)
+    else:
+        known = checked(scene, qe.Certificate.from_json(stored.text(against)))
     data, lines = known.to_json(), [str(known)]
     if against is not None:
-        known.check(qe.Certificate.from_json(stored.text(against)))
         data["checked"] = True
         lines.append("accepted")
     drawn = b""

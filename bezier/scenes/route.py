@@ -22,10 +22,11 @@ import qe
 from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, subtract
 from bezier.curves.sentences import said_of, verified
+from bezier.input import stored
 from bezier.input.numbers import NotANumber, parse, shorten
 from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
-from bezier.scenes.bound import LengthBound, least_length
+from bezier.scenes.bound import LengthBound, least_length, usual
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
 from bezier.scenes.region import decomposed
 from bezier.scenes.scene import Scene
@@ -47,6 +48,8 @@ from qe.formula.syntax import FALSE, Formula
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 
+CURVE, MOST_POINTS = "curve", 6
+"""How labels about curves begin; control points of one."""
 DISJOINT = "none beside the walls is on both sides"
 PLANE_STEPS, SPACE_STEPS, MOST_WAYS = (1, 2, 3), (0, 1, 2, 3), 64
 """How fine the polytopes around round bodies are, one after the other: see ``directions``."""
@@ -89,13 +92,28 @@ class Route:
     def sentences(self) -> dict[str, Formula]:
         """What is proved of surfaces, and of the length."""
         said = dict(surfaces(self.scene))
-        return said if self.bound is None else said | self.bound.sentences(Budget())[1]
+        return said if self.bound is None else said | self.bound.sentences
 
     @property
     def refuted(self) -> dict[str, Formula]:
         """What is refuted of each curve: that a point of it is not free."""
         said = map(meeting, map(in_space, self.curves), in_the_way(self.scene, self.curves))
-        return {f"curve {k}": FALSE if s is None else s.formula for k, s in enumerate(said, start=1)}
+        listed = zip(_labels(self.curves), said, strict=True)
+        return {label: FALSE if s is None else s.formula for label, s in listed}
+
+    @staticmethod
+    def read(scene: Scene, certificate: Certificate) -> Route | None:
+        """The path that the labels of a certificate state; None where they state none. Raises
+        ``CertificateRejected``."""
+        labels = [m.label for m in certificate.payload] if isinstance(certificate.payload, tuple) else []
+        texts = (label.partition(": ") for label in labels if label.startswith(CURVE))
+        curves = [tuple(stored.row(point, at) for point in text.split("; ")) for at, _, text in texts]
+        if any(len(curve) not in range(2, MOST_POINTS + 1) for curve in curves):
+            raise CertificateRejected(CURVE, f"expected 2 to {MOST_POINTS} control points")
+        if any(len(point) != scene.dimension for curve in curves for point in curve):
+            raise CertificateRejected(CURVE, f"expected {scene.dimension} coordinates")
+        bound = LengthBound.read(scene, labels)
+        return Route(scene, tuple(curves), certificate, bound) if curves else None
 
     def check(self, certificate: Certificate | None = None) -> None:
         """Verify again, by the scene and the corners alone. Raises ``qe.CertificateRejected``."""
@@ -105,8 +123,6 @@ class Route:
             raise CertificateRejected("path", "it jumps")
         if self.bound is not None and self.bound.scene != self.scene:
             raise CertificateRejected("length", "the bound is about another scene")
-        if self.bound is not None and self.bound.value > self.bound.sentences(Budget())[0]:
-            raise CertificateRejected("length", "the bound is larger than what is said")
         verified(certificate or self.certificate, [*said_of(self.refuted, FALSE), *said_of(self.sentences)])
 
     def to_json(self) -> dict[str, object]:
@@ -235,10 +251,24 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | No
     return replace(known, certificate=Certificate.bundle([*clear, *proved(other, budget), *proofs]))
 
 
+def checked(scene: Scene, certificate: Certificate) -> Route | Blocked:
+    """What a certificate proves about a scene: the path that it states, or that there is none, whose two sides are
+    found again. Raises ``CertificateRejected``."""
+    known = Route.read(scene, certificate) or decided(scene, Budget(), proof=False)
+    known.check(certificate)
+    return replace(known, certificate=certificate)
+
+
+def _labels(curves: Sequence[Curve]) -> list[str]:
+    """Of the members about curves: their control points."""
+    texts = ("; ".join(" ".join(map(str, point)) for point in curve) for curve in curves)
+    return [f"{CURVE} {k}: {text}" for k, text in enumerate(texts, start=1)]
+
+
 def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tuple[str, Certificate]]]:
     """A short path in place of one that is known, which stays where passages are too narrow for floating point."""
     scene, is_plane, short = known.scene, known.scene.dimension == 2, list[Route]()
-    bound, proofs = least_length(scene, 2 if is_plane else 0, budget)
+    bound, proofs = least_length(scene, usual(scene), budget)
     for fine in (2, 1):
         parts = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))
         found = chains(scene, parts.domain, parts.free, wish.degree, min(wish.continuity, wish.degree - 1))
@@ -343,15 +373,15 @@ def _separated(
 def cleared(known: Route, budget: Budget) -> Iterator[tuple[str, Certificate]]:
     """The proof that a curve is free, one after the other. Raises ``Unable``."""
     wholes = in_the_way(known.scene, known.curves)
-    for k, (curve, whole) in enumerate(zip(known.curves, wholes, strict=True), start=1):
+    for label, curve, whole in zip(_labels(known.curves), known.curves, wholes, strict=True):
         budget.check("proof of the route")
         try:
             certificate = clearance_certificate(in_space(curve), whole)
         except InputError:
             certificate = None
         if certificate is None:
-            raise Unable(f"not proved: curve {k}")
-        yield f"curve {k}", certificate
+            raise Unable(f"not proved: {label}")
+        yield label, certificate
 
 
 def proved(sentences: dict[str, Formula], budget: Budget) -> list[tuple[str, Certificate]]:

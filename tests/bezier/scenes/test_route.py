@@ -27,7 +27,7 @@ from bezier.scenes.barrier import barrier
 from bezier.scenes.bound import least_length
 from bezier.scenes.cells import Cell, FreeCells
 from bezier.scenes.region import decomposed
-from bezier.scenes.route import Blocked, Route, Wish, decided, proved
+from bezier.scenes.route import Blocked, Route, Wish, checked, decided, proved
 from bezier.scenes.scene import Scene, given_scene, load_scene
 from bezier.scenes.sentences import COVERED, covering, inside
 from bezier.scenes.solid import Solid, directions, nearest
@@ -390,7 +390,8 @@ def test_a_short_path_is_proved_and_as_smooth_as_asked(degree: int, continuity: 
     assert len(samples) and not np.any(np.all((samples > [4, 0]) & (samples < [6, 5]), axis=1))
     assert found.bound is not None
     for altered in (
-        replace(found, bound=replace(found.bound, value=found.bound.value * 2)),
+        replace(found, bound=replace(found.bound, slack=found.bound.slack * 2)),
+        replace(found, bound=replace(found.bound, levels=found.bound.levels[1:])),
         replace(found, bound=replace(found.bound, slack=-found.bound.slack - 1)),
         replace(found, bound=replace(found.bound, levels=tuple((k, (n, 2 * c)) for k, (n, c) in found.bound.levels))),
         replace(found, curves=found.curves[1:]),
@@ -437,7 +438,31 @@ def test_half_a_door_gives_no_false_bound(monkeypatch: pytest.MonkeyPatch) -> No
     bound, known = least_length(scene, 1, Budget())
     assert bound.value > 2 * 10**0.5 + 2
     with pytest.raises(qe.Unable, match="left by doors"):
-        proved({k: v for k, v in bound.sentences(Budget())[1].items() if k not in dict(known)}, Budget(60))
+        proved({k: v for k, v in bound.sentences.items() if k not in dict(known)}, Budget(60))
+
+
+def test_a_certificate_says_itself_which_path_it_is_about(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """--check without the options of --certificate was rejected: another path was found again. Altered ones are."""
+    scene, file, proof = (
+        {**SCENE, "start": [1, 4], "goal": [9, 4], "obstacle": WALLS[:1]},
+        *(tmp_path / name for name in ("scene.json", "proof.json")),
+    )
+    file.write_text(json.dumps(scene))
+    assert main(["route", str(file), "--shortest", "--degree", "2", "--certificate", str(proof)]) == 0
+    said = capsys.readouterr().out
+    assert main(["route", str(file), "--check", str(proof)]) == 0
+    assert capsys.readouterr().out == f"{said}accepted\n"
+    given, rng = qe.Certificate.from_json(proof.read_text()), random.Random(3)
+    for moved in ({**scene, "goal": [9, 5]}, {**scene, "obstacle": WALLS}):
+        with pytest.raises(qe.CertificateRejected):
+            checked(read_scene(moved), given)
+    for _ in range(40):
+        parts = [[member.label, member.certificate] for member in given.payload]  # type: ignore[union-attr]
+        part = rng.choice([p for p in parts if any(c.isdigit() for c in p[0])])
+        k = rng.choice([k for k, c in enumerate(part[0]) if c.isdigit()])
+        part[0] = f"{part[0][:k]}{rng.choice(['7/', '1', ' ', '; '])}{part[0][k:]}"
+        with pytest.raises(qe.CertificateRejected):
+            checked(read_scene(scene), qe.Certificate.bundle([(label, proved) for label, proved in parts]))
 
 
 @pytest.mark.deep
