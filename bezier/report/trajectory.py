@@ -96,7 +96,7 @@ def page(
 
 def _limited(trajectory: Trajectory, outcome: Outcome) -> Quantity:
     limit = outcome.limit
-    times, values = _samples(trajectory, [[p] for p in limited(trajectory.derivative(limit.order), limit)])
+    times, values = _samples(trajectory, [[limited(trajectory, limit, i)] for i in range(len(trajectory.pieces))])
     y, low = values[:, 0], -limit.high if limit.low is None else limit.low
     return Quantity(
         limit.words(trajectory.names),

@@ -56,11 +56,10 @@ def claims(
     trajectory: Trajectory, limits: Sequence[Limit], factor: Fraction
 ) -> Iterator[tuple[str, list[Poly], Formula]]:
     """Of each piece: its label, by how much limits are exceeded, and the sentence that one is."""
-    rows = [limited(trajectory.derivative(limit.order), limit) for limit in limits]
     for i, length in enumerate(trajectory.lengths):
         excesses = [
-            whole(row[i], sign, bound * factor ** (limit.order * limit.power))
-            for limit, row in zip(limits, rows, strict=True)
+            whole(limited(trajectory, limit, i), sign, bound * factor ** (limit.order * limit.power))
+            for limit in limits
             for sign, bound in limit.sides
         ]
         slower = "" if factor == 1 else f", {factor} times as slow"
@@ -69,8 +68,7 @@ def claims(
 
 def _broken(trajectory: Trajectory, outcome: Outcome) -> tuple[str, list[Poly], Formula]:
     limit, peak = outcome.limit, outcome.peak
-    polys = limited(trajectory.derivative(limit.order)[peak.piece : peak.piece + 1], limit)
-    excess = whole(polys[0], peak.sign, outcome.bound)
+    excess = whole(limited(trajectory, limit, peak.piece), peak.sign, outcome.bound)
     label = f"{limit.words(trajectory.names)} is exceeded in piece {peak.piece + 1}"
     return label, [excess], exceeding(trajectory.lengths[peak.piece], [excess])
 
@@ -99,7 +97,7 @@ def members(verdict: Verdict) -> list[tuple[str, Certificate]]:
 def _time(trajectory: Trajectory, outcome: Outcome) -> Fraction:
     """A rational time at which the limit of the outcome is exceeded."""
     limit, peak = outcome.limit, outcome.peak
-    p = limited(trajectory.derivative(limit.order)[peak.piece : peak.piece + 1], limit)[0]
+    p = limited(trajectory, limit, peak.piece)
     for bits in (16, 32, 64, 128, 256, 512, 1024, 2048):
         low, high = peak.at.interval(bits)
         middle = (low + high) / 2

@@ -10,10 +10,10 @@ Slowed down by k, velocity is 1/k, acceleration 1/k^2, jerk 1/k^3 of what it was
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property, partial
 from math import ceil, comb
 from typing import Any
 
@@ -157,35 +157,42 @@ class Verdict:
 
 def decided(trajectory: Trajectory, limits: Sequence[Limit], tolerance: Fraction) -> Verdict:
     """Everything about these limits, exactly."""
-    highest = max((limit.order for limit in limits), default=0)
-    rows = [trajectory.pieces]
-    for _ in range(highest):
-        rows.append(tuple(tuple(p.derivative() for p in row) for row in rows[-1]))
-    jumps = [trajectory.jump(order, rows[order]) for order in range(max(highest, 1))]
-    outcomes = tuple(_outcome(limit, limited(rows[limit.order], limit), trajectory) for limit in limits)
+    rows, jumps = trajectory.pieces, list[Jump | None]()
+    for order in range(max(1, *(limit.order for limit in limits)) if limits else 1):
+        rows = tuple(tuple(p.derivative() for p in row) for row in rows) if order else rows
+        jumps.append(trajectory.jump(order, rows))
+    axes = {axis for limit in limits if (axis := limit.axis) is not None}
+    tables: dict[int | None, Any] = {axis: _floats([row[axis] for row in trajectory.pieces]) for axis in axes}
+    outcomes = tuple(_outcome(limit, trajectory, tables.get(limit.axis)) for limit in limits)
     return Verdict(trajectory, outcomes, tuple(j for j in jumps if j), tolerance)
 
 
-def limited(rows: Sequence[Sequence[RationalPoly]], limit: Limit) -> list[RationalPoly]:
-    """What a limit compares, of each piece: a derivative of its axis, or the sum of the squares of all axes."""
-    if limit.axis is not None:
-        return [row[limit.axis] for row in rows]
-    return [sum((p * p for p in row), RationalPoly.of([])) for row in rows]
+def limited(trajectory: Trajectory, limit: Limit, piece: int) -> RationalPoly:
+    """What a limit compares on a piece: a derivative of its axis, or the sum of the squares of all axes."""
+    row = trajectory.pieces[piece] if limit.axis is None else (trajectory.pieces[piece][limit.axis],)
+    for _ in range(limit.order):
+        row = tuple(p.derivative() for p in row)
+    return row[0] if limit.axis is not None else sum((p * p for p in row), RationalPoly.of([]))
 
 
-def _outcome(limit: Limit, polys: Sequence[RationalPoly], trajectory: Trajectory) -> Outcome:
-    lengths = trajectory.lengths
-    low, high = _ranges(polys, lengths)
+def _outcome(limit: Limit, trajectory: Trajectory, axis: Any) -> Outcome:
+    """``axis``: the coefficients of its axis in floats, where it has one."""
+    lengths, poly = trajectory.lengths, cache(partial(limited, trajectory, limit))
+    if axis is None:
+        table = _floats([poly(i) for i in range(len(lengths))])
+    else:
+        table = np.polynomial.polynomial.polyder(axis, limit.order, axis=1)
+    low, high = _ranges(table, lengths)
     peaks, kept = list[Peak](), True
     for sign, bound in limit.sides:
         tops = high if sign > 0 else -low
-        peak = _peak(sign, tops, polys, lengths)
+        peak = _peak(sign, tops, poly, lengths)
         peaks.append(peak)
         if peak.value[0] > bound:
             kept = False
         elif peak.value[1] > bound:  # so close that only an exact decision tells
             near = [i for i, top in enumerate(tops.tolist()) if not top < bound]
-            kept = kept and all(is_below(polys[i], lengths[i], sign, bound) for i in near)
+            kept = kept and all(is_below(poly(i), lengths[i], sign, bound) for i in near)
     over = [p.value[0] - bound for p, (_, bound) in zip(peaks, limit.sides, strict=True)]
     return Outcome(limit, peaks[over.index(max(over))], kept)
 
@@ -197,18 +204,23 @@ def is_below(p: RationalPoly, length: Fraction, sign: int, bound: Fraction) -> b
     return not isinstance(decide(bs.from_power(scaled)), Negative)
 
 
-def _ranges(polys: Sequence[RationalPoly], lengths: Sequence[Fraction]) -> tuple[Any, Any]:
-    """Numbers below and above each polynomial on its interval.
+def _floats(polys: Sequence[RationalPoly]) -> Any:
+    """Their coefficients, the constant ones first, (n, degree + 1)."""
+    listed = [p.floats() for p in polys]
+    table = np.zeros((len(listed), max(1, *map(len, listed))))
+    for row, values in zip(table, listed, strict=True):
+        row[: len(values)] = values
+    return table
 
-    A coefficient c_k h^k has a relative error of at most (k + 2) u in floats, u = 2^-53; a Bernstein coefficient of a
+
+def _ranges(table: Any, lengths: Sequence[Fraction]) -> tuple[Any, Any]:
+    """Numbers below and above each polynomial, given by its coefficients, on its interval.
+
+    A coefficient c_k h^k has a relative error of at most (k + 4) u in floats, u = 2^-53; a Bernstein coefficient of a
     polynomial of degree n is a sum of n + 1 of them with weights in [0, 1] (Higham, "Accuracy and Stability of
     Numerical Algorithms", section 3.1). Beyond usual sizes nothing is said.
     """
-    degree = max(max((p.degree for p in polys), default=0), 0)
-    table = np.zeros((len(polys), degree + 1))
-    for i, p in enumerate(polys):
-        if p.degree >= 0:
-            table[i, : p.degree + 1] = p.floats()
+    degree = table.shape[1] - 1
     h = np.array([float(length) for length in lengths])
     weights = np.array([[comb(i, k) / comb(degree, k) for k in range(degree + 1)] for i in range(degree + 1)])
     with np.errstate(all="ignore"):
@@ -220,13 +232,13 @@ def _ranges(polys: Sequence[RationalPoly], lengths: Sequence[Fraction]) -> tuple
         return np.where(usual, values.min(axis=1) - error, -np.inf), np.where(usual, values.max(axis=1) + error, np.inf)
 
 
-def _peak(sign: int, tops: Any, polys: Sequence[RationalPoly], lengths: Sequence[Fraction]) -> Peak:
+def _peak(sign: int, tops: Any, poly: Callable[[int], RationalPoly], lengths: Sequence[Fraction]) -> Peak:
     """Where sign * p may be largest. Pieces in the order of what they may reach, until the rest cannot reach it."""
     best: Peak | None = None
     for i in np.argsort(-tops, kind="stable").tolist():
         if best is not None and tops[i] < best.value[0]:
             break
-        for at, value in _extremes(polys[i], lengths[i], sign):
+        for at, value in _extremes(poly(i), lengths[i], sign):
             if best is None or value[1] > best.value[1]:
                 best = Peak(i, sign, at, value)
     assert best is not None

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
-from flint import fmpq, fmpq_poly
+from flint import arb_poly, fmpq, fmpq_poly
 
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
+from qe.exact.balls import precision
 
 
 class RationalPoly:
@@ -69,12 +70,9 @@ class RationalPoly:
         return tuple(Fraction(int(c), below) for c in self._poly.numer().coeffs())
 
     def floats(self) -> list[float]:
-        """The nearest floats to the coefficients, infinite where they are too large."""
-        below = int(self._poly.denom())
-        try:
-            return [int(c) / below for c in self._poly.numer().coeffs()]
-        except OverflowError:
-            return [float("inf")] * (self.degree + 1)
+        """Floats within 2^-52 of the coefficients, as parts of them; infinite where they are too large."""
+        with precision(160):
+            return [float(c) for c in arb_poly(self._poly)]
 
     def roots(self, low: Fraction, high: Fraction) -> list[RealAlgebraic]:
         """The distinct roots strictly between two rational numbers, ascending; none for 0."""
