@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json as json_text
+import json
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import degrees
@@ -36,7 +36,7 @@ def inverse(
     point: Sequence[Any],
     quaternion: Sequence[Any] | None = None,
     *,
-    json: bool,
+    as_json: bool,
     certified: bool = False,
 ) -> tuple[str, str]:
     """``bezier ik``: at a point, or at a pose. What to print, and the certificate as text where one is asked for.
@@ -46,25 +46,28 @@ def inverse(
         raise InputError(f"{arm.name} has {len(arm.joints)} joints: --quaternion W X Y Z expected, the orientation")
     result = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
     certificate = inverse_certificate(result).to_json() if certified else ""
-    if json:
+    if as_json:
         data = {"status": "solved", **to_json(result), **({"certified": True} if certified else {})}
-        return json_text.dumps(data, indent=1, ensure_ascii=False), certificate
+        return json.dumps(data, indent=1, ensure_ascii=False), certificate
     return "\n".join([*in_words(result), *(["certificate: accepted"] if certified else [])]), certificate
 
 
-def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: bool) -> tuple[str, str]:
-    """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text, if there
-    are any."""
+def certify(
+    channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, as_json: bool, certified: bool = False
+) -> tuple[str, str, bool]:
+    """``bezier certify-path``: what to print, the certificates of the continuous joint motions as text, and whether
+    there are any where they are asked for."""
     result = joint_path(arm, curves)
     listed = certificates(result)
     bundle = Certificate.bundle(listed)
     verdict = verify(bundle)
-    if json:
+    proof, has_proof = bundle.to_json() if listed else "", bool(listed) or not certified
+    if as_json:
         data = {"status": "solved", **path_report.to_json(result), "certified": verdict.accepted}
         data["without_certificate"] = without_certificate(result, listed)
-        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if listed else ""
+        return json.dumps(data, indent=1, ensure_ascii=False), proof, has_proof
     lines = [*path_report.in_words(result), *evidence.in_words(result, listed, verdict)]
-    return "\n".join(lines), bundle.to_json() if listed else ""
+    return "\n".join(lines), proof, has_proof
 
 
 def to_json(answer: Inverse) -> dict[str, Any]:

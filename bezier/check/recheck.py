@@ -43,6 +43,13 @@ ROUNDING = Fraction(1, 10**6)
 """Times are rounded to microseconds."""
 
 
+def run(channel: Channel, folder: FilePath, *, as_json: bool = False) -> str:
+    """``bezier check``: what to print."""
+    lines = recheck(channel, folder)
+    data = {"status": "accepted", "checked": lines}
+    return json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
+
+
 def recheck(channel: Channel, folder: FilePath) -> list[str]:
     """Lines saying what was checked. Raises ``CertificateRejected`` naming the first entry that is wrong."""
     _check_presence(folder)

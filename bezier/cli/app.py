@@ -7,12 +7,12 @@ line on stderr.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from enum import Enum
 from fractions import Fraction
-from functools import partial
-from json import dumps
+from functools import partial, wraps
+from inspect import Parameter, signature
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -46,12 +46,51 @@ TimedPath = Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .y
 Against = Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the file.")]
 Charts = Annotated[Path | None, ending("--page", ".html", help="Write a page with each quantity over time here.")]
 Evidence = Annotated[Path | None, typer.Option("--certificate", help="Write the certificates here.")]
-Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 NoPlots = Annotated[bool, typer.Option("--no-plots", help="No pictures.")]
 TIMEOUT = typer.Option(callback=lambda given: seconds(given, "--timeout"), help="Seconds; enforced.")
 MEMORY = typer.Option(callback=lambda given: mebibytes(given, "--memory"), help="MiB of address space; enforced.")
-Timeout = Annotated[float | None, TIMEOUT]
-Memory = Annotated[int | None, MEMORY]
+ASKED = (
+    Parameter(
+        "json",
+        Parameter.KEYWORD_ONLY,
+        default=False,
+        annotation=Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")],
+    ),
+    Parameter("timeout", Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[float | None, TIMEOUT]),
+    Parameter("memory", Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[int | None, MEMORY]),
+)
+"""What all commands take at last, as ``**asked``."""
+Said = tuple[str, bool]
+"""What a command prints, and whether it found what was asked for."""
+
+
+def answered(work: Callable[..., Any], asked: Mapping[str, Any], *files: Path | None, lines: bool = False) -> Said:
+    """What the work says in a worker, under the limits; its other results go into ``files``, those that are wanted and
+    not empty, whole; one that is true or false at last says whether it found what was asked for."""
+    check_writable(*files)
+    limits = {"timeout": asked["timeout"], "memory": asked["memory"], "plain": asked["json"], "lines": lines}
+    said = limited(partial(work, as_json=asked["json"]), **limits)
+    text, *found = said if isinstance(said, tuple) else (said,)
+    is_success = found.pop() if found and isinstance(found[-1], bool) else True
+    for name, content in zip(files, found, strict=True):
+        if name is not None and content:
+            write_file(name, content)
+    return text, is_success
+
+
+def command(function: Callable[..., Said]) -> Callable[..., int]:
+    """The command that a function is, with the options ``ASKED``; its exit status."""
+
+    @wraps(function)
+    def run(**given: Any) -> int:
+        text, is_success = function(**given)
+        print(text)
+        return OK if is_success else UNABLE
+
+    known = signature(function, eval_str=True)
+    own = [p for p in known.parameters.values() if p.kind is not Parameter.VAR_KEYWORD]
+    run.__signature__ = known.replace(parameters=[*own, *ASKED])  # type: ignore[attr-defined]
+    return run
 
 
 def coordinate(name: str) -> object:
@@ -62,11 +101,9 @@ def coordinate(name: str) -> object:
 def plan(
     problem: ProblemFile,
     out: Out,
-    json: Json = False,
     no_plots: NoPlots = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Plan a path; write report.html, region, path and certificate files into a folder, all or none."""
     from bezier.planner.outputs import all_or_none
     from bezier.problem import load_problem
@@ -75,55 +112,39 @@ def plan(
     with all_or_none(out) as folder:
         from bezier.planner import command
 
-        work = partial(command.plan, problem=read, folder=folder, target=out)
-        work = partial(work, plots=not no_plots, as_json=json, timeout=timeout)
-        text, is_success = limited(work, timeout=timeout, memory=memory, plain=json)
-    print(text)
-    return OK if is_success else UNABLE
+        work = partial(command.plan, problem=read, folder=folder, target=out, plots=not no_plots)
+        return answered(partial(work, timeout=asked["timeout"]), asked)
 
 
 def check(
     folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=False)],
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Verify the certificates in a folder written by plan, prove its path again, and compare every entry."""
-    from bezier.check.recheck import recheck
+    from bezier.check import recheck
 
-    lines = limited(partial(recheck, folder=folder), timeout=timeout, memory=memory, plain=json)
-    print(dumps({"status": "accepted", "checked": lines}, indent=1, ensure_ascii=False) if json else "\n".join(lines))
-    return OK
+    return answered(partial(recheck.run, folder=folder), asked)
 
 
 def clearance(
     source: Annotated[Path, typer.Argument(metavar="DIR|PROBLEM.toml|CURVES.toml", show_default=False)],
     obstacles: Annotated[Path | None, typer.Option("--obstacles", help="A file with [[obstacle]] tables.")] = None,
     certificate: Evidence = None,
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Prove each curve clear of each obstacle for all t, or say where it first meets it."""
     from bezier.check.clearance import clearance as examine
 
-    check_writable(certificate)
-    work = partial(examine, source=source, other=obstacles, as_json=json, timeout=timeout)
-    work = partial(work, evidence=certificate is not None)
-    text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
-    _write((certificate,), files)
-    print(text)
-    return OK
+    work = partial(examine, source=source, other=obstacles, evidence=certificate is not None)
+    return answered(partial(work, timeout=asked["timeout"]), asked, certificate)
 
 
 def compare(
     problem: ProblemFile,
     out: Annotated[Path | None, typer.Option("--out", help="Folder for the page, the pictures and the data.")] = None,
-    json: Json = False,
     no_plots: NoPlots = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Quadratic and cubic curves on one problem, side by side."""
     from bezier.planner.outputs import all_or_none
     from bezier.problem import load_problem
@@ -132,11 +153,8 @@ def compare(
     with nullcontext() if out is None else all_or_none(out) as folder:
         from bezier.compare import command
 
-        work = partial(command.run, problem=read, folder=folder, target=out)
-        work = partial(work, plots=not no_plots, as_json=json, timeout=timeout)
-        text = limited(work, timeout=timeout, memory=memory, plain=json, lines=True)
-    print(text)
-    return OK
+        work = partial(command.run, problem=read, folder=folder, target=out, plots=not no_plots)
+        return answered(partial(work, timeout=asked["timeout"]), asked, lines=True)
 
 
 def ik(
@@ -151,46 +169,34 @@ def ik(
     certificate: Annotated[
         Path | None, typer.Option("--certificate", help="Write the certificate that these are all solutions here.")
     ] = None,
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """All real joint positions that put the end effector of ARM at the point (X, Y, Z)."""
     from bezier.arm.command import inverse
     from bezier.arm.reader import load_arm, read_exact
 
-    check_writable(certificate)
     model, point = load_arm(arm), tuple(read_exact(text) for text in (x, y, z))
     turned = None if quaternion is None else tuple(read_exact(text) for text in quaternion)
-    certified = certificate is not None
-    work = partial(inverse, arm=model, point=point, quaternion=turned, json=json, certified=certified)
-    text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
-    _write((certificate,), files)
-    print(text)
-    return OK
+    work = partial(inverse, arm=model, point=point, quaternion=turned, certified=certificate is not None)
+    return answered(work, asked, certificate)
 
 
 def certify_path(
     arm: ArmName,
     path: RouteFile,
     certificate: Evidence = None,
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Prove that ARM can follow the path for all s in [0, 1], or say exactly where it stops; follow all branches."""
     from bezier.arm.command import certify
     from bezier.arm.reader import load_arm, load_route
 
-    check_writable(certificate)
-    work = partial(certify, arm=load_arm(arm), curves=load_route(path), json=json)
-    text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
-    print(text)
-    if certificate is not None:
-        if not evidence:
-            raise Unable("there is no joint motion along a part of the path, so there is no certificate")
-        write_file(certificate, evidence)
-    return OK
+    work = partial(certify, arm=load_arm(arm), curves=load_route(path), certified=certificate is not None)
+    text, has_proof = answered(work, asked, certificate)
+    if not has_proof:
+        print(text)
+        raise Unable("there is no joint motion along a part of the path, so there is no certificate")
+    return text, True
 
 
 def joints(
@@ -200,10 +206,8 @@ def joints(
     duration: Annotated[str, typer.Option("--duration", help="Seconds, exactly.")] = "50",
     law: Annotated[Law, typer.Option("--law", help="How the path is run through.")] = Law.QUINTIC,
     samples: Annotated[int, typer.Option("--samples", help="Rows of the sequence.")] = 200,
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Find the joint sequence of least change, prove joint velocities and accelerations; write data and a moving
     page."""
     from bezier.arm.reader import load_arm, load_route, read_exact
@@ -217,10 +221,7 @@ def joints(
         from bezier.planner import arm as planner
 
         work = partial(planner.joints, arm=model, curves=curves, law=TimeLaw.of(law), duration=time)
-        work = partial(work, samples=samples, file=path.name, folder=folder, target=out, as_json=json)
-        text, is_followed = limited(work, timeout=timeout, memory=memory, plain=json)
-    print(text)
-    return OK if is_followed else UNABLE
+        return answered(partial(work, samples=samples, file=path.name, folder=folder, target=out), asked)
 
 
 class Interpolation(Enum):
@@ -262,15 +263,12 @@ def certify(
     certificate: Evidence = None,
     check: Against = None,
     page: Charts = None,
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Prove for all t that a trajectory keeps its limits, is clear of a scene and stays near a path, or say exactly
     where it does not, and how much slower it has to be."""
     from bezier.trajectories import command
 
-    check_writable(certificate, page)
     if not any((limits, scene, robot, along)) and (certificate is not None or check is not None):
         raise InputError("--certificate and --check: expected --limits, --scene, --robot or --along, found none")
     if (along is None) != (within is None):
@@ -278,24 +276,14 @@ def certify(
     largest = _number(tolerance, "--tolerance")
     kind = None if interpolation is None else interpolation.value
     work = partial(command.certify, file=file, limits=limits, scene=scene, interpolation=kind, tolerance=largest)
-    work = partial(work, evidence=certificate is not None, against=check, page=page is not None, as_json=json)
+    work = partial(work, evidence=certificate is not None, against=check, page=page is not None)
     if along is not None and within is not None:
         work = partial(work, along=along, within=_number(within, "--within", above=True))
     if robot is not None:
         from bezier.arm.reader import load_arm
 
         work = partial(work, robot=load_arm(robot))
-    text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
-    _write((certificate, page), files)
-    print(text)
-    return OK
-
-
-def _write(names: Sequence[Path | None], contents: Sequence[str | bytes]) -> None:
-    """Whole files, of what is wanted and is not empty."""
-    for name, content in zip(names, contents, strict=True):
-        if name is not None and content:
-            write_file(name, content)
+    return answered(work, asked, certificate, page)
 
 
 def chain(
@@ -304,27 +292,18 @@ def chain(
     check: Against = None,
     page: Annotated[Path | None, ending("--page", ".html", help="Write a page with pictures here.")] = None,
     region: Annotated[str | None, typer.Option("--region", help="Where a point may be: start, via[0], C2.1, …")] = None,
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Find the best chain of curves through many via points, both sides of the optimum proved; or say what excludes it
     and what repairs it."""
     from bezier.chains import command
 
-    check_writable(certificate, page)
     if check is not None:
         if certificate is not None or page is not None or region is not None:
             raise InputError("--check: expected no --certificate, --page and --region with it, found one")
-        work = partial(command.check, file=file, against=check, as_json=json)
-        print(limited(work, timeout=timeout, memory=memory, plain=json))
-        return OK
-    planning = partial(command.run, file=file, evidence=certificate is not None, page=page is not None, as_json=json)
-    planning = partial(planning, region=region)
-    text, *files, is_success = limited(planning, timeout=timeout, memory=memory, plain=json)
-    _write((certificate, page), files)
-    print(text)
-    return OK if is_success else UNABLE
+        return answered(partial(command.check, file=file, against=check), asked)
+    planning = partial(command.run, file=file, region=region, evidence=certificate is not None, page=page is not None)
+    return answered(planning, asked, certificate, page)
 
 
 def route(
@@ -338,25 +317,19 @@ def route(
     degree: Annotated[int, typer.Option("--degree", help="Of its curves, 1 for segments.")] = 3,
     continuity: Annotated[int, typer.Option("--continuity", help="Derivatives of it that are continuous.")] = 1,
     gap: Annotated[str | None, typer.Option(help="Try more ways until it is so close to the shortest, say 5%.")] = None,
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Find a path from start to goal that is clear of all obstacles, or prove that there is none (status 3)."""
     from bezier.scenes import command
     from bezier.scenes.route import Wish
 
-    check_writable(certificate, picture)
     if check is not None and certificate is not None:
         raise InputError("--check: expected no --certificate with it, found one")
-    wish = Wish.of(degree, continuity, gap)
+    wish: Wish | None = Wish.of(degree, continuity, gap)
     kind = "" if picture is None else picture.suffix.lower().removeprefix(".") or "svg"
-    work = partial(command.run, file=file, against=check, picture=kind, as_json=json)
-    work = partial(work, wish=wish if shortest or gap is not None else None)
-    text, proof, drawn, is_free = limited(work, timeout=timeout, memory=memory, plain=json)
-    _write((certificate, picture), (proof, drawn))  # no certificate where start or goal itself is in an obstacle
-    print(text)
-    return OK if is_free else UNABLE
+    wish = wish if shortest or gap is not None else None
+    work = partial(command.run, file=file, against=check, picture=kind, wish=wish)
+    return answered(work, asked, certificate, picture)  # no certificate where start or goal itself is in an obstacle
 
 
 def retime(
@@ -368,27 +341,21 @@ def retime(
     certificate: Evidence = None,
     check: Against = None,
     page: Charts = None,
-    json: Json = False,
-    timeout: Timeout = None,
-    memory: Memory = None,
-) -> int:
+    **asked: Any,
+) -> Said:
     """Run through the path of a trajectory in the least time that keeps all limits for all t, with seconds that no
     motion can beat; both proved."""
     from bezier.retiming import command
 
-    check_writable(out, certificate, page)
     if check is not None and (certificate is not None or law is not Law.LEAST):
         raise InputError("--check: expected no --certificate and --law with it, found one")
     share = _number(accuracy, "--accuracy", above=True)
-    work = partial(command.run, file=file, limits=limits, law=law, accuracy=share, against=check, as_json=json)
+    work = partial(command.run, file=file, limits=limits, law=law, accuracy=share, against=check)
     work = partial(work, evidence=certificate is not None, page=page is not None)
-    text, *files = limited(work, timeout=timeout, memory=memory, plain=json)
-    _write((out, certificate, page), files)
-    print(text)
-    return OK
+    return answered(work, asked, out, certificate, page)
 
 
-COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
+COMMANDS: tuple[tuple[str, Callable[..., Said], str, str], ...] = (
     ("plan", plan, "Plan a path, with its page and proofs.", "examples/three_balls.toml --out out"),
     ("check", check, "Verify the folder of a plan.", "out"),
     ("clearance", clearance, "Curves clear of obstacles, for all t.", "examples/obstacle_curves.toml"),
@@ -414,8 +381,8 @@ COMMANDS: tuple[tuple[str, Callable[..., int], str, str], ...] = (
 """In the order in which the help lists them, each with its line there and an example."""
 
 app = typer.Typer(pretty_exceptions_enable=False, rich_markup_mode=None)
-for _name, _command, _short, _example in COMMANDS:
-    app.command(_name, short_help=_short, epilog=examples(f"bezier {_name} {_example}"))(_command)
+for _name, _function, _short, _example in COMMANDS:
+    app.command(_name, short_help=_short, epilog=examples(f"bezier {_name} {_example}"))(command(_function))
 
 
 def _version(wanted: bool) -> None:

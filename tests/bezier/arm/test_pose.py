@@ -252,8 +252,8 @@ def test_no_quaternion(quaternion: tuple) -> None:
 
 
 def test_the_command() -> None:
-    said = json.loads(command.inverse(None, SIX, (120, 90, 200), (2, 1, -1, 1), json=True)[0])  # type: ignore[arg-type]
+    said = json.loads(command.inverse(None, SIX, (120, 90, 200), (2, 1, -1, 1), as_json=True)[0])  # type: ignore[arg-type]
     assert said["count"] == len(said["solutions"]) > 0
     assert Robot(SIX).inverse_at_pose((120, 90, 200), (2, 1, -1, 1)).count == said["count"]
     with pytest.raises(InputError, match="--quaternion"):
-        command.inverse(None, SIX, (120, 90, 200), json=True)  # type: ignore[arg-type]
+        command.inverse(None, SIX, (120, 90, 200), as_json=True)  # type: ignore[arg-type]
