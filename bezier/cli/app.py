@@ -18,7 +18,6 @@ from typing import Annotated, Any
 
 import typer
 
-from bezier.curves.scalar import rational
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.arguments import mebibytes, seconds
 from qe.cli.shell import OK, UNABLE, check_writable, enter, examples, limited, write_file
@@ -210,12 +209,10 @@ def joints(
 ) -> Said:
     """Find the joint sequence of least change, prove joint velocities and accelerations; write data and a moving
     page."""
-    from bezier.arm.reader import load_arm, load_route, read_exact
+    from bezier.arm.reader import load_arm, load_route
     from bezier.planner.outputs import all_or_none
 
-    time = rational(read_exact(duration))
-    if time is None or time <= 0:
-        raise InputError(f"--duration: a rational number above 0 expected, {duration} found")
+    time = _number(duration, "--duration", above=True)
     model, curves = load_arm(arm), load_route(path)
     with all_or_none(out) as folder:
         from bezier.planner import arm as planner

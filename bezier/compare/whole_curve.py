@@ -116,17 +116,13 @@ def region(problem: Problem, plane: Plane, *, timeout: float | None = None) -> q
     return qe.region(statement(problem, plane).formula, timeout=timeout)
 
 
-def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | None = None) -> bool:
-    """Whether (8) implies (8*) for Q1 in the plane, decided by the engine, one curve at a time.
-
-    ``timeout``: seconds for all of them together. Raises ``Unable`` where it is not decided, ``BudgetExceeded`` at the
-    limit.
-    """
-    return all(answer.truth for answer in implications(problem, plane, timeout=timeout).values())
-
-
 def implications(problem: Problem, plane: Plane, *, timeout: float | None = None) -> dict[str, Any]:
-    """The engine's answers to whether the control polygons bound the curves, up to the first false one, by name."""
+    """The engine's answers to whether the control polygons bound the curves, up to the first false one, by name: (8)
+    implies (8*) for Q1 in the plane where all are true.
+
+    ``timeout``: seconds for all of them together. Raises ``Unable`` where one is not decided, ``BudgetExceeded`` at
+    the limit.
+    """
     budget = Budget(timeout)
     order = ("t", *plane_coordinates(POINT))
     data: dict[str, Any] = {}

@@ -16,7 +16,7 @@ import numpy as np
 from bezier.motion.track import Array, Track
 from qe.arguments import shown, wrong
 from qe.errors import InputError, Unable
-from qe.extras import lacking
+from qe.extras import wanted
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline, PPoly
@@ -51,10 +51,8 @@ def bspline(track: Track) -> BSpline:
 
     A Bézier chain is a B-spline with knots of this multiplicity (Farin, "Curves and Surfaces for CAGD", chapter 8).
     """
-    try:
+    with wanted():
         from scipy.interpolate import BSpline
-    except ImportError as error:
-        raise lacking(error) or error from None
     degree = track.control.shape[1] - 1
     knots = np.concatenate([track.breaks[:1], np.repeat(track.breaks, degree), track.breaks[-1:]])
     points = np.concatenate([track.control[0, :1], track.control[:, 1:].reshape(-1, 3)])
@@ -64,10 +62,8 @@ def bspline(track: Track) -> BSpline:
 def ppoly(track: Track) -> PPoly:
     """The same by powers of the time since the last break; long polynomials get breaks between, as high powers over
     a long time cancel each other in floating point. Raises ``Unable`` where floating point has none of them."""
-    try:
+    with wanted():
         from scipy.interpolate import PPoly
-    except ImportError as error:
-        raise lacking(error) or error from None
     parts = 1
     while track.control.shape[1] - 1 > HIGH * parts:
         track, parts = track.halved(), 2 * parts

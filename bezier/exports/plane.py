@@ -10,7 +10,7 @@ from math import ceil, sqrt
 import numpy as np
 
 from bezier.curves.workspace import WorkspaceKind
-from bezier.motion.track import Array, Track
+from bezier.motion.track import Array, Track, casteljau
 from bezier.pictures.obstacles import ObstaclePicture
 from bezier.problem import Problem
 from qe.arguments import wrong
@@ -38,11 +38,7 @@ def polyline(control: Array, tolerance: float) -> Array:
     wanted = sqrt(degree * (degree - 1) * bend / 8 / tolerance)
     if not wanted < MOST_LINES:
         raise InputError(f"tolerance: one with at most {MOST_LINES} lines for a curve expected, {tolerance:g} found")
-    u = np.linspace(0.0, 1.0, max(1, ceil(wanted)) + 1)[:, None, None]
-    rows = np.repeat(control[None], len(u), axis=0)
-    while rows.shape[1] > 1:
-        rows = rows[:, :-1] * (1 - u) + rows[:, 1:] * u
-    return np.asarray(rows[:, 0])
+    return casteljau(control, np.linspace(0.0, 1.0, max(1, ceil(wanted)) + 1))
 
 
 # --- G-code -------------------------------------------------------------------------------------------------

@@ -132,6 +132,13 @@ class Table:
             raise self.error(key, "a number above zero", str(value))
         return value
 
+    def not_negative(self, key: str) -> Fraction:
+        """An exact number of at least 0, which is 0 without an entry."""
+        value = self.number(key, Fraction(0))
+        if value < 0:
+            raise self.error(key, "a number that is not negative", str(value))
+        return value
+
     def point(self, key: str) -> tuple[Fraction, ...]:
         """A required point of three exact numbers."""
         return self.as_point(key, self.required(key, POINT))

@@ -199,23 +199,26 @@ class Planned:
         return self._track.derivative.derivative.at(t)
 
     # --- for other programs -----------------------------------------------------------------------------
+    @property
+    def _formats(self) -> Any:
+        with wanted():
+            from bezier.exports import formats
+
+        return formats
+
     def to_json(self) -> dict[str, Any]:
         """What ``summary.json`` says, but for files and times."""
         return outputs.facts(self.found)
 
     def to_bspline(self) -> BSpline:
         """The motion as a SciPy ``BSpline`` over time. Raises ``Unable`` without SciPy."""
-        with wanted():
-            from bezier.exports.formats import bspline
-
-        return bspline(self._track)
+        result: BSpline = self._formats.bspline(self._track)
+        return result
 
     def to_ppoly(self) -> PPoly:
         """The motion as a SciPy ``PPoly`` over time. Raises ``Unable`` without SciPy."""
-        with wanted():
-            from bezier.exports.formats import ppoly
-
-        return ppoly(self._track)
+        result: PPoly = self._formats.ppoly(self._track)
+        return result
 
     def to_csv(self) -> str:
         """``motion.csv`` of a plan with limits, else ``path.csv``."""
@@ -228,12 +231,9 @@ class Planned:
         """
         if self.motion is None:
             raise InputError("to_ros: a plan with limits= expected, one without a motion in time found")
-        with wanted():
-            from bezier.exports.formats import ros_trajectory
-
-        return ros_trajectory(
-            self._track, frame=arguments.text(frame, "frame"), joints=joints, rows=arguments.whole(rows, "rows")
-        )
+        frame, rows = arguments.text(frame, "frame"), arguments.whole(rows, "rows")
+        text: str = self._formats.ros_trajectory(self._track, frame=frame, joints=joints, rows=rows)
+        return text
 
     def to_gcode(self, *, plane: str = "xy", tolerance: float = 0.05, feed: float = 1000) -> str:
         """G-code for a pen plotter: chords within ``tolerance`` (mm) of the path in a plane, ``feed`` in mm/min."""
@@ -288,17 +288,11 @@ class Planned:
         return {
             ".csv": self.to_csv,
             ".json": lambda: outputs.path_text(self.found, self.path),
-            ".npz": self._npz,
+            ".npz": lambda: self._formats.npz(self._track),
             ".yaml": self.to_ros,
             ".gcode": self.to_gcode,
             ".svg": self.to_svg,
         }
-
-    def _npz(self) -> bytes:
-        with wanted():
-            from bezier.exports.formats import npz
-
-        return npz(self._track)
 
     def _save_folder(self, target: FilePath, pictures: bool) -> list[FilePath]:
         clock = Clock(seconds=dict(self.found.seconds))

@@ -28,7 +28,7 @@ from typing import Any
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds, curvature_enclosure, length_enclosure
-from bezier.curves.scalar import Vector, add, decimal_text, is_zero, scale
+from bezier.curves.scalar import Vector, add, decimal_text, described, is_zero, scale
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import Extremes, Law, TimeLaw, composed, extremes, least_duration, stretches
 from bezier.paths.path import Path
@@ -229,28 +229,27 @@ def state(path: Path, motion: Motion, tau: Fraction) -> tuple[str, Fraction, tup
     return name, u, (curve.point(u), velocity, acceleration)
 
 
-def motion_json(motion: Motion) -> str:
+def to_json(motion: Motion) -> dict[str, Any]:
     """``motion.json``: law, duration, rigorous extremes, and whether the limits are kept at all times."""
-    data = {
+    bound = {} if motion.at_least is None else {"at_least": described(motion.at_least), "rests": motion.rests}
+    return {
         "law": motion.timing.law.value,
-        "duration": {"exact": str(motion.duration), "decimal": decimal_text(motion.duration)},
+        "duration": described(motion.duration),
         "largest_speed": motion.extremes.speed.to_json(),
         "largest_acceleration": motion.extremes.acceleration.to_json(),
         "limits": {key: str(value) for key, value in motion.timing.limits.items()},
         "kept": motion.kept,
         "units": {"time": "s", "length": "mm"},
+        **bound,
     }
-    if motion.at_least is not None:
-        bound = {"exact": str(motion.at_least), "decimal": decimal_text(motion.at_least)}
-        return json.dumps({**data, "at_least": bound, "rests": motion.rests}, indent=1) + "\n"
-    return json.dumps(data, indent=1) + "\n"
 
 
 def files(path: Path | None, quality: Quality | None) -> dict[str, str]:
     """The data files about the motion."""
     if path is None or quality is None or quality.motion is None:
         return {}
-    return {"motion.csv": motion_csv(path, quality.motion), "motion.json": motion_json(quality.motion)}
+    text = json.dumps(to_json(quality.motion), indent=1) + "\n"
+    return {"motion.csv": motion_csv(path, quality.motion), "motion.json": text}
 
 
 def summary_lines(quality: Quality | None) -> list[str]:
@@ -297,7 +296,7 @@ def json_entries(quality: Quality | None) -> dict[str, Any]:
         "largest_curvatures": {n: None if v is None else v.to_json() for n, v in quality.curvatures.items()},
     }
     if quality.motion is not None:
-        entries["motion"] = json.loads(motion_json(quality.motion))
+        entries["motion"] = to_json(quality.motion)
     data: dict[str, Any] = {"quality": entries}
     if quality.motion is not None and not quality.motion.keeps_limits:
         data |= {"reason": quality.motion.reason, "suggestion": quality.motion.suggestion}

@@ -71,11 +71,15 @@ class Track:
             raise InputError(f"t: times from 0 to {self.end:.12g} expected, {result:.12g} found")
         at = np.clip(np.searchsorted(self.breaks, given, side="right") - 1, 0, len(self.control) - 1)
         low, high = self.breaks[at], self.breaks[at + 1]
-        u = ((given - low) / (high - low))[..., None, None]
-        rows = self.control[at]
-        while rows.shape[-2] > 1:
-            rows = rows[..., :-1, :] * (1 - u) + rows[..., 1:, :] * u
-        return np.asarray(rows[..., 0, :])
+        return casteljau(self.control[at], (given - low) / (high - low))
+
+
+def casteljau(rows: Array, u: Array) -> Array:
+    """The points at ``u`` of curves with these control points, of shape (*u.shape, d+1, axes) or (d+1, axes)."""
+    share = u[..., None, None]
+    while rows.shape[-2] > 1:
+        rows = rows[..., :-1, :] * (1 - share) + rows[..., 1:, :] * share
+    return np.asarray(np.broadcast_to(rows[..., 0, :], (*u.shape, rows.shape[-1])))
 
 
 def _times(times: ArrayLike) -> Array:

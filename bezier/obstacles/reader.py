@@ -194,9 +194,7 @@ def _obstacle(table: Table, index: int) -> Obstacle:
     name = table.values.get("name", f"{kind.value} {index + 1}")
     if not isinstance(name, str) or not name.strip() or not name.isprintable() or len(name) > LONGEST_NAME:
         raise table.error("name", f"a name on one line, of at most {LONGEST_NAME} characters", describe(name))
-    margin = table.number("margin", Fraction(0))
-    if margin < 0:
-        raise table.error("margin", "a number that is not negative", str(margin))
+    margin = table.not_negative("margin")
     if build is None:
         if margin:
             raise table.error("margin", "no margin for a formula (write it into the formula)", shorten(str(margin)))
@@ -316,3 +314,5 @@ _KINDS: Mapping[ObstacleKind, tuple[tuple[str, ...], Reader]] = {
     ObstacleKind.POLYHEDRON: (("half_spaces", "vertices"), _polyhedron),
     ObstacleKind.FORMULA: (("formula",), None),
 }
+KEYS_OF = {kind: keys for kind, (keys, _) in _KINDS.items()}
+"""The keys of each kind, but for those that all have."""

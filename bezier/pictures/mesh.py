@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bezier.curves.workspace import Ball, Condition, HalfSpace
+from bezier.motion.track import casteljau
 from qe.regions.space import direction
 
 Array = NDArray[np.float64]
@@ -182,11 +183,7 @@ def _lines(points: Array) -> list[Array]:
 
 def sampled(control: Sequence[Sequence[Any]], count: int = 61) -> Array:
     """Points of a Bézier curve at equally spaced parameters, by de Casteljau in floating point."""
-    t = np.linspace(0.0, 1.0, count)[:, None, None]
-    rows = np.array([[float(c) for c in p] for p in control])[None, :, :].repeat(count, axis=0)
-    while rows.shape[1] > 1:
-        rows = rows[:, :-1] * (1 - t) + rows[:, 1:] * t
-    return np.asarray(rows[:, 0, :])
+    return casteljau(np.array([[float(c) for c in p] for p in control]), np.linspace(0.0, 1.0, count))
 
 
 def hull(points: Array) -> Array:

@@ -53,7 +53,6 @@ class LengthBound:
     """``levels``: of every door, by the numbers of its cells; of START and GOAL. Without them: the straight line."""
 
     scene: Scene
-    fine: int
     levels: tuple[tuple[Key, Level], ...] = ()
     slack: Fraction = Fraction(0)
 
@@ -72,7 +71,7 @@ class LengthBound:
         if not self.levels:
             away = subtract(self.scene.goal, self.scene.start)
             return root_below(Fraction(dot(away, away)), 40), {}
-        (around, walls, free), known = relaxed(self.scene, self.fine, Budget()), dict(self.levels)
+        (around, walls, free), known = relaxed(self.scene, Budget()), dict(self.levels)
         cells = dict(_pairs(self.scene, free))
         keys = {START, GOAL, *(key for pairs in cells.values() for pair in pairs for key, _ in pair)}
         if free.holding(self.scene.start) is None or not keys <= known.keys():
@@ -93,17 +92,12 @@ class LengthBound:
             if len(first) != 1 or any(len(row) != 3 + scene.dimension for row in rows):
                 raise CertificateRejected(LENGTH, "expected a number, then of each door its cells and a function")
             slack, levels = first[0], levels | {(int(a), int(b)): (tuple(n), c) for a, b, *n, c in rows}
-        return LengthBound(scene, usual(scene), tuple(levels.items()), slack) if texts else None
+        return LengthBound(scene, tuple(levels.items()), slack) if texts else None
 
 
-def usual(scene: Scene) -> int:
-    """How fine the polytopes within the obstacles are."""
-    return 2 if scene.dimension == 2 else 0
-
-
-def relaxed(scene: Scene, fine: int, budget: Budget) -> tuple[Cell, list[Cell], FreeCells]:
+def relaxed(scene: Scene, budget: Budget) -> tuple[Cell, list[Cell], FreeCells]:
     """A polytope around the workspace, polytopes within the obstacles, the cells of the one outside of the others."""
-    normals = directions(scene.dimension, fine)
+    normals = directions(scene.dimension, 2 if scene.dimension == 2 else 0)
     inner = [body.inside(normals) for body in scene.solids]
     sides = [side for part in scene.domain for side in part.around(normals)]
     domain = Cell.within(scene.low, scene.high, sides)
@@ -112,13 +106,13 @@ def relaxed(scene: Scene, fine: int, budget: Budget) -> tuple[Cell, list[Cell], 
     return domain, walls, FreeCells.of(domain, walls, budget)
 
 
-def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, list[tuple[str, Certificate]]]:
+def least_length(scene: Scene, budget: Budget) -> tuple[LengthBound, list[tuple[str, Certificate]]]:
     """A bound that floating point proposes, with the proofs of its sentences; the length of the straight line where
     there are too many cells or nothing better was proposed."""
     away = subtract(scene.goal, scene.start)
     least = root_below(Fraction(dot(away, away)), 40)
-    straight = LengthBound(scene, fine), list[tuple[str, Certificate]]()
-    _, _, free = relaxed(scene, fine, budget)
+    straight = LengthBound(scene), list[tuple[str, Certificate]]()
+    _, _, free = relaxed(scene, budget)
     size, program = scene.dimension, Conic()
     cells = list(_pairs(scene, free))
     if sum(len(xs.corners) * len(ys.corners) for _, pairs in cells for (_, xs), (_, ys) in pairs) > MOST_ROWS:
@@ -162,7 +156,7 @@ def least_length(scene: Scene, fine: int, budget: Budget) -> tuple[LengthBound, 
     value = last - first - len(free.cells) * slack
     if value <= least:
         return straight
-    bound, proofs = LengthBound(scene, fine, tuple(levels.items()), slack), []
+    bound, proofs = LengthBound(scene, tuple(levels.items()), slack), []
     for i, pairs in cells:
         matrix = _matrix(pairs, levels, slack)
         place = [c for (a, _), (b, _) in pairs for c in values[i, a, b]]

@@ -26,7 +26,7 @@ from bezier.input import stored
 from bezier.input.numbers import NotANumber, parse, shorten
 from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
-from bezier.scenes.bound import LengthBound, least_length, usual
+from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
 from bezier.scenes.region import decomposed
 from bezier.scenes.scene import Scene
@@ -98,8 +98,10 @@ class Route:
     def refuted(self) -> dict[str, Formula]:
         """What is refuted of each curve: that a point of it is not free."""
         said = map(meeting, map(in_space, self.curves), in_the_way(self.scene, self.curves))
-        listed = zip(_labels(self.curves), said, strict=True)
-        return {label: FALSE if s is None else s.formula for label, s in listed}
+        listed = dict(zip(_labels(self.curves), said, strict=True))
+        if None in listed.values():
+            raise CertificateRejected(CURVE, "a polynomial along it has too high a degree")
+        return {label: s.formula for label, s in listed.items() if s is not None}
 
     @staticmethod
     def read(scene: Scene, certificate: Certificate) -> Route | None:
@@ -268,7 +270,7 @@ def _labels(curves: Sequence[Curve]) -> list[str]:
 def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tuple[str, Certificate]]]:
     """A short path in place of one that is known, which stays where passages are too narrow for floating point."""
     scene, is_plane, short = known.scene, known.scene.dimension == 2, list[Route]()
-    bound, proofs = least_length(scene, usual(scene), budget)
+    bound, proofs = least_length(scene, budget)
     for fine in (2, 1):
         parts = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))
         found = chains(scene, parts.domain, parts.free, wish.degree, min(wish.continuity, wish.degree - 1))

@@ -17,7 +17,7 @@ from bezier.input.toml_table import Table, read_text
 from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.obstacle import Constraint, Obstacle, half_space, pieces_of
 from bezier.obstacles.polyhedron import Facet, Polytope, from_sides, point, segment
-from bezier.obstacles.reader import MAX_PIECES, read_obstacles
+from bezier.obstacles.reader import KEYS_OF, MAX_PIECES, read_obstacles
 from bezier.scenes.cells import Cell, Point, Side
 from bezier.scenes.mesh import MOST_FACETS, Surface, around_polygons, load_mesh
 from bezier.scenes.solid import ZERO, Solid
@@ -28,13 +28,9 @@ NOTES = ("name", "dim")
 """Keys without a meaning here, which files of scenes often have."""
 _ALSO = {"disc": "ball", "polygon": "polyhedron", "half_plane": "half_space"}
 _PLANE = {
-    "ball": ("centre", "radius"),
-    "box": ("low", "high"),
-    "half_space": ("normal", "offset"),
-    "capsule": ("start", "end", "radius"),
-    "polyhedron": ("half_spaces", "vertices"),
-    "formula": ("formula",),
+    kind.value: keys[:2] if kind is kind.BOX else keys for kind, keys in KEYS_OF.items() if kind is not kind.CYLINDER
 }
+"""Kinds of obstacles and their keys."""
 _COMMON = ("kind", "name", "margin")
 
 
@@ -242,10 +238,7 @@ def _outline(entry: Table, key: str, raw: object) -> list[Point]:
 
 
 def _margin(entry: Table, extra: Fraction) -> Fraction:
-    margin = entry.number("margin", ZERO)
-    if margin < 0:
-        raise entry.error("margin", "a number that is not negative", str(margin))
-    return margin + extra
+    return entry.not_negative("margin") + extra
 
 
 def of_sides(name: str, corners: Sequence[Point], sides: Sequence[Side], margin: Fraction) -> Solid:

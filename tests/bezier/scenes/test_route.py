@@ -33,7 +33,7 @@ from bezier.scenes.sentences import COVERED, covering, inside
 from bezier.scenes.solid import Solid, directions, nearest
 from experiments.problem import ROOT
 from qe.exact.ring import Ring
-from qe.formula.syntax import TRUE
+from qe.formula.syntax import FALSE, TRUE
 from qe.options import Budget
 from tests.tables import each
 
@@ -435,7 +435,7 @@ def test_half_a_door_gives_no_false_bound(monkeypatch: pytest.MonkeyPatch) -> No
         return replace(free, doors=upper)
 
     monkeypatch.setattr(FreeCells, "of", staticmethod(broken))
-    bound, known = least_length(scene, 1, Budget())
+    bound, known = least_length(scene, Budget())
     assert bound.value > 2 * 10**0.5 + 2
     with pytest.raises(qe.Unable, match="left by doors"):
         proved({k: v for k, v in bound.sentences.items() if k not in dict(known)}, Budget(60))
@@ -463,6 +463,19 @@ def test_a_certificate_says_itself_which_path_it_is_about(tmp_path: Path, capsys
         part[0] = f"{part[0][:k]}{rng.choice(['7/', '1', ' ', '; '])}{part[0][k:]}"
         with pytest.raises(qe.CertificateRejected):
             checked(read_scene(scene), qe.Certificate.bundle([(label, proved) for label, proved in parts]))
+
+
+def test_an_obstacle_of_a_high_degree_is_not_left_out_of_a_check() -> None:
+    """A certificate that false is false was accepted for each curve along which a polynomial has a degree above 64."""
+    wall = {"kind": "formula", "formula": "(x - 5)^66 <= 1"}
+    scene = read_scene({**SCENE, "obstacle": [wall]})
+    nothing = qe.Certificate.derivation(("t",), FALSE, [], FALSE)
+    through = Route(scene, ((scene.start, scene.goal),), None)
+    for label in ("curve 1", "curve 1: 1 5; 9 5"):
+        with pytest.raises(qe.CertificateRejected):
+            through.check(qe.Certificate.bundle([(label, nothing)]))
+        with pytest.raises((qe.CertificateRejected, qe.Unable)):
+            checked(scene, qe.Certificate.bundle([(label, nothing)]))
 
 
 @pytest.mark.deep
