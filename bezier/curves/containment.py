@@ -26,8 +26,7 @@ from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import Interval, Negative, Nonnegative, decide, subdivided
 from bezier.curves.scalar import Terms, Vector, exactly, sign
 from bezier.curves.sentences import CurveSentence
-from bezier.curves.workspace import Ball, Condition, HalfSpace
-from qe.errors import InternalError
+from bezier.curves.workspace import Condition, HalfSpace
 from qe.formula.syntax import Relation
 from qe.proof.certificate import Certificate
 
@@ -126,13 +125,11 @@ def margin_terms(condition: Condition) -> Terms:
         size = len(condition.normal)
         linear = {_unit(size, i): exactly(c) for i, c in enumerate(condition.normal)}
         return {(0,) * size: condition.offset, **linear}
-    if isinstance(condition, Ball):
-        centre = [exactly(c) for c in condition.centre]
-        size = len(centre)
-        terms = {_unit(size, i, 2): Fraction(-1) for i in range(size)}
-        terms |= {_unit(size, i): 2 * c for i, c in enumerate(centre)}
-        return {(0,) * size: condition.radius_squared - sum(c * c for c in centre), **terms}
-    raise InternalError(f"no certificate for the condition {condition.name}")
+    centre = [exactly(c) for c in condition.centre]
+    size = len(centre)
+    terms = {_unit(size, i, 2): Fraction(-1) for i in range(size)}
+    terms |= {_unit(size, i): 2 * c for i, c in enumerate(centre)}
+    return {(0,) * size: condition.radius_squared - sum(c * c for c in centre), **terms}
 
 
 def _unit(size: int, i: int, exponent: int = 1) -> tuple[int, ...]:

@@ -11,23 +11,10 @@ from __future__ import annotations
 import operator
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any, Protocol, overload
+from typing import Any
 
-Vector = tuple["Scalar", ...]
-
-
-class Scalar(Protocol):
-    """An element of an ordered field. Mixed arithmetic with ``int`` and ``Fraction`` is exact."""
-
-    def __add__(self, other: Any, /) -> Any: ...
-    def __radd__(self, other: Any, /) -> Any: ...
-    def __sub__(self, other: Any, /) -> Any: ...
-    def __rsub__(self, other: Any, /) -> Any: ...
-    def __mul__(self, other: Any, /) -> Any: ...
-    def __rmul__(self, other: Any, /) -> Any: ...
-    def __truediv__(self, other: Any, /) -> Any: ...
-    def __neg__(self) -> Any: ...
-    def __float__(self) -> float: ...
+Vector = tuple[Any, ...]
+"""Coordinates; mixed arithmetic with ``int`` and ``Fraction`` is exact."""
 
 
 def sign(value: Any) -> int:
@@ -50,16 +37,6 @@ def vector(values: Iterable[Any]) -> Vector:
 def add(a: Sequence[Any], b: Sequence[Any]) -> Vector:
     """a + b, coordinate by coordinate."""
     return tuple(x + y for x, y in zip(a, b, strict=True))
-
-
-@overload
-def subtract(a: Sequence[Fraction], b: Sequence[Fraction]) -> tuple[Fraction, ...]:
-    """Of rational vectors."""
-
-
-@overload
-def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector:
-    """Of vectors in general."""
 
 
 def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector:

@@ -11,25 +11,12 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from math import isqrt
-from typing import Any, Protocol
+from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, dot, sign, subtract
 from qe.exact.algebraic_text import format_root
-
-
-class Condition(Protocol):
-    """A set {p : margin(p) >= 0}; ``name`` is for people."""
-
-    @property
-    def name(self) -> str: ...
-
-    def margin(self, point: Sequence[Any]) -> Any:
-        """Exactly zero on the boundary, positive inside, negative outside."""
-
-    def margin_along(self, curve: Bezier) -> bs.Coefficients:
-        """margin(P(t)) in Bernstein form."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +53,10 @@ class HalfSpace:
     def margin_along(self, curve: Bezier) -> bs.Coefficients:
         """normal . P(t) + offset, of degree n."""
         return tuple(self.margin(p) for p in curve.points)
+
+
+Condition = Ball | HalfSpace
+"""Its margin is exactly zero on the boundary, positive inside, negative outside; ``name`` is for people."""
 
 
 class WorkspaceKind(Enum):

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bezier.curves.workspace import Ball, Condition, HalfSpace
+from bezier.curves.workspace import Ball, Condition
 from bezier.motion.track import casteljau
 from qe.regions.space import direction
 
@@ -104,11 +104,9 @@ def hull_faces(vertices: Array, centre: Array) -> Indices:
 def _numbers(condition: Condition) -> Shape:
     if isinstance(condition, Ball):
         return "ball", np.array([float(c) for c in condition.centre]), float(condition.radius_squared) ** 0.5
-    if isinstance(condition, HalfSpace):
-        normal = np.array([float(c) for c in condition.normal])
-        size = float(np.linalg.norm(normal))
-        return "plane", normal / size, float(condition.offset) / size
-    raise TypeError(f"no picture for {type(condition).__name__}")
+    normal = np.array([float(c) for c in condition.normal])
+    size = float(np.linalg.norm(normal))
+    return "plane", normal / size, float(condition.offset) / size
 
 
 def _margin(shape: Shape, points: Array) -> Array:

@@ -19,7 +19,6 @@ from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, add, dot, exactly, scale, sign, subtract
 from bezier.curves.workspace import Ball, Condition, HalfSpace
 from bezier.methods.control import statements as st
-from qe.errors import InternalError
 
 AXES = "xyz"
 Combination = tuple[tuple[Fraction, str], ...]
@@ -207,14 +206,9 @@ def stated(condition: Condition, point: Sequence[st.Term]) -> st.Statement:
             st.difference(c, st.number(exactly(o))) if o else c for c, o in zip(point, condition.centre, strict=True)
         ]
         return st.at_most(st.squares(away), st.number(exactly(condition.radius_squared)))
-    if isinstance(condition, HalfSpace):
-        parts = [
-            c if n == 1 else st.product(st.number(exactly(n)), c)
-            for n, c in zip(condition.normal, point, strict=True)
-            if n
-        ]
-        return st.at_least(parts[0] if len(parts) == 1 else st.total(parts), st.number(exactly(-condition.offset)))
-    raise InternalError(f"no atom for the condition {condition.name}")
+    pairs = [(n, c) for n, c in zip(condition.normal, point, strict=True) if n]
+    parts = [c if n == 1 else st.product(st.number(exactly(n)), c) for n, c in pairs]
+    return st.at_least(parts[0] if len(parts) == 1 else st.total(parts), st.number(exactly(-condition.offset)))
 
 
 def _combined(terms: Sequence[tuple[Fraction, str]], points: Mapping[str, Vector]) -> Vector:
@@ -229,6 +223,4 @@ def _moved(item: OnPoint, weight: Fraction, rest: Vector) -> Condition:
     if isinstance(condition, Ball):
         centre = scale(1 / weight, subtract(condition.centre, rest))
         return Ball(centre, condition.radius_squared / weight**2, item.label)
-    if isinstance(condition, HalfSpace):
-        return HalfSpace(scale(weight, condition.normal), condition.margin(rest), item.label)
-    raise InternalError(f"cannot move the condition {condition.name}")
+    return HalfSpace(scale(weight, condition.normal), condition.margin(rest), item.label)
