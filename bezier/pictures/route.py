@@ -18,11 +18,10 @@ from bezier.scenes.solid import Solid
 WIDTH, SAMPLES = 4.6, 160
 """Of a view, in inches; of conditions, along an axis."""
 WAY, WALL, SIDE, BODY = COLOURS["P"], "#b42318", "#fedad6", "#adb4c0"
-KINDS = ("svg", "png", "pdf")
 
 
 def drawing(known: Route | Blocked, kind: str = "svg") -> bytes:
-    """A picture of the plane, or of space from above and from the front, as a file of one of ``KINDS``."""
+    """A picture of the plane, or of space from above and from the front, as a file of this kind (svg, png, pdf)."""
     buffer, unsaid = BytesIO(), {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     _figure(known).savefig(buffer, format=kind, dpi=150, metadata=unsaid.get(kind))
     return buffer.getvalue()
@@ -52,12 +51,14 @@ def _view(axis: Any, known: Route | Blocked, i: int, j: int) -> None:
     rims = [outline(part, i, j) for part in scene.domain if part.corners and not part.is_polytope]
     rims = rims or [hull(np.array([low, [high[0], low[1]], high, [low[0], high[1]]]))]
     axis.add_patch(rim := Polygon(rims[0], fill=False, edgecolor=PALE, zorder=3))
-    drawn = []
+    drawn, alpha = [], 1.0 if scene.dimension == 2 else 0.4  # in space silhouettes hide each other
     if isinstance(known, Blocked) and scene.dimension == 2:
         sides = (hull(np.array(cell.floats)) for cell in known.start_side if len(cell.floats) > 2)
         drawn += [axis.fill(*side.T, color=SIDE)[0] for side in sides]
-    drawn += [axis.fill(*outline(body, i, j).T, color=BODY)[0] for body in scene.solids]
-    drawn += [axis.contourf(*_shadow(scene, body, i, j), [0, np.inf], colors=[BODY]) for body in scene.formulas]
+    drawn += [axis.fill(*outline(body, i, j).T, color=BODY, alpha=alpha)[0] for body in scene.solids]
+    drawn += [
+        axis.contourf(*_shadow(scene, body, i, j), [0, np.inf], colors=[BODY], alpha=alpha) for body in scene.formulas
+    ]
     for part in drawn:
         part.set_clip_path(rim)
     if isinstance(known, Route):
