@@ -209,14 +209,10 @@ def not_negative(
 
 def spans(joint: Joint, choice: Choice) -> tuple[Span, ...]:
     """The values of the joint between its limits, ascending and disjoint."""
-    if joint.motion is JointKind.PRISMATIC:
-        return tuple(_lengths(joint, choice))
-    return tuple(_angles(joint, choice))
-
-
-def _lengths(joint: Joint, choice: Choice) -> Iterator[Span]:
-    for low, high in ((None, None),) if choice.arcs is None else choice.arcs:
-        yield from _clipped(joint, Edge(low), Edge(high))
+    if joint.motion is JointKind.REVOLUTE:
+        return tuple(_angles(joint, choice))
+    listed = ((None, None),) if choice.arcs is None else choice.arcs
+    return tuple(span for low, high in listed for span in _clipped(joint, Edge(low), Edge(high)))
 
 
 def _clipped(joint: Joint, low: Edge, high: Edge) -> Iterator[Span]:

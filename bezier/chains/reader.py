@@ -34,8 +34,8 @@ def read_chain(table: Table) -> Chain:
         raise table.error("total", 'this key with durations = "free" only', describe(table.values["total"]))
     return Chain(
         points,
-        _whole(table, "degree", 3),
-        _whole(table, "continuity", 2),
+        table.whole("degree", 3, range(1, 10)),
+        table.whole("continuity", 2, range(1, 10)),
         () if free else _durations(table),
         table.choice("ends", Ends, Ends.FREE),
         closed,
@@ -68,13 +68,6 @@ def _points(table: Table, closed: bool) -> tuple[Point, ...]:
         if points[k] == points[k - 1]:
             raise table.error(named[k][0], f"a point other than {named[k - 1][0]}", "the same")
     return tuple(points)
-
-
-def _whole(table: Table, key: str, usual: int) -> int:
-    value = table.number(key, Fraction(usual))
-    if value.denominator != 1 or not 0 < value < 10:
-        raise table.error(key, "a whole number", str(value))
-    return int(value)
 
 
 def _durations(table: Table) -> tuple[Fraction, ...]:

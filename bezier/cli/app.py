@@ -48,7 +48,7 @@ Evidence = Annotated[Path | None, typer.Option("--certificate", help="Write the 
 NoPlots = Annotated[bool, typer.Option("--no-plots", help="No pictures.")]
 TIMEOUT = typer.Option(callback=lambda given: seconds(given, "--timeout"), help="Seconds; enforced.")
 MEMORY = typer.Option(callback=lambda given: mebibytes(given, "--memory"), help="MiB of address space; enforced.")
-ASKED = (
+COMMON = (
     Parameter(
         "json",
         Parameter.KEYWORD_ONLY,
@@ -58,27 +58,27 @@ ASKED = (
     Parameter("timeout", Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[float | None, TIMEOUT]),
     Parameter("memory", Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[int | None, MEMORY]),
 )
-"""What all commands take at last, as ``**asked``."""
+"""What all commands take at last, as ``**common``."""
 Said = tuple[str, bool]
 """What a command prints, and whether it found what was asked for."""
 
 
-def answered(work: Callable[..., Any], asked: Mapping[str, Any], *files: Path | None, lines: bool = False) -> Said:
+def answered(work: Callable[..., Any], common: Mapping[str, Any], *files: Path | None, lines: bool = False) -> Said:
     """What the work says in a worker, under the limits; its other results go into ``files``, those that are wanted and
     not empty, whole; one that is true or false at last says whether it found what was asked for."""
     check_writable(*files)
-    limits = {"timeout": asked["timeout"], "memory": asked["memory"], "plain": asked["json"], "lines": lines}
-    said = limited(partial(work, as_json=asked["json"]), **limits)
-    text, *found = said if isinstance(said, tuple) else (said,)
-    is_success = found.pop() if found and isinstance(found[-1], bool) else True
-    for name, content in zip(files, found, strict=True):
+    limits = {"timeout": common["timeout"], "memory": common["memory"], "plain": common["json"], "lines": lines}
+    said = limited(partial(work, as_json=common["json"]), **limits)
+    text, *rest = said if isinstance(said, tuple) else (said,)
+    is_success = rest.pop() if rest and isinstance(rest[-1], bool) else True
+    for name, content in zip(files, rest, strict=True):
         if name is not None and content:
             write_file(name, content)
     return text, is_success
 
 
 def command(function: Callable[..., Said]) -> Callable[..., int]:
-    """The command that a function is, with the options ``ASKED``; its exit status."""
+    """The command that a function is, with the options ``COMMON``; its exit status."""
 
     @wraps(function)
     def run(**given: Any) -> int:
@@ -88,7 +88,7 @@ def command(function: Callable[..., Said]) -> Callable[..., int]:
 
     known = signature(function, eval_str=True)
     own = [p for p in known.parameters.values() if p.kind is not Parameter.VAR_KEYWORD]
-    run.__signature__ = known.replace(parameters=[*own, *ASKED])  # type: ignore[attr-defined]
+    run.__signature__ = known.replace(parameters=[*own, *COMMON])  # type: ignore[attr-defined]
     return run
 
 
@@ -101,7 +101,7 @@ def plan(
     problem: ProblemFile,
     out: Out,
     no_plots: NoPlots = False,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Plan a path; write report.html, region, path and certificate files into a folder, all or none."""
     from bezier.planner.outputs import all_or_none
@@ -112,37 +112,37 @@ def plan(
         from bezier.planner import command
 
         work = partial(command.plan, problem=read, folder=folder, target=out, plots=not no_plots)
-        return answered(partial(work, timeout=asked["timeout"]), asked)
+        return answered(partial(work, timeout=common["timeout"]), common)
 
 
 def check(
     folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=False)],
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Verify the certificates in a folder written by plan, prove its path again, and compare every entry."""
     from bezier.check import recheck
 
-    return answered(partial(recheck.run, folder=folder), asked)
+    return answered(partial(recheck.run, folder=folder), common)
 
 
 def clearance(
     source: Annotated[Path, typer.Argument(metavar="DIR|PROBLEM.toml|CURVES.toml", show_default=False)],
     obstacles: Annotated[Path | None, typer.Option("--obstacles", help="A file with [[obstacle]] tables.")] = None,
     certificate: Evidence = None,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Prove each curve clear of each obstacle for all t, or say where it first meets it."""
     from bezier.check.clearance import clearance as examine
 
     work = partial(examine, source=source, other=obstacles, evidence=certificate is not None)
-    return answered(partial(work, timeout=asked["timeout"]), asked, certificate)
+    return answered(partial(work, timeout=common["timeout"]), common, certificate)
 
 
 def compare(
     problem: ProblemFile,
     out: Annotated[Path | None, typer.Option("--out", help="Folder for the page, the pictures and the data.")] = None,
     no_plots: NoPlots = False,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Quadratic and cubic curves on one problem, side by side."""
     from bezier.planner.outputs import all_or_none
@@ -153,7 +153,7 @@ def compare(
         from bezier.compare import command
 
         work = partial(command.run, problem=read, folder=folder, target=out, plots=not no_plots)
-        return answered(partial(work, timeout=asked["timeout"]), asked, lines=True)
+        return answered(partial(work, timeout=common["timeout"]), common, lines=True)
 
 
 def ik(
@@ -168,7 +168,7 @@ def ik(
     certificate: Annotated[
         Path | None, typer.Option("--certificate", help="Write the certificate that these are all solutions here.")
     ] = None,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """All real joint positions that put the end effector of ARM at the point (X, Y, Z)."""
     from bezier.arm.command import inverse
@@ -177,21 +177,21 @@ def ik(
     model, point = load_arm(arm), tuple(read_exact(text) for text in (x, y, z))
     turned = None if quaternion is None else tuple(read_exact(text) for text in quaternion)
     work = partial(inverse, arm=model, point=point, quaternion=turned, certified=certificate is not None)
-    return answered(work, asked, certificate)
+    return answered(work, common, certificate)
 
 
 def certify_path(
     arm: ArmName,
     path: RouteFile,
     certificate: Evidence = None,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Prove that ARM can follow the path for all s in [0, 1], or say exactly where it stops; follow all branches."""
     from bezier.arm.command import certify
     from bezier.arm.reader import load_arm, load_route
 
     work = partial(certify, arm=load_arm(arm), curves=load_route(path), certified=certificate is not None)
-    text, has_proof = answered(work, asked, certificate)
+    text, has_proof = answered(work, common, certificate)
     if not has_proof:
         print(text)
         raise Unable("there is no joint motion along a part of the path, so there is no certificate")
@@ -205,7 +205,7 @@ def joints(
     duration: Annotated[str, typer.Option("--duration", help="Seconds, exactly.")] = "50",
     law: Annotated[Law, typer.Option("--law", help="How the path is run through.")] = Law.QUINTIC,
     samples: Annotated[int, typer.Option("--samples", help="Rows of the sequence.")] = 200,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Find the joint sequence of least change, prove joint velocities and accelerations; write data and a moving
     page."""
@@ -218,7 +218,7 @@ def joints(
         from bezier.planner import arm as planner
 
         work = partial(planner.joints, arm=model, curves=curves, law=TimeLaw.of(law), duration=time)
-        return answered(partial(work, samples=samples, file=path.name, folder=folder, target=out), asked)
+        return answered(partial(work, samples=samples, file=path.name, folder=folder, target=out), common)
 
 
 class Interpolation(Enum):
@@ -260,7 +260,7 @@ def certify(
     certificate: Evidence = None,
     check: Against = None,
     page: Charts = None,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Prove for all t that a trajectory keeps its limits, is clear of a scene and stays near a path, or say exactly
     where it does not, and how much slower it has to be."""
@@ -280,7 +280,7 @@ def certify(
         from bezier.arm.reader import load_arm
 
         work = partial(work, robot=load_arm(robot))
-    return answered(work, asked, certificate, page)
+    return answered(work, common, certificate, page)
 
 
 def chain(
@@ -289,7 +289,7 @@ def chain(
     check: Against = None,
     page: Annotated[Path | None, ending("--page", ".html", help="Write a page with pictures here.")] = None,
     region: Annotated[str | None, typer.Option("--region", help="Where a point may be: start, via[0], C2.1, …")] = None,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Find the best chain of curves through many via points, both sides of the optimum proved; or say what excludes it
     and what repairs it."""
@@ -298,9 +298,9 @@ def chain(
     if check is not None:
         if certificate is not None or page is not None or region is not None:
             raise InputError("--check: expected no --certificate, --page and --region with it, found one")
-        return answered(partial(command.check, file=file, against=check), asked)
+        return answered(partial(command.check, file=file, against=check), common)
     planning = partial(command.run, file=file, region=region, evidence=certificate is not None, page=page is not None)
-    return answered(planning, asked, certificate, page)
+    return answered(planning, common, certificate, page)
 
 
 def route(
@@ -314,7 +314,7 @@ def route(
     degree: Annotated[int, typer.Option("--degree", help="Of its curves, 1 for segments.")] = 3,
     continuity: Annotated[int, typer.Option("--continuity", help="Derivatives of it that are continuous.")] = 1,
     gap: Annotated[str | None, typer.Option(help="Try more ways until it is so close to the shortest, say 5%.")] = None,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Find a path from start to goal that is clear of all obstacles, or prove that there is none (status 3)."""
     from bezier.scenes import command
@@ -326,7 +326,7 @@ def route(
     kind = "" if picture is None else picture.suffix.lower().removeprefix(".") or "svg"
     wish = wish if shortest or gap is not None else None
     work = partial(command.run, file=file, against=check, picture=kind, wish=wish)
-    return answered(work, asked, certificate, picture)  # no certificate where start or goal itself is in an obstacle
+    return answered(work, common, certificate, picture)  # no certificate where start or goal itself is in an obstacle
 
 
 def retime(
@@ -338,7 +338,7 @@ def retime(
     certificate: Evidence = None,
     check: Against = None,
     page: Charts = None,
-    **asked: Any,
+    **common: Any,
 ) -> Said:
     """Run through the path of a trajectory in the least time that keeps all limits for all t, with seconds that no
     motion can beat; both proved."""
@@ -349,7 +349,7 @@ def retime(
     share = _number(accuracy, "--accuracy", above=True)
     work = partial(command.run, file=file, limits=limits, law=law, accuracy=share, against=check)
     work = partial(work, evidence=certificate is not None, page=page is not None)
-    return answered(work, asked, out, certificate, page)
+    return answered(work, common, out, certificate, page)
 
 
 COMMANDS: tuple[tuple[str, Callable[..., Said], str, str], ...] = (

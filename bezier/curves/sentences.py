@@ -336,7 +336,7 @@ def verified(
     members = certificate.payload if certificate is not None and isinstance(certificate.payload, tuple) else ()
     labels = [*(label for label, _, _ in said), *(label for label, _ in exactly)]
     pairs = zip_longest(labels, (member.label for member in members), fillvalue="none")
-    if differing := next(((wanted, found) for wanted, found in pairs if wanted != found), None):
+    if differing := next(((a, b) for a, b in pairs if a != b), None):
         raise CertificateRejected("members", "expected {:.60}, found {:.60}".format(*differing))
     if certificate is None or not members:
         raise CertificateRejected("members", "expected some")

@@ -14,9 +14,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
-from bezier.curves.scalar import Vector
+from bezier.curves.scalar import Vector, exactly
 from bezier.input.toml_table import Table
 from qe.errors import InputError
 
@@ -197,8 +196,8 @@ def read_single(table: Table, start: Vector, via: Via, goal: Vector) -> SingleCu
         axes = [_axis(single, i, start, goal) for i in (1, 2)]
     else:
         axes = [_via_axis(table, i, start, via, goal) for i in (1, 2)]
-    ends, interval = (_exact(start[0]), _exact(goal[0])), (_exact(via[0][0]), _exact(via[1][0]))
-    stated_degree = _whole(single, "degree", USUAL_DEGREE)
+    ends, interval = (exactly(start[0]), exactly(goal[0])), (exactly(via[0][0]), exactly(via[1][0]))
+    stated_degree = single.whole("degree", USUAL_DEGREE, range(MAX_DEGREE + 1))
     try:
         degree = stated_degree if "degree" in single.values else least_degree(ends, interval, USUAL_DEGREE)
         result = task(degree, ends, interval, axes)
@@ -208,7 +207,7 @@ def read_single(table: Table, start: Vector, via: Via, goal: Vector) -> SingleCu
             key, "an interval, a degree and heights that fit together", str(error)
         ) from None
     for key, value in (("p", result.p), ("q", result.q)):
-        if key in single.values and _whole(single, key, value) != value:
+        if key in single.values and single.whole(key, value, range(MAX_DEGREE + 1)) != value:
             raise single.error(key, f"{value}, which follows from a and b", str(single.number(key)))
     stated = {"degree": str(degree), "p": str(result.p), "q": str(result.q)}
     if states_via:
@@ -219,31 +218,19 @@ def read_single(table: Table, start: Vector, via: Via, goal: Vector) -> SingleCu
 
 def _axis(single: Table, i: int, start: Vector, goal: Vector) -> Axis:
     key = f"height_{AXES[i]}"
-    return Axis(AXES[i], _exact(start[i]), _exact(goal[i]), single.positive(key) if key in single.values else None)
+    return Axis(AXES[i], exactly(start[i]), exactly(goal[i]), single.positive(key) if key in single.values else None)
 
 
 def _via_axis(table: Table, i: int, start: Vector, via: Via, goal: Vector) -> Axis:
     """The axis with the height of both via points, or without one where they are on the way from start to goal."""
-    name, heights = AXES[i], (_exact(via[0][i]), _exact(via[1][i]))
-    axis = Axis(name, _exact(start[i]), _exact(goal[i]), None)
+    name, heights = AXES[i], (exactly(via[0][i]), exactly(via[1][i]))
+    axis = Axis(name, exactly(start[i]), exactly(goal[i]), None)
     if heights[0] == heights[1] > 0:
         return replace(axis, height=heights[0])
-    rise, length = axis.goal - axis.start, _exact(goal[0] - start[0])
+    rise, length = axis.goal - axis.start, exactly(goal[0] - start[0])
     if any(
-        (h - axis.start) * length != _exact(point[0] - start[0]) * rise for point, h in zip(via, heights, strict=True)
+        (h - axis.start) * length != exactly(point[0] - start[0]) * rise for point, h in zip(via, heights, strict=True)
     ):
         expected = f"two points with the same {name} above zero, or with {name} as on the way to the goal"
         raise table.error("via", expected, f"{name} = {heights[0]} and {heights[1]}")
     return axis
-
-
-def _exact(value: Any) -> Fraction:
-    """A coordinate of a problem file, which is rational."""
-    return Fraction(value)
-
-
-def _whole(single: Table, key: str, default: int) -> int:
-    value = single.number(key, Fraction(default))
-    if value.denominator != 1 or not 0 <= value <= MAX_DEGREE:
-        raise single.error(key, f"a whole number from 0 to {MAX_DEGREE}", str(value))
-    return int(value)

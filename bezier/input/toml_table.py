@@ -139,6 +139,13 @@ class Table:
             raise self.error(key, "a number that is not negative", str(value))
         return value
 
+    def whole(self, key: str, usual: int, among: range) -> int:
+        """A whole number of a range."""
+        value = self.number(key, Fraction(usual))
+        if value not in among:
+            raise self.error(key, f"a whole number from {among[0]} to {among[-1]}", str(value))
+        return int(value)
+
     def point(self, key: str) -> tuple[Fraction, ...]:
         """A required point of three exact numbers."""
         return self.as_point(key, self.required(key, POINT))

@@ -20,7 +20,7 @@ from typing import Any
 from bezier.curves.scalar import Terms, Vector, dot, exactly, sign, subtract, terms_product, terms_scaled, terms_sum
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.polyhedron import Facet, Point, Polytope
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Formula, Relation
 from qe.proof.certificate import Certificate
@@ -77,6 +77,17 @@ class Constraint:
     def holds(self, value: Any) -> bool:
         """Whether a value of f satisfies the constraint."""
         return sign(value) > 0 if self.strict else sign(value) >= 0
+
+    def formula(self, at: Sequence[Poly], scale: int = 1) -> Formula:
+        """That the point with the coordinates ``at`` over ``scale`` satisfies it; the plane is where z = 0."""
+        whole, zero, degree = lcm(*(c.denominator for _, c in self.terms)), at[0] * 0, self.degree
+        total = zero
+        for exponents, c in self.terms:
+            term = at[0] ** 0 * int(c * whole * scale ** (degree - sum(exponents)))
+            for power, coordinate in zip(exponents, (*at, zero)[:3], strict=True):
+                term = term * coordinate**power
+            total = total + term
+        return atom(total, self.relation)
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,8 +284,8 @@ class PointInside:
 
     def certificate(self) -> Certificate:
         """That the conditions of the piece hold at the place."""
-        constraints = self.obstacle.pieces[self.piece].constraints
-        return Certificate.witness(conj(map(_formula, constraints)), AXES, self.place)
+        constraints, at = self.obstacle.pieces[self.piece].constraints, list(map(Ring.of(AXES).var, AXES))
+        return Certificate.witness(conj(c.formula(at) for c in constraints), AXES, self.place)
 
 
 def inside(points: Mapping[str, Vector], obstacles: Sequence[Obstacle]) -> tuple[PointInside, ...]:
@@ -288,9 +299,3 @@ def inside(points: Mapping[str, Vector], obstacles: Sequence[Obstacle]) -> tuple
             if number is not None:
                 result.append(PointInside(name, place, obstacle, number))
     return tuple(result)
-
-
-def _formula(constraint: Constraint) -> Formula:
-    scale = lcm(*(c.denominator for _, c in constraint.terms))
-    poly = Ring.of(AXES).from_terms({exponents: int(c * scale) for exponents, c in constraint.terms})
-    return atom(poly, Relation.GT if constraint.strict else Relation.GE)

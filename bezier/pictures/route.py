@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from io import BytesIO
 from typing import Any
 
@@ -64,6 +65,9 @@ def _view(axis: Any, known: Route | Blocked, i: int, j: int) -> None:
     if isinstance(known, Route):
         way = np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])
         axis.plot(*way[:, (i, j)].T, color=WAY, linewidth=2)
+    elif scene.dimension == 2 and known.divider is not None:
+        zeros = replace(scene.formulas[0], pieces=((known.divider,),))
+        axis.contour(*_shadow(scene, zeros, i, j), [0], colors=[WALL], linewidths=2)
     elif scene.dimension == 2:
         for wall in known.walls:
             axis.plot(*numbers([wall.start, wall.end]).T, color=WALL, linewidth=2)  # type: ignore[union-attr]

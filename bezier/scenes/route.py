@@ -8,6 +8,9 @@ polytopes, with start in U and goal in V. THEOREM. Where every point of the work
 none that is in no wall is in both, no path within what is free leads from start to goal. PROOF. A path is the image of
 an interval, which is connected; its parts in U and in V are closed in it, disjoint, together all of it, and neither is
 empty. All of this but where start and goal are is said in sentences, proved by the engine and checked by the kernel.
+
+BLOCKED, where formulas touch or are curves: a polynomial of them with different signs at start and goal. THEOREM. Where
+all its zeros in the workspace are in the way, no path is free. PROOF. Along one it would have a zero, in between.
 """
 
 from __future__ import annotations
@@ -20,10 +23,11 @@ from math import ceil
 
 import qe
 from bezier.curves.enclosure import root_above
-from bezier.curves.scalar import dot, subtract
+from bezier.curves.scalar import dot, sign, subtract
 from bezier.curves.sentences import said_of, verified
 from bezier.input import stored
 from bezier.input.numbers import NotANumber, parse, shorten
+from bezier.obstacles.obstacle import Constraint
 from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
 from bezier.scenes.bound import LengthBound, least_length
@@ -39,6 +43,7 @@ from bezier.scenes.sentences import (
     in_the_way,
     of_sides,
     surfaces,
+    taken,
 )
 from bezier.scenes.shortest import chains
 from bezier.scenes.solid import Solid, directions, in_space
@@ -50,6 +55,8 @@ from qe.proof.certificate import Certificate
 
 CURVE, MOST_POINTS = "curve", 6
 """How labels about curves begin; control points of one."""
+DIVIDED, DIVIDING = "the zeros of a polynomial are in the way", 5.0
+"""What is said of a divider; seconds in which that has to be proved."""
 DISJOINT = "none beside the walls is on both sides"
 PLANE_STEPS, SPACE_STEPS, MOST_WAYS = (1, 2, 3), (0, 1, 2, 3), 64
 """How fine the polytopes around round bodies are, one after the other: see ``directions``."""
@@ -168,6 +175,8 @@ class Blocked:
     goal_side: tuple[Cell, ...]
     reason: str
     certificate: Certificate | None
+    divider: Constraint | None = None
+    """Its polynomial has no zero that is free, and different signs at start and goal; then there are no walls."""
 
     blocked = True
 
@@ -175,6 +184,11 @@ class Blocked:
     def sentences(self) -> dict[str, Formula]:
         """What is proved of the walls and the two sides."""
         at = coordinates(self.scene)
+        if self.divider is not None:
+            above, weak = (replace(self.divider, strict=strict) for strict in (True, False))
+            taken_at = taken(self.scene, self.scene.bodies, at, 1)
+            zeros = every(at, disj((above.formula(at), weak.negated.formula(at), taken_at)))
+            return {DIVIDED: zeros} | dict(surfaces(self.scene))
         walls = (cell_of(wall) for wall in self.walls)
         both = conj(disj(of_sides(cell.sides, at) for cell in side) for side in (self.start_side, self.goal_side))
         apart = every(at, disj((neg(both), *(of_sides(cell.sides, at) for cell in walls))))
@@ -187,9 +201,11 @@ class Blocked:
         scene = self.scene
         if any(scene.blocked_at(p) is not None for p in (scene.start, scene.goal)):
             return
-        for side, point, name in ((self.start_side, scene.start, "start"), (self.goal_side, scene.goal, "goal")):
-            if not any(cell.contains(point) for cell in side):
-                raise CertificateRejected("sides", f"the {name} is not on its side")
+        if self.divider is not None and not _divides(self.divider, scene):
+            raise CertificateRejected("sides", "start and goal are on one side of the zeros")
+        for side, point in ((self.start_side, scene.start), (self.goal_side, scene.goal)):
+            if self.divider is None and not any(cell.contains(point) for cell in side):
+                raise CertificateRejected("sides", "start or goal is not on its side")
         verified(certificate or self.certificate, said_of(self.sentences))
 
     def to_json(self) -> dict[str, object]:
@@ -244,7 +260,7 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | No
         why = scene.blocked_at(point)
         if why is not None:
             return Blocked(scene, Cell.box(scene.low, scene.high), (), (), (), f"the {name} is {why}", None)
-    known = (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
+    known = _divided(scene, budget) or (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
     known, proofs = _shortest(known, wish, budget) if wish is not None and isinstance(known, Route) else (known, [])
     if not proof:
         return known
@@ -284,6 +300,23 @@ def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tup
         if short:
             break
     return min(short, key=lambda route: route.length, default=replace(known, bound=bound)), proofs
+
+
+def _divides(condition: Constraint, scene: Scene) -> bool:
+    """Whether its polynomial is positive at one of start and goal, and negative at the other."""
+    one, other = (sign(condition.value((*point, 0)[:3])) for point in (scene.start, scene.goal))
+    return one * other < 0
+
+
+def _divided(scene: Scene, budget: Budget) -> Blocked | None:
+    """By a polynomial of the formulas, where the engine soon proves it."""
+    around = Cell.box(scene.low, scene.high)
+    for c in dict.fromkeys(c for body in scene.formulas for piece in body.pieces for c in piece if _divides(c, scene)):
+        known = Blocked(scene, around, (), (), (), "a curve or surface of a formula separates start and goal", None, c)
+        budget.check("sides of formulas")
+        if qe.eliminate(known.sentences[DIVIDED], timeout=DIVIDING, process=False).truth:
+            return known
+    return None
 
 
 def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:

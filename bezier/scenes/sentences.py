@@ -144,29 +144,9 @@ def along(curve: Curve, said: Callable[[Sequence[Poly], int], Formula]) -> Formu
 
 def inside(body: Solid, at: Sequence[Poly], scale: int = 1) -> Formula:
     """That the point with the coordinates ``at`` over ``scale`` is in a body."""
-    return disj(conj(_holds(c, at, scale) for c in piece) for piece in body.pieces)
-
-
-def _holds(condition: Constraint, at: Sequence[Poly], scale: int) -> Formula:
-    """A condition at a point, times the power of ``scale`` that makes its coefficients whole."""
-    whole = lcm(*(c.denominator for _, c in condition.terms))
-    zero, degree = at[0] * 0, condition.degree
-    total = zero
-    for exponents, c in condition.terms:
-        term = at[0] ** 0 * int(c * whole * scale ** (degree - sum(exponents)))
-        for power, coordinate in zip(exponents, (*at, zero)[:3], strict=True):  # the plane is where z = 0
-            term = term * coordinate**power
-        total = total + term
-    return atom(total, condition.relation)
+    return disj(conj(c.formula(at, scale) for c in piece) for piece in body.pieces)
 
 
 def of_sides(sides: Sequence[Side], at: Sequence[Poly]) -> Formula:
     """That a point is on all these sides."""
-    conditions = []
-    for n, c in sides:
-        whole = lcm(c.denominator, *(x.denominator for x in n))
-        total = at[0] ** 0 * -int(c * whole)
-        for x, coordinate in zip(n, at, strict=True):
-            total = total + int(x * whole) * coordinate
-        conditions.append(atom(total, Relation.LE))
-    return conj(conditions)
+    return conj(half_space((*n, Fraction(0))[:3], c).formula(at) for n, c in sides)

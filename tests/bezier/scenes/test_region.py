@@ -37,7 +37,7 @@ def test_formulas_are_in_the_way(what: str, listed: list[Any], blocked: bool) ->
     found = decided(scene, Budget(60))
     found.check()
     assert found.blocked is blocked
-    if isinstance(found, Blocked) and len(listed) == 1:  # a wall that leaves the formula has no proof
+    if isinstance(found, Blocked) and found.walls and len(listed) == 1:  # a wall that leaves the formula has no proof
         ends = [replace(wall, end=(wall.end[0] + 1, wall.end[1])) for wall in found.walls if isinstance(wall, Wall)]
         with pytest.raises(qe.Unable):
             proved(replace(found, walls=tuple(ends)).sentences, Budget(20))
@@ -67,8 +67,40 @@ def test_a_wall_of_formulas_in_space_is_proved_by_sentences() -> None:
         proved(replace(found, walls=(wide, *found.walls[1:])).sentences, Budget(20))
 
 
-@each(("(x-5)^2 + (y-5)^2 = 9", 5), ("(x-5)^2 + (y-2)^2 <= 4 | (x-5)^2 + (y-7)^2 <= 9", 1))
-def test_what_touches_or_has_no_inside_is_undecided(text: str, x: int, monkeypatch: pytest.MonkeyPatch) -> None:
+@each("y = (x-1)^2 + 4 & y <= 6 | y = 6 & (x-1)^2 <= 2", "(x-5)^2 + (y-2)^2 <= 4 | (x-5)^2 + (y-7)^2 <= 9")
+def test_what_touches_is_undecided(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bezier.scenes.region.SMALLEST", Fraction(1, 64))
     with pytest.raises(qe.Unable, match="boundary of a formula"):
-        decided(read_scene({**SCENE, "start": [x, 5], "obstacle": [formula(text)]}), Budget(60))
+        decided(read_scene({**SCENE, "obstacle": [formula(text)]}), Budget(60))
+
+
+@each(
+    ("a circle", ["(x-5)^2 + (y-5)^2 = 9"], [5, 5], True),
+    ("of two arcs", ["(x-5)^2 + (y-5)^2 = 9 & x <= 5", "(x-5)^2 + (y-5)^2 = 9 & x >= 4"], [5, 5], True),
+    ("with a gap", ["(x-5)^2 + (y-5)^2 = 9 & x <= 6"], [5, 5], False),
+    ("a cubic from rim to rim", ["y - 5 = (x-5)^3 - x"], [1, 5], True),
+    ("the other side of it", ["y - 5 = (x-5)^3 - x"], [9, 1], False),
+)
+def test_a_curve_in_the_way_separates_by_its_signs(
+    what: str, texts: list[str], start: list[int], blocked: bool
+) -> None:
+    scene = read_scene({**SCENE, "start": start, "obstacle": list(map(formula, texts))})
+    known = decided(scene, Budget(60))
+    known.check()
+    assert known.blocked is blocked
+    if not isinstance(known, Blocked):
+        return
+    assert known.divider is not None
+    open_scene = read_scene({**SCENE, "start": start, "obstacle": [formula(f"{t} & y <= 6") for t in texts]})
+    altered = [
+        replace(known, divider=replace(known.divider, terms=known.divider.terms[1:])),
+        replace(known, scene=open_scene),
+        replace(known, scene=replace(scene, start=scene.goal)),
+        replace(known, divider=None),
+    ]
+    for other in altered:
+        with pytest.raises(qe.CertificateRejected):
+            other.check()
+    strict = replace(known, scene=open_scene, divider=replace(known.divider, strict=True))
+    with pytest.raises(qe.Unable):
+        proved(strict.sentences, Budget(20))

@@ -471,11 +471,11 @@ def test_an_obstacle_of_a_high_degree_is_not_left_out_of_a_check() -> None:
     scene = read_scene({**SCENE, "obstacle": [wall]})
     nothing = qe.Certificate.derivation(("t",), FALSE, [], FALSE)
     through = Route(scene, ((scene.start, scene.goal),), None)
-    for label in ("curve 1", "curve 1: 1 5; 9 5"):
+    for name in ("curve 1", "curve 1: 1 5; 9 5"):
         with pytest.raises(qe.CertificateRejected):
-            through.check(qe.Certificate.bundle([(label, nothing)]))
+            through.check(qe.Certificate.bundle([(name, nothing)]))
         with pytest.raises((qe.CertificateRejected, qe.Unable)):
-            checked(scene, qe.Certificate.bundle([(label, nothing)]))
+            checked(scene, qe.Certificate.bundle([(name, nothing)]))
 
 
 @pytest.mark.deep
