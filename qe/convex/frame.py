@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from qe.exact.kkt_system import Flat
-from qe.exact.quadratic_form import Quadratic, combine, solve_linear
+from qe.exact.quadratic_form import Quadratic, combine, dot, solve_linear
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
 _NEAR_ONE = 8  # binary exponent up to which lengths are left as they are
@@ -71,18 +71,17 @@ def _centre(curved: Sequence[Quadratic], linear: Sequence[Quadratic], size: int)
     centre: tuple[Fraction, ...] = (_ZERO,) * size
     free = Flat.whole(size).basis
     if curved:
-        total = combine([1 / max(abs(h) for row in q.hessian for h in row) for q in curved], curved)
-        lowest = solve_linear(total.hessian, [-b for b in total.gradient], size)
+        lowest = combine([1 / max(abs(h) for row in q.hessian for h in row) for q in curved], curved).stationary()
         if lowest is not None:  # the sum may fall for ever
             centre, free = lowest.particular, lowest.kernel
     rows, values = [], []
     for q in linear:
         scale = sum((b * b for b in q.gradient), _ZERO)
         if scale:
-            rows.append([_dot(q.gradient, d) / scale for d in free])
+            rows.append([dot(q.gradient, d) / scale for d in free])
             values.append(q.value(centre) / scale)
-    squares = [[sum((row[i] * row[j] for row in rows), _ZERO) for j in range(len(free))] for i in range(len(free))]
-    right = [-sum((row[i] * v for row, v in zip(rows, values, strict=True)), _ZERO) for i in range(len(free))]
+    columns = [[row[i] for row in rows] for i in range(len(free))]
+    squares, right = [[dot(u, v) for v in columns] for u in columns], [-dot(u, values) for u in columns]
     steps = solve_linear(squares, right, len(free))
     return Flat(centre, free).lift(steps.particular) if steps is not None else centre
 
@@ -112,7 +111,3 @@ def _unit(forms: Sequence[Quadratic]) -> Fraction:
 def _binary(value: Fraction) -> int:
     """About log2 of a positive number; very little for 0."""
     return value.numerator.bit_length() - value.denominator.bit_length() if value else _NONE
-
-
-def _dot(u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:
-    return sum((a * b for a, b in zip(u, v, strict=True)), _ZERO)

@@ -114,8 +114,7 @@ def _pinned(
         pins = []
         for column in free:
             value = Fraction(proposal.point[column]).limit_denominator(denominator)
-            gradient = tuple(Fraction(i == column) for i in range(objective.size))
-            pins.append(Quadratic(((Fraction(0),) * objective.size,) * objective.size, gradient, -value))
+            pins.append(Quadratic.linear([Fraction(i == column) for i in range(objective.size)], -value))
         yield active + pins
 
 

@@ -36,11 +36,6 @@ class LinearFall:
     direction: Numbers
 
 
-def is_linear_problem(objective: Quadratic, forms: Sequence[Quadratic]) -> bool:
-    """Whether nothing is curved."""
-    return objective.is_linear and all(form.is_linear for form in forms)
-
-
 def linear_optimum(
     objective: Quadratic, forms: Sequence[Quadratic], *, check: Callable[[], object]
 ) -> LinearBest | LinearConflict | LinearFall:

@@ -13,16 +13,15 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.convex.frame import centred_frame, lies_far, plain_frame
-from qe.convex.interior_point import interior_point
 from qe.convex.kkt import Kkt, kkt_point, sign
-from qe.convex.linear import LinearConflict, LinearFall, is_linear_problem, linear_optimum
+from qe.convex.linear import LinearConflict, LinearFall, linear_optimum
 from qe.convex.near_optimum import bracket
 from qe.convex.system import ConvexSystem
-from qe.convex.violation import TRUSTED, height, rounded_contradiction, violation_forms
+from qe.convex.violation import height, proposed, violation_forms
 from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.exact.field import NumberField
 from qe.exact.kkt_system import MAX_DEGREE, Flat, HighDegree, Point
-from qe.exact.quadratic_form import Number, Quadratic, solve_linear
+from qe.exact.quadratic_form import Number, Quadratic, Vector, combine, solve_linear
 from qe.options import Budget
 from qe.proof.multipliers import (
     Face,
@@ -64,6 +63,11 @@ class _State:
     flat: Flat
     frame: Frame
     near: bool
+
+    @property
+    def rows(self) -> list[Vector]:
+        """Of the derived equations."""
+        return [e.row for e in self.derived]
 
 
 def solve(system: ConvexSystem, *, budget: Budget, near: bool = False) -> OptimumEvidence:
@@ -126,7 +130,7 @@ def _on_flat(system: ConvexSystem, state: _State, budget: Budget) -> OptimumEvid
     if kkt is not None:
         weights = {keys[k]: m for k, m in kkt.multipliers.items()}
         return _close(system, state, kkt.field, flat.lift(kkt.point), weights, unique=kkt.unique)
-    if is_linear_problem(objective, rest):
+    if objective.is_linear and all(form.is_linear for form in rest):
         return _linear(system, state, objective, forms, budget)
     return _without_multipliers(system, state, {i: forms[i] for i in keys}, budget)
 
@@ -163,7 +167,7 @@ def _linear(
     flat, keys, rationals = state.flat, list(forms), NumberField.rationals()
     outcome = linear_optimum(objective, list(forms.values()), check=lambda: budget.check("optimum: simplex"))
     if isinstance(outcome, LinearFall):
-        direction = Flat((_ZERO,) * len(system.names), flat.basis).lift(outcome.direction)
+        direction = flat.direction(outcome.direction)
         point = flat.lift(outcome.point)
         return evidence_about(
             system, status=OptimumStatus.UNBOUNDED, field=rationals, faces=state.faces, point=point, direction=direction
@@ -182,11 +186,12 @@ def _without_multipliers(
     extended, scales = violation_forms(list(forms.values()), size)
     kkt = _least(height(size), extended, budget, _SIMPLE_DEGREE)
     if kkt is None:
-        contradiction = _contradiction(list(forms.values()), extended, scales)
-        if contradiction is not None:
-            point, rounded = contradiction
+        _, rounded = proposed(list(forms.values()))
+        lowest = None if rounded is None else combine(rounded, list(forms.values())).stationary()
+        if rounded is not None and lowest is not None:
             rational: dict[int, Number] = {i: w for i, w in zip(forms, rounded, strict=True) if w}
-            return _close(system, state, NumberField.rationals(), state.flat.lift(point), rational, infeasible=True)
+            point = state.flat.lift(lowest.particular)
+            return _close(system, state, NumberField.rationals(), point, rational, infeasible=True)
         kkt = _least(height(size), extended, budget, MAX_DEGREE)
     if kkt is None:
         raise Unable("the largest violation of the constraints could not be minimised exactly")
@@ -198,18 +203,6 @@ def _without_multipliers(
     if violation == 0:
         return _face(system, state, point, weights)
     return _recede(system, state, kkt.field, point, budget)
-
-
-def _contradiction(
-    forms: Sequence[Quadratic], extended: Sequence[Quadratic], scales: Sequence[Fraction]
-) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]] | None:
-    size = forms[0].size
-    try:
-        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
-    except OverflowError:  # numbers beyond the range of floats
-        return None
-    clear = proposal.residual < TRUSTED and proposal.point[-1] > 0
-    return rounded_contradiction(proposal, forms, scales) if clear else None
 
 
 def _least(
@@ -245,14 +238,12 @@ def _face(system: ConvexSystem, state: _State, point: Point, weights: dict[int, 
     if chosen is None or place is None:
         raise Unable("the constraints touch in an irrational point or affine hull without common interior")
     exact: dict[int, Number] = dict(zip(weights, chosen, strict=True))
-    full, derived = _with_equations(system, state, place, exact, with_objective=False)
+    full, derived = with_equations(system, state.rows, place, exact, with_objective=False)
     face = Face(_fractions(full), _fractions(derived), place)
     equations = derived_equations(face, system.forms, system.relations)
     known = (*state.derived, *equations)
-    size = len(system.names)
     rows = [f for f, r in zip(system.forms, system.relations, strict=True) if r is FormRelation.EQ]
-    nothing = ((_ZERO,) * size,) * size
-    flat = Flat.whole(size).cut(rows + [Quadratic(nothing, e.row, -e.rhs) for e in known])
+    flat = Flat.whole(len(system.names)).cut(rows + [Quadratic.linear(e.row, -e.rhs) for e in known])
     if flat is None or len(flat.basis) >= len(state.flat.basis):
         raise Unable("facial reduction found no smaller affine hull")
     return replace(state, faces=(*state.faces, face), derived=known, flat=state.frame(flat, system.forms))
@@ -265,10 +256,11 @@ def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:
     return out
 
 
-def _with_equations(
-    system: ConvexSystem, state: _State, point: Point, weights: dict[int, Number], *, with_objective: bool
+def with_equations(
+    system: ConvexSystem, derived: Sequence[Vector], point: Point, weights: dict[int, Number], *, with_objective: bool
 ) -> tuple[Point, Point]:
-    """Multipliers of all constraints and of the derived equations that make the weighted sum stationary at point."""
+    """Multipliers of all constraints and of the derived equations, of which ``derived`` has the rows, that make the
+    weighted sum stationary at point."""
     size = len(system.names)
     target: list[Number] = [_ZERO] * size
     if with_objective:
@@ -276,7 +268,7 @@ def _with_equations(
     for i, w in weights.items():
         target = [t - w * d for t, d in zip(target, system.forms[i].slope(point), strict=True)]
     linear = [i for i, r in enumerate(system.relations) if r is FormRelation.EQ]
-    rows = [system.forms[i].gradient for i in linear] + [e.row for e in state.derived]
+    rows = [*(system.forms[i].gradient for i in linear), *derived]
     solution = solve_linear([[row[j] for row in rows] for j in range(size)], target, len(rows))
     if solution is None:
         raise InternalError("stationarity on an affine hull does not extend to the whole space")
@@ -303,7 +295,7 @@ def _close(
     For infeasibility the point has to be stationary for the weighted sum alone; on a flat where that sum is constant
     every point is.
     """
-    multipliers, derived = _with_equations(system, state, point, weights, with_objective=not infeasible)
+    multipliers, derived = with_equations(system, state.rows, point, weights, with_objective=not infeasible)
     return evidence_about(
         system,
         status=OptimumStatus.INFEASIBLE if infeasible else OptimumStatus.OPTIMAL,
@@ -340,7 +332,6 @@ def _recede(system: ConvexSystem, state: _State, field: NumberField, point: Poin
     box |d_j| <= 1 is negative iff there is such a direction (Rockafellar 1970, theorems 8.3 and 27.1).
     """
     size = len(system.names)
-    nothing = ((_ZERO,) * size,) * size
     rows = [row for row in system.objective.hessian if any(row)]
     halves: list[tuple[Fraction, ...]] = []
     for form, relation in zip(system.forms, system.relations, strict=True):
@@ -349,13 +340,12 @@ def _recede(system: ConvexSystem, state: _State, field: NumberField, point: Poin
             rows.append(form.gradient)
         elif any(form.gradient):
             halves.append(form.gradient)
-    linear = [Quadratic(nothing, tuple(row), _ZERO) for row in rows]
-    bounded = [Quadratic(nothing, half, _ZERO) for half in halves]
+    linear, bounded = list(map(Quadratic.linear, rows)), list(map(Quadratic.linear, halves))
     for j in range(size):
         for direction in (_ONE, -_ONE):
-            bounded.append(Quadratic(nothing, tuple(direction * (k == j) for k in range(size)), -_ONE))
+            bounded.append(Quadratic.linear([direction * (k == j) for k in range(size)], -1))
     relations = (FormRelation.EQ,) * len(linear) + (FormRelation.LE,) * len(bounded)
-    cone = ConvexSystem(system.names, _linear_part(system.objective), (*linear, *bounded), relations)
+    cone = ConvexSystem(system.names, Quadratic.linear(system.objective.gradient), (*linear, *bounded), relations)
     best = solve(cone, budget=budget)
     towards = rational_numbers(best.point)
     slope = sum((a * b for a, b in zip(system.objective.gradient, towards or (), strict=False)), _ZERO)
@@ -364,9 +354,3 @@ def _recede(system: ConvexSystem, state: _State, field: NumberField, point: Poin
     return evidence_about(
         system, status=OptimumStatus.UNBOUNDED, field=field, faces=state.faces, point=point, direction=towards
     )
-
-
-def _linear_part(form: Quadratic) -> Quadratic:
-    """The linear part of a quadratic polynomial, without its constant."""
-    size = form.size
-    return Quadratic(((_ZERO,) * size,) * size, form.gradient, _ZERO)

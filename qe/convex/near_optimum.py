@@ -16,7 +16,7 @@ from itertools import count, islice
 
 from qe.convex.violation import proposed
 from qe.exact.kkt_system import HighDegree
-from qe.exact.quadratic_form import Quadratic, combine, solve_linear
+from qe.exact.quadratic_form import Quadratic, combine, dot, solve_linear
 
 GAP = Fraction(1, 10**9)
 """The proved difference of the two sides is at most this share of the value."""
@@ -46,7 +46,7 @@ def bracket(
     inside = proposed(forms)[0] if value else None
     if inside is None:
         return None
-    unit = _power_of_ten(abs(value))
+    unit = Fraction(10) ** (len(str(abs(value.numerator))) - len(str(value.denominator)))
     scaled, room = combine([1 / unit], [objective]), abs(value) / unit * GAP / 2
     dual = _dual(scaled, forms, known, value / unit - room, check)
     point = _primal(scaled, forms, known.near, inside, value / unit + room, check)
@@ -67,13 +67,14 @@ def _dual(
     for exact in islice(_rounded_weights(objective, active, known.near), _PLACES):
         check()
         total = combine([_ONE, *exact], [objective, *active])
-        solution = solve_linear(total.hessian, [-b for b in total.gradient], total.size)
+        solution = total.stationary()
         if min(exact, default=_ZERO) < 0 or solution is None:
             continue
         value = total.value(solution.particular)
         if value > least:
             named = {i: w for i, w in zip(known.support, exact, strict=True) if w}
-            return named, solution.particular, _short_between(least, value)
+            decimals = (_decimal((least + value) / 2, places) for places in count())
+            return named, solution.particular, next(d for d in decimals if least <= d <= value)
     return None
 
 
@@ -86,15 +87,15 @@ def _rounded_weights(
     only those that they leave free are rounded.
     """
     slopes = [form.slope(near) for form in active]
-    gram = [[_dot(u, v) for v in slopes] for u in slopes]
+    gram = [[dot(u, v) for v in slopes] for u in slopes]
     target = objective.slope(near)
-    fitted = solve_linear(gram, [-_dot(u, target) for u in slopes], len(active))
+    fitted = solve_linear(gram, [-dot(u, target) for u in slopes], len(active))
     rows = [row for form in (objective, *active) for row in form.hessian if any(row)]
     flat = solve_linear(rows, [_ZERO] * len(rows), objective.size)
     if fitted is None or flat is None:
         return
-    straight = [[_dot(form.gradient, d) for form in active] for d in flat.kernel]
-    exact = solve_linear(straight, [-_dot(objective.gradient, d) for d in flat.kernel], len(active))
+    straight = [[dot(form.gradient, d) for form in active] for d in flat.kernel]
+    exact = solve_linear(straight, [-dot(objective.gradient, d) for d in flat.kernel], len(active))
     if exact is None:
         return
     for places in count(2):
@@ -125,19 +126,5 @@ def _primal(
     return None
 
 
-def _power_of_ten(size: Fraction) -> Fraction:
-    """One of about this size."""
-    return Fraction(10) ** (len(str(size.numerator)) - len(str(size.denominator)))
-
-
 def _decimal(value: Fraction, places: int) -> Fraction:
     return Fraction(round(value * 10**places), 10**places)
-
-
-def _short_between(low: Fraction, high: Fraction) -> Fraction:
-    """A number between two different ones with as few decimals as possible."""
-    return next(d for places in count() if low <= (d := _decimal((low + high) / 2, places)) <= high)
-
-
-def _dot(u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:
-    return sum((a * b for a, b in zip(u, v, strict=True) if a and b), _ZERO)

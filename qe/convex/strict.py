@@ -16,7 +16,7 @@ from fractions import Fraction
 
 from qe.convex.alternative import Balance, alternative
 from qe.convex.kkt import sign
-from qe.convex.minimise import evidence_about
+from qe.convex.minimise import evidence_about, with_equations
 from qe.convex.system import ConvexSystem
 from qe.errors import InternalError
 from qe.exact.kkt_system import Point
@@ -116,7 +116,9 @@ def _strictly_inside(system: ConvexSystem, x: Point, equations: Sequence[Vector]
             return _moved(
                 system, x, [dot(outcome.direction, column) for column in zip(*solution.kernel, strict=True)], budget
             )
-        link = _link(system, slopes, {keys[k]: w for k, w in outcome.weights.items()}, rows)
+        weights = {keys[k]: w for k, w in outcome.weights.items()}
+        derived = rows[system.relations.count(FormRelation.EQ) :]
+        link = FaceLink(*with_equations(system, derived, x, weights, with_objective=False))
         links.append(link)
         if any(r is FormRelation.LT and w for r, w in zip(system.relations, link.weights, strict=True)):
             return _Excluded(tuple(links))
@@ -129,24 +131,6 @@ def _vanishes(system: ConvexSystem, i: int, slope: Sequence[Number], directions:
     if system.relations[i] is FormRelation.LT or any(slope):
         return False
     return not any(dot(row, d) for d in directions for row in system.forms[i].hessian)
-
-
-def _link(
-    system: ConvexSystem, slopes: dict[int, list[Number]], weights: dict[int, Number], rows: Sequence[Vector]
-) -> FaceLink:
-    """The weights together with multipliers of the equations, which make the weighted sum stationary."""
-    size = len(system.names)
-    target: list[Number] = [_ZERO] * size
-    for i, w in weights.items():
-        target = [t - w * s for t, s in zip(target, slopes[i], strict=True)]
-    solution = solve_linear([[row[j] for row in rows] for j in range(size)], target, len(rows))
-    if solution is None:
-        raise InternalError("stationarity on an affine hull does not extend to the whole space")
-    linear = [i for i, r in enumerate(system.relations) if r is FormRelation.EQ]
-    whole: list[Number] = [weights.get(i, _ZERO) for i in range(len(system.forms))]
-    for i, m in zip(linear, solution.particular, strict=False):
-        whole[i] = m
-    return FaceLink(tuple(whole), tuple(solution.particular[len(linear) :]))
 
 
 def _moved(system: ConvexSystem, x: Point, step: Sequence[Number], budget: Budget) -> Point:

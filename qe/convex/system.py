@@ -73,8 +73,7 @@ class ConvexSystem:
 
 def constant(size: int, value: int) -> Quadratic:
     """A constant as a quadratic polynomial in so many variables."""
-    zero = Fraction(0)
-    return Quadratic(((zero,) * size,) * size, (zero,) * size, Fraction(value))
+    return Quadratic.linear((Fraction(0),) * size, value)
 
 
 def read_system(conditions: Formula, objective: Poly | None = None, *, scale: Fraction | int = 1) -> ConvexSystem:

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from qe.convex.interior_point import Proposal, interior_point
-from qe.exact.quadratic_form import Quadratic, combine, solve_linear
+from qe.exact.quadratic_form import Quadratic, combine
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
-TRUSTED = 1e-3
+_TRUSTED = 1e-3
 """A proposal of a larger residual is not rounded: that would only fail, exactly."""
 _DENOMINATORS = (10, 10**3, 10**6)
 _WITNESS_DENOMINATORS = (1, 4, 16, 10**2, 10**4, 10**7)
@@ -32,20 +32,19 @@ def violation_form(form: Quadratic) -> tuple[Quadratic, Fraction]:
 def violation_forms(forms: Sequence[Quadratic], size: int) -> tuple[list[Quadratic], list[Fraction]]:
     """Each form's violation form <= 0, and -1 - t <= 0 so that t is bounded below."""
     pairs = [violation_form(form) for form in forms]
-    nothing = ((_ZERO,) * (size + 1),) * (size + 1)
-    bound = Quadratic(nothing, (_ZERO,) * size + (-_ONE,), -_ONE)
+    bound = Quadratic.linear((_ZERO,) * size + (-_ONE,), -1)
     return [*(form for form, _ in pairs), bound], [scale for _, scale in pairs]
 
 
 def height(size: int) -> Quadratic:
     """The violation t itself, as a polynomial in ``size`` coordinates and t."""
-    return Quadratic(((_ZERO,) * (size + 1),) * (size + 1), (_ZERO,) * size + (_ONE,), _ZERO)
+    return Quadratic.linear((_ZERO,) * size + (_ONE,))
 
 
-def rounded_contradiction(
+def _rounded_contradiction(
     proposal: Proposal, forms: Sequence[Quadratic], scales: Sequence[Fraction]
-) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]] | None:
-    """(point, weights): rational weights w >= 0 with sum w_i forms_i > 0 everywhere, and where that sum is least.
+) -> tuple[Fraction, ...] | None:
+    """Rational weights w >= 0 with sum w_i forms_i > 0 everywhere.
 
     Being infeasible with room to spare is an open condition: the multipliers of the least violation, which the
     proposal approximates, may be rounded.
@@ -56,9 +55,9 @@ def rounded_contradiction(
         if not any(weights) or any(w < 0 for w in weights):
             continue
         total = combine(weights, forms)
-        solution = solve_linear(total.hessian, [-b for b in total.gradient], total.size)
+        solution = total.stationary()
         if solution is not None and total.value(solution.particular) > 0:
-            return solution.particular, weights
+            return weights
     return None
 
 
@@ -70,11 +69,10 @@ def proposed(forms: Sequence[Quadratic]) -> tuple[tuple[Fraction, ...] | None, t
     size = forms[0].size
     extended, scales = violation_forms(forms, size)
     proposal = interior_point(height(size), extended, [0.0] * (size + 1))
-    if not proposal.residual < TRUSTED:
+    if not proposal.residual < _TRUSTED:
         return None, None
     if proposal.point[-1] > 0:
-        contradiction = rounded_contradiction(proposal, forms, scales)
-        return None, None if contradiction is None else contradiction[1]
+        return None, _rounded_contradiction(proposal, forms, scales)
     for denominator in _WITNESS_DENOMINATORS:
         point = tuple(Fraction(v).limit_denominator(denominator) for v in proposal.point[:size])
         if all(form.value(point) < 0 for form in forms):

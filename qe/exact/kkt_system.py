@@ -48,10 +48,15 @@ class Flat:
         solution = solve_linear([q.gradient for q in equations], [-q.constant for q in equations], len(self.basis))
         if solution is None:
             return None
-        origin = self.lift(solution.particular)
-        zero = (Fraction(0),) * len(self.origin)
-        basis = tuple(Flat(zero, self.basis).lift(direction) for direction in solution.kernel)
-        return Flat(origin, basis)
+        return self.inside(Flat(solution.particular, solution.kernel))
+
+    def inside(self, inner: Flat) -> Flat:
+        """The flat of the points whose coordinates along the basis are those of another one."""
+        return Flat(self.lift(inner.origin), tuple(map(self.direction, inner.basis)))
+
+    def direction(self, coordinates: Sequence[Number]) -> Point:
+        """The vector with these coordinates along the basis."""
+        return Flat((Fraction(0),) * len(self.origin), self.basis).lift(coordinates)
 
     def lift(self, coordinates: Sequence[Number]) -> Point:
         """The point with these coordinates along the basis."""
@@ -103,8 +108,7 @@ def cut_linear_combinations(flat: Flat, equations: Sequence[Quadratic]) -> tuple
         if inner is None:
             return None
         current = [current[c].restrict(inner.origin, inner.basis) for c in chosen]
-        zero = (Fraction(0),) * len(flat.origin)
-        flat = Flat(flat.lift(inner.origin), tuple(Flat(zero, flat.basis).lift(v) for v in inner.basis))
+        flat = flat.inside(inner)
 
 
 class _Newton:
@@ -210,7 +214,7 @@ def critical_point(
     f = _primitive(objective.restrict(flat.origin, flat.basis))
     rest = [_primitive(q) for q in rest]
     if not rest:
-        solution = solve_linear(f.hessian, [-b for b in f.gradient], f.size)
+        solution = f.stationary()
         if solution is None or solution.kernel:
             return None
         return NumberField.rationals(), flat.lift(solution.particular)

@@ -38,6 +38,11 @@ class Quadratic:
     gradient: tuple[Fraction, ...]
     constant: Fraction
 
+    @staticmethod
+    def linear(gradient: Sequence[Fraction], constant: Fraction | int = 0) -> Quadratic:
+        """b.x + c."""
+        return Quadratic(((Fraction(0),) * len(gradient),) * len(gradient), tuple(gradient), Fraction(constant))
+
     @property
     def size(self) -> int:
         """The number of variables."""
@@ -65,6 +70,10 @@ class Quadratic:
     def slope(self, x: Vector) -> list[Number]:
         """The gradient H x + b at x."""
         return [dot(row, x, start) for row, start in zip(self.hessian, self.gradient, strict=True)]
+
+    def stationary(self) -> Solution | None:
+        """Where the gradient is zero; None where it is nowhere."""
+        return solve_linear(self.hessian, [-b for b in self.gradient], self.size)
 
     def restrict(self, origin: Sequence[Fraction], basis: Sequence[Sequence[Fraction]]) -> Quadratic:
         """z -> q(origin + sum z_k basis_k): again a quadratic polynomial."""
