@@ -8,7 +8,7 @@ the invariants stated on each class; these constructors do not simplify.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, TypeVar, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, dataclass_transform
 
 from qe.errors import InternalError
 from qe.exact.ring import Poly, Ring
@@ -31,72 +31,35 @@ class FormulaNode(Connected, Substituting, SymPyForm):
     asked for and then kept. They are no part of what a node is equal to, of its ``repr`` or of its pickle.
     """
 
-    __slots__ = ("_bound", "_free", "_hash", "_is_normal", "_is_quantifier_free", "_ring")
+    __slots__ = ("_hash", "bound", "free", "is_normal", "is_quantifier_free", "ring")
     __match_args__: ClassVar[tuple[str, ...]] = ()
-    _bound: frozenset[str]
-    _free: tuple[str, ...]
     _hash: int
-    _is_normal: bool
-    _is_quantifier_free: bool
-    _ring: Ring | None
+    bound: frozenset[str]
+    """The names that quantifiers in the formula bind."""
+    free: tuple[str, ...]
+    """The names that occur free, in ring order."""
+    is_normal: bool
+    """Whether it is in negation normal form: nothing is negated but root atoms."""
+    is_quantifier_free: bool
+    """Whether no quantifier occurs."""
+    ring: Ring | None
+    """The common ring of the atoms, or None for a formula without atoms."""
 
-    @property
-    def ring(self) -> Ring | None:
-        """The common ring of the atoms, or None for a formula without atoms."""
-        try:
-            return self._ring
-        except AttributeError:
-            ring = self._find_ring()
-            object.__setattr__(self, "_ring", ring)
-            return ring
+    if not TYPE_CHECKING:
 
-    @property
-    def free(self) -> tuple[str, ...]:
-        """The names that occur free, in ring order."""
-        try:
-            return self._free
-        except AttributeError:
-            free = self._find_free()
-            object.__setattr__(self, "_free", free)
-            return free
-
-    @property
-    def bound(self) -> frozenset[str]:
-        """The names that quantifiers in the formula bind."""
-        try:
-            return self._bound
-        except AttributeError:
-            bound = NO_NAMES if self.is_quantifier_free else self._find_bound()
-            object.__setattr__(self, "_bound", bound)
-            return bound
-
-    @property
-    def is_quantifier_free(self) -> bool:
-        """Whether no quantifier occurs."""
-        try:
-            return self._is_quantifier_free
-        except AttributeError:
-            free = self._find_quantifier_free()
-            object.__setattr__(self, "_is_quantifier_free", free)
-            return free
-
-    @property
-    def is_normal(self) -> bool:
-        """Whether it is in negation normal form: nothing is negated but root atoms."""
-        try:
-            return self._is_normal
-        except AttributeError:
-            normal = self._find_normal()
-            object.__setattr__(self, "_is_normal", normal)
-            return normal
+        def __getattr__(self, name: str) -> Any:
+            """A slot that is still empty."""
+            if name not in FormulaNode.__slots__:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            value = getattr(self, f"_find_{name}")()
+            object.__setattr__(self, name, value)
+            return value
 
     def __hash__(self) -> int:
-        try:
-            return self._hash
-        except AttributeError:
-            value = hash((self.__class__.__name__, *[getattr(self, name) for name in self.__match_args__]))
-            object.__setattr__(self, "_hash", value)
-            return value
+        return self._hash
+
+    def _find__hash(self) -> int:
+        return hash((self.__class__.__name__, *[getattr(self, name) for name in self.__match_args__]))
 
     def _find_ring(self) -> Ring | None:
         return None
@@ -104,13 +67,13 @@ class FormulaNode(Connected, Substituting, SymPyForm):
     def _find_free(self) -> tuple[str, ...]:
         return ()
 
-    def _find_quantifier_free(self) -> bool:
+    def _find_is_quantifier_free(self) -> bool:
         return True
 
     def _find_bound(self) -> frozenset[str]:
         return NO_NAMES
 
-    def _find_normal(self) -> bool:
+    def _find_is_normal(self) -> bool:
         return True
 
     def __str__(self) -> str:
@@ -166,8 +129,7 @@ class Atom(FormulaNode):
     poly: Poly
     relation: Relation
 
-    @property
-    def ring(self) -> Ring | None:
+    def _find_ring(self) -> Ring | None:
         return self.poly.ring
 
     def _find_free(self) -> tuple[str, ...]:
@@ -192,8 +154,7 @@ class RootAtom(FormulaNode):
     poly: Poly
     k: int
 
-    @property
-    def ring(self) -> Ring | None:
+    def _find_ring(self) -> Ring | None:
         return self.poly.ring
 
     def _find_free(self) -> tuple[str, ...]:
@@ -211,7 +172,7 @@ class Connective(FormulaNode):
     args: tuple[Formula, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_ring", self._find_ring())
+        object.__setattr__(self, "ring", self._find_ring())
 
     def _find_ring(self) -> Ring | None:
         ring = None
@@ -225,13 +186,13 @@ class Connective(FormulaNode):
     def _find_free(self) -> tuple[str, ...]:
         return _together(self.ring, self.args)
 
-    def _find_quantifier_free(self) -> bool:
+    def _find_is_quantifier_free(self) -> bool:
         return all(arg.is_quantifier_free for arg in self.args)
 
     def _find_bound(self) -> frozenset[str]:
-        return NO_NAMES.union(*(arg.bound for arg in self.args))
+        return NO_NAMES if self.is_quantifier_free else NO_NAMES.union(*(arg.bound for arg in self.args))
 
-    def _find_normal(self) -> bool:
+    def _find_is_normal(self) -> bool:
         return all(arg.is_normal for arg in self.args)
 
 
@@ -263,13 +224,13 @@ class Not(FormulaNode):
     def _find_free(self) -> tuple[str, ...]:
         return self.arg.free
 
-    def _find_quantifier_free(self) -> bool:
+    def _find_is_quantifier_free(self) -> bool:
         return self.arg.is_quantifier_free
 
     def _find_bound(self) -> frozenset[str]:
         return self.arg.bound
 
-    def _find_normal(self) -> bool:
+    def _find_is_normal(self) -> bool:
         return isinstance(self.arg, RootAtom)
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
@@ -292,13 +253,13 @@ class Quantified(FormulaNode):
         bound = set(self.variables)
         return tuple([name for name in self.body.free if name not in bound])
 
-    def _find_quantifier_free(self) -> bool:
+    def _find_is_quantifier_free(self) -> bool:
         return False
 
     def _find_bound(self) -> frozenset[str]:
         return self.body.bound.union(self.variables)
 
-    def _find_normal(self) -> bool:
+    def _find_is_normal(self) -> bool:
         return self.body.is_normal
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
