@@ -20,17 +20,19 @@ from fractions import Fraction
 from itertools import combinations
 from typing import TypeVar
 
+from qe.exact.quadratic_form import echelon, solve_linear
 from qe.exact.ring import Poly
 from qe.exact.watch import IDLE
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import children, has_root_atoms, polynomials, subformulas
 
 Key = TypeVar("Key")
+Index = TypeVar("Index")
+Terms = dict[Key, Fraction]
 Pair = tuple[int, int]
-Skew = dict[Pair, Fraction]
+Skew = Terms[Pair]
 """A skew-symmetric matrix by its entries above the diagonal."""
-Powers = tuple[Pair, ...]
-Image = dict[Powers, Fraction]
+Image = Terms[tuple[Pair, ...]]
 """The terms of a polynomial: pairs of a variable and its exponent, with the coefficient."""
 
 _TERMS = 1200  # terms in all polynomials together up to which rotations are looked for
@@ -159,21 +161,21 @@ def _movable(polys: Sequence[Poly], candidates: set[int]) -> set[int]:
 
 
 def rotations(polys: Sequence[Poly], pairs: Sequence[Pair], watch: Callable[[], object] = IDLE) -> list[Skew]:
-    """A basis of the matrices on these pairs whose X annihilates all polynomials, in reduced echelon form."""
+    """A basis of the matrices on these pairs whose X annihilates all polynomials, in reduced echelon form: a rotation
+    in few planes stands alone."""
     basis: list[Skew] = [{pair: Fraction(1)} for pair in pairs]
     for p in sorted(dict.fromkeys(polys), key=Poly.term_count):
         names = set(p.variables)
         moving = [skew for skew in basis if any(i in names or j in names for i, j in skew)]
-        if moving:
-            images: dict[Pair, Image] = {}
-            for pair in dict.fromkeys(pair for skew in moving for pair in skew):
-                watch()
-                images[pair] = _turned(p, pair)
-            relations = _relations([_image(skew, images) for skew in moving], watch)
-            basis = [skew for skew in basis if skew not in moving] + [_combined(moving, r) for r in relations]
-        if not basis:
-            break
-    return _echelon(basis)
+        images: dict[Pair, Image] = {}
+        for pair in dict.fromkeys(pair for skew in moving for pair in skew):
+            watch()
+            images[pair] = _turned(p, pair)
+        basis = [skew for skew in basis if skew not in moving]
+        basis += [_sum(dict(enumerate(moving)), r) for r in _relations([_sum(images, skew) for skew in moving])]
+    columns = sorted(pairs)
+    rows = echelon([[skew.get(pair, Fraction(0)) for pair in columns] for skew in basis])[0]
+    return [{pair: c for pair, c in zip(columns, row, strict=True) if c} for row in rows]
 
 
 def _turned(p: Poly, pair: Pair) -> Image:
@@ -189,62 +191,18 @@ def _turned(p: Poly, pair: Pair) -> Image:
     return total
 
 
-def _image(skew: Skew, images: Mapping[Pair, Image]) -> Image:
-    """The terms of X p from those for single pairs."""
-    total: Image = {}
-    for pair, factor in skew.items():
-        _add(total, images[pair], factor)
-    return total
+def _relations(parts: Sequence[Image]) -> list[Terms[int]]:
+    """A basis of the vectors r with sum of r_k * parts_k = 0."""
+    keys = dict.fromkeys(key for part in parts for key in part)
+    solved = solve_linear([[part.get(key, Fraction(0)) for part in parts] for key in keys], [0] * len(keys), len(parts))
+    assert solved is not None
+    return [{k: c for k, c in enumerate(vector) if c} for vector in solved.kernel]
 
 
-def _relations(rows: Sequence[Image], watch: Callable[[], object]) -> list[dict[int, Fraction]]:
-    """A basis of the vectors r with sum of r_k * rows_k = 0."""
-    pivots: list[tuple[Powers, Image, dict[int, Fraction]]] = []
-    relations: list[dict[int, Fraction]] = []
-    for k, row in enumerate(rows):
-        watch()
-        rest, made = dict(row), {k: Fraction(1)}
-        for lead, other, how in pivots:
-            if lead in rest:
-                factor = -rest[lead] / other[lead]
-                _add(rest, other, factor)
-                _add(made, how, factor)
-        if rest:
-            pivots.append((min(rest), rest, made))
-        else:
-            relations.append(made)
-    return relations
-
-
-def _combined(basis: Sequence[Skew], relation: dict[int, Fraction]) -> Skew:
-    total: Skew = {}
-    for k, factor in relation.items():
-        _add(total, basis[k], factor)
-    return total
-
-
-def _echelon(basis: Sequence[Skew]) -> list[Skew]:
-    """The reduced echelon form: a rotation in few planes stands alone."""
-    done: list[tuple[Pair, Skew]] = []
-    for skew in basis:
-        rest = dict(skew)
-        for lead, other in done:
-            if lead in rest:
-                _add(rest, other, -rest[lead] / other[lead])
-        if rest:
-            lead = min(rest)
-            for _, other in done:
-                if lead in other:
-                    _add(other, rest, -other[lead] / rest[lead])
-            done.append((lead, rest))
-    return [skew for _, skew in done]
-
-
-def _add(total: dict[Key, Fraction], other: dict[Key, Fraction], factor: Fraction) -> None:
-    """total += factor * other, without zeros."""
-    for key, c in other.items():
-        value = total.get(key, Fraction(0)) + factor * c
-        if value:
-            total[key] = value
-        else:
-            total.pop(key, None)
+def _sum(parts: Mapping[Index, Terms[Key]], factors: Terms[Index]) -> Terms[Key]:
+    """The sum of multiples of the parts, without zeros."""
+    total: Terms[Key] = {}
+    for k, factor in factors.items():
+        for key, c in parts[k].items():
+            total[key] = total.get(key, Fraction(0)) + factor * c
+    return {key: c for key, c in total.items() if c}
