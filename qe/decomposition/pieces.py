@@ -221,7 +221,9 @@ class Sections:
             for j in members:
                 poly = self.table.factors[level][j]
                 k = seen.get(j, 0) + 1
-                double = not self.distinct and totals[j] == 1 and _is_quadratic(poly, level)
+                # both roots can be written with ``sqrt`` wherever they are real, also where they meet
+                quadratic = poly.degree(level) == 2 and poly.leading(level).is_constant
+                double = not self.distinct and totals[j] == 1 and quadratic
                 multiplicity = 2 if double else 1
                 value = self.value(poly, met[j]) if poly.variables == (level,) else None
                 met[j] += 1
@@ -316,11 +318,6 @@ def _common(a: Candidates | None, b: Candidates | None) -> Candidates | None:
     if a is None or b is None:
         return None if a is b else frozenset()
     return a & b
-
-
-def _is_quadratic(poly: Poly, level: int) -> bool:
-    """Whether both roots can be written with ``sqrt`` wherever they are real, also where they meet."""
-    return poly.degree(level) == 2 and poly.leading(level).is_constant
 
 
 def _flatten(table: CellTable, branch: _Branch, ranges: tuple[Range, ...]) -> list[Piece]:

@@ -101,7 +101,9 @@ def factor_lists(
         for p in project(here, k, operator, constraints.get(k), first=k == size - 1):
             budget.check("project", size - k, size)
             found.add((p,))
-    return tuple(tuple(sorted(found.at(k), key=_simplicity)) for k in range(size))
+    # low degree first, then few terms, then by terms
+    levels = (sorted(found.at(k), key=lambda p: (p.degrees[::-1], p.term_count(), p.terms())) for k in range(size))
+    return tuple(map(tuple, levels))
 
 
 def _derivatives(f: Poly, variable: int) -> Iterator[Poly]:
@@ -109,8 +111,3 @@ def _derivatives(f: Poly, variable: int) -> Iterator[Poly]:
     for _ in range(f.degree(variable) - 1):
         f = f.derivative(variable)
         yield f
-
-
-def _simplicity(p: Poly) -> tuple[object, ...]:
-    """A deterministic order: low degree first, then few terms, then by terms."""
-    return p.degrees[::-1], p.term_count(), p.terms()

@@ -278,14 +278,11 @@ def curved_and_many_parameters(problem: Block, options: Options) -> str | None:
     total = problem.total
     if len(problem.variables) > 1 or total <= CAD_VARIABLES or problem.degree < 3:
         return None
-    if problem.degree == 3 and not _one_but_for_bounds(problem):
+    # polynomials with the variable beside numbers or letters that it is compared with
+    several = sum(degree > 1 or not lead.is_constant for degree, lead in _leads(problem)) > 1
+    if problem.degree == 3 and several:
         return None
     return f"one variable of degree {problem.degree} and {total - 1} parameters"
-
-
-def _one_but_for_bounds(problem: Block) -> bool:
-    """Whether one polynomial has the variable, beside numbers or letters that it is compared with."""
-    return sum(not (degree == 1 and lead.is_constant) for degree, lead in _leads(problem)) <= 1
 
 
 def _leads(problem: Block) -> list[tuple[int, Poly]]:

@@ -32,11 +32,6 @@ def sign_at(p: fmpz_poly, value: fmpq) -> int:
     return int(result > 0) - int(result < 0)
 
 
-def _roots_in_unit_bound(p: fmpz_poly) -> int:
-    """Sign variations of (x+1)^n p(1/(x+1)): an upper bound, exact at 0 and 1, for roots in (0, 1)."""
-    return sign_changes(fmpz_poly(p.coeffs()[::-1])(_SHIFT).coeffs())
-
-
 def _log2_root_bound(p: fmpz_poly) -> int:
     """k such that every real root has absolute value < 2^k (Fujiwara's bound, rounded up)."""
     coefficients = p.coeffs()
@@ -65,7 +60,8 @@ def _positive_roots(p: fmpz_poly) -> list[Interval]:
     pending = [(_scaled(p, k), fmpz(0), 0)]
     while pending:
         q, c, depth = pending.pop()
-        bound = _roots_in_unit_bound(q)
+        # sign variations of (x+1)^n q(1/(x+1)): an upper bound, exact at 0 and 1, for roots in (0, 1)
+        bound = sign_changes(fmpz_poly(q.coeffs()[::-1])(_SHIFT).coeffs())
         width = scale / fmpz(2) ** depth
         if bound == 0:
             continue

@@ -58,9 +58,10 @@ def modular_basis(polys: Sequence[Terms], size: int, work: Work = WORK) -> list[
 
     Raises ``Unable`` at the limit of work.
     """
-    monomials = PackedMonomials(size + 1, _bits(polys))
+    bits = 12 + max(sum(e) for p in polys for e in p).bit_length()  # for degrees some dozen times those given
+    monomials = PackedMonomials(size + 1, bits)
     given = [_homogeneous(p, monomials) for p in polys if p]
-    primes = _primes()
+    primes = (n for n in range(FIRST_PRIME, 1 << 25, -2) if fmpz(n).is_prime())
     for _ in range(MOST_TRIALS):
         try:
             trace = learned(given, monomials, next(primes), work.learning)
@@ -69,16 +70,6 @@ def modular_basis(polys: Sequence[Terms], size: int, work: Work = WORK) -> list[
             continue
         return [{e[:-1]: c for e, c in g.items()} for g in basis]
     raise Unable("no prime suits a Gröbner basis")
-
-
-def _bits(polys: Sequence[Terms]) -> int:
-    """Fields that hold degrees some dozen times those of the polynomials."""
-    return 12 + max(sum(e) for p in polys for e in p).bit_length()
-
-
-def _primes() -> Iterator[int]:
-    """Primes, from the largest below 2^26 down."""
-    return (n for n in range(FIRST_PRIME, 1 << 25, -2) if fmpz(n).is_prime())
 
 
 def _homogeneous(poly: Terms, monomials: PackedMonomials) -> dict[int, int]:

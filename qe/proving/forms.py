@@ -88,7 +88,8 @@ def seen_along(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     made.named(before, whole, t, naming)
     made.simplified(whole, seen)
     made.moved(seen, exists(outer, conj((inner, *rest))))
-    evidence: dict[str, Json] = {"theorem": used.name, "words": list(words), "letters": _texts(letters)}
+    texts: Json = {v: poly_to_text(p) for v, p in letters.items()}
+    evidence: dict[str, Json] = {"theorem": used.name, "words": list(words), "letters": texts}
     made.by_lemmas("theorem", theorem_goals, inner, answer, {**evidence, "variables": dict(variables)})
     if not {*conjuncts(answer)} <= {*conjuncts(final)}:  # the radius follows
         made.signs(values, exists(outer, final), _radius(letters, len(names), ring))
@@ -115,7 +116,3 @@ def _radius(letters: Mapping[str, Poly], size: int, ring: Ring) -> Json:
     length, radicand = sum((p * p for p in slopes), zero), sum((p * p for p in b), zero) - c * letters["e"] * 4
     terms: list[Term] = [(1, ((root * root - length * radicand, 1),)), (-1, ((root, 2),))]
     return identities([[*terms, (1, ((length, 1), (radicand, 1)))]], ring)
-
-
-def _texts(letters: Mapping[str, Poly]) -> Json:
-    return {name: poly_to_text(poly) for name, poly in letters.items()}

@@ -41,7 +41,8 @@ def exchange_variables(variables: tuple[str, ...], body: Formula, context: Block
             after = conj((new, atom(ring.gen(i) ** 2 - ring.gen(j) * 4, Relation.GE)))
             if isinstance(after, Constant):
                 return None
-            node = Lifted((_larger(ring, x, y), SmallerRoot(y, x)), Pending(variables, after))
+            larger = Solve(x, ring.var(x) - ring.var(y), ring.constant(1))  # where x still has the value of the sum
+            node = Lifted((larger, SmallerRoot(y, x)), Pending(variables, after))
             return Found(StepKind.EXCHANGE, f"{x} + {y}, {x}*{y}", node, {"variables": [x, y]})
     return None
 
@@ -136,11 +137,6 @@ def symmetric(poly: Poly, i: int, j: int) -> Poly:
             sums.append(s * sums[-1] - p * sums[-2])
         result = result + c * p**b * (sums[a - b] if a > b else 1)
     return result
-
-
-def _larger(ring: Ring, x: str, y: str) -> Solve:
-    """x = s - y, where y has its value already and x still has that of the sum."""
-    return Solve(x, ring.var(x) - ring.var(y), ring.constant(1))
 
 
 @dataclass(frozen=True, slots=True)

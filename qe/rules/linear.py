@@ -63,7 +63,7 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
     best: Pivot | None = None
     best_cost: tuple[int, int, int] | None = None
     # those with a constant coefficient first: where there is one, the signs of the others need not be known
-    linear = sorted(_linear_in(parts, variables), key=lambda entry: not entry[3].is_constant)
+    linear = sorted(linear_in(parts, variables), key=lambda entry: not entry[3].is_constant)
     occurrences = _occurrences(parts if linear else ())
     for position, i, rest, lead in linear:
         if best_cost is not None and best_cost[0] == 0 and not lead.is_constant:
@@ -97,7 +97,7 @@ def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
     """
     alone: dict[int, Pivot] = {}
     best: tuple[int, Pivot] | None = None
-    linear = [entry for entry in _linear_in(parts, variables) if entry[3].is_constant]
+    linear = [entry for entry in linear_in(parts, variables) if entry[3].is_constant]
     occurrences = _occurrences(parts if linear else ())
     few = len(occurrences) <= MOST_VARIABLES
     for position, i, rest, lead in linear:
@@ -120,7 +120,7 @@ def _occurrences(parts: Sequence[Formula]) -> Counter[int]:
     return times
 
 
-def _linear_in(parts: Sequence[Formula], variables: Sequence[str]) -> Iterator[tuple[int, int, Poly, Poly]]:
+def linear_in(parts: Sequence[Formula], variables: Sequence[str]) -> Iterator[tuple[int, int, Poly, Poly]]:
     """Position, variable, rest and coefficient of every variable in which an equation among the conjuncts is linear."""
     for position, part in enumerate(parts):
         if isinstance(part, Atom) and part.relation is Relation.EQ:

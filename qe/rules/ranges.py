@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf, isfinite, isinf
 
-from qe.exact.ring import Poly
+from qe.exact.ring import Poly, SparseTerm
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.rules.block_context import BlockContext, Found
@@ -43,7 +43,11 @@ def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: Block
         return None
     if all(a.poly.total_degree < 2 for _, a in inequalities):
         return None  # linear conditions have methods of their own
-    conditions = [_Condition(k, p, a.relation, _terms(p), _names(p)) for k, a in inequalities for p in _at_most_zero(a)]
+    conditions = [
+        _Condition(k, p, a.relation, p.sparse_terms(), frozenset(a.free))
+        for k, a in inequalities
+        for p in _at_most_zero(a)
+    ]
     if not _may_fail(conditions):
         return None
     search = _Search(conditions)
@@ -62,18 +66,6 @@ def _at_most_zero(a: Atom) -> Iterator[Poly]:
         yield -a.poly
 
 
-Term = tuple[tuple[tuple[int, int], ...], int]
-"""The variables of a monomial with their powers, and its coefficient."""
-
-
-def _terms(poly: Poly) -> list[Term]:
-    return [(tuple((i, e) for i, e in enumerate(exponents) if e), c) for exponents, c in poly.terms()]
-
-
-def _names(poly: Poly) -> frozenset[str]:
-    return frozenset(poly.ring.names[i] for i in poly.variables)
-
-
 @dataclass(frozen=True, slots=True)
 class _Condition:
     """A polynomial that is at most 0 by the part at ``position``, whose relation is given."""
@@ -81,7 +73,7 @@ class _Condition:
     position: int
     poly: Poly
     relation: Relation
-    terms: list[Term]
+    terms: list[SparseTerm]
     names: frozenset[str]
 
 

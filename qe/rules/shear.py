@@ -41,7 +41,7 @@ _FORM_TERMS = 12
 def linear_form(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem for the first form that makes the atoms much shorter."""
     polys = list(dict.fromkeys(a.poly for a in atoms(body)))
-    size, ring = _size(body), polys[0].ring
+    size, ring = sum(a.poly.term_count() for a in atoms(body)), polys[0].ring
     if not _LEAST <= size <= _MOST or has_root_atoms(body):
         return None
     inner = {ring.index[name] for name in bound_variables(body)}
@@ -59,10 +59,6 @@ def linear_form(variables: tuple[str, ...], body: Formula, context: BlockContext
                 proof = {"variable": name, "form": form}
                 return Found(StepKind.SHEAR, f"{name} for {format_poly(form)}", node, proof)
     return None
-
-
-def _size(body: Formula) -> int:
-    return sum(a.poly.term_count() for a in atoms(body))
 
 
 def _forms(polys: Sequence[Poly], x: int) -> Iterator[tuple[Poly, Poly]]:

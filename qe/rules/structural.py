@@ -11,7 +11,7 @@ from qe.formula.syntax import Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, connected
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
-from qe.rules.linear import Pivot, choose_pivot, defining, substitute
+from qe.rules.linear import Pivot, choose_pivot, defining, linear_in, substitute
 from qe.rules.step import StepKind
 from qe.rules.tree import All, Any, Leaf, Node, Pending, solved
 from qe.simplifier.facts import Facts
@@ -121,9 +121,8 @@ def solvable_disjuncts(variables: tuple[str, ...], body: Formula, context: Block
     variable of the block: each part then loses one. Lift: a branch that is satisfied.
     """
     parts = conjuncts(body)
-    block = frozenset(variables)
     for position, part in enumerate(parts):
-        if not isinstance(part, Or) or not all(_has_linear_equation(arg, block) for arg in part.args):
+        if not isinstance(part, Or) or not all(any(linear_in(conjuncts(arg), variables)) for arg in part.args):
             continue
         if not context.may_split(StepKind.DISTRIBUTION, len(part.args)):
             return None
@@ -131,15 +130,6 @@ def solvable_disjuncts(variables: tuple[str, ...], body: Formula, context: Block
         node = Any(tuple(Pending(variables, conj((*rest, arg))) for arg in part.args))
         return Found(StepKind.DISTRIBUTION, f"{len(part.args)} cases", node)
     return None
-
-
-def _has_linear_equation(formula: Formula, block: frozenset[str]) -> bool:
-    return any(
-        isinstance(part, Atom)
-        and part.relation is Relation.EQ
-        and any(part.poly.ring.names[i] in block and part.poly.degree(i) == 1 for i in part.poly.variables)
-        for part in conjuncts(formula)
-    )
 
 
 def _pivot(parts: Sequence[Formula], variables: Sequence[str], context: BlockContext) -> Pivot | None:

@@ -11,7 +11,7 @@ Conditions of this kind (a vector is not 0, its components one by one) break sym
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from itertools import combinations
 
 from qe.exact.ring import Poly
@@ -50,7 +50,7 @@ def needed(parts: Sequence[Formula]) -> tuple[Formula, ...]:
     names = sorted({a.poly.ring.index[name] for part in about_zeros for a in atoms(part) for name in a.free})
     if not about_zeros or len(names) > _VARIABLES:
         return tuple(parts)
-    patterns = list(_patterns(names))
+    patterns = [frozenset(chosen) for size in range(len(names) + 1) for chosen in combinations(names, size)]
     kept = list(parts)
     for part in about_zeros:
         others = [other for other in kept if other is not part]
@@ -67,11 +67,6 @@ def _is_about_zeros(part: Formula) -> bool:
         isinstance(a, Atom) and a.relation in (Relation.EQ, Relation.NE) and a.poly.term_count() == 1
         for a in atoms(part)
     )
-
-
-def _patterns(names: Sequence[int]) -> Iterator[Pattern]:
-    for size in range(len(names) + 1):
-        yield from map(frozenset, combinations(names, size))
 
 
 def _zeros(zero: Pattern) -> Callable[[Poly], int]:

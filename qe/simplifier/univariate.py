@@ -63,7 +63,7 @@ def _known(facts: Facts, index: int) -> Iterable[Atom]:
 @lru_cache(maxsize=2_000)
 def _redundant(index: int, group: tuple[Atom, ...], outer: tuple[Atom, ...]) -> frozenset[Atom] | None:
     everything = (*group, *outer)
-    cuts = _merged(root for a in everything for root in roots_of(a.poly))
+    cuts = sorted({root for a in everything for root in roots_of(a.poly)})
     samples = _samples(cuts)
     truth = {a: _pieces(a, cuts, samples, index) for a in everything}
     base: Pieces = frozenset(range(2 * len(cuts) + 1))
@@ -84,10 +84,6 @@ def _redundant(index: int, group: tuple[Atom, ...], outer: tuple[Atom, ...]) -> 
         if rest == left:
             kept.remove(candidate)
     return frozenset(group).difference(kept)
-
-
-def _merged(roots: Iterable[RealAlgebraic]) -> list[RealAlgebraic]:
-    return sorted(set(roots))
 
 
 def _samples(cuts: Sequence[RealAlgebraic]) -> list[Fraction]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from qe.convex.facial_reduction import implied_equations
 from qe.convex.optimum import decide
 from qe.convex.system import NotConvex
-from qe.elimination.critical import necessary_conditions
+from qe.elimination.critical.universal import necessary_conditions
 from qe.errors import Unable
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, ForAll, Formula, Relation

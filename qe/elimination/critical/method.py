@@ -15,15 +15,11 @@ from qe.decomposition.formulas import construct, formula_of_open_cells
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.order import brown_order
 from qe.decomposition.projection import factor_lists
-from qe.elimination.critical import (
-    ConvexBody,
-    Disjunct,
-    OpenCell,
-    eliminate_block,
-    eliminate_universal,
-)
 from qe.elimination.critical.apart import Piece, taken_apart
+from qe.elimination.critical.block import ConvexBody, Disjunct, eliminate_block
 from qe.elimination.critical.degenerate import thin_universal
+from qe.elimination.critical.open_cells import OpenCell
+from qe.elimination.critical.universal import eliminate_universal
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import Unable
 from qe.exact.nearby import approximation
@@ -241,7 +237,8 @@ def _of_open_cells(body: ConvexBody, parameters: tuple[str, ...], budget: Budget
     if len(parameters) > 2:
         return None
     factors, cells = body.cells()
-    formula = formula_of_open_cells(factors, [_free_cell(c) for c in cells], _owners(body.boundary, factors, cells))
+    listed = [FreeCell(tuple(2 * k for k in cell.path), cell.signs, cell.truth) for cell in cells]
+    formula = formula_of_open_cells(factors, listed, _owners(body.boundary, factors, cells))
     return _confirmed(body, convert(formula, Ring.of(parameters)), parameters, budget)
 
 
@@ -283,17 +280,14 @@ def _owners(boundary: frozenset[Poly], factors: Sequence[Sequence[Poly]], cells:
     return owners
 
 
-def _free_cell(cell: OpenCell) -> FreeCell:
-    return FreeCell(tuple(2 * k for k in cell.path), cell.signs, cell.truth)
-
-
 def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget) -> tuple[str, ...]:
     """The order of one or two variables whose last projection has the least degree in all.
 
     A polynomial in the first variable alone that is not linear comes from the projection for the order given; in the
     other order it would meet all the others, so that order is not tried.
     """
-    if len(names) != 2 or not polys or any(_is_projected(f, names[0]) for f in polys):
+    first = [f for f in polys if f.variables == (f.ring.index[names[0]],)]
+    if len(names) != 2 or not polys or any(f.total_degree > 1 for f in first):
         return names
 
     def cost(order: tuple[str, ...]) -> int:
@@ -301,7 +295,3 @@ def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget
         return sum(f.total_degree for f in factor_lists(moved, 2, BROWN_MCCALLUM, budget)[0])
 
     return min(permutations(names), key=cost)
-
-
-def _is_projected(f: Poly, first: str) -> bool:
-    return f.variables == (f.ring.index[first],) and f.total_degree > 1

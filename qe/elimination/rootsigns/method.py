@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from qe.elimination.protocol import Context, Outcome
 from qe.elimination.rootsigns.cover import Rows
 from qe.elimination.rootsigns.forms import minors, special
-from qe.elimination.rootsigns.question import Question, read
+from qe.elimination.rootsigns.question import Question, product, read
 from qe.elimination.rootsigns.theory import Name, Place, RootType, Shape, Signs, rows
 from qe.errors import Unable
 from qe.exact.ring import Poly
@@ -118,21 +118,13 @@ def _polynomials(question: Question, shape: Shape, budget: Budget) -> dict[Name,
     if shape.place is not Place.LINE:
         forms["A"] = special(f, (0, 1), budget) if shape.place is Place.RAY else minors(f, question.g, budget)
     if shape.squares:
-        forms["Q"] = minors(f, _square(question.g), budget)
+        forms["Q"] = minors(f, product(question.g, question.g), budget)
     for name, listed in forms.items():
         named |= {(name, k): p for k, p in enumerate(listed, 1)}
     if shape.invariant:
         e, d, c, b, a = f
         named["I", 0] = 12 * (a * e) - 3 * (b * d) + c * c
     return named
-
-
-def _square(g: tuple[Poly, ...]) -> tuple[Poly, ...]:
-    square = [g[0].ring.constant(0)] * (2 * len(g) - 1)
-    for i, p in enumerate(g):
-        for j, q in enumerate(g):
-            square[i + j] = square[i + j] + p * q
-    return tuple(square)
 
 
 def _formula(question: Question, table: _Table) -> Formula:

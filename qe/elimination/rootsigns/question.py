@@ -171,8 +171,8 @@ def _composed(f: Sequence[Poly], top: Sequence[Poly], bottom: Sequence[Poly]) ->
     image: tuple[Poly, ...] = (f[-1],)
     power: tuple[Poly, ...] = (f[-1].ring.constant(1),)
     for c in reversed(f[:-1]):
-        power = _product(power, bottom)
-        image = _product(image, top)
+        power = product(power, bottom)
+        image = product(image, top)
         image = tuple(p + c * q if k < len(power) else p for k, (p, q) in enumerate(_both(image, power)))
         if sum(p.term_count() for p in image) > MOST_TERMS:
             raise Unable("a polynomial grows past its limits on an interval")
@@ -186,13 +186,14 @@ def _both(left: tuple[Poly, ...], right: tuple[Poly, ...]) -> list[tuple[Poly, P
     return list(zip(*wide, strict=True))
 
 
-def _product(left: Sequence[Poly], right: Sequence[Poly]) -> tuple[Poly, ...]:
+def product(left: Sequence[Poly], right: Sequence[Poly]) -> tuple[Poly, ...]:
+    """The coefficients of the product of two polynomials."""
     zero = left[0].ring.constant(0)
-    product = [zero] * (len(left) + len(right) - 1)
+    total = [zero] * (len(left) + len(right) - 1)
     for i, p in enumerate(left):
         for j, q in enumerate(right):
-            product[i + j] = product[i + j] + p * q
-    return tuple(product)
+            total[i + j] = total[i + j] + p * q
+    return tuple(total)
 
 
 def _value(f: Sequence[Poly], y: Poly) -> Poly:

@@ -157,7 +157,8 @@ class _Run:
         rest = block - {plan.x}
 
         def attempt(point: SymbolicPoint, guard: Formula, formula: Formula, settled: frozenset[Atom]) -> Solved:
-            known = NOTHING.extended((*_free_of(formula, plan.x), *conjuncts(guard)))
+            free = (a for a in conjuncts(formula) if plan.x not in occurring(a))
+            known = NOTHING.extended((*free, *conjuncts(guard)))
             result = conj((guard, Substitution(plan.x, point, known, settled)(formula)))
             choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)
             simple = self._counted(thinned(result, rest) if strict else result)
@@ -199,8 +200,3 @@ class _Run:
                 trees_by_formula.setdefault(formula, tree)
         trees = tuple(trees_by_formula.values())
         return disj(trees_by_formula), trees[0] if len(trees) == 1 else Any(trees), tuple(traces)
-
-
-def _free_of(formula: Formula, x: int) -> list[Formula]:
-    """The conjuncts that do not contain the variable."""
-    return [a for a in conjuncts(formula) if x not in occurring(a)]
