@@ -10,7 +10,7 @@ from typing import Any
 
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.digits import digits
+from qe.exact.sparse_text import digits
 from qe.io import surface as s
 
 Number = Any

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from qe.decomposition.radicals import halved, quotient_text
 from qe.decomposition.sampled_cells import Number, Place, child, coordinates, root_place
 from qe.exact.algebraic import RealAlgebraic, real_roots
-from qe.exact.algebraic_brief import brief_algebraic
+from qe.exact.radicals import brief_algebraic
 from qe.exact.ring import Poly, format_poly
 from qe.formula.syntax import Formula
 from qe.io.text import read

@@ -1,7 +1,8 @@
-"""Exact text of a real algebraic number, as radicals where degree 2 or a biquadratic polynomial allows."""
+"""Text of a real algebraic number: exact, as radicals where degree 2 or a biquadratic polynomial allows, or brief."""
 
 from __future__ import annotations
 
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from math import gcd, isqrt
 
@@ -90,3 +91,19 @@ def _combine(shift: Fraction, body: str, denominator: int) -> str:
         return f"{shift} - {body[1:]}" if body.startswith("-") else f"{shift} + {body}"
     joined = f"{shift.numerator} - {body[1:]}" if body.startswith("-") else f"{shift.numerator} + {body}"
     return f"({joined})/{denominator}"
+
+
+def brief_algebraic(a: RealAlgebraic, longest: int) -> str:
+    """The exact text where it has at most so many characters, otherwise the degree and an interval with the number."""
+    if int(a.poly.height_bits()) * (a.degree + 1) < 10 * longest:  # about three bits make a digit
+        text = str(a)
+        if len(text) <= longest:
+            return text
+    low, high = a.interval(40)
+    kind = "a fraction" if a.is_rational else f"a root of a polynomial of degree {a.degree}"
+    return f"({kind} in [{_rounded(low, ROUND_FLOOR)}, {_rounded(high, ROUND_CEILING)}])"
+
+
+def _rounded(value: Fraction, rounding: str) -> str:
+    context = Context(prec=10, rounding=rounding, Emax=MAX_EMAX, Emin=MIN_EMIN)
+    return str(context.divide(Decimal(value.numerator), Decimal(value.denominator)).normalize(context))

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from qe.exact.digits import digits
+from flint import fmpz
 
 SparseTerm = tuple[tuple[tuple[int, int], ...], int]
 """((variable, exponent > 0), ...), ascending, and the coefficient."""
+
+
+def digits(value: int) -> str:
+    """Decimal digits (``str`` refuses more than 4300 of them, and takes quadratic time for those it gives)."""
+    return str(fmpz(value))
 
 
 def sparse_text(terms: Iterable[SparseTerm], names: Sequence[str] | Mapping[int, str]) -> str:

@@ -8,8 +8,8 @@ from enum import IntEnum
 from operator import attrgetter
 from typing import Protocol
 
-from qe.exact.digits import digits as digits
 from qe.exact.ring import Poly
+from qe.exact.sparse_text import digits as digits
 from qe.exact.sparse_text import in_order, sum_text
 from qe.formula.relation import Relation
 from qe.services import Service, service

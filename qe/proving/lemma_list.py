@@ -8,9 +8,9 @@ from itertools import pairwise
 from operator import itemgetter
 
 from qe.exact.algebraic import real_roots
-from qe.exact.digits import digits
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
+from qe.exact.sparse_text import digits
 from qe.kernel.boolean import Goal
 from qe.kernel.signs import NEGATIVE, POSITIVE, ZERO, Identity, Lemma, Line, read_lemma, read_polynomials, sign_bit
 from qe.kernel.step import Limits

@@ -14,7 +14,7 @@ from qe.rules.degree_shift import shift_degree
 from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
 from qe.rules.ranges import excluded_by_ranges
-from qe.rules.scaling import fix_scale
+from qe.rules.scaling import fix_origin, fix_scale
 from qe.rules.shear import linear_form
 from qe.rules.sphere import sphere_along_form
 from qe.rules.square_alone import square_alone
@@ -28,7 +28,6 @@ from qe.rules.structural import (
     solvable_disjuncts,
 )
 from qe.rules.takes_value import drop_what_can_be_met
-from qe.rules.translation import fix_origin
 from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Pending, Perturbed, either
 from qe.simplifier.simplify import simplify_under
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 import qe
 from qe.decomposition.pieces import LONGEST
 from qe.exact.algebraic import real_roots
-from qe.exact.algebraic_brief import brief_algebraic
 from qe.exact.algebraic_text import square_part
+from qe.exact.radicals import brief_algebraic
 from qe.exact.ring import Ring
 from qe.regions.region import Region
 from tests.tables import each

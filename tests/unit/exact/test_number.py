@@ -14,12 +14,11 @@ from hypothesis import strategies as st
 import qe
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, real_roots
-from qe.exact.digits import digits
 from qe.exact.field import FieldElement, NumberField
 from qe.exact.number import optimum_in_latex, point_text, simplest, square_root
 from qe.exact.radicals import format_number
 from qe.exact.ring import Ring, format_poly
-from qe.exact.sparse_text import sparse_text
+from qe.exact.sparse_text import digits, sparse_text
 from tests.strategies import rationals
 from tests.tables import each
 
