@@ -223,7 +223,7 @@ POINTS = {
 EACH = [*((arm, solve_pose) for arm in POSES.values()), *((arm, solve) for arm in POINTS.values())]
 
 
-@each(dict(zip((*POSES, *POINTS), EACH, strict=True)), daily=2)
+@each(dict(zip((*POSES, *POINTS), EACH, strict=True)), daily=3)
 @settings(max_examples=settings.default.max_examples // 5)
 @given(TANGENTS, st.sampled_from((0, 0, 0, 1, -1)))
 def test_the_joints_that_led_there_are_found(
@@ -489,7 +489,7 @@ def changes(name: str) -> dict[str, Change]:
     return found
 
 
-@pytest.mark.parametrize("name", [*CASES, *CHOSEN])
+@each(*CASES, *CHOSEN, daily=2)
 def test_changed_certificates_are_rejected(name: str) -> None:
     effective = 0
     for what, change in changes(name).items():

@@ -14,7 +14,7 @@ import bezier
 import qe
 from bezier.scenes.route import Route, Wish
 
-BOXES = [((24, 21, 62), (48, 45, 84)), ((30, 44, 20), (62, 70, 54)), ((45, 30, 40), (67, 58, 74))]
+BOXES = [((30, 44, 20), (62, 70, 54)), ((45, 30, 40), (67, 58, 74))]
 START, GOAL = (2, 50, 50), (98, 50, 50)
 SCENE: dict[str, Any] = {
     "domain": {"low": [0, 0, 0], "high": [100, 100, 100]},
