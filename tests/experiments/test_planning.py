@@ -12,6 +12,8 @@ from experiments import planning
 
 def test_the_comparison_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(planning, "CORPUS", tmp_path)
+    (first,) = planning.path_cases(1)
+    monkeypatch.setattr(planning, "path_cases", lambda count: [first])
     notes: list[str] = []
     data, page = planning.run(tmp_path / "out", 4, notes.append)
     rows = json.loads(data.read_text())["chains"]

@@ -102,7 +102,7 @@ def test_values_are_those_of_another_optimiser(seed: int) -> None:
         assert not other.success or max(value(other.x, row.form) for row in rows) > 1e-6
 
 
-@pytest.mark.parametrize("seed", range(8))
+@each(*range(8), daily=2)
 def test_a_broken_proposer_never_proves_anything_false(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     chance = random.Random(seed)
     honest = {"least_excess": proposals.least_excess, "least_value": proposals.least_value}
