@@ -17,7 +17,6 @@ from experiments.z3_oracle import to_z3
 from qe.formula.build import conj, implies, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Constant, Formula
-from qe.formula.traverse import is_quantifier_free
 from qe.io.text import CONSTANTS, read
 
 POINTS = 400
@@ -75,7 +74,7 @@ def differing_point(
 
     z3's model is tried first (a candidate, confirmed by exact evaluation), then random points.
     """
-    if not (is_quantifier_free(left) and is_quantifier_free(right)):
+    if not (left.is_quantifier_free and right.is_quantifier_free):
         return None
     names = tuple(dict.fromkeys((*left.free, *right.free)))
     rng = random.Random(seed)

@@ -30,7 +30,6 @@ from typing import Any
 from qe.errors import InputError
 from qe.formula import syntax
 from qe.formula.build import atom, conj, disj
-from qe.formula.traverse import ring_of
 from qe.options import Budget
 
 Toy = Any  # a nested tuple as described above; recursive types buy nothing here
@@ -48,7 +47,7 @@ def decide(formula: syntax.Formula, *, budget: Budget | None = None) -> bool:
 
 def eliminate(formula: syntax.Formula, *, budget: Budget | None = None) -> syntax.Formula:
     """An equivalent quantifier-free formula in the free variables (long; meant for small input)."""
-    names, ring = formula.free, ring_of(formula)
+    names, ring = formula.free, formula.ring
 
     def poly(p: Toy) -> Any:
         assert ring is not None

@@ -46,7 +46,6 @@ from qe.errors import InputError, Unable
 from qe.exact.ring import Ring
 from qe.formula.normal import nnf
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read as read_formula
 
 LIFT = Fraction(1, 10)
@@ -114,7 +113,7 @@ def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
     if others:
         raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
     try:
-        answer = None if is_quantifier_free(formula) else _answer(formula)
+        answer = None if formula.is_quantifier_free else _answer(formula)
         pieces = _pieces(nnf(formula if answer is None else answer.formula))
     except (InputError, Unable) as error:
         raise table.error("formula", "a formula that can be used", str(error)) from None

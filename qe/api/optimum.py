@@ -16,7 +16,6 @@ from qe.convex.optimum import NotConvex, Optimum
 from qe.errors import InputError
 from qe.formula.doubts import numbers_as_names, products_as_names
 from qe.formula.syntax import Formula
-from qe.formula.traverse import ring_of
 from qe.io.text import optimum_asked
 from qe.optimization.values import Goal, Objective
 from qe.options import Budget
@@ -146,7 +145,7 @@ def _best(
     strangers = sorted({*(given or ())} - names_typed([objective, constraints, conditions]))
     if strangers:
         raise InputError(f"parameters: variables of the problem expected, each once, {', '.join(strangers)} found")
-    ring = ring_of(conditions)
+    ring = conditions.ring
     taken = (*(ring.names if ring is not None else ()), *(given or ()))
     term = read_under(limits, partial(read_objective, objective, taken), objective)
     note_doubts(constraints, conditions)

@@ -20,7 +20,6 @@ from qe.formula.build import conj, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import without_clashes
 from qe.formula.syntax import TRUE, Exists, ForAll, Formula
-from qe.formula.traverse import is_quantifier_free
 from qe.io.substitution import over_one_ring
 from qe.io.text import read, solved_for
 from qe.options import Budget, Options
@@ -88,7 +87,7 @@ def _compared(solutions: Solutions, given: Formula, known: Formula, budget: Budg
     claim = implies(assumed, iff(written, question))
     sentence = forall(claim.free, claim)
     try:
-        if solutions.region.answer is None and is_quantifier_free(claim):  # the table is of this very formula
+        if solutions.region.answer is None and claim.is_quantifier_free:  # the table is of this very formula
             order = tuple(name for name in solutions.order if name in claim.free)
             make = partial(true_everywhere, claim, order, budget.part(TABLE_WORK))
             table = certificates.without_loss(lambda: Certificate.cells(make()), lambda reason: None)
@@ -188,7 +187,7 @@ def _outermost_block(given: Formula, log: RunLog, options: Options, budget: Budg
     """The formula with nothing quantified inside its outermost block; the steps go to the log."""
     clear = log.step("renaming", given, without_clashes(given))
     block = log.step("roots counted", clear, without_root_atoms(clear))
-    if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
+    if isinstance(block, Exists | ForAll) and not block.body.is_quantifier_free:
         # what is left may well be a constant
         inner = eliminated(block.body, options.with_(certify=False), budget)
         log.entries += inner.log.entries

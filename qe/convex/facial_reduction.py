@@ -16,7 +16,6 @@ from qe.exact.quadratic_form import Quadratic
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
 from qe.formula.syntax import FALSE, Atom, Formula, Relation
-from qe.formula.traverse import ring_of
 from qe.options import Budget
 from qe.proof.multipliers import Face, FormRelation, LinearEquation, derived_equations
 from qe.rules.linear import Pivot, substitute
@@ -61,7 +60,7 @@ def implied_equations(conditions: Formula, *, budget: Budget) -> list[Poly] | No
     No equations also where the set has interior points, where conditions are strict or equations, and where the numbers
     are irrational. Raises ``NotConvex``.
     """
-    ring = ring_of(conditions)
+    ring = conditions.ring
     if ring is None:
         return []
     system = read_system(conditions)

@@ -31,7 +31,6 @@ from qe.exact.zeros import Zero
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import ring_of
 from qe.groebner.counting import SolutionCount
 from qe.groebner.evidence import Condition, solutions_certificate
 from qe.groebner.kapur_sun_wang import segments
@@ -84,7 +83,7 @@ def _outcome(
     problem: Block, context: Context, formula: Formula, witness: Values | None, refuted: OnDemand | None = None
 ) -> Outcome:
     # back into the ring of the formula it came from: it is joined with parts of that formula
-    ring = ring_of(problem.formula)
+    ring = problem.formula.ring
     moved = formula if ring is None else convert(formula, ring)
     evidence = {} if refuted is None or formula != FALSE else {"proof": refuted}
     answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved), evidence=evidence)

@@ -20,7 +20,7 @@ from qe.formula.build import atom, conj, convert, exists
 from qe.formula.features import is_small, length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Atom, Constant, ForAll, Formula, Relation
-from qe.formula.traverse import atoms, has_root_atoms, ring_of
+from qe.formula.traverse import atoms, has_root_atoms
 from qe.options import Budget, Method, Options, Stage
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
@@ -148,7 +148,7 @@ def _joined(question: Formula, known: Formula, log: RunLog) -> Formula:
 # --- shorter under assumptions ---------------------------------------------------------------------------
 def shortened_under(formula: Formula, known: Formula, question: Formula, context: Context) -> Formula:
     """A shorter equivalent, where ``known`` holds, of a quantifier-free answer to a question, as far as one is seen."""
-    formula = convert(formula, ring) if (ring := ring_of(known)) is not None else formula
+    formula = convert(formula, ring) if (ring := known.ring) is not None else formula
     for _ in range(ROUNDS):
         before = formula
         simple = simplify(formula, known, watch=context.budget.check)
@@ -237,7 +237,7 @@ def _needed(
 ) -> tuple[Formula, ...]:
     """The inequations without some of which the answer would be wrong, as far as little work shows; first those are
     dropped that have no part in the answer."""
-    ring = ring_of(question)
+    ring = question.ring
     try:
         plain = answered(question, options, budget.part(PLAIN_WORK)).formula
         plain = plain if ring is None else convert(plain, ring)

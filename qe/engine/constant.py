@@ -15,7 +15,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.features import features, length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Formula
-from qe.formula.traverse import atoms, ring_of
+from qe.formula.traverse import atoms
 from qe.options import Budget
 from qe.proof.step import Nested
 
@@ -147,7 +147,7 @@ def _pulled(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction] | N
 
     In a convex set with interior points this mostly ends after a few rounds; what it ends at is only a proposal.
     """
-    conditions, start, ring = sloping(formula, 0), _middle(formula, names), ring_of(formula)
+    conditions, start, ring = sloping(formula, 0), _middle(formula, names), formula.ring
     if not conditions or ring is None:
         return None
     with suppress(OverflowError, ValueError):  # beyond the range of floats

@@ -12,7 +12,6 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.features import length
 from qe.formula.syntax import FALSE, And, Atom, Formula, Relation
-from qe.formula.traverse import ring_of
 from qe.rules.linear import Pivot, substitute
 from qe.simplifier.simplify import simplify
 
@@ -30,7 +29,7 @@ def affine_hull_first(formula: Formula, context: Context, start: object = None) 
     from qe.convex.facial_reduction import implied_equations
     from qe.convex.system import NotConvex
 
-    ring = ring_of(formula)
+    ring = formula.ring
     assert ring is not None
     equations: list[Poly] = []
     rest = formula

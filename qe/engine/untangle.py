@@ -11,7 +11,7 @@ from qe.formula.build import conj, convert, disj
 from qe.formula.features import length
 from qe.formula.normal import matrix_of, nnf
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import atoms, conjuncts, disjuncts, ring_of
+from qe.formula.traverse import atoms, conjuncts, disjuncts
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
 from qe.rules.block import reduce_block
@@ -82,7 +82,7 @@ def _untangled_by(enabled: frozenset[StepKind], formula: Formula, context: Conte
     rules, steps = BlockContext(context.budget.part(UNTANGLE_WORK), enabled), RunLog()
     matrix = _matrix(reduce_block(formula.free, formula, rules))
     shorter = simplify(matrix, watch=context.budget.check)
-    ring = ring_of(formula)
+    ring = formula.ring
     shorter = shorter if ring is None else convert(shorter, ring)
     if size(shorter) >= size(formula):
         return formula

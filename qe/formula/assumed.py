@@ -13,7 +13,6 @@ from enum import Enum
 from qe.formula.build import conj, convert, disj, forall, implies
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, ForAll, Formula
-from qe.formula.traverse import ring_of
 
 
 class Aim(Enum):
@@ -49,8 +48,8 @@ def claimed(known: Formula, question: Formula, formula: Formula) -> Formula:
     """
     if known == TRUE:
         return formula
-    ring = ring_of(known)
-    inner = formula if ring is None or ring_of(formula) is None else convert(formula, ring)
+    ring = known.ring
+    inner = formula if ring is None or formula.ring is None else convert(formula, ring)
     if isinstance(question, ForAll):
         return conj((known, inner))
     return disj((nnf(known, negate=True), inner))

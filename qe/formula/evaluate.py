@@ -11,7 +11,7 @@ from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
-from qe.formula.traverse import map_atoms, ring_of
+from qe.formula.traverse import map_atoms
 from qe.truth import Truth, conjunction, disjunction, negation
 
 SignOracle = Callable[[Poly], int | None]
@@ -24,7 +24,7 @@ def holds_at(formula: Formula, point: Mapping[str, Fraction | int]) -> bool:
     ``point`` gives a value for every variable that occurs; more are allowed. Raises ``InputError`` for a
     missing variable and for a quantified formula.
     """
-    ring = ring_of(formula)
+    ring = formula.ring
     missing = [name for name in formula.free if name not in point]
     if missing:
         raise InputError(f"no value for {', '.join(missing)}")

@@ -9,7 +9,7 @@ from typing import assert_never
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, map_children, neg, root_atom
 from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or, Quantified, RootAtom
-from qe.formula.traverse import children, clashes, map_atoms, ring_of
+from qe.formula.traverse import children, clashes, map_atoms
 
 
 class Quantifier(StrEnum):
@@ -57,7 +57,7 @@ def rename_apart(formula: Formula, avoid: Iterable[str] = ()) -> Formula:
     end, so free variables keep their places). A quantified variable that does not occur in its body is dropped,
     which is sound because R is not empty.
     """
-    ring = ring_of(formula)
+    ring = formula.ring
     if ring is None:
         return matrix_of(formula)
     renaming = _Renaming(ring, (*formula.free, *avoid))
@@ -159,7 +159,7 @@ def rename(formula: Formula, names: Mapping[str, str]) -> Formula:
 
     The ring keeps its order: the new name stands where the old one stood.
     """
-    ring = ring_of(formula)
+    ring = formula.ring
     if ring is None or not names:
         return formula
     target = Ring.of([names.get(name, name) for name in ring.names])

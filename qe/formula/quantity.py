@@ -18,7 +18,7 @@ from qe.formula.build import atom, conj, disj, exists, forall, implies, neg
 from qe.formula.normal import nnf
 from qe.formula.openness import thinned
 from qe.formula.syntax import Formula, Relation
-from qe.formula.traverse import has_root_atoms, map_atoms, ring_of
+from qe.formula.traverse import has_root_atoms, map_atoms
 
 MOST = 20
 """The largest number that is counted."""
@@ -26,7 +26,7 @@ MOST = 20
 
 def at(body: Formula, name: str, other: str) -> Formula:
     """The formula with another variable, which it does not have, for one."""
-    ring = ring_of(body)
+    ring = body.ring
     if ring is None or name not in ring.index:
         return body
     x, new = ring.index[name], ring.var(other)
@@ -35,7 +35,7 @@ def at(body: Formula, name: str, other: str) -> Formula:
 
 def infinitely_many(name: str, body: Formula, spare: list[str]) -> Formula:
     """That infinitely many values satisfy the body; ``spare``: two names that are not in use."""
-    ring = ring_of(body)
+    ring = body.ring
     if ring is None or name not in ring.index or name not in body.free:
         return body
     if body.is_quantifier_free and not has_root_atoms(body):
@@ -56,7 +56,7 @@ def exactly(k: int, name: str, body: Formula, denied: Formula, spare: list[str])
     if k == 0 or name not in body.free:
         nothing = forall((name,), neg(denied))
         return nothing if k == 0 else conj((nothing, body))
-    ring = ring_of(body)
+    ring = body.ring
     assert ring is not None
     x, values = ring.var(name), [ring.var(n) for n in spare[:k]]
     ordered = [atom(low - high, Relation.LT) for low, high in pairwise(values)]
@@ -66,7 +66,7 @@ def exactly(k: int, name: str, body: Formula, denied: Formula, spare: list[str])
 
 def connected(name: str, body: Formula, denied: Formula, spare: list[str]) -> Formula:
     """That with two values all between them satisfy the body: no value, one, or an interval; ``spare``: two names."""
-    ring = ring_of(body)
+    ring = body.ring
     if ring is None or name not in body.free:
         return disj((body, neg(denied)))
     x, low, high = (ring.var(n) for n in (name, *spare[:2]))

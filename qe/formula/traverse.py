@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import count
 from typing import TypeVar, assert_never
 
-from qe.exact.ring import Poly, Ring
+from qe.exact.ring import Poly
 from qe.formula.build import map_children
 from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or, Quantified, RootAtom
 
@@ -112,11 +112,6 @@ def polynomials(formula: Formula) -> list[Poly]:
     return list(dict.fromkeys(a.poly for a in atoms(formula)))
 
 
-def ring_of(formula: Formula) -> Ring | None:
-    """The common ring of the atoms, or None for a formula without atoms."""
-    return formula.ring
-
-
 def connected(
     parts: Iterable[Formula], names: Callable[[Formula], frozenset[Name]]
 ) -> tuple[tuple[Formula, ...], list[tuple[frozenset[Name], tuple[Formula, ...]]]]:
@@ -135,8 +130,3 @@ def connected(
         groups = [g for g in groups if g not in touching]
         groups.append((shared.union(*(g[0] for g in touching)), sum((g[1] for g in touching), ()) + members))
     return tuple(without), groups
-
-
-def is_quantifier_free(formula: Formula) -> bool:
-    """Whether no quantifier occurs."""
-    return formula.is_quantifier_free

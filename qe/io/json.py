@@ -18,7 +18,6 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg, root_atom
 from qe.formula.notation import digits
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
-from qe.formula.traverse import ring_of
 from qe.io.names import check_name, names_in
 from qe.io.surface import MAX_DEPTH
 from qe.io.terms import MAX_DEGREE, TermError, integer
@@ -48,7 +47,7 @@ def read(text: str, *, source: str = "<text>") -> Formula:
 
 def encode(formula: Formula) -> dict[str, Any]:
     """The JSON value of a formula, for embedding in other documents."""
-    ring = ring_of(formula)
+    ring = formula.ring
     names = ring.names if ring is not None else names_in(formula)
     return {"format": FORMAT, "version": VERSION, "ring": list(names), "formula": _encode(formula)}
 

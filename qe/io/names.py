@@ -8,7 +8,7 @@ from collections.abc import Callable
 from qe.arguments import wrong
 from qe.errors import InputError
 from qe.formula.syntax import Atom, Formula
-from qe.formula.traverse import atoms, bound_variables, ring_of
+from qe.formula.traverse import atoms, bound_variables
 
 _FORBIDDEN = re.compile(r"[|\\\ud800-\udfff]")
 
@@ -60,7 +60,7 @@ class Renaming:
 
 def names_in(formula: Formula) -> list[str]:
     """Every name of a formula: those of its ring, and those that only quantifiers and root atoms mention."""
-    ring = ring_of(formula)
+    ring = formula.ring
     names = dict.fromkeys(ring.names if ring is not None else ())
     names.update(dict.fromkeys(a.variable for a in atoms(formula) if not isinstance(a, Atom)))
     names.update(dict.fromkeys(bound_variables(formula)))

@@ -20,7 +20,7 @@ from typing import TypeAlias, cast
 from qe.errors import InputError, ParseError
 from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
-from qe.formula.traverse import children, is_quantifier_free
+from qe.formula.traverse import children
 from qe.io.names import Renaming, names_in
 from qe.io.smtlib_parser import Expression, parse, without_collections
 from qe.io.smtlib_script import Script
@@ -100,7 +100,7 @@ def write(formula: Formula) -> str:
     ``InputError`` for a root atom, which SMT-LIB cannot express.
     """
     names = Renaming(formula, keeps=_allowed, spell=lambda name: f"v_{_UNWRITABLE.sub('_', name)}")
-    lines = [f"(set-logic {'QF_NRA' if is_quantifier_free(formula) else 'NRA'})"]
+    lines = [f"(set-logic {'QF_NRA' if formula.is_quantifier_free else 'NRA'})"]
     lines += [f"(declare-const {symbol(names[name])} Real)" for name in formula.free]
     lines.append(f"(assert {_term(formula, names)})")
     return "\n".join(lines) + "\n"

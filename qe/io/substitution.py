@@ -10,7 +10,7 @@ from qe.formula.build import conj, convert, exists, with_polynomial
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import rename_apart
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import atoms, bound_variables, map_atoms, ring_of
+from qe.formula.traverse import atoms, bound_variables, map_atoms
 from qe.io import surface as s
 from qe.io.collecting import Names
 from qe.io.lowering import lower, lower_term
@@ -27,7 +27,7 @@ def substitute(formula: Formula, values: Mapping[str, s.Term]) -> Formula:
     values = {name: term for name, term in values.items() if name in formula.free}
     names = {name for term in values.values() for name in _names(term)}
     formula = rename_apart(formula, (*names, *values))
-    own = ring_of(formula)
+    own = formula.ring
     if own is None or not values:
         return formula
     taken = names.union(own.names)
@@ -56,7 +56,7 @@ def over_one_ring(*parts: Formula) -> tuple[Formula, ...]:
 
 def trimmed(formula: Formula) -> Formula:
     """The formula over the ring of the names that occur in it."""
-    ring = ring_of(formula)
+    ring = formula.ring
     if ring is None:
         return formula
     used = {name for part in atoms(formula) for name in part.free}.union(bound_variables(formula))

@@ -17,7 +17,6 @@ from qe.engine.run import answer_to, answered, proved
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import Formula, Relation
-from qe.formula.traverse import ring_of
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED, Answer
 
@@ -73,7 +72,7 @@ class Goal:
     def of(objective: Objective, conditions: Formula, parameters: Iterable[str] = ()) -> Goal:
         """The goal with all names in one ring; parameters may be others."""
         given, parts = tuple(parameters), (objective.graph, conditions)
-        rings = [ring.names for part in parts if (ring := ring_of(part)) is not None]
+        rings = [ring.names for part in parts if (ring := part.ring) is not None]
         if objective.polynomial is not None:
             rings.insert(0, objective.polynomial[0].ring.names)
         names = [name for name in dict.fromkeys(chain(*rings)) if name != objective.value]

@@ -9,7 +9,7 @@ from qe.engine.run import answer_to, answered, proved, solve
 from qe.engine.untangle import degrees, untangled
 from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import conjuncts, is_quantifier_free
+from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Status
@@ -30,7 +30,7 @@ def described(
     Raises ``InputError`` for an order that misses a free variable, ``Unable`` where elimination does.
     """
     given = without_root_atoms(formula)
-    quantified = not is_quantifier_free(given)
+    quantified = not given.is_quantifier_free
     many = len(given.free) > TABLE_VARIABLES
     if many or (quantified and not check):
         shadow = shadow_of(given, Elimination(names))

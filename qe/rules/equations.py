@@ -17,7 +17,7 @@ from qe.exact.ring import Poly, format_poly
 from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import atoms, is_quantifier_free
+from qe.formula.traverse import atoms
 from qe.rules.rewrite import rewrite
 from qe.simplifier.facts import factor_list
 
@@ -79,7 +79,7 @@ def reduce_by_equations(
     basis = ideal_basis(squarefree(equations), variable_order(conj((*assumed, *parts)), ())) if equations else None
     if basis is None or basis.is_unit:
         return tuple(parts)
-    return tuple(part if is_quantifier_free(part) else reduce_atoms(part, basis, watch) for part in parts)
+    return tuple(part if part.is_quantifier_free else reduce_atoms(part, basis, watch) for part in parts)
 
 
 def complexity(poly: Poly) -> tuple[int, int, int]:

@@ -1,4 +1,4 @@
-"""Scaling and translation: a block whose polynomials are homogeneous, or that looks at differences, loses a variable."""
+"""Scaling and translation: a block of homogeneous polynomials, or that only looks at differences, loses a variable."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom
 from qe.formula.syntax import FALSE, TRUE, Atom, Atomic, Formula, Relation
-from qe.formula.traverse import conjuncts, is_quantifier_free, map_atoms, polynomials
+from qe.formula.traverse import conjuncts, map_atoms, polynomials
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.step import StepKind
 from qe.rules.tree import Leaf, Node, Pending
@@ -27,7 +27,7 @@ MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
 
 def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """Every comparison with a polynomial of a known sign replaced by what is left of it."""
-    if not is_quantifier_free(body):
+    if not body.is_quantifier_free:
         return None
     polys = [p for p in polynomials(body) if len(p.variables) >= FEWEST_VARIABLES and p.total_degree > 1]
     if not polys or len(polys) > MOST_POLYNOMIALS:

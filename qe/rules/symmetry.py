@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.syntax import Exists, ForAll, Formula, Relation
-from qe.formula.traverse import ring_of
 from qe.rules.block_context import BlockContext
 from qe.rules.change import Change
 from qe.rules.lift import Solve
@@ -30,7 +29,7 @@ def without_rotations(formula: Exists | ForAll, context: BlockContext) -> tuple[
             break
         v, signs = turn.zero, (signs - turn.moved) | {turn.half}
         turns.append(turn.proof)
-        ring = ring_of(body)
+        ring = body.ring
         assert ring is not None
         change = Change.to_number(v, 0, ring)
         variables, body = tuple(name for name in variables if name != v), change.image(body)

@@ -16,7 +16,7 @@ from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or
-from qe.formula.traverse import conjuncts, ring_of
+from qe.formula.traverse import conjuncts
 from qe.simplifier.absorb import absorb
 from qe.simplifier.factors import reduce_atom
 from qe.simplifier.facts import NOTHING, Facts, atom_of, constraint, generator
@@ -73,7 +73,7 @@ def simplify_under(formula: Formula, facts: Facts) -> Formula:
 
 def facts_of(known: Formula, formula: Formula) -> Facts:
     """The conjoined atoms of ``known`` as facts about the variables of ``formula``'s ring."""
-    ring = ring_of(formula)
+    ring = formula.ring
     if ring is None:
         return NOTHING
     usable = [

@@ -8,7 +8,6 @@ import qe
 from experiments.compare import Verdict, compare
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE
-from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read, write
 from tests.corpus.catalogue import Problem, problems
 from tests.corpus.test_expected_answers import points
@@ -22,7 +21,7 @@ def check(problem: Problem, *, timeout: float) -> None:
     answer = qe.eliminate(formula, timeout=timeout)
     assert answer.status is qe.Status.SOLVED, answer.reason
     found = answer.formula
-    assert found is not None and is_quantifier_free(found)
+    assert found is not None and found.is_quantifier_free
     assert set(found.free) <= set(formula.free)
     if not formula.free:
         assert answer.truth is (expected == TRUE)

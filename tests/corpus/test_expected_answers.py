@@ -10,7 +10,6 @@ import pytest
 from experiments import reference
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE
-from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read
 from qe.options import Budget
 from tests.corpus.catalogue import KEYS, Problem, problems, records
@@ -51,7 +50,7 @@ def test_records_are_well_formed() -> None:
 @pytest.mark.parametrize("problem", problems(), ids=lambda p: p.id)
 def test_texts_are_readable(problem: Problem) -> None:
     formula, expected = read(problem.formula), read(problem.expected)
-    assert is_quantifier_free(expected)
+    assert expected.is_quantifier_free
     assert set(expected.free) <= set(formula.free)
     if not formula.free:
         assert expected in (TRUE, FALSE)

@@ -12,7 +12,6 @@ from typing import Any
 from qe.formula.evaluate import holds_at
 from qe.formula.features import features
 from qe.formula.syntax import Exists, ForAll
-from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read, write
 from tests.universe import same
 
@@ -66,7 +65,7 @@ def test_expected_answers_mean_what_they_say(shared: Path) -> None:
         if not text or re.search(r"==>|\b(Ex|All)\b", text):
             continue
         formula = read(text)
-        assert is_quantifier_free(formula)
+        assert formula.is_quantifier_free
         names = sorted(set(re.findall(r"[A-Za-z_]\w*'*", text)) - {"true", "false"})
         assert set(formula.free) <= set(names)
         code = compile(python_source(text), "expected", "eval")

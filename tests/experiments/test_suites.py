@@ -31,7 +31,6 @@ from experiments.sweep.grid import Method, Task, grid, values
 from experiments.sweep.solve import _problem, outcome, solve
 from experiments.sweep.store import Store
 from qe.errors import InputError, Unable
-from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read, write
 from tests.tables import each
 
@@ -44,7 +43,7 @@ def test_every_problem_reads(name):
         formula = read(problem.formula)
         if problem.expected is not None:
             expected = read(problem.expected)
-            assert is_quantifier_free(expected) and set(expected.free) <= set(formula.free)
+            assert expected.is_quantifier_free and set(expected.free) <= set(formula.free)
 
 
 def test_literature_where_it_is_present(shared):

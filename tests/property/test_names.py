@@ -18,7 +18,7 @@ from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import atoms, is_quantifier_free, ring_of
+from qe.formula.traverse import atoms
 from qe.io import formats, smtlib, text
 from qe.io import json as json_format
 from qe.io.sympy import from_sympy, to_sympy
@@ -208,7 +208,7 @@ def part(poly: Poly, rng: random.Random) -> Poly:
 
 def named(formula: Formula, rng: random.Random) -> Formula:
     """The same with up to three terms of its blocks under names; the formula where there are none."""
-    ring = ring_of(formula)
+    ring = formula.ring
     if ring is None:
         return formula
     names = [f"name{k}" for k in range(3)]
@@ -218,7 +218,7 @@ def named(formula: Formula, rng: random.Random) -> Formula:
         if not isinstance(f, Exists | ForAll):
             return joined(f, in_block) if isinstance(f, And | Or) else f
         build = exists if isinstance(f, Exists) else forall
-        if not is_quantifier_free(f.body):
+        if not f.body.is_quantifier_free:
             return build(f.variables, in_block(f.body))
         sides = [a for a in atoms(f.body) if isinstance(a, Atom) and not a.poly.is_constant]
         chosen = rng.sample(sides, min(len(left), len(sides), rng.randint(1, 3)))

@@ -17,7 +17,6 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Exists as ExistsNode
 from qe.formula.syntax import ForAll as ForAllNode
 from qe.formula.syntax import Formula
-from qe.formula.traverse import is_quantifier_free, ring_of
 from qe.io import formats, qepcad, redlog, smtlib, text
 from qe.io import json as json_format
 from qe.io.latex_lexer import is_latex
@@ -141,7 +140,7 @@ def test_writing_is_stable(formula: Formula, name: str) -> None:
 def test_json_is_exact(formula: Formula) -> None:
     again = json_format.read(json_format.write(formula))
     assert again == formula
-    assert ring_of(again) is ring_of(formula)
+    assert again.ring is formula.ring
 
 
 @given(formulas(names=PLAIN, max_quantifiers=3))
@@ -178,7 +177,7 @@ def test_qepcad(formula: Formula, point: dict[str, Fraction]) -> None:
     body = again
     while isinstance(body, ExistsNode | ForAllNode):
         body = body.body
-    assert is_quantifier_free(body)
+    assert body.is_quantifier_free
     assert set(again.free) <= set(formula.free)
 
 

@@ -24,7 +24,6 @@ from bezier.problem import PlanMethod, Problem, read_problem
 from qe.api.input import read_formula
 from qe.errors import CertificateRejected
 from qe.formula.build import convert
-from qe.formula.traverse import ring_of
 from qe.io import text
 from tests.bezier.folder_mutation import Quiet
 from tests.bezier.made import points, small
@@ -184,7 +183,7 @@ def test_answer_as_printed(q0: Sequence[object], r0: Sequence[object], square: s
     answer = qe.eliminate(printed(q0, r0, square))
     assert answer.formula is not None
     expected = read_formula(six_norms(q0, r0, square))
-    ring = ring_of(expected)
+    ring = expected.ring
     assert set(convert(answer.formula, ring).args) == set(expected.args)
 
 

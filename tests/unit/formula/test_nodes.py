@@ -26,7 +26,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.evaluate import holds_at, substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, FormulaNode, Or, Relation, RootAtom
-from qe.formula.traverse import atoms, children, has_root_atoms, is_quantifier_free, map_atoms, ring_of
+from qe.formula.traverse import atoms, children, has_root_atoms, map_atoms
 from qe.io.text import read
 from qe.simplifier.simplify import _MOST, _remembered, simplify
 from tests.strategies import RELATIONS, formulas
@@ -53,12 +53,12 @@ def quantified(formula: Formula) -> bool:
 def test_nodes_know_what_occurs_in_them(formula: Formula) -> None:
     rings = {a.poly.ring for a in atoms(formula)}
     assert len(rings) <= 1
-    assert ring_of(formula) is (rings.pop() if rings else None)
+    assert formula.ring is (rings.pop() if rings else None)
     names = () if formula.ring is None else formula.ring.names
     free = occurring_free(formula)
     for _ in range(2):  # found, and then remembered
         assert formula.free == tuple(name for name in names if name in free)
-        assert is_quantifier_free(formula) is not quantified(formula)
+        assert formula.is_quantifier_free is not quantified(formula)
 
 
 @each(
@@ -69,7 +69,7 @@ def test_nodes_know_what_occurs_in_them(formula: Formula) -> None:
 def test_one_quantifier_among_other_parts(text: str, free: tuple[str, ...]) -> None:
     formula = read(text)
     assert set(formula.free) == set(free)
-    assert is_quantifier_free(formula) is not quantified(formula)
+    assert formula.is_quantifier_free is not quantified(formula)
 
 
 @given(formulas(max_quantifiers=2, root_atoms=True), formulas(max_quantifiers=2, root_atoms=True))
@@ -79,7 +79,7 @@ def test_equality_and_hash_see_the_formula_only(one: Formula, other: Formula) ->
     for fact in FACTS:
         with pytest.raises(AttributeError):
             fact.__get__(twin)
-    for knows in (hash, lambda f: f.free, is_quantifier_free, ring_of, simplify):
+    for knows in (hash, lambda f: f.free, lambda f: f.is_quantifier_free, lambda f: f.ring, simplify):
         knows(one)
     assert one == twin == copy.deepcopy(one) == copy.copy(one)
     assert hash(one) == hash(twin)
@@ -160,7 +160,7 @@ def test_and_or_of_the_same_parts_differ() -> None:
     assert Exists(("x",), parts[0]) != ForAll(("x",), parts[0])
 
 
-@each(lambda f: f.free, is_quantifier_free, hash, ring_of, lambda f: convert(f, f.ring))
+@each(lambda f: f.free, lambda f: f.is_quantifier_free, hash, lambda f: f.ring, lambda f: convert(f, f.ring))
 def test_questions_to_large_formulas_are_answered_at_once(ask) -> None:
     ring = Ring.of(("x", "y", "z"))
     x, y, z = (ring.var(name) for name in ring.names)
@@ -276,7 +276,7 @@ def test_the_roots_of_a_polynomial_in_one_variable_are_numbers(
     poly = next(iter(read_formula(f"({shown})*({factor}) = 0 or x = 7").args)).poly  # type: ignore[attr-defined]
     given_atom = root_atom("x", relation, poly, k)
     plain = without_root_atoms(given_atom)
-    assert is_quantifier_free(plain) and not has_root_atoms(plain)
+    assert plain.is_quantifier_free and not has_root_atoms(plain)
     for x in (Fraction(n, 4) for n in range(-12, 13)):
         assert holds_at(plain, {"x": x}) is holds_at(given_atom, {"x": x})
 

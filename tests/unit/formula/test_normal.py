@@ -20,9 +20,7 @@ from qe.formula.traverse import (
     conjuncts,
     connected,
     disjuncts,
-    is_quantifier_free,
     polynomials,
-    ring_of,
     subformulas,
 )
 from qe.io.text import read
@@ -68,7 +66,7 @@ def test_rename_apart(formula: Formula, point: dict[str, Fraction]) -> None:
 @given(quantified, places)
 def test_prenex(formula: Formula, point: dict[str, Fraction]) -> None:
     prefix, matrix = prenex(formula)
-    assert is_quantifier_free(matrix)
+    assert matrix.is_quantifier_free
     assert all(a[0] is not b[0] and a[1] and b[1] for a, b in itertools.pairwise(prefix))
     assert holds(close(prefix, matrix), point) == holds(formula, point)
 
@@ -98,7 +96,7 @@ def test_prenex_has_few_blocks(text: str, blocks: str) -> None:
 def test_shadowing_and_clashes_are_resolved() -> None:
     apart = rename_apart(read("x > 0 and (ex x. x < y and (all x. x^2 >= y)) and (ex y. y = x)"))
     assert str(apart) == "x > 0 and (ex x_1. y > x_1 and all x_2. y <= x_2^2) and ex y_1. x = y_1"
-    ring = ring_of(apart)
+    ring = apart.ring
     assert ring is not None and ring.names[:2] == ("x", "y")
 
 

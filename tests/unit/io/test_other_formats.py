@@ -12,7 +12,7 @@ from qe.errors import InputError, ParseError
 from qe.exact.ring import Ring
 from qe.formula.build import atom
 from qe.formula.syntax import Formula, Relation
-from qe.formula.traverse import polynomials, ring_of
+from qe.formula.traverse import polynomials
 from qe.io import formats, latex, mathml, qepcad, redlog
 from qe.io.json import decode, encode
 from qe.io.text import read
@@ -235,7 +235,7 @@ def test_a_qepcad_session() -> None:
     session = "[ Quadratic. ]\n(b,a,x)\n2\n(E x)[ a x^2 + b >= 1/2 ].\nproj-op (m,m)\nfinish\n"
     formula = formats.read(session, "qepcad")
     assert str(formula) == "ex x. 2*a*x^2 + 2*b >= 1"
-    assert ring_of(formula) is Ring.of(("b", "a", "x"))
+    assert formula.ring is Ring.of(("b", "a", "x"))
     assert qepcad.write(formula) == "[]\n(b,a,x)\n2\n(E x)[2 a x^2 + 2 b >= 1].\nfinish\n"
 
 

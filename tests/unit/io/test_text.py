@@ -5,7 +5,6 @@ import pytest
 from qe.errors import InputError, ParseError
 from qe.exact.ring import Ring
 from qe.formula.syntax import FALSE, TRUE, RootAtom
-from qe.formula.traverse import ring_of
 from qe.io.text import read, write
 from tests.tables import each
 
@@ -102,7 +101,7 @@ def test_long_inputs_are_not_deep_and_numbers_have_any_length(text: str, printed
     ("x > root(3, x^3 - y*x)", "xy"),
 )
 def test_ring_order_is_free_then_bound(text: str, names: str) -> None:
-    assert ring_of(read(text)) is Ring.of(tuple(names))
+    assert read(text).ring is Ring.of(tuple(names))
 
 
 def test_constants_have_no_ring_and_root_atoms_their_number() -> None:

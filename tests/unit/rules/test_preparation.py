@@ -8,7 +8,7 @@ import pytest
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Relation
-from qe.formula.traverse import atoms, is_quantifier_free
+from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.options import Budget
 from qe.rules.lift import holds_at
@@ -33,7 +33,7 @@ def formula_8(symbolic: bool) -> str:
 @each(False, True)
 def test_formula_8_becomes_three_balls(symbolic: bool) -> None:
     result = prepare(read(formula_8(symbolic))).formula
-    assert is_quantifier_free(result)
+    assert result.is_quantifier_free
     assert len(list(atoms(result))) == 3
     assert all(a.relation in (Relation.LE, Relation.GE) and a.poly.total_degree == 2 for a in atoms(result))
 
@@ -60,7 +60,7 @@ def test_formula_7_keeps_six_balls_in_six_variables() -> None:
     block = ", ".join(f"{v}{i}" for v in "abcd" for i in (1, 2, 3))
     balls = " and ".join(BALL.format(v).replace("r^2", "27") for v in "abcdxy")
     result = prepare(read(f"ex {block}. ({' and '.join(equations)} and {balls})")).formula
-    assert is_quantifier_free(result)
+    assert result.is_quantifier_free
     assert len(result.free) == 6
     assert len(list(atoms(result))) == 6
 
@@ -81,7 +81,7 @@ def test_formula_7_keeps_six_balls_in_six_variables() -> None:
 )
 def test_equations_disappear(text: str, expected: str) -> None:
     result = prepare(read(text)).formula
-    assert is_quantifier_free(result)
+    assert result.is_quantifier_free
     if not result.free:
         assert str(result) == expected
         return
