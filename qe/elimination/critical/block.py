@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Protocol
 
 from qe.convex.violation import proposed
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
@@ -13,7 +12,7 @@ from qe.decomposition.operators.operator import Operator
 from qe.decomposition.projection import Levels, factor_lists
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.bounded import has_bounded_fibres
-from qe.elimination.critical.fibres import Fibres
+from qe.elimination.critical.fibres import Fibres, Spared
 from qe.elimination.critical.open_cells import OpenCell, OpenCells
 from qe.elimination.critical.separate import separated
 from qe.elimination.critical.system import System, systems
@@ -100,25 +99,12 @@ def _eliminated(system: System, budget: Budget) -> Disjunct:
     return Disjunct(system.formula, run.general() if body is None else body, stats)
 
 
-class Oracle(Protocol):
-    """Membership in a truth set."""
-
-    def hold_at(self, parameters: tuple[Fraction, ...]) -> bool:
-        """Whether a rational point belongs to it."""
-
-    def hold_over(self, point: Point) -> bool:
-        """Whether any point belongs to it."""
-
-    def cut(self, parameters: tuple[Fraction, ...]) -> Poly | None:
-        """A polynomial positive at a rational point outside and <= 0 on the set, if one is known."""
-
-
 @dataclass(frozen=True, slots=True)
 class Run:
     """The work on one truth set over the parameters of ``system``."""
 
     system: System
-    fibres: Oracle
+    fibres: Fibres | Spared
     budget: Budget
     stats: dict[str, object]
 

@@ -173,6 +173,24 @@ class Fibres:
             return self._exactly(Point.of(self.system.ring, parameters))
 
 
+@dataclass(frozen=True, slots=True)
+class Spared:
+    """The points over which none of several blocks is true."""
+
+    parts: tuple[Fibres, ...]
+
+    def hold_at(self, parameters: Values) -> bool:
+        """Whether a rational point belongs to them."""
+        return not any(part.hold_at(parameters) for part in self.parts)
+
+    def hold_over(self, point: Point) -> bool:
+        """Whether any point belongs to them."""
+        return not any(part.hold_over(point) for part in self.parts)
+
+    def cut(self, parameters: Values) -> Poly | None:
+        """None: no inequality is known that they all satisfy."""
+
+
 def _over(form: ParametricForm, parameters: Values) -> Fibre:
     exact = form.at(parameters)
     hessian = tuple(tuple(map(_rounded, row)) for row in exact.hessian)

@@ -10,7 +10,6 @@ T_j = {p : all y in D, g_j <= 0}, whose complement is the truth set of the j-th 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
@@ -18,10 +17,9 @@ from qe.convex.system import Condition
 from qe.elimination.critical.block import Disjunct, Run
 from qe.elimination.critical.boundary import critical_hypersurfaces, determinant
 from qe.elimination.critical.bounded import has_bounded_fibres
-from qe.elimination.critical.fibres import Fibres, Values
+from qe.elimination.critical.fibres import Fibres, Spared
 from qe.elimination.critical.system import System, systems
 from qe.exact.ring import Poly, Ring
-from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget
@@ -29,24 +27,6 @@ from qe.proof.multipliers import FormRelation
 
 SAMPLES = 8
 """Into so many equal parts the range of the quantified variable is divided for necessary conditions."""
-
-
-@dataclass(frozen=True, slots=True)
-class Spared:
-    """The points over which none of several blocks is true."""
-
-    parts: tuple[Fibres, ...]
-
-    def hold_at(self, parameters: Values) -> bool:
-        """Whether a rational point belongs to them."""
-        return not any(part.hold_at(parameters) for part in self.parts)
-
-    def hold_over(self, point: Point) -> bool:
-        """Whether any point belongs to them."""
-        return not any(part.hold_over(point) for part in self.parts)
-
-    def cut(self, parameters: Values) -> Poly | None:
-        """None: no inequality is known that they all satisfy."""
 
 
 def eliminate_universal(
