@@ -278,9 +278,8 @@ def curved_and_many_parameters(problem: Block, options: Options) -> str | None:
     total = problem.total
     if len(problem.variables) > 1 or total <= CAD_VARIABLES or problem.degree < 3:
         return None
-    # polynomials with the variable beside numbers or letters that it is compared with
-    several = sum(degree > 1 or not lead.is_constant for degree, lead in _leads(problem)) > 1
-    if problem.degree == 3 and several:
+    # of a cubic, more than one polynomial with the variable beside numbers or letters that it is compared with
+    if problem.degree == 3 and sum(degree > 1 or not lead.is_constant for degree, lead in _leads(problem)) > 1:
         return None
     return f"one variable of degree {problem.degree} and {total - 1} parameters"
 
