@@ -28,7 +28,7 @@ Reader = Callable[[AnyFormula, str, bool], Read]
 LIMITED_POWER = 12
 """The greatest exponent in what is read here although a limit is to hold: higher powers of sums are long."""
 
-MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
+MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block")
 """The parts of the engine that nearly every problem with a quantifier needs."""
 
 

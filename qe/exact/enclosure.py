@@ -46,17 +46,17 @@ class Jet:
         return Jet(self.value - other.value, slope, self.centre - other.centre, self.sides)
 
     def __neg__(self) -> Jet:
-        return self.scaled(arb(-1))
+        return self.scaled(-1)
 
     def __mul__(self, other: Jet) -> Jet:
         slope = _both(self.slope, other.slope, lambda a, b: a * other.value + b * self.value)
         return Jet(self.value * other.value, slope, self.centre * other.centre, self.sides)
 
-    def scaled(self, factor: arb) -> Jet:
+    def scaled(self, factor: arb | int) -> Jet:
         """A constant multiple."""
         return Jet(self.value * factor, self._steeper(factor), self.centre * factor, self.sides)
 
-    def _steeper(self, factor: arb) -> tuple[arb, ...] | None:
+    def _steeper(self, factor: arb | int) -> tuple[arb, ...] | None:
         """The partial derivatives times a factor."""
         return None if self.slope is None else tuple(d * factor for d in self.slope)
 
@@ -78,10 +78,6 @@ class Jet:
     def over(self, divisor: int) -> Jet:
         """Divided by a nonzero integer."""
         return self.scaled(1 / arb(divisor))
-
-    def scaled_by(self, factor: int) -> Jet:
-        """Multiplied by an integer."""
-        return self.scaled(arb(factor))
 
     def arcsine(self) -> Jet:
         """asin of a function known to lie in [-1, 1]."""
@@ -167,10 +163,10 @@ def root_jet(p: Poly, k: int, at: Mapping[int, Jet], sides: tuple[arb, ...]) -> 
         return None if scale is None else -c[0] * scale
     if len(c) != 3:
         return _isolated_root(c, k, sides)
-    scale = c[2].scaled(arb(2)).inverse()
+    scale = c[2].scaled(2).inverse()
     if scale is None:
         return None
-    root = (c[1] * c[1] - (c[2] * c[0]).scaled(arb(4))).root()
+    root = (c[1] * c[1] - (c[2] * c[0]).scaled(4)).root()
     lower = (k == 1) == bool(c[2].value > 0)
     return ((-c[1]) - root if lower else root - c[1]) * scale
 

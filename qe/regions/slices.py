@@ -86,7 +86,7 @@ def _root(q: Poly, ends: tuple[_End, _End], at: Mapping[int, Jet], sides: Sides)
     lowest, linear, leading = q.coefficients(Y)
     lead = leading.constant_value()
     b = evaluate(linear, at, sides)
-    d = b * b - evaluate(lowest, at, sides).scaled_by(4 * lead)
+    d = b * b - evaluate(lowest, at, sides).scaled(4 * lead)
     scale = d.root().inverse()
     if scale is None:
         return None
@@ -103,6 +103,6 @@ def _primitive(
     if end.root.poly == q.normal()[1]:
         angle = constant(1 if end.root.k == 1 else -1, sides).arcsine()
         return (d * angle * radical).over(8 * lead)
-    slope = end.y.scaled_by(2 * lead) + b
+    slope = end.y.scaled(2 * lead) + b
     value = evaluate(q, {**at, Y: end.y}, sides).root()
     return (slope * value).over(4 * lead) + (d * (slope * scale).arcsine() * radical).over(8 * lead)

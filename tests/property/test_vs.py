@@ -14,7 +14,6 @@ from qe.elimination.cad import decomposed
 from qe.elimination.critical.method import CriticalValues
 from qe.elimination.protocol import Context
 from qe.elimination.vs.block import eliminate_block
-from qe.elimination.vs.witness import witness
 from qe.engine.run import _Run
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Poly, Ring
@@ -67,7 +66,7 @@ def test_one_variable(matrix: Formula, points: list[dict[str, Fraction]], tidy) 
         guarded = [a for a in answers if holds_at(a.guard, values)]
         assert bool(guarded) == expected
         for answer in guarded[:2]:
-            check_witness(matrix, values, witness(answer, values, budget=budget()))
+            check_witness(matrix, values, answer.witness(values, budget=budget()))
 
 
 def check_witness(matrix: Formula, values: dict[str, Fraction], found: dict) -> None:  # type: ignore[type-arg]
@@ -168,7 +167,7 @@ def test_two_variables(matrix: Formula, points: list[Fraction]) -> None:
             assert holds_at(result.formula, values) == satisfiable(specialise(first.formula, values), 1)
         for answer in list(result.answers)[:3]:
             if holds_at(answer.guard, values):
-                check_witness(matrix, values, witness(answer, values, budget=budget()))
+                check_witness(matrix, values, answer.witness(values, budget=budget()))
 
 
 @enough(7, 28, matrices(Ring.of(("x", "y", "z")), 2, 2))
@@ -187,7 +186,7 @@ def test_sentences_against_z3(matrix: Formula) -> bool:
         return False
     assert (str(result.formula) == "true") == (verdict == z3.sat)
     if verdict == z3.sat:
-        check_witness(matrix, {}, witness(next(result.answers), budget=budget()))
+        check_witness(matrix, {}, next(result.answers).witness(budget=budget()))
     return True
 
 

@@ -7,7 +7,6 @@ from functools import partial
 
 from qe.elimination.protocol import Context, Outcome
 from qe.elimination.vs.block import eliminate_block
-from qe.elimination.vs.witness import witness
 from qe.exact.number import Values
 from qe.formula.block import Block
 from qe.formula.syntax import TRUE
@@ -38,7 +37,7 @@ class VirtualSubstitution:
         values: Values | None = None
         if not result.remaining and result.formula == TRUE:
             certain = next((candidate for candidate in result.answers if tidy(candidate.guard) == TRUE), None)
-            values = None if certain is None else witness(certain, budget=context.budget)
+            values = None if certain is None else certain.witness(budget=context.budget)
         return Outcome(answer, values)
 
 

@@ -16,7 +16,6 @@ from qe.arguments import by_name, flag, seconds
 from qe.decomposition.interval import Coordinate, number_of
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.result import Answer
-from qe.elimination.vs.witness import witness
 from qe.errors import DegreeTooHigh, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import ExactPoint
@@ -73,7 +72,7 @@ class ParametricWitness:
         budget.check("guard")
         if not _holds(self.guard, given):
             raise InputError("parameters: the guard does not hold there")
-        values = witness(self._answer, given, budget=budget)
+        values = self._answer.witness(given, budget=budget)
         return ExactPoint({name: values.get(name, Fraction(0)) for name in self._variables})
 
     def __str__(self) -> str:

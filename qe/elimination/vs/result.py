@@ -13,6 +13,7 @@ from qe.elimination.vs.univariate_samples import solution
 from qe.errors import InternalError
 from qe.formula.build import conj
 from qe.formula.syntax import Exists, Formula
+from qe.options import Budget
 from qe.rules.lift import Assignment, Value
 from qe.rules.tree import All, Any, Leaf, Lifted, Node
 
@@ -51,6 +52,22 @@ class Answer:
 
     guard: Formula
     choices: tuple[Choice, ...]
+
+    def witness(self, parameters: Assignment | None = None, *, budget: Budget) -> dict[str, Value]:
+        """Values for the variables of the block, at these values of the parameters, where the guard holds: real numbers
+        for infinitesimals and infinities, too. Variables that take no part get 0.
+
+        THEOREM: the choices are made last to first; each is any solution of the formula in which its variable was
+        eliminated, at the values chosen already. That formula has one, because its elimination was an equivalence;
+        ``univariate_samples.solution`` finds and checks it by exact evaluation. Raises as ``Choice.value``.
+        """
+        values, given = dict(parameters or {}), set(parameters or ())
+        for choice in reversed(self.choices):
+            budget.check("witness")
+            for name in choice.before.free:
+                values.setdefault(name, Fraction(0))
+            values[choice.variable] = choice.value(values)
+        return {name: value for name, value in values.items() if name not in given}
 
     def __str__(self) -> str:
         terms = ", ".join(

@@ -73,7 +73,7 @@ def test_the_mean_over_a_small_box_is_second_order() -> None:
     (lambda x: x.inverse(), lambda v: 1 / v),
     (lambda x: x.root(), sqrt),
     (lambda x: x.over(3), lambda v: v / 3),
-    (lambda x: x.scaled_by(-5), lambda v: -5 * v),
+    (lambda x: x.scaled(-5), lambda v: -5 * v),
     (lambda x: x.over(4).arcsine(), lambda v: asin(v / 4)),
 )
 def test_functions_and_their_slopes(function, exact) -> None:  # type: ignore[no-untyped-def]

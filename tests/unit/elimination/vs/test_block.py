@@ -7,7 +7,6 @@ from qe.elimination.vs.candidates import bounds, in_order
 from qe.elimination.vs.radical_free import convex_family, lone_quadratic, without_radicals
 from qe.elimination.vs.result import BlockResult
 from qe.elimination.vs.substitute import Substitution
-from qe.elimination.vs.witness import witness
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.evaluate import holds_at
@@ -126,7 +125,7 @@ def test_witnesses_satisfy(text: str) -> None:
     assert isinstance(formula, Exists)
     result = run(text)
     assert result.formula == TRUE
-    check_witness(formula.body, {}, witness(next(result.answers), budget=Budget(10)))
+    check_witness(formula.body, {}, next(result.answers).witness(budget=Budget(10)))
 
 
 def test_too_high_a_degree_stays() -> None:

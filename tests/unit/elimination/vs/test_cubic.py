@@ -12,7 +12,6 @@ from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.clusters import asks_one
 from qe.elimination.vs.cubic import at_cubic
 from qe.elimination.vs.points import SOME, CubicRoot
-from qe.elimination.vs.witness import witness
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, disj, exists, neg
 from qe.formula.evaluate import holds_at
@@ -192,7 +191,7 @@ def test_blocks_of_degree_three(text: str) -> None:
         assert holds_at(found.formula, values) is expected, values
         if expected and a > 0:
             answer = next(r for r in found.answers if holds_at(r.guard, values))
-            assert holds_at_value(block.body, values, witness(answer, values, budget=Budget(20))["x"])
+            assert holds_at_value(block.body, values, answer.witness(values, budget=Budget(20))["x"])
 
 
 def holds_at_value(body: Formula, values: dict[str, Fraction], x: object) -> bool:
