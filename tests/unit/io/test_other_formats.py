@@ -79,8 +79,8 @@ def test_letters_are_single_in_the_format_and_words_in_text() -> None:
 
 
 @each(
-    ("x1^2 + 2*alpha*y' - 3/2 <= 0", r"2\,x_{1}^{2} + 4\,\alpha\,y' - 3 \leq 0"),
-    ("speed /= `a_b#`", r"\mathrm{speed} - \mathrm{a\_b\#} \neq 0"),
+    ("x1^2 + 2*alpha*y' - 3/2 <= 0", r"2\,x_{1}^{2} + 4\,\alpha\,y' \leq 3"),
+    ("speed /= `a_b#`", r"\mathrm{speed} \neq \mathrm{a\_b\#}"),
     ("Omega > 0 and (x = 1 or not (y = root(1, y^2 - x)))", None),  # was read as a product with root1
     ("x1 >= root(-12, x1^13 + y*x1 - 2)", None),
     ("ex x, y. all z. x*y'^2 > z or z >= 1", None),
@@ -107,7 +107,7 @@ def test_long_formulas_stand_in_lines() -> None:
     parts = " and ".join(f"(x{k} > {k} or x{k} < y)" for k in range(6))
     lines = latex.write(read(f"ex x0. {parts}")).splitlines()
     assert lines[0] == r"\exists x_{0}\colon \begin{array}{rl}" and lines[-1] == r"\end{array}" and len(lines) == 8
-    assert lines[2] == r"\land\; & \left(x_{1} - 1 > 0 \lor y - x_{1} > 0\right) \\"
+    assert lines[2] == r"\land\; & \left(x_{1} > 1 \lor y > x_{1}\right) \\"
     assert "array" not in latex.write(read("ex x0. x0^2 > 1")) and latex.write(read(parts)).startswith(r"\begin{array}")
     either = latex.write(read(parts.replace(" and ", " # ").replace(" or ", " and ").replace(" # ", " or ")))
     assert either.count(r"\lor\; &") == 5 and r"\left" not in either
@@ -149,12 +149,12 @@ def plain(text: str) -> str:
 
 @each(
     ("x^2 - 2*x*y + 1 = 0", "x2−2*x*y+1=0"),
-    ("-x < 1", "x+1>0"),
-    ("x /= 1", "x−1≠0"),
-    ("x <= 1 and y >= 1", "x−1≤0∧y−1≥0"),
+    ("-x < 1", "x>−1"),
+    ("x /= 1", "x≠1"),
+    ("x <= 1 and y >= 1", "x≤1∧y≥1"),
     ("x > 0 and (y > 0 or z = 0)", "x>0∧(y>0∨z=0)"),
-    ("not (ex y. y > x)", "¬(∃y:x−y<0)"),
-    ("all x, y. x > y", "∀x,y:x−y>0"),
+    ("not (ex y. y > x)", "¬(∃y:x<y)"),
+    ("all x, y. x > y", "∀x,y:x>y"),
     ("x1 = 0", "x1=0"),
     ("alpha > 0", "α>0"),
     ("x' > 0", "x′>0"),
@@ -236,7 +236,7 @@ def test_a_qepcad_session() -> None:
     formula = formats.read(session, "qepcad")
     assert str(formula) == "ex x. 2*a*x^2 + 2*b >= 1"
     assert formula.ring is Ring.of(("b", "a", "x"))
-    assert qepcad.write(formula) == "[]\n(b,a,x)\n2\n(E x)[2 a x^2 + 2 b >= 1].\nfinish\n"
+    assert qepcad.write(formula) == "[]\n(b,a,x)\n2\n(E x)[2 a x^2 + 2 b - 1 >= 0].\nfinish\n"
 
 
 @each(
@@ -326,7 +326,7 @@ def test_json_texts_that_are_no_json(given: str) -> None:
 
 def test_latex() -> None:
     assert formats.write(read("ex x1. a*x1^2 /= alpha or x1 < 0"), "latex") == (
-        r"\exists x_{1}\colon a\,x_{1}^{2} - \alpha \neq 0 \lor x_{1} < 0"
+        r"\exists x_{1}\colon \alpha \neq a\,x_{1}^{2} \lor x_{1} < 0"
     )
     long = formats.write(read(" and ".join(f"(x - {k})^2 + y^2 + {k}*z <= 27" for k in range(1, 5))), "latex")
     assert long.count(r"\\") == 3 and r"\begin{array}" in long

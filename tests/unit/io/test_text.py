@@ -48,7 +48,7 @@ from tests.tables import each
     ("A y, z. y > A + z", "all y, z. A + z < y"),
     ("x' + x'' = `my name`", "x' + x'' = `my name`"),
     ("`and` > `x`", "`and` > x"),
-    ("`a\\`b` > `a\\u{a}b`", "`a\\`b` - `a\\u{a}b` > 0"),
+    ("`a\\`b` > `a\\u{a}b`", "`a\\`b` > `a\\u{a}b`"),
     ("`pi` > 3", "`pi` > 3"),
     ("ex e. e > 0 and x < e", "ex e. e > 0 and x < e"),
     ("ex e. e > 0 and x < e or i = 0", "ex e. e > 0 and x < e or i = 0"),
@@ -86,9 +86,9 @@ DIGITS = "1234567890" * 1000
 @each(
     ("+".join(["x"] * 3000) + " = 0", "x = 0"),
     ("*".join(["x"] * 3000) + " = 0", "x^3000 = 0"),
-    (" and ".join(f"x > {i}" for i in range(1, 1000)), " and ".join(f"x - {i} > 0" for i in range(1, 1000))),
-    (f"x = {DIGITS}", f"x - {DIGITS} = 0"),
-    (f"x = {DIGITS}.0", f"x - {DIGITS} = 0"),
+    (" and ".join(f"x > {i}" for i in range(1, 1000)), " and ".join(f"x > {i}" for i in range(1, 1000))),
+    (f"x = {DIGITS}", f"x = {DIGITS}"),
+    (f"x = {DIGITS}.0", f"x = {DIGITS}"),
     ("ex x. x = y and (ex y. y > x)", "ex x. y = x and ex y. y > x"),  # free and bound
 )
 def test_long_inputs_are_not_deep_and_numbers_have_any_length(text: str, printed: str) -> None:
