@@ -49,14 +49,24 @@ class Projection:
 
         if not (atoms := linear_atoms(problem.positive)):
             positive = None if context.options.certify else _by_generators(problem, check)
-            after = None if positive is None else nnf(positive, negate=problem.universal)
-            return None if after is None else Outcome(context.log.step("projection", problem.formula, after))
+            if positive is None:
+                return None
+            after = nnf(positive, negate=problem.universal)
+            shortest = _is_irredundant(linear_atoms(nnf(positive, negate=True)), check)
+            return Outcome(context.log.step("projection", problem.formula, after), shortest=shortest)
         system = LinearRows.of(atoms)
         bound = [j for j, name in enumerate(system.names) if name in problem.variables]
         projected = shadow(Polyhedron.of(system), bound, check)
         positive = FALSE if projected is None else _formula(projected, system.names, problem.free)
         after = nnf(positive, negate=problem.universal)
         return Outcome(context.log.step("projection", problem.formula, after), shortest=True)
+
+
+def _is_irredundant(atoms: Sequence[Atom], check: Check) -> bool:
+    """Whether none of these linear conditions follows from the others."""
+    polyhedron = Polyhedron.of(LinearRows.of(atoms))
+    kept = polyhedron.irredundant(check)
+    return kept is not None and 0 < len(kept.halves) == len(polyhedron.halves) == len(atoms)
 
 
 def _formula(projected: Polyhedron, names: tuple[str, ...], free: tuple[str, ...]) -> Formula:

@@ -6,6 +6,7 @@ from qe.elimination import projection
 from qe.formula.block import Block
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
+from qe.formula.traverse import disjuncts
 from qe.io.text import read
 from tests.tables import each
 
@@ -104,3 +105,11 @@ def test_what_holds_at_no_vertex_may_hold_in_a_direction(body: str, answer: str 
 def test_a_short_row_that_follows_from_longer_ones_is_left_out() -> None:
     text = "ex z. a + b <= z and a - b <= z and a - 3 <= z and z <= 2"
     assert qe.eliminate(text, process=False).formula == qe.eliminate(text.replace(" and a - 3 <= z", "")).formula
+
+
+def test_an_answer_at_ten_vertices_is_no_decomposition_of_four_parameters() -> None:
+    """None of its conditions follows from the others: there is nothing to shorten (it took over 20 s to try)."""
+    rows = "x + y <= 2 and 3*x - z <= 4 and y - 2*x + 3*z <= 5 and x - 3*y - z <= 5"
+    box = " and ".join(f"{v} >= -3 and {v} <= 3" for v in "xyz")
+    answer = qe.eliminate(f"ex x, y, z. {rows} and {box} and a*x + b*y + c*z > k", process=False, timeout=5)
+    assert answer.reason == "no proof was asked for" and len(disjuncts(answer.formula)) > 9
