@@ -145,9 +145,10 @@ def distance(region: Region, point: object, timeout: float | None) -> Number:
 
 def exact_volume(region: Region, timeout: float | None) -> Any:
     """The measure in closed form; see ``qe.api.measure``."""
+    begun = time.monotonic()  # SymPy takes a part of the time where it is not loaded yet
     from qe.api.measure import measure
 
-    return region._asked(partial(measure, region), arguments.seconds(timeout), at_once=True)
+    return region._asked(partial(measure, region), arguments.seconds(timeout), at_once=True, start=begun)
 
 
 def sample(region: Region, seed: int, timeout: float | None) -> dict[str, Number]:

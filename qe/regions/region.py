@@ -105,13 +105,16 @@ class Region(SetOperations):
         return Region(matrix, done.table, chosen, limits)
 
     # --- questions under limits ----------------------------------------------------------------
-    def _asked(self, work: Callable[[], T], timeout: float | None = None, *, at_once: bool = False) -> T:
+    def _asked(
+        self, work: Callable[[], T], timeout: float | None = None, *, at_once: bool = False, start: float | None = None
+    ) -> T:
         """The answer to a question, found under the limits; what was learned on the way is kept. ``work`` knows the
-        region, as a method or argument, and can be pickled.
+        region, as a method or argument, and can be pickled. ``start``: when the time began to run, if before.
 
         A question that is part of another shares its budget; where it may take long, both move to another process.
         """
-        limits = self.limits if timeout is None else replace(self.limits, timeout=seconds(timeout))
+        limits = replace(self.limits, start=start)
+        limits = limits if timeout is None else replace(limits, timeout=seconds(timeout))
         at_once = at_once and limits.timeout is not None
         if self._budget is not None:
             if at_once:

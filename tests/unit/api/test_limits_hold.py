@@ -344,3 +344,17 @@ def test_the_first_answer_wins_and_reasons_are_told() -> None:
     assert won.formula == read("x > 0") and "first answer was that of cad, ahead of vs" in won.explanation
     lost = raced(asked, [Method.VS], Limits(60))
     assert lost.status is Status.UNABLE and lost.reason == "vs: not mine"
+
+
+def test_the_time_in_which_sympy_is_loaded_is_a_part_of_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    region, began = qe.region(DISC), list[float | None]()
+
+    def performed(work: object, limits: Limits, **how: object) -> None:
+        began.append(limits.start)
+        raise Unable("limit")
+
+    monkeypatch.setattr("qe.regions.region.perform", performed)
+    start = time.monotonic()
+    with pytest.raises(Unable, match="limit"):
+        region.exact_volume(timeout=5)
+    assert began[0] is not None and start <= began[0] < start + 0.05
