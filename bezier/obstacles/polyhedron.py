@@ -1,7 +1,7 @@
 """Convex bodies with finitely many corners, exactly: points, segments and full polyhedra with rational corners.
 
 A polyhedron is given by half-spaces or by corners; both lead to the same value, which knows corners, edges and
-facets. Enumeration over triples is plain and enough for the few dozen planes of an obstacle.
+facets.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from math import gcd, lcm
 from typing import Any, cast
 
 from bezier.curves.scalar import dot, subtract
+from qe.convex.cone import Cone
 from qe.errors import InputError
 from qe.exact.quadratic_form import solve_linear
 
@@ -77,49 +78,33 @@ def parallelepiped(corner: Point, sides: Sequence[Point]) -> Polytope:
 def from_half_spaces(half_spaces: Sequence[tuple[Point, Fraction]]) -> Polytope:
     """The body {p : n . p <= c for all (n, c)}.
 
-    Raises ``InputError`` when it is empty, in a plane or unbounded. A pointed polyhedron is bounded iff no direction
-    +-(n_i x n_j), the only candidates for extreme rays, satisfies n . d <= 0 for all n.
+    Raises ``InputError`` when it is empty, in a plane or unbounded.
     """
-    normals = [n for n, _ in half_spaces]
-    for a, b in itertools.combinations(normals, 2):
-        axis = cross(a, b)
-        for ray in (axis, tuple(-x for x in axis)):
-            if any(ray) and all(dot(n, ray) <= 0 for n in normals):
-                raise InputError("an unbounded set of half-spaces")
-    result: list[Point] = []
-    for planes in itertools.combinations(half_spaces, 3):
-        p = _common_point(planes)
-        if p is not None and p not in result and all(dot(n, p) <= c for n, c in half_spaces):
-            result.append(p)
-    if not result:
-        pointed = any(_determinant(*three) for three in itertools.combinations(normals, 3))
-        raise InputError("an empty set of half-spaces" if pointed else "an unbounded set of half-spaces")
-    return from_corners(result)
+    cone = Cone(4)
+    for normal in ((0, 0, 0, -1), *(_whole((*n, -c)) for n, c in half_spaces)):
+        cone.cut(normal)
+    corners = [tuple(Fraction(c, v[3]) for c in v[:3]) for v in cone.rays if v[3]]
+    if cone.lines or len(corners) < len(cone.rays):
+        raise InputError("an unbounded set of half-spaces")
+    if not corners:
+        raise InputError("an empty set of half-spaces")
+    return from_corners(corners)
 
 
 def from_corners(points: Sequence[Point]) -> Polytope:
-    """The convex hull of points. Raises ``InputError`` when it lies in a plane."""
-    distinct = sorted(set(points))
-    scale = lcm(*(c.denominator for p in distinct for c in p))
-    whole = [tuple(int(c * scale) for c in p) for p in distinct]
-    planes: dict[tuple[Point, Fraction], tuple[int, ...]] = {}
-    for i, j, k in itertools.combinations(range(len(distinct)), 3):
-        a, b, c = whole[i], whole[j], whole[k]
-        normal = cross(subtract(b, a), subtract(c, a))
-        if not any(normal):
-            continue
-        level = normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2]
-        heights = [normal[0] * x + normal[1] * y + normal[2] * z - level for x, y, z in whole]
-        if min(heights) < 0 < max(heights):
-            continue
-        on = tuple(n for n, height in enumerate(heights) if height == 0)
-        if len(on) == len(distinct):
-            raise InputError("a set of corners in one plane")
-        outward = _primitive(normal if max(heights) == 0 else tuple(-x for x in normal))
-        planes[outward, Fraction(dot(outward, distinct[i]))] = on
-    if not planes:
+    """The convex hull of points. Raises ``InputError`` when it lies in a plane.
+
+    The half-spaces that hold all points are a cone, and its rays are those of the facets.
+    """
+    distinct, cone = sorted(set(points)), Cone(4)
+    whole = [_whole((*p, 1)) for p in distinct]
+    for p in whole:
+        cone.cut(p)
+    if cone.lines:
         raise InputError("a set of corners in one plane")
-    return _with_edges(distinct, planes)
+    on = {side: tuple(i for i, p in enumerate(whole) if not dot(side, p)) for side in cone.rays}
+    ordered = sorted(on.items(), key=lambda item: item[1])
+    return _with_edges(distinct, {(n := _primitive(side[:3]), dot(n, distinct[i[0]])): i for side, i in ordered})
 
 
 def from_sides(corners: Sequence[Point], sides: Sequence[tuple[Point, Fraction]]) -> Polytope:
@@ -219,22 +204,13 @@ def cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
-def _determinant(a: Point, b: Point, c: Point) -> Fraction:
-    return Fraction(dot(a, cross(b, c)))
-
-
-def _common_point(planes: Sequence[tuple[Point, Fraction]]) -> Point | None:
-    """The only common point of three planes (Cramer's rule), or None."""
-    (a, p), (b, q), (c, r) = planes
-    below = _determinant(a, b, c)
-    if not below:
-        return None
-    sides = cross(b, c), cross(c, a), cross(a, b)
-    return tuple((p * sides[0][i] + q * sides[1][i] + r * sides[2][i]) / below for i in range(3))
-
-
-def _primitive(direction: Sequence[Fraction]) -> Point:
+def _primitive(direction: Sequence[Fraction | int]) -> Point:
     """The positive multiple with coprime integer entries."""
-    common = lcm(*(Fraction(x).denominator for x in direction))
-    whole = [int(x * common) for x in direction]
+    whole = _whole(direction)
     return tuple(Fraction(x, gcd(*whole)) for x in whole)
+
+
+def _whole(numbers: Sequence[Fraction | int]) -> tuple[int, ...]:
+    """A positive multiple with integer entries."""
+    common = lcm(*(x.denominator for x in numbers))
+    return tuple(int(x * common) for x in numbers)
