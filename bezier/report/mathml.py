@@ -10,7 +10,6 @@ import re
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from html import escape
-from math import gcd
 from typing import Any
 
 from bezier.curves.scalar import exact_text
@@ -187,32 +186,15 @@ def root_function(root: RootFunction) -> str:
     """A root of a polynomial in its main variable over the earlier variables."""
     if root.value is not None:
         return number(root.value)
-    poly = root.poly
-    c = poly.coefficients(poly.level)
-    if len(c) == 2:
-        return _fraction(polynomial(-c[0]), c[1])
-    if len(c) == 3 and c[2].is_constant:
-        return _quadratic(c[0], c[1], c[2].constant_value(), root.k)
-    inside = f"{polynomial(poly)}<mo>,</mo>{name(poly.ring.names[poly.level])}"
-    return f"<mrow><msub><mi>root</mi><mn>{root.k}</mn></msub>{bracketed(inside)}</mrow>"
-
-
-def _quadratic(c: Poly, b: Poly, a: int, k: int) -> str:
-    """The k-th root of a x^2 + b x + c, a > 0: (-b -+ s sqrt(d)) / 2a, the square s^2 taken out, in lowest terms."""
-    inside = b * b - 4 * a * c
-    s = square_part(abs(inside.normal()[0])) if inside else 1
-    common = gcd(2 * a, gcd(s, abs(b.normal()[0])) if b else s)
-    inside, front = inside.exact_divide(s * s), (-b).exact_divide(common)
-    factor, below = s // common, 2 * a // common
-    radical = f"<msqrt>{polynomial(inside)}</msqrt>"
-    radical = radical if factor == 1 else f"<mrow><mn>{factor}</mn>{radical}</mrow>"
-    start = polynomial(front) if front else ""
-    sign = "<mo>−</mo>" if k == 1 else "<mo>+</mo>" if start else ""
-    top = f"<mrow>{start}{sign}{radical}</mrow>"
-    return top if below == 1 else f"<mfrac>{top}<mn>{below}</mn></mfrac>"
-
-
-def _fraction(top: str, bottom: Poly) -> str:
-    if bottom.is_constant and bottom.constant_value() == 1:
-        return top
-    return f"<mfrac>{top}{polynomial(bottom)}</mfrac>"
+    if root.written is None:
+        inside = f"{polynomial(root.poly)}<mo>,</mo>{name(root.poly.ring.names[root.poly.level])}"
+        return f"<mrow><msub><mi>root</mi><mn>{root.k}</mn></msub>{bracketed(inside)}</mrow>"
+    front, radicand, bottom = root.written
+    top = polynomial(front) if front or radicand is None else ""
+    if radicand is not None:
+        sign = "<mo>−</mo>" if root.k == 1 else "<mo>+</mo>" if top else ""
+        outside = square_part(abs(radicand.normal()[0]) or 1)
+        factor = f"<mn>{outside}</mn>" if outside > 1 else ""
+        top = f"<mrow>{top}{sign}{factor}<msqrt>{polynomial(radicand.exact_divide(outside**2))}</msqrt></mrow>"
+    is_one = bottom.is_constant and bottom.constant_value() == 1
+    return top if is_one else f"<mfrac>{top}{polynomial(bottom)}</mfrac>"

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from math import gcd
 from typing import NamedTuple
 
+from qe.exact.algebraic_text import square_part
 from qe.exact.ring import Poly, format_poly
 
 NONZERO, NOT_NEGATIVE = frozenset((-1, 1)), frozenset((0, 1))
@@ -47,11 +49,11 @@ def radicals(c: Sequence[Poly], k: int, count: int, lead: int) -> Iterator[Radic
 
 
 def halved(c: Sequence[Poly]) -> tuple[Poly, Poly, Poly]:
-    """a, b, d of the roots (a ± sqrt(b))/d of a polynomial of degree 2."""
+    """a, b, d of the roots (a ± sqrt(b))/d of a polynomial of degree 2, without a common factor."""
     front, inside, bottom = -c[1], c[1] * c[1] - 4 * (c[2] * c[0]), 2 * c[2]
-    if front.normal()[0] % 2 == 0 and inside.normal()[0] % 4 == 0:
-        front, inside, bottom = front.exact_divide(2), inside.exact_divide(4), c[2]
-    return front, inside, bottom
+    whole, within, below = (abs(int(p.normal()[0])) for p in (front, inside, bottom))
+    common = gcd(whole, within and square_part(within), below)
+    return front.exact_divide(common), inside.exact_divide(common**2), bottom.exact_divide(common)
 
 
 def quotient_text(front: Poly, inside: Poly | None, bottom: Poly, sign: int) -> str:
