@@ -207,7 +207,8 @@ def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
     """
     from qe.optimization.values import Objective, new_name
 
-    is_term = isinstance(given, str) or hasattr(given, "free_symbols") or hasattr(given, "term")
+    marks = ("free_symbols", "term", "sexpr", "get_type")  # of SymPy, of ours, of z3 and of pySMT
+    is_term = isinstance(given, str) or any(hasattr(given, mark) for mark in marks)
     try:
         poly, scale = read_polynomial(given, "objective")
         return Objective.of(poly, scale, new_name(poly.ring.names, taken))

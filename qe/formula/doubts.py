@@ -9,12 +9,11 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import children
 from qe.glued import joined_names
-from qe.spelling import NUMERALS, WORD
+from qe.spelling import KEYWORDS, WORD
 
 _NUMBERS = ("e", "i", "E", "I")
 """Letters that are numbers to many readers, and variables here."""
 _WORD = re.compile(WORD)
-_EXPONENT = rf"(?![^\W{NUMERALS}])\s*((?:\^|\*\*)\s*\d+|[²³⁴-⁹]+)?"
 _RELATED = re.compile(r"[<>=≠≤≥⩽⩾∈∉\[{]|\b(?:not|in|true|false|Eq|Ne|Lt|Le|Gt|Ge)\b", re.IGNORECASE)
 _WRITTEN_OUT = ("text", "latex", "smtlib", "redlog")
 """Formats in which a variable stands at its quantifier and where it is used, and nowhere else."""
@@ -38,11 +37,13 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
         unused = {name: None for name in unused if written[name] <= bound[name]}
     notes = []
     for variable in unused:
-        meant = next((product + _exponent(name, typed) for name, product in joined.items() if variable in name), None)
+        meant = next((product for name, product in joined.items() if variable in name), None)
         notes.append(f"{variable} does not occur" + (f"; did you mean {meant}?" if meant else ""))
     for name, product in joined.items():
         if unused.keys().isdisjoint(name):
             notes.append(f"{name} is one name; a product is written {product}")
+    split = {word for word in _WORD.findall(typed) if len(word) > 1 and {*word} <= {*names} and word not in names}
+    notes += [f"{word} is read as the product {'*'.join(word)}" for word in sorted(split - KEYWORDS)]
     read = [name for name in names if len(name) == 1 and re.search(rf"(?<![\w`]){name}\(", typed)]
     notes += [f"{name}(…) is the product {name}*(…)" for name in read]
     if typed and not _RELATED.search(typed):
@@ -81,9 +82,3 @@ def _blocks(formula: Formula) -> Iterator[Exists | ForAll]:
         yield formula
     for child in children(formula):
         yield from _blocks(child)
-
-
-def _exponent(name: str, text: str) -> str:
-    """The exponent behind a name in the text, if there is one."""
-    behind = re.search(rf"(?<!\w){name}{_EXPONENT}", text)
-    return (behind and behind[1]) or ""

@@ -227,6 +227,10 @@ def _compared(left: Expression, relation: Relation, right: object) -> Statement:
 
 def graph_of(name: str, given: object) -> Formula:
     """Where a variable of this name has the value of a term; what has no value has none."""
+    from qe.io import solver_doors
+
+    if (graph := solver_doors.graph_of(name, given)) is not None:
+        return graph
     return lower(s.Comparison([s.Name(name, -1), _term(given)], [Relation.EQ], -1), s.unplaced)
 
 

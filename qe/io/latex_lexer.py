@@ -88,6 +88,8 @@ _NEXT = re.compile(
     r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\colon))"
 )
 """Another variable of a quantifier behind a comma, not the body."""
+_NEXT_HERE = re.compile(rf"{_GAP}([A-Za-z]){_GAP}(?:[<>]|\\(?:le|ge)\w*)\s*[-\w./]+{_GAP},")
+"""The same with a condition that ends with a comma."""
 
 
 def is_latex(text: str) -> bool:
@@ -108,7 +110,11 @@ class _Source:
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         if kind == "COMMA" and self.state.header and not _NEXT.match(self.text, at + 1):
-            kind = "DOT"
+            here = _NEXT_HERE.match(self.text, at + 1) if self.state.last == "NAME" and self.state.level == 1 else None
+            if here is None or here[1] in self.state.bound:
+                kind = "DOT"
+        if kind == "NAME" and self.state.header:
+            self.state.bound.add(value)
         self.state.note(kind)
         yield Token(kind, value, at)
 

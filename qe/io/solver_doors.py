@@ -18,6 +18,22 @@ def from_solver(given: Any) -> Formula | None:
     return None if door is None else door(given)
 
 
+def graph_of(name: str, given: Any) -> Formula | None:
+    """Where a variable of this name has the value of a term of z3 or pySMT; None for any other."""
+    kind = type(given).__module__.partition(".")[0]
+    if kind == "z3":
+        import z3
+
+        return from_z3(z3.Real(name, given.ctx) == given)
+    if kind == "pysmt":
+        from pysmt.environment import get_env
+        from pysmt.typing import REAL
+
+        manager = get_env().formula_manager
+        return _from_pysmt(manager.Equals(manager.Symbol(name, REAL), given))
+    return None
+
+
 def from_z3(given: Any) -> Formula:
     """The formula of a z3 expression of sort Bool, of a list of them (their conjunction), or of what a solver holds.
 

@@ -79,6 +79,8 @@ class Reader:
             relation = _ASSUMED.get(str(e.function).removeprefix("Q."))
             if relation is not None and len(e.arguments) == 1:
                 return s.Comparison([self.real(e.arguments[0]), s.Number(0)], [relation], -1)
+        if isinstance(e, sp.Expr) and not isinstance(e, sp.Symbol) and e.free_symbols:
+            return s.Comparison([self.real(e), s.Number(0)], [Relation.EQ], -1)  # as solve reads it
         hint = f"; a truth value may be written {shown(e)} > 0" if isinstance(e, sp.Symbol) else ""
         raise InputError(f"formula: a Boolean combination of relations expected, {shown(e)} found{hint}")
 
@@ -160,7 +162,7 @@ class Reader:
         if e is sp.I:
             return "all numbers are real here, I is not; a complex number is written as its real and imaginary part"
         if isinstance(e, sp.NumberSymbol):
-            hint = "put a rational number in its place, or a symbol and bounds for it"
+            hint = "put a symbol in its place, with bounds for it in assuming"
             return f"{e} is no algebraic number, coefficients are rational or algebraic; {hint}"
         if isinstance(e, sp.Pow):
             return f"powers whose exponents are no rational numbers are not algebraic: {shown(e)}"

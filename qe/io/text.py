@@ -122,7 +122,8 @@ def _no_constants(fail: Failing, known: Container[str]) -> Meet:
 
     def meet(name: str, at: int) -> None:
         if name in refused and name not in known and not fail.text.startswith("`", at):
-            hint = f"put a rational number in its place, or write `{name}` for a variable of that name"
+            bounds = ' with bounds, as in assuming="3.14159 < p < 3.1416"' if name in ("pi", "Pi", "π") else ""
+            hint = f"put a variable in its place{bounds}, or write `{name}` for a variable of that name"
             raise fail(f"{name} is no number here, coefficients are rational; {hint}", at)
 
     return meet

@@ -168,6 +168,7 @@ _WORDS = {
     "is": "conditions are written with = /= < <= > >=",
     "between": "write 0 < x < 1, or x in [0, 1]",
     **dict.fromkeys(("but", "unless"), "conditions are joined by and, or, ->"),
+    **dict.fromkeys(("has", "have"), "how many values there are is asked as exactly 2 x. f, infinitely many x. f"),
     "where": "put the term in the place of its name, or write ex y. y = … and …",
 }
 

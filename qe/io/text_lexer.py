@@ -54,8 +54,8 @@ BEGIN {
 END }
 COMMA ,
 DOT . :
-AND /\ ∧ & && \[And]
-OR \/ ∨ \[Or]
+AND /\ ∧ & && \[And] &and &and;
+OR \/ ∨ \[Or] &or;
 NOT ~ ¬ ! \[Not]
 IMPLIES -> ==> → ⇒ ⟹ ⟶ => \[Implies]
 IFF <-> <=> <==> ↔ ⇔ ⟺ ⟷ \[Equivalent]
@@ -100,7 +100,7 @@ _TOKEN = re.compile(
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<RAISED>⁻?[⁰¹²³⁴-⁹]+)"
-    r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\*\*|\\\[\w+\]"
+    r"|(?P<OPERATOR>&(?:and|or)\b;?|<==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\*\*|\\\[\w+\]"
     r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
 _MULTIPLE = (
@@ -123,6 +123,7 @@ _NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST}|$)")
 _NEXT_BOUNDED = re.compile(
     rf"\s*(?:{_LIST})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠∈]|in\b)[^:;∃∀&|∧∨→⇒]*?(?<!,)(?::(?!=)|\.(?=\s)|\bsuch\s+that\b|\bs\.t\.)"
 )
+_NEXT_BOUNDED_HERE = re.compile(rf"\s*({_LIST})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠])\s*[-\w./*^]+\s*,(?=\s*\S)")
 _ENDS_A_NAME = re.compile(r"\s*[,.:]")
 _ANOTHER = re.compile(rf"\s+{_LIST}")
 _LETTER = re.compile(r"[^\W\d_](?:_?[0-9]+|_[^\W\d_])?'*")
@@ -168,7 +169,12 @@ def tokens(text: str) -> Iterator[Token]:
         if token is None:
             raise unknown_character(text, at)
         kind, value = token.lastgroup, token.group()
-        if kind == "NAME":
+        if kind == "NAME" and state.is_product(value):
+            for letter, place in zip(value, range(at, at + len(value))):
+                if place > at:
+                    yield from state.put("TIMES", "*", place)
+                yield from state.put("NAME", letter, place)
+        elif kind == "NAME":
             yield from state.put(KEYWORDS.get(value, "NAME"), value, at)
         elif kind == "OPERATOR":
             typed = value == ":" and state.header and _TYPE.match(text, at + 1)
@@ -275,6 +281,7 @@ class State:
         self.brackets = [_Bracket()]
         self.called, self.listing, self.word, self.closed = False, False, "", False
         self.variables: set[str] | None = None
+        self.bound: set[str] = set()
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
@@ -288,6 +295,8 @@ class State:
                 kind = "DOT"
         if kind == "QUANTIFIER":
             self.spoken, self.quantifier, self.bounded = value not in _SHORT, value, False
+        elif kind == "NAME" and self.header:
+            self.bound.add(value)
         elif self.header and kind in ("RELATION", "IN"):
             self.bounded = True
         if not (self.header or self.listing) and self.multiplies(kind, value, at):
@@ -323,7 +332,16 @@ class State:
         """Whether a name is surely no word of a language."""
         if self.variables is None:
             self.variables = {*_VARIABLE.findall(self.text)}
-        return bool(_LETTER.fullmatch(name)) or name in self.variables
+        return bool(_LETTER.fullmatch(name)) or name in self.variables or name in CONSTANTS
+
+    def is_product(self, name: str) -> bool:
+        """Whether a name has in it a variable of a quantifier that stands nowhere else: ``ex x. ax^2 + bx + c = 0``.
+
+        Behind a division it stays a name."""
+        if self.header or self.brackets[-1].divided or not name.isalpha() or name.lower() in (*KEYWORDS, *FUNCTIONS):
+            return False
+        inside = [letter for letter in self.bound.intersection(name) if len(letter) < len(name)]
+        return any(len(re.findall(rf"\b{letter}\b", self.text)) == 1 for letter in inside)
 
     def prefix(self, value: str, at: int) -> Iterator[Token]:
         """``(E x, y)``, as in front of a formula in brackets."""
@@ -345,8 +363,10 @@ class State:
         return following is not None and following[1] not in KEYWORDS and following[1].lower() not in FUNCTIONS
 
     def bounds_another(self, at: int) -> bool:
-        """Whether another variable comes here with a condition of its own, as in ``∃ x > 0, y > 0: x*y = a``."""
-        return _NEXT_BOUNDED.match(self.text, at) is not None
+        """Whether another variable comes here with a condition of its own, as in ``∃ x > 0, y > 0: x*y = a``, or with a
+        comma behind it, which outside of brackets could end nothing else."""
+        here = _NEXT_BOUNDED_HERE.match(self.text, at) if self.spoken and self.level == 1 else None
+        return (here is not None and here[1] not in self.bound) or _NEXT_BOUNDED.match(self.text, at) is not None
 
     def raised(self, digits: str, at: int) -> Iterator[Token]:
         """A raised number is an exponent."""

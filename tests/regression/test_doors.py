@@ -73,14 +73,15 @@ def noted_in(given: object, format: str = "text") -> list[str]:
 
 
 @each(
-    ("ex x. ax^2 + bx + c = 0", "text", "x does not occur; did you mean a*x^2?"),
-    ("all x. 2*ax² > b", "text", "x does not occur; did you mean a*x²?"),
+    ("ex x. ax^2 + bx + c = 0", "text", "ax is read as the product a*x; bx is read as the product b*x"),
+    ("all x. 2*ax² > b", "text", "ax is read as the product a*x"),
     ("ex x. x > 0 and ax = 1", "text", "ax is one name; a product is written a*x"),
     ("ex x, y. a*x = 1", "text", "y does not occur"),
     ("a + b > ab", "text", "ab is one name; a product is written a*b"),
     ("x^2 > k(x + 1)", "text", "k(…) is the product k*(…)"),
     ("all a. (ex x. a > 0)", "text", "x does not occur"),
-    (["a > 0", "ex x. ax < 1"], "text", "x does not occur; did you mean a*x?"),
+    (["a > 0", "ex x. ax < 1"], "text", "ax is read as the product a*x"),
+    ("ex x. b/ax > 0", "text", "x does not occur; did you mean a*x?"),
     (r"\exists x\colon a > 0", "latex", "x does not occur"),
     ("(E x)[a > 0]", "qepcad", "x does not occur"),
     ("ex({x}, a > 0)", "redlog", "x does not occur"),
@@ -89,8 +90,58 @@ def noted_in(given: object, format: str = "text") -> list[str]:
     (qe.exists("x", qe.variables("b") > 0), "text", "x does not occur"),
 )
 def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, format: str, note: str) -> None:
-    """``ex x. ax^2 + bx + c = 0`` was answered by itself, without a word."""
+    """``ex x. ax^2 + bx + c = 0`` was answered by itself, at first without a word."""
     assert noted_in(given, format) == [note]
+
+
+@each(
+    ("∃x. ax^2 + bx + c > 0", "∃x. a*x^2 + b*x + c > 0"),
+    ("exists x, y: xy = a and 2bx > 1", "exists x, y: x*y = a and 2*b*x > 1"),
+    ("all x. sqrt(ax) <= b", "all x. sqrt(a*x) <= b"),
+    ("ex x. x^2 + kx = 1", "ex x. x^2 + `kx` = 1"),
+    ("forall a, b, c > 0, a + b + c = 3 -> a*b*c <= d", "forall a, b, c > 0: a + b + c = 3 -> a*b*c <= d"),
+    ("exists x > 0, y > 1, x + y = a", "exists x > 0: exists y > 1: x + y = a"),
+    (r"\forall a,b > 0,\ a + b > c", "all a, b. a > 0 and b > 0 -> a + b > c"),
+    ("x > 0 &and y > 0", "x > 0 and y > 0"),
+    ("And(forall a > 0, b > 0, c > 0)", "(forall a > 0: b > 0) and c > 0"),  # commas of the call
+)
+def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: str, meant: str) -> None:
+    """Products with a bound variable that stands nowhere alone; bounds that a comma ends; ``&and``."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert text.read(typed) == text.read(meant)
+
+
+@each(
+    "exists y > 0, y > 1, x > 2",  # no further variable
+    r"\forall a > 0, b > 0, c > 0",
+    "x^2 + b*x + c = 0 has two distinct real roots",
+    "2 Pi r > 1",
+)
+def test_what_may_mean_two_things_is_refused_in_one_line(typed: str) -> None:
+    with pytest.raises(qe.InputError) as caught:
+        text.read(typed)
+    assert "\n" not in str(caught.value)
+
+
+def test_terms_of_sympy_in_a_list_are_zero() -> None:
+    """``qe.solve([x*y - 1, y*z])``, as it is given to ``nonlinsolve``, was refused."""
+    assert qe.equivalent([x * y - 1, y * b], "x*y = 1 and b = 0")
+    for odd in (x, sp.Integer(3), [x, y > 0]):
+        with pytest.raises(qe.InputError, match="Boolean combination"):
+            qe.eliminate(odd)
+
+
+@each("z3", "pysmt")
+def test_terms_of_solvers_are_minimised(package: str) -> None:
+    module = pytest.importorskip("z3" if package == "z3" else "pysmt.shortcuts")
+    if package == "z3":
+        v, w = module.Reals("v w")
+        term, condition = w, w == (v - 3) * (v - 3) + 8
+    else:
+        v = module.Symbol("v", module.REAL)
+        term, condition = module.Plus(v, module.Real(8)), module.GE(v, module.Real(0))
+    assert qe.minimize(term, condition).value == 8
 
 
 @each(
