@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
+from dataclasses import replace
 from enum import Enum
 from functools import partial
 from typing import Any, Unpack
 
 from qe import arguments
-from qe.api.input import read_polynomial
-from qe.api.limits import limits_of, read_under
-from qe.api.settings import Limited, Proved, with_settings
+from qe.api.input import names_typed, read_polynomial
+from qe.api.limits import limits_of, read_under, under
+from qe.api.settings import Optimisation, Parametric, with_settings
+from qe.engine.assuming import can_hold, simplified
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import BlockOrder
 from qe.exact.groebner import MonomialOrder
 from qe.exact.ring import Poly, Ring, format_poly
+from qe.formula.build import conj, convert
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
+from qe.formula.traverse import conjuncts
 from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
 from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.processes.execution import perform
 
 Names = Any
@@ -37,7 +42,7 @@ class Order(Enum):
 _ORDERS = dict(zip(Order, (MonomialOrder.DEGREVLEX, MonomialOrder.DEGLEX, MonomialOrder.LEX), strict=True))
 
 
-@with_settings(Limited)
+@with_settings(Parametric)
 def comprehensive_groebner(
     polys: Sequence[Any],
     variables: Names,
@@ -48,7 +53,7 @@ def comprehensive_groebner(
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
     faithful: bool = False,
-    **settings: Unpack[Limited],
+    **settings: Unpack[Parametric],
 ) -> ComprehensiveGroebnerSystem:
     """A comprehensive Gröbner system: parameter space in disjoint segments, each with one basis for all its points.
 
@@ -57,18 +62,21 @@ def comprehensive_groebner(
     the monomials in the variables, ``"grevlex"``, ``"grlex"`` or ``"lex"``. ``constants``: names that stand for real
     algebraic numbers (``RealAlgebraic``, SymPy numbers), treated exactly by their minimal polynomials. ``equal`` and
     ``nonzero``: polynomials in the parameters; only where the former vanish and none of the latter does segments are
-    made. ``faithful``: every segment also has elements of the given ideal itself with the same values as its basis.
+    made; ``assuming`` says the same, and leaves out segments where it cannot hold. ``faithful``: every segment also has
+    elements of the given ideal itself with the same values as its basis.
     Raises ``InputError``, ``Unable`` where bases grow too large, ``BudgetExceeded``.
     """
     limits = limits_of(settings)
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
-    given = polys, variables, parameters, chosen, constants, equal, nonzero
+    known = under(TRUE, TRUE, settings["assuming"], limits, others=names_typed(polys)).known
+    given = polys, variables, parameters, chosen, constants, *_supposed(known, variables, equal, nonzero)
     system, _ = read_under(limits, partial(read_system, *given), polys, equal, nonzero)
-    return perform(partial(system.solved, faithful=wanted), limits, at_once=limits.timeout is not None)
+    work = partial(_solved, system, _about(known, system), wanted)
+    return perform(work, limits, at_once=limits.timeout is not None)
 
 
-@with_settings(Proved)
+@with_settings(Optimisation)
 def real_root_classification(
     polys: Sequence[Any],
     variables: Names,
@@ -78,7 +86,7 @@ def real_root_classification(
     constants: Mapping[str, Any] | None = None,
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
-    **settings: Unpack[Proved],
+    **settings: Unpack[Optimisation],
 ) -> RealRootClassification:
     """The partition of parameter space by the number of distinct real solutions of polys = 0, as formulas.
 
@@ -89,21 +97,60 @@ def real_root_classification(
     ``comprehensive_groebner``.
     """
     limits = limits_of(settings)
-    given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive
+    known = under(TRUE, TRUE, settings["assuming"], limits, others=names_typed(polys)).known
+    supposed = _supposed(known, variables, equal, nonzero)
+    given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, *supposed, positive
     system, signs = read_under(limits, partial(read_system, *given), polys, equal, nonzero, positive)
-    work = partial(_classified, system, signs, settings["check"])
+    work = partial(_classified, system, signs, _about(known, system), settings["check"])
     return perform(work, limits, at_once=limits.timeout is not None)
 
 
-def _classified(
-    system: ParametricSystem, positive: tuple[Poly, ...], check: bool, budget: Budget
-) -> RealRootClassification:
-    classification = classified(system, positive, budget)
-    if not check:
-        return classification
-    from qe.api.classified import certified
+def _supposed(
+    known: Formula, variables: Names, equal: Sequence[Any], nonzero: Sequence[Any]
+) -> tuple[list[Any], list[Any]]:
+    """``equal`` and ``nonzero`` with what the assumptions, which are about parameters, say of the kind."""
+    if strange := {*known.free}.intersection(arguments.names(variables, "variables") or ()):
+        raise InputError(f"assuming: conditions on the parameters expected, {min(strange)} found")
+    parts = [part for part in conjuncts(known) if isinstance(part, Atom)]
+    strict = (Relation.NE, Relation.LT, Relation.GT)
+    return (
+        [*arguments.by_place(equal, "equal"), *(p.poly for p in parts if p.relation is Relation.EQ)],
+        [*arguments.by_place(nonzero, "nonzero"), *(p.poly for p in parts if p.relation in strict)],
+    )
 
-    return certified(system, classification, budget)
+
+def _about(known: Formula, system: ParametricSystem) -> Formula:
+    """The assumptions over the ring of the system. Raises ``InputError`` where there are others in them."""
+    if strange := [name for name in known.free if name not in system.ring.index]:
+        raise InputError(f"assuming: conditions on the parameters expected, {strange[0]} found")
+    return convert(known, system.ring)
+
+
+def _solved(system: ParametricSystem, known: Formula, faithful: bool, budget: Budget) -> ComprehensiveGroebnerSystem:
+    """The system, without segments where the assumptions cannot hold."""
+    solved = system.solved(budget, faithful=faithful)
+    if known == TRUE:
+        return solved
+    kept = [s for s in solved if can_hold(conj((known, solved.condition(s))), Options(), budget)]
+    return replace(solved, segments=tuple(kept))
+
+
+def _classified(
+    system: ParametricSystem, positive: tuple[Poly, ...], known: Formula, check: bool, budget: Budget
+) -> RealRootClassification:
+    """The classification, with conditions as short as the assumptions allow; its certificate is of those without."""
+    classification = classified(system, positive, budget)
+    if check:
+        from qe.api.classified import certified
+
+        classification = certified(system, classification, budget)
+    if known == TRUE:
+        return classification
+    shorter = [
+        replace(one, condition=simplified(one.condition, known, Options(), budget).outcome.formula)
+        for one in classification
+    ]
+    return replace(classification, classes=tuple(one for one in shorter if one.condition != FALSE))
 
 
 def read_system(

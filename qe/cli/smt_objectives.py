@@ -1,4 +1,5 @@
-"""``minimize`` and ``maximize`` in SMT-LIB scripts: in their order, each where those before it are optimal."""
+"""``minimize`` and ``maximize`` in SMT-LIB scripts: in their order, each where those before it are optimal, or with
+the option ``:opt.priority box`` each by itself."""
 
 from __future__ import annotations
 
@@ -25,18 +26,18 @@ VALUE = "objective value"
 
 
 def optimised(
-    script: Script, result: Result, nodes: Iterable[s.Node], limit: float | None, memory: int | None
+    script: Script, result: Result, nodes: Iterable[s.Node], limit: float | None, memory: int | None, *, box: bool
 ) -> Result:
     """The result of a check that was sat with the optima, and with a point that has them where one does."""
     try:
-        lines, point = _best(script, list(nodes), limit, memory)
+        lines, point = _best(script, list(nodes), limit, memory, box)
     except Unable as error:
         return Result("unknown", f"(no optimum: {error})")
     return result._replace(best=lines, point=point or result.point)
 
 
 def _best(
-    script: Script, nodes: Sequence[s.Node], limit: float | None, memory: int | None
+    script: Script, nodes: Sequence[s.Node], limit: float | None, memory: int | None, box: bool
 ) -> tuple[tuple[str, ...], dict[str, Number] | None]:
     """The optima as ``get-objectives`` writes them; the point, where all are taken."""
     lines, point, fixed = list[str](), dict[str, Number](), list[tuple[s.Node, Number]]()
@@ -54,6 +55,8 @@ def _best(
             if optimum.attained is False:
                 value = f"(+ {value} {'epsilon' if objective.least else '(* (- 1) epsilon)'})"
         lines.append(f"({show(objective.written)} {value})")
+        if box:
+            continue
         if optimum.attained is not True or optimum.value is None:
             return (*lines, *(f"({show(o.written)})" for o in script.objectives[len(lines) :])), None
         point = {name: _plain(given) for name, given in optimum.point.items() if name != VALUE}
