@@ -11,8 +11,9 @@ from qe import arguments
 from qe.api.eliminate import eliminate
 from qe.api.input import AnyFormula, read_assumptions
 from qe.api.limits import limits_of, posed
-from qe.api.optimum import Optimum, maximize, minimize
+from qe.api.optimum import maximize, minimize
 from qe.api.settings import Limited, Proved, ProvedQuestion, settings_in, with_settings
+from qe.convex.optimum import Optimum
 from qe.errors import InputError, Unable
 from qe.exact.number import Assignment, ExactPoint
 from qe.formula.build import conj, exists

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from qe.elimination.protocol import Known
 from qe.engine import run
-from qe.engine.assuming import answered_assuming, simplified
 from qe.exact.ring import Ring
 from qe.formula.assumed import Aim, Posed, claimed
 from qe.formula.build import convert
@@ -23,6 +22,8 @@ def answered(problem: Posed, options: Options, budget: Budget) -> Known:
     """What is found, with no certificate but one that a method made on its way. Raises ``Unable``."""
     if problem.known == TRUE and problem.aim is Aim.EQUIVALENT:
         return Known(problem.formula, run.answered(problem.formula, options, budget), plainly=True)
+    from qe.engine.assuming import answered_assuming, simplified
+
     clear = without_clashes(problem.formula)
     log = RunLog()
     log.step("renaming", problem.formula, clear)

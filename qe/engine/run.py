@@ -15,7 +15,6 @@ from fractions import Fraction
 from qe.elimination.protocol import Context, Outcome
 from qe.engine.constant import Start
 from qe.engine.reductions import gathered_block, lifted_values, to_dual
-from qe.engine.shortening import shortened
 from qe.engine.strategy import SPARE, Attempt, Scope, Spare, alone, attempts, chosen_alone, complete
 from qe.errors import Unable
 from qe.exact.number import Values
@@ -137,6 +136,8 @@ class _Run:
         return Context(self.options, budget or self.budget, self.log, outcome_for)
 
     def shortened(self, formula: Formula, start: Start | None = None) -> Formula:
+        from qe.engine.shortening import shortened  # which sentences do not need
+
         return shortened(formula, self.context(), start, self.short)
 
     def prepared(self, formula: Formula) -> Prepared:

@@ -20,7 +20,6 @@ from qe.proof.certificate import Certificate, Kind, Proof
 from qe.proof.derivation import put_together
 from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
-from qe.proving.linear import put_in
 from qe.proving.primitive_names import PROJECTION
 
 Result = TypeVar("Result")
@@ -102,6 +101,8 @@ def substitution_certificate(block: Formula, answer: Formula) -> Certificate | N
         found = _solvable(body, ring, left)
         if found is None:
             return None
+        from qe.proving.linear import put_in
+
         name, equation = found
         body = put_in(body, ring.index[name], equation)
         solved.append(found)
