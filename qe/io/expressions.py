@@ -20,7 +20,7 @@ from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import atoms
 from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
-from qe.io.names import check_name
+from qe.io.names import bound_names, check_name
 from qe.io.substitution import over_one_ring, substitute
 from qe.io.terms import Value
 
@@ -176,19 +176,12 @@ def variables(names: object) -> Any:
 
 def exists(variables: object, body: object) -> Statement:
     """There are real values of the variables such that ``body``."""
-    return Statement(build.exists(_bound(variables), _formula(body)))
+    return Statement(build.exists(bound_names(variables), _formula(body)))
 
 
 def forall(variables: object, body: object) -> Statement:
     """``body`` holds for all real values of the variables."""
-    return Statement(build.forall(_bound(variables), _formula(body)))
-
-
-def _bound(variables: object) -> tuple[str, ...]:
-    names = arguments.names(variables, "variables")
-    if not names:
-        raise InputError("variables: a quantifier needs at least one variable")
-    return tuple(check_name(name) for name in names)
+    return Statement(build.forall(bound_names(variables), _formula(body)))
 
 
 def _formula(given: object) -> Formula:

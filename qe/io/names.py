@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from qe.arguments import wrong
+from qe.arguments import names, wrong
 from qe.errors import InputError
 from qe.formula.syntax import Atom, Formula
 from qe.formula.traverse import atoms, bound_variables
@@ -24,6 +24,14 @@ def check_name(name: object) -> str:
         reason = "it holds a bar, a backslash or half a character" if name else "it is empty"
         raise InputError(f"{name!r} cannot be the name of a variable: {reason}")
     return name
+
+
+def bound_names(variables: object) -> tuple[str, ...]:
+    """The names that a quantifier binds. Raises ``InputError`` for what gives none."""
+    found = names(variables, "variables")
+    if not found:
+        raise InputError("variables: a quantifier needs at least one variable")
+    return tuple(map(check_name, found))
 
 
 class Renaming:

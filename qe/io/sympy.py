@@ -26,7 +26,7 @@ from qe.formula.operators import Connected
 from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Not, Or
 from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
-from qe.io.names import check_name, names_in
+from qe.io.names import bound_names, names_in
 from qe.io.substitution import over_one_ring
 from qe.io.sympy_numbers import number_to_sympy
 from qe.io.sympy_reader import Reader, shown, signs
@@ -34,24 +34,26 @@ from qe.io.sympy_reader import Reader, shown, signs
 _FUNCTIONS = {"abs": "Abs", "sign": "sign", "sqrt": "sqrt", "min": "Min", "max": "Max"}
 
 
-class _Operators(Connected):
-    """Connectives between wrapped formulas, SymPy Booleans and formulas.
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Wrapped(Connected):
+    """A formula made of SymPy Booleans and formulas by quantifiers and ``& | ~ >>``.
 
     ``raw`` is the formula as it is written, ``assumed`` what its symbols are assumed to be, by name: conditions that
-    stay outside of all connectives, and inside the quantifier of their variable.
+    stay outside of all connectives, and inside the quantifier of their variable. ``block``: whether the outermost
+    quantifier is universal, and its names; None without one.
     """
 
-    __slots__ = ()
     raw: Formula
     assumed: Mapping[str, Formula]
+    block: tuple[bool, tuple[str, ...]] | None = None
 
     def formula(self) -> Formula:
         """The formula that this stands for."""
         return conj(over_one_ring(*self.assumed.values(), self.raw))
 
-    def _connect(self, way: str, *parts: object) -> Combined:
+    def _connect(self, way: str, *parts: object) -> Wrapped:
         formulas, known = zip(*map(_parts, parts), strict=True)
-        return Combined(JOINS[way](*over_one_ring(*formulas)), {n: sign for one in known for n, sign in one.items()})
+        return Wrapped(JOINS[way](*over_one_ring(*formulas)), {n: sign for one in known for n, sign in one.items()})
 
     def __bool__(self) -> bool:
         """Python's ``and``, ``or`` and ``not`` ask for it and would drop a part of the formula without a word."""
@@ -62,73 +64,41 @@ class _Operators(Connected):
     def __str__(self) -> str:
         return str(self.formula())
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Combined(_Operators):
-    """A formula made of wrapped ones by ``& | ~ >>``."""
-
-    raw: Formula
-    assumed: Mapping[str, Formula]
+    __repr__ = __str__
 
 
-class _Quantified(_Operators):
-    __slots__ = ("assumed", "body", "names", "raw")
-    names: tuple[str, ...]
-    body: Formula
-    assumed: Mapping[str, Formula]
-    raw: Formula
-
-    def __init__(self, variables: object, body: object) -> None:
-        self.names, given = _variables(variables)
-        self.body, assumed = _parts(body)
-        assumed = {**assumed, **given}
-        inside = [assumed[name] for name in self.names if name in assumed]
-        self.assumed = {name: sign for name, sign in assumed.items() if name not in self.names}
-        *conditions, kept = over_one_ring(*inside, self.body)
-        condition = conj(conditions)
-        if isinstance(self, ForAll):
-            self.raw = forall(self.names, implies(condition, kept))
-        else:
-            self.raw = exists(self.names, conj((condition, kept)))
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(self.names)}; {self.body})"
-
-
-class Exists(_Quantified):
+def Exists(variables: object, body: object) -> Wrapped:
     """``Exists(x, body)`` or ``Exists((x, y), body)``: there are real values with ``body``.
 
     Variables are SymPy symbols or names; ``body`` is a SymPy Boolean, a formula, or wrapped itself. What a symbol is
     assumed to be (positive, nonnegative, ...) is a condition on it. Raises ``InputError`` for any other ``body``.
     """
+    return _quantified(False, variables, body)
 
-    __slots__ = ()
 
-
-class ForAll(_Quantified):
+def ForAll(variables: object, body: object) -> Wrapped:
     """``ForAll(x, body)`` or ``ForAll((x, y), body)``: ``body`` holds for all real values; see ``Exists``."""
-
-    __slots__ = ()
-
-
-def outermost(given: object) -> tuple[bool, tuple[str, ...]] | None:
-    """Whether a wrapped formula begins with a universal quantifier, and its names; None where it begins with none."""
-    return (isinstance(given, ForAll), given.names) if isinstance(given, _Quantified) else None
+    return _quantified(True, variables, body)
 
 
-def _variables(variables: object) -> tuple[tuple[str, ...], dict[str, Formula]]:
-    """The names that a quantifier binds, and what the symbols given for them are assumed to be."""
+def _quantified(universal: bool, variables: Any, body: object) -> Wrapped:
     import sympy
 
     if isinstance(variables, set | frozenset):  # the order within a block means nothing
         variables = sorted(variables, key=str)
     listed = variables if isinstance(variables, Iterable) and not isinstance(variables, str) else (variables,)
-    symbols = [symbol for symbol in listed if isinstance(symbol, sympy.Symbol)]
-    assumed = _assumptions(symbols)
-    names = arguments.names(variables, "variables")
-    if not names:
-        raise InputError("variables: a quantifier needs at least one variable")
-    return tuple(check_name(name) for name in names), assumed
+    given = _assumptions(symbol for symbol in listed if isinstance(symbol, sympy.Symbol))
+    names = bound_names(variables)
+    raw, assumed = _parts(body)
+    assumed = {**assumed, **given}
+    *conditions, kept = over_one_ring(*(assumed[name] for name in names if name in assumed), raw)
+    made = forall(names, implies(conj(conditions), kept)) if universal else exists(names, conj((*conditions, kept)))
+    return Wrapped(made, {name: sign for name, sign in assumed.items() if name not in names}, (universal, names))
+
+
+def outermost(given: object) -> tuple[bool, tuple[str, ...]] | None:
+    """Whether a wrapped formula begins with a universal quantifier, and its names; None where it begins with none."""
+    return given.block if isinstance(given, Wrapped) else None
 
 
 def _assumptions(symbols: Iterable[Any]) -> dict[str, Formula]:
@@ -163,7 +133,7 @@ def _parts(expression: object) -> tuple[Formula, Mapping[str, Formula]]:
     """The formula of an expression, and what its symbols are assumed to be."""
     if isinstance(expression, Formula):
         return expression, {}
-    if isinstance(expression, _Operators):
+    if isinstance(expression, Wrapped):
         return expression.raw, expression.assumed
     if isinstance(held := getattr(expression, "formula", None), Formula):  # an answer, or a region
         return held, {}
