@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, TypeVar, Unpack, cast
@@ -19,8 +19,10 @@ from qe.exact.number import Assignment, ExactPoint
 from qe.formula.build import conj, exists
 from qe.formula.syntax import Formula
 from qe.io import formats
+from qe.io.expressions import graph_of, substituted
 from qe.io.substitution import over_one_ring
 from qe.optimization.global_optimum import GlobalOptimum
+from qe.optimization.values import new_name
 from qe.proof.answer import Answer
 
 Part = TypeVar("Part")
@@ -55,6 +57,25 @@ class Objective:
         if self.optimum is None:
             raise InputError("value: a check that was sat expected before")
         return self.optimum.value if self.optimum.value is not None else float("-inf" if self.least else "inf")
+
+
+def optimised(
+    objectives: Iterable[Objective], whole: Formula, settings: Any, *, box: bool = False
+) -> Mapping[str, Any]:
+    """Optimise in order, each where those before it are optimal, up to the first value that is not taken, or (``box``)
+    each by itself; the last point that was found, if any. Raises ``Unable``."""
+    point: Mapping[str, Any] = {}
+    for objective in objectives:
+        best = minimize if objective.least else maximize
+        found = objective.optimum = best(objective.term, whole, **settings)
+        if box:
+            continue
+        if not found.attained or found.value is None:
+            return point
+        point, value = found.point, new_name(whole.free, found.point)
+        same = substituted(graph_of(value, objective.term), {value: found.value})
+        whole = conj(over_one_ring(whole, same))
+    return point
 
 
 class Solver:
@@ -101,7 +122,7 @@ class Solver:
         self._assumed: list[_Asserted] = []
         self._objectives: list[Objective] = []
         self._levels: list[tuple[int, int]] = []
-        self._best: dict[str, Any] = {}
+        self._best: Mapping[str, Any] = {}
         self.answer = None
         self._reason = ""
 
@@ -145,7 +166,8 @@ class Solver:
             objective.optimum = None
         if self.answer.truth and self._objectives:
             try:
-                self._optimise(self._whole([*self._asserted, *self._assumed]))
+                settings: Any = {name: self._settings[name] for name in settings_in(Proved)}
+                self._best = optimised(self._objectives, self._whole([*self._asserted, *self._assumed]), settings)
             except Unable as error:
                 self.answer, self._reason = None, str(error)
                 return "unknown"
@@ -182,19 +204,6 @@ class Solver:
     def _answer(self, parts: Iterable[_Asserted]) -> Answer:
         whole = self._whole(parts)
         return eliminate(exists(whole.free, whole), **self._settings)
-
-    def _optimise(self, whole: Formula) -> None:
-        """Find the optima in their order, up to the first one that no point has."""
-        settings: Any = {name: self._settings[name] for name in settings_in(Proved)}
-        for objective in self._objectives:
-            best = minimize if objective.least else maximize
-            last = objective is self._objectives[-1]
-            found = best(objective.term, whole, method="auto" if last else "elimination", **settings)
-            objective.optimum = found
-            if not found.attained:
-                return
-            self._best = {**self._best, **found.point}
-            whole = found.minimisers if isinstance(found, GlobalOptimum) else whole
 
     def __repr__(self) -> str:
         return f"Solver({', '.join(one.formula.brief() for one in self._asserted)})"
