@@ -17,10 +17,10 @@ from qe.exact.number import Assignment, ExactPoint
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
+from qe.formula.doubts import glued
 from qe.formula.features import features
 from qe.formula.syntax import TRUE, Formula
 from qe.formula.traverse import bound_variables
-from qe.glued import glued
 from qe.io.substitution import over_one_ring
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer

@@ -64,19 +64,16 @@ def complement(region: Region, timeout: float | None) -> Region:
     return _region(region, neg(region.condition), region.order, timeout)
 
 
-def closure(region: Region, timeout: float | None) -> Region:
-    """The set and its limit points."""
-    return _topological(region, planar.Cells.closure, topology.closure, timeout)
+_TOPOLOGICAL = {
+    "closure": (planar.Cells.closure, topology.closure),
+    "interior": (planar.Cells.interior, topology.interior),
+    "boundary": (planar.Cells.boundary, topology.boundary),
+}
 
 
-def interior(region: Region, timeout: float | None) -> Region:
-    """The complement of the closure of the complement."""
-    return _topological(region, planar.Cells.interior, topology.interior, timeout)
-
-
-def boundary(region: Region, timeout: float | None) -> Region:
-    """The closure without the interior."""
-    return _topological(region, planar.Cells.boundary, topology.boundary, timeout)
+def topological(region: Region, way: str, timeout: float | None) -> Region:
+    """Its closure, interior or boundary: of chosen cells where there are few variables, else what a formula says."""
+    return _under(region, region.formula, timeout, partial(_made, region, *_TOPOLOGICAL[way]))
 
 
 def components(region: Region, timeout: float | None) -> list[Region]:
@@ -241,11 +238,6 @@ def _operands(left: Region, right: object, limits: Limits) -> tuple[Formula, For
             raise InputError(f"a condition on {', '.join(left.order)} expected, {strange[0]} found")
     f, g = over_one_ring(left.condition, given)
     return f, g
-
-
-def _topological(region: Region, chosen: planar.Choice, formula: topology.Operation, timeout: float | None) -> Region:
-    """The union of ``chosen`` cells where there are few variables, else what a formula says."""
-    return _under(region, region.formula, timeout, partial(_made, region, chosen, formula))
 
 
 def _numbers(region: Region, given: Mapping[str, Coordinate], what: str) -> dict[str, Number]:

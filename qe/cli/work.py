@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 from qe.cli.source import Source
 from qe.errors import CertificateRejected, InputError, Unable
-from qe.glued import glued
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
@@ -158,6 +157,8 @@ def decide(channel: Channel, request: Request) -> Reply:
     else:
         sentence = stated.closed(stated.formula)
         if free := [name for name in stated.formula.free if name not in stated.known.free]:
+            from qe.formula.doubts import glued
+
             names = ", ".join(free) + glued(free, bound_variables(formula))
             raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
     answer = api.eliminate(sentence, **keywords)

@@ -8,7 +8,6 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import children
-from qe.glued import joined_names
 from qe.spelling import KEYWORDS, WORD
 
 _NUMBERS = ("e", "i", "E", "I")
@@ -49,6 +48,24 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
     if typed and not _RELATED.search(typed):
         notes.append("a term alone is taken as an equation with 0")
     return (*notes, *numbers_as_names(formula.free, typed, names))
+
+
+def joined_names(names: Iterable[str], letters: Collection[str]) -> dict[str, str]:
+    """The names that look like products of different letters, one of ``letters`` among them, of which all but perhaps
+    one are names or ``letters`` themselves. Each with the product that may be meant: ``ax`` beside x with ``a*x``."""
+    known = {*names, *letters}
+    return {
+        name: "*".join(name)
+        for name in names
+        if len({*name} & known) >= len(name) - 1 > 0 and name.isalpha()
+        if name not in letters and not {*name}.isdisjoint(letters)
+    }
+
+
+def glued(names: Collection[str], letters: Collection[str]) -> str:
+    """A hint where a name is made of others, as ``abc`` of the letters a, b and c: a product was meant."""
+    made = next(iter(joined_names(names, letters).items()), None)
+    return "" if made is None else f" ({made[0]} is one name; a product is written {made[1]})"
 
 
 def _made_of(names: Collection[str]) -> dict[str, str]:

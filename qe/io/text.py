@@ -26,11 +26,13 @@ from qe.io.text_lexer import COMMANDS
 from qe.io.text_parser import is_latex, parser_of
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
-from qe.spelling import WORD
+from qe.spelling import QUOTED, WORD
 
 _ASKED = re.compile(
     rf"\s*(?:{'|'.join(COMMANDS)})\[.*,\s*(?!Reals)(\{{[^{{}}<>=]*\}}|{WORD})\s*(?:,\s*Reals\s*)?\]\s*", re.DOTALL
 )
+_WHERE = re.compile(r"(.*?)[,;]?\s+where\s+((?:[A-Z]\s*=[^=<>≤≥≠]+,\s*)*[A-Z]\s*=[^=<>≤≥≠]+)", re.DOTALL)
+_DEFINED = re.compile(r"([A-Z])\s*=\s*([^=]+?)\s*(?:,(?=\s*[A-Z]\s*=)|$)")
 _OPTIMUM = re.compile(r"\s*(Min|Max)imize\[(.*)\]\s*", re.DOTALL)
 
 
@@ -50,6 +52,7 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = (), total
 
 def _node(text: str, fail: Failing) -> Node:
     """What a text is; terms alone, one or a list, are equations with zero, as for SymPy's ``solve``."""
+    text = _written_out(text)
     try:
         return cast(Node, parsed(parser_of(text), text, fail))
     except ParseError:
@@ -60,6 +63,15 @@ def _node(text: str, fail: Failing) -> Node:
         if not terms or isinstance(terms[0], Name | Number):
             raise
     return Every([Comparison([term, Number(0)], [Relation.EQ], -1) for term in terms])
+
+
+def _written_out(text: str) -> str:
+    """The text with terms in the place of the capitals that it ends with: ``D > 0 where D = b^2 - 4*a*c``."""
+    where = _WHERE.fullmatch(text)
+    if where is None:
+        return text
+    terms = {name: f"({term})" for name, term in _DEFINED.findall(where[2])}
+    return re.sub(rf"{QUOTED}|{WORD}", lambda word: terms.get(word[0], word[0]), where[1])
 
 
 def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] = ()) -> tuple[Poly, Fraction]:

@@ -78,15 +78,15 @@ class SetOperations(SymPyForm):
 
     def closure(self, *, timeout: float | None = None) -> Self:
         """The set with all its limit points."""
-        return self._made("closure", timeout)
+        return self._made("topological", "closure", timeout)
 
     def interior(self, *, timeout: float | None = None) -> Self:
         """The points around which there is a ball inside the set."""
-        return self._made("interior", timeout)
+        return self._made("topological", "interior", timeout)
 
     def boundary(self, *, timeout: float | None = None) -> Self:
         """The closure without the interior."""
-        return self._made("boundary", timeout)
+        return self._made("topological", "boundary", timeout)
 
     def components(self, *, timeout: float | None = None) -> list[Self]:
         """The connected components, those with the least first coordinate first; of nothing there are none.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
@@ -17,6 +19,9 @@ from qe.services import SymPyForm
 
 LONGEST_LINE = 400
 """Characters of a case in texts for people."""
+LONG, OFTEN = 40, 4
+"""From so many characters on, and from so many places in ``root``, a polynomial has a name."""
+_IN_ROOT = re.compile(r"root\(-?[0-9]+, ([^()]+), [^()]+\)")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -24,7 +29,7 @@ class Solutions(SymPyForm):
     """The solutions in the variables ``order``.
 
     ``lines``: cases as texts, which together are all solutions; ``str`` writes them with ``or`` between them: a formula
-    that can be read back. Each value is said once, under the condition on the parameters under which it is a solution,
+    that can be read back; long polynomials that come again and again have a name there. Each value is said once, under the condition on the parameters under which it is a solution,
     where there are finitely many values; values are numbers, terms in the variables before, with ``sqrt`` where they
     can be, or ``root(k, polynomial, variable)``.
 
@@ -76,7 +81,7 @@ class Solutions(SymPyForm):
         return self.cases[k]
 
     def __str__(self) -> str:
-        return " or\n".join(self.lines) or "false"
+        return _with_names(" or\n".join(self.lines)) or "false"
 
     def brief(self) -> str:
         """As ``str``, for people: bounds that would fill more than a line or two are described only."""
@@ -94,3 +99,14 @@ class Solutions(SymPyForm):
     def _repr_html_(self) -> str:
         lines = "".join(f"<li><code>{escape(line)}</code></li>" for line in self._brief)
         return f"<ul>{lines}</ul>" if lines else "<p>no solutions</p>"
+
+
+def _with_names(text: str) -> str:
+    """The text with a capital for every long polynomial that stands often in ``root``, which it ends with."""
+    often = Counter(poly for poly in _IN_ROOT.findall(text) if len(poly) >= LONG)
+    free = [name for name in "DPQRSTUVW" if not re.search(rf"(?<!\w){name}(?!\w)", text)]
+    named = dict(zip([poly for poly, count in often.items() if count >= OFTEN], free, strict=False))
+    for poly, name in named.items():
+        text = re.sub(rf"(?<![\w*^/+-])(?<![*^/+-] ){re.escape(poly)}(?= [<>=/]|[,)])", name, text)
+    said = ", ".join(f"{name} = {poly}" for poly, name in named.items())
+    return f"{text}\nwhere {said}" if said else text

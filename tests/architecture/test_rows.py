@@ -16,7 +16,6 @@ ROWS = {
     "qe.truth": 0,
     "qe.progress": 0,
     "qe.spelling": 0,
-    "qe.glued": 0,
     "qe.arguments": 0,
     "qe.options": 0,
     "qe.processes": 0,

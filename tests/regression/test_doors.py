@@ -103,6 +103,8 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
     ("exists x > 0, y > 1, x + y = a", "exists x > 0: exists y > 1: x + y = a"),
     (r"\forall a,b > 0,\ a + b > c", "all a, b. a > 0 and b > 0 -> a + b > c"),
     ("x > 0 &and y > 0", "x > 0 and y > 0"),
+    ("ex x. A*x^2 + B < 0, where A = a + 1, B = 2*c", "ex x. (a + 1)*x^2 + 2*c < 0"),
+    ("D > 0 and d > 0\nwhere D = b^2 - 4*a*c", "b^2 - 4*a*c > 0 and d > 0"),
     ("And(forall a > 0, b > 0, c > 0)", "(forall a > 0: b > 0) and c > 0"),  # commas of the call
 )
 def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: str, meant: str) -> None:
@@ -117,6 +119,8 @@ def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: st
     r"\forall a > 0, b > 0, c > 0",
     "x^2 + b*x + c = 0 has two distinct real roots",
     "2 Pi r > 1",
+    "x > 1 where x > 0",
+    "x > 1 where x = a",  # a definition, or one more condition
 )
 def test_what_may_mean_two_things_is_refused_in_one_line(typed: str) -> None:
     with pytest.raises(qe.InputError) as caught:

@@ -251,7 +251,7 @@ def test_operators_ask_in_one_place(monkeypatch: pytest.MonkeyPatch) -> None:
     asked.clear()
     a.closure(timeout=3), a.is_disjoint(b), a.sample(5), a.find_instances(2, seed=1), a.distance([1])
     assert asked == [
-        ("closure", a, 3),
+        ("topological", a, "closure", 3),
         ("compared", "disjoint", a, b, None),
         ("sample", a, 5, None),
         ("instances", a, 2, 1, None),

@@ -1,6 +1,6 @@
 """Names that may have been meant as products."""
 
-from qe.glued import glued, joined_names
+from qe.formula.doubts import glued, joined_names
 
 
 def test_products_are_letters_side_by_side() -> None:
