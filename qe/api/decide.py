@@ -17,10 +17,8 @@ from qe.exact.number import Assignment, ExactPoint
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
-from qe.formula.doubts import glued
 from qe.formula.features import features
 from qe.formula.syntax import TRUE, Formula
-from qe.formula.traverse import bound_variables
 from qe.io.substitution import over_one_ring
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer
@@ -106,7 +104,8 @@ def compared(first: AnyFormula, second: AnyFormula, given: Mapping[str, Any]) ->
 def _decided(sentence: Formula, given: AnyFormula, settings: Search, limits: Limits) -> Answer:
     """The answer to a sentence, which is true or false; ``given``: what it was made of."""
     if free := sentence.free:
-        raise InputError(f"a sentence expected; free: {', '.join(free)}{glued(free, bound_variables(sentence))}")
+        names = ", ".join(free)
+        raise InputError(f"a sentence expected; free: {names} (all {names}. … or ex {names}. … says what is meant)")
     answer = answered_under(sentence, order_of(settings["order"], given, sentence), settings, limits)
     if answer.truth is None:
         raise Unable(answer.reason or "no decision was reached")

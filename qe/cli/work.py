@@ -145,7 +145,6 @@ def decide(channel: Channel, request: Request) -> Reply:
     import qe.api.eliminate as api
     from qe.api.limits import under
     from qe.formula import build
-    from qe.formula.traverse import bound_variables
     from qe.processes.limits import Limits
 
     script = request.source.format is Format.SMTLIB
@@ -157,10 +156,9 @@ def decide(channel: Channel, request: Request) -> Reply:
     else:
         sentence = stated.closed(stated.formula)
         if free := [name for name in stated.formula.free if name not in stated.known.free]:
-            from qe.formula.doubts import glued
-
-            names = ", ".join(free) + glued(free, bound_variables(formula))
-            raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
+            names = ", ".join(free)
+            hint = f"qe eliminate takes them; all {names}. … makes a sentence"
+            raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} ({hint})")
     answer = api.eliminate(sentence, **keywords)
     seconds = time.perf_counter() - start
     if answer.truth is None:

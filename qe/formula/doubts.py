@@ -62,12 +62,6 @@ def joined_names(names: Iterable[str], letters: Collection[str]) -> dict[str, st
     }
 
 
-def glued(names: Collection[str], letters: Collection[str]) -> str:
-    """A hint where a name is made of others, as ``abc`` of the letters a, b and c: a product was meant."""
-    made = next(iter(joined_names(names, letters).items()), None)
-    return "" if made is None else f" ({made[0]} is one name; a product is written {made[1]})"
-
-
 def _made_of(names: Collection[str]) -> dict[str, str]:
     """The names that are made of others of them alone, as ``ab`` beside a and b, each with the product of these."""
     return {name: "*".join(name) for name in names if len(name) > 1 and {*name} <= {*names}}

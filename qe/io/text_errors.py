@@ -177,7 +177,7 @@ def _word_hint(before: str, kind: str, value: str, expected: Collection[str]) ->
     """What helps where words of other systems stand."""
     if kind == "NAME" and value in _WORDS and "TIMES" in expected:
         return f"an operator is missing in front of {value}; {_WORDS[value]}"
-    if "Piecewise" in before:
+    if "Piecewise" in before or (kind == "IF" and "AND" in expected):
         return "a choice between cases is written if c then a else b"
     command = _COMMANDS.match(before)
     if command is not None and (command[1] == "let" or kind != "$END" or "$END" not in expected):

@@ -7,6 +7,7 @@ that stand alone in front of an operator somewhere, on one line, and not behind 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -169,7 +170,7 @@ def tokens(text: str) -> Iterator[Token]:
         if token is None:
             raise unknown_character(text, at)
         kind, value = token.lastgroup, token.group()
-        if kind == "NAME" and state.is_product(value):
+        if kind == "NAME" and state.is_product(value, at):
             for letter, place in zip(value, range(at, at + len(value))):
                 if place > at:
                     yield from state.put("TIMES", "*", place)
@@ -282,6 +283,8 @@ class State:
         self.called, self.listing, self.word, self.closed = False, False, "", False
         self.variables: set[str] | None = None
         self.bound: set[str] = set()
+        self.words: Counter[str] | None = None
+        self.alone: Counter[str] = Counter()
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
@@ -334,14 +337,22 @@ class State:
             self.variables = {*_VARIABLE.findall(self.text)}
         return bool(_LETTER.fullmatch(name)) or name in self.variables or name in CONSTANTS
 
-    def is_product(self, name: str) -> bool:
-        """Whether a name has in it a variable of a quantifier that stands nowhere else: ``ex x. ax^2 + bx + c = 0``.
+    def is_product(self, name: str, at: int) -> bool:
+        """Whether a name has in it a variable of a quantifier that stands nowhere else, as ``ex x. ax^2 + bx + c = 0``
+        has, or stands behind a number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
 
         Behind a division it stays a name."""
         if self.header or self.brackets[-1].divided or not name.isalpha() or name.lower() in (*KEYWORDS, *FUNCTIONS):
             return False
-        inside = [letter for letter in self.bound.intersection(name) if len(letter) < len(name)]
-        return any(len(re.findall(rf"\b{letter}\b", self.text)) == 1 for letter in inside)
+        behind_number = len(name) > 1 and self.last == "NUMBER" and self.end == at
+        bound = [letter for letter in self.bound.intersection(name) if letter != name]
+        if not (behind_number or bound):
+            return False
+        if self.words is None:
+            self.words, self.alone = (Counter(re.findall(one, self.text)) for one in (WORD, rf"(?<!\w){WORD}"))
+        if behind_number and not self.alone[name] and all(self.words[letter] for letter in name):
+            return True
+        return any(self.words[letter] == 1 for letter in bound)
 
     def prefix(self, value: str, at: int) -> Iterator[Token]:
         """``(E x, y)``, as in front of a formula in brackets."""

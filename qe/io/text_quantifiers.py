@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io import text_lexer
+from qe.io.conditions import together
 from qe.io.functions import RELATIONS
 from qe.io.parser import BODY, CLOSES, FORMULA, TERM, Parser, Waiting, counted
 from qe.io.text_errors import SyntaxFailure
@@ -62,7 +63,12 @@ class QuantifiedParser(Parser):
         """What has to hold of the variables of ``for all x, y with x < y: f``, also behind its formula."""
         is_behind = bool(self.conditions) and len(self.stack) == 1
         if quantifier.text in _UNIVERSAL and (is_behind or re.search(r":(?!=)|\.\s", self.text[self.token.at :])):
-            return [self.expression(FORMULA, END if is_behind else "DOT")]
+            end = END if is_behind else "DOT"
+            start, parts = self.token.at, [self.expression(FORMULA, end, "COMMA")]
+            while self.token.kind == "COMMA":
+                self.advance()
+                parts.append(self.expression(FORMULA, end, "COMMA"))
+            return [together(parts, start)]
         return []
 
     def bound(self) -> tuple[list[str], Within | None]:

@@ -29,9 +29,9 @@ class Solutions(SymPyForm):
     """The solutions in the variables ``order``.
 
     ``lines``: cases as texts, which together are all solutions; ``str`` writes them with ``or`` between them: a formula
-    that can be read back; long polynomials that come again and again have a name there. Each value is said once, under the condition on the parameters under which it is a solution,
-    where there are finitely many values; values are numbers, terms in the variables before, with ``sqrt`` where they
-    can be, or ``root(k, polynomial, variable)``.
+    that can be read back; long polynomials that stand there often have a name. Each value is said once, under the
+    condition on the parameters under which it is a solution, where there are finitely many values; values are numbers,
+    terms in the variables before, with ``sqrt`` where they can be, or ``root(k, polynomial, variable)``.
 
     ``cases``: the same as disjoint pieces (``Piece``: ``.ranges``, ``.sample``, ``.formula``), over which one iterates:
     for the first variables where they lie, and for each later one, over those, between which values. ``region``: the
