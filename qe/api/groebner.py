@@ -70,9 +70,9 @@ def comprehensive_groebner(
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
     known = under(TRUE, TRUE, settings["assuming"], limits, others=names_typed(polys)).known
-    given = polys, variables, parameters, chosen, constants, *_supposed(known, variables, equal, nonzero)
-    system, _ = read_under(limits, partial(read_system, *given), polys, equal, nonzero)
-    work = partial(_solved, system, _about(known, system), wanted)
+    given = polys, variables, parameters, chosen, constants, equal, nonzero
+    system, _ = read_under(limits, partial(read_system, *given, known=known), polys, equal, nonzero)
+    work = partial(_solved, system, convert(known, system.ring), wanted)
     return perform(work, limits, at_once=limits.timeout is not None)
 
 
@@ -98,32 +98,10 @@ def real_root_classification(
     """
     limits = limits_of(settings)
     known = under(TRUE, TRUE, settings["assuming"], limits, others=names_typed(polys)).known
-    supposed = _supposed(known, variables, equal, nonzero)
-    given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, *supposed, positive
-    system, signs = read_under(limits, partial(read_system, *given), polys, equal, nonzero, positive)
-    work = partial(_classified, system, signs, _about(known, system), settings["check"])
+    given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive
+    system, signs = read_under(limits, partial(read_system, *given, known=known), polys, equal, nonzero, positive)
+    work = partial(_classified, system, signs, convert(known, system.ring), settings["check"])
     return perform(work, limits, at_once=limits.timeout is not None)
-
-
-def _supposed(
-    known: Formula, variables: Names, equal: Sequence[Any], nonzero: Sequence[Any]
-) -> tuple[list[Any], list[Any]]:
-    """``equal`` and ``nonzero`` with what the assumptions, which are about parameters, say of the kind."""
-    if strange := {*known.free}.intersection(arguments.names(variables, "variables") or ()):
-        raise InputError(f"assuming: conditions on the parameters expected, {min(strange)} found")
-    parts = [part for part in conjuncts(known) if isinstance(part, Atom)]
-    strict = (Relation.NE, Relation.LT, Relation.GT)
-    return (
-        [*arguments.by_place(equal, "equal"), *(p.poly for p in parts if p.relation is Relation.EQ)],
-        [*arguments.by_place(nonzero, "nonzero"), *(p.poly for p in parts if p.relation in strict)],
-    )
-
-
-def _about(known: Formula, system: ParametricSystem) -> Formula:
-    """The assumptions over the ring of the system. Raises ``InputError`` where there are others in them."""
-    if strange := [name for name in known.free if name not in system.ring.index]:
-        raise InputError(f"assuming: conditions on the parameters expected, {strange[0]} found")
-    return convert(known, system.ring)
 
 
 def _solved(system: ParametricSystem, known: Formula, faithful: bool, budget: Budget) -> ComprehensiveGroebnerSystem:
@@ -162,21 +140,30 @@ def read_system(
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
     positive: Sequence[Any] = (),
+    *,
+    known: Formula = TRUE,
 ) -> tuple[ParametricSystem, tuple[Poly, ...]]:
-    """The arguments of a question about a parametric system, checked, and ``positive``. Raises ``InputError``."""
+    """The arguments of a question about a parametric system, checked, and ``positive``. Raises ``InputError``.
+
+    ``known``: what is assumed of the parameters; its equations and strict relations join ``equal`` and ``nonzero``."""
     offered = arguments.by_name({} if constants is None else constants, "constants")
     fixed = {name: algebraic(value, f"constants: {name}") for name, value in offered.items()}
     largest = arguments.names(variables, "variables") or ()
     named = arguments.names(parameters, "parameters")
-    known = {*largest, *(named or ()), *fixed}
+    names = {*largest, *(named or ()), *fixed}
+    if strange := {*known.free} & {*largest} if named is None else {*known.free} - {*named, *fixed}:
+        raise InputError(f"assuming: conditions on the parameters expected, {min(strange)} found")
     offers = {"polys": polys, "equal": equal, "nonzero": nonzero, "positive": positive}
-    lists = [_polynomials(given, what, known) for what, given in offers.items()]
+    lists = [_polynomials(given, what, names) for what, given in offers.items()]
+    for part in conjuncts(known):
+        if isinstance(part, Atom) and part.relation not in (Relation.LE, Relation.GE):
+            lists[1 if part.relation is Relation.EQ else 2].append(part.poly)
     if not lists[0]:
         raise InputError("polys: at least one polynomial expected, none found")
     occurring = {
         what: {p.ring.names[i] for p in group for i in p.variables} for what, group in zip(offers, lists, strict=True)
     }
-    others = tuple(sorted(set[str]().union(*occurring.values()) - {*largest, *fixed})) if named is None else named
+    others = tuple(sorted(set(known.free).union(*occurring.values()) - {*largest, *fixed})) if named is None else named
     _check_names(largest, others, fixed, occurring)
     ring = Ring.of((*fixed, *reversed(others), *reversed(largest)))
     block = BlockOrder(

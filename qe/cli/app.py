@@ -51,14 +51,7 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback(
-    epilog=examples(
-        'qe eliminate "ex x. x^2 + b*x + c = 0"',
-        'qe decide "all x. ex y. y^3 = x"',
-        'qe region "x^2 + y^2 <= 4 and y >= x" --plot region.png',
-        'qe minimize "x + y" "x^2 + y^2 <= 1"',
-    )
-)
+@app.callback(epilog=examples(*(DOORS[name].examples[0] for name in ("eliminate", "decide", "region", "minimize"))))
 def whole(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")

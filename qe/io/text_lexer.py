@@ -342,11 +342,10 @@ class State:
         has, or stands behind a number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
 
         Behind a division it stays a name."""
-        if self.header or self.brackets[-1].divided or not name.isalpha() or name.lower() in (*KEYWORDS, *FUNCTIONS):
+        if len(name) == 1 or self.header or self.brackets[-1].divided:
             return False
-        behind_number = len(name) > 1 and self.last == "NUMBER" and self.end == at
-        bound = [letter for letter in self.bound.intersection(name) if letter != name]
-        if not (behind_number or bound):
+        behind_number, bound = self.last == "NUMBER" and self.end == at, self.bound.intersection(name)
+        if not (behind_number or bound) or not name.isalpha() or name.lower() in (*KEYWORDS, *FUNCTIONS):
             return False
         if self.words is None:
             self.words, self.alone = (Counter(re.findall(one, self.text)) for one in (WORD, rf"(?<!\w){WORD}"))
