@@ -146,7 +146,7 @@ def _arcs(along: SignsAlong, curve: int, low: Number, high: Number) -> Arcs:
     result = solve(along.arm.geometry.arm, along.curve.point(sample)).solutions
     labels = tuple(along.arm.label(solution) for solution in result)
     if len(set(labels)) != len(labels) or set(labels) != {*along.signs.labels(sample)}:
-        raise InternalError("the solutions of an arm contradict the signs that tell them apart")
+        raise InternalError("the solutions of an arm contradict the signs that distinguish them")
     return Arcs(curve, low, high, sample, labels, result)
 
 

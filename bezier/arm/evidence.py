@@ -42,7 +42,7 @@ def limited_pieces(
     arm: Arm, curves: Sequence[Bezier], parts: Sequence[tuple[int, Branch]], turns: Sequence[int]
 ) -> Iterator[tuple[int, ProvedPiece]]:
     """Pieces with the index of their curve, ``turns`` full turns added. Raises ``Unable`` where a joint comes closer to
-    a limit than boxes can tell."""
+    a limit than boxes can resolve."""
     if not arm.has_limits:
         yield from ((k, piece) for k, branch in parts for piece in branch.pieces)
         return
@@ -62,7 +62,7 @@ def limited_pieces(
                 for low, high in ((middle, piece.high), (piece.low, middle))
             ]
             if piece.high - piece.low < LEAST or None in halves:
-                raise Unable(f"near s = {float(middle):.9g} a joint is closer to a limit than boxes can tell")
+                raise Unable(f"near s = {float(middle):.9g} a joint is closer to a limit than boxes can resolve")
             open_ones += [half for half in halves if half is not None]
 
 

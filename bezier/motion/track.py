@@ -33,7 +33,7 @@ class Track:
             expected = "numbers within the range of floating point"
             raise InputError(f"the path: {expected} expected, larger ones found") from None
         if not all(a < b for a, b in pairwise(breaks)):
-            raise Unable("a part of the motion is shorter than floating point can tell, so it has no rounded form")
+            raise Unable("a part of the motion is shorter than floating point can resolve, so it has no rounded form")
         return Track(np.array(breaks), np.array(control))
 
     @property

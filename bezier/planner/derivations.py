@@ -113,6 +113,6 @@ def questions(plan: Plan) -> dict[str, Formula]:
 
 def _check_question(member: Labelled, question: Formula | None) -> None:
     if question is None:
-        raise CertificateRejected(member.label, "nothing of this name is asked about this problem")
+        raise CertificateRejected(member.label, "this problem has no question of this name")
     if member.certificate.kind != Kind.DERIVATION or is_about(member.certificate, question) is None:
         raise CertificateRejected(member.label, "expected a derivation that begins with the question of this problem")

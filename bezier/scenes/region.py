@@ -63,7 +63,7 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
         waiting = [half for k in sorted(split) for half in _parts(mixed[k][0])]
         mixed = [entry for k, entry in enumerate(mixed) if k not in split]
         if len(mixed) + len(waiting) > MOST_CELLS or any(_width(cell) < SMALLEST * wide for cell in waiting):
-            raise Unable("undecided: a way may lead along the boundary of a formula, where small cells do not tell")
+            raise Unable("undecided: a path along the boundary of a formula may exist, which small cells do not decide")
     solids = tuple(of_sides(scene.formulas[owner].name, cell.corners, cell.sides, ZERO) for cell, owner in inner)
     numbers = *range(len(scene.solids)), *(len(scene.solids) + owner for _, owner in inner)
     within = replace(scene, formulas=(), holes=(*scene.holes, *solids))

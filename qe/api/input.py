@@ -126,9 +126,9 @@ def read_block(given: AnyFormula, format: str = "text", total_division: bool = F
 
         block = outermost(given)
     elif not isinstance(given, str | Formula | Answer):
-        from qe.io import sympy
+        from qe.io.sympy import Wrapped
 
-        block = sympy.outermost(given)
+        block = given.block if isinstance(given, Wrapped) else None
     if block is None:
         return formula, known
     universal, names = block

@@ -108,7 +108,7 @@ def _finer(search: Search, level: int) -> Search:
     if level not in search.whole:
         return replace(search, whole=search.whole | {level}, samples=0)
     if level in search.thom:
-        raise InternalError("derivatives do not tell the cells apart, against Thom's lemma")
+        raise InternalError("derivatives do not distinguish the cells, against Thom's lemma")
     return replace(search, thom=search.thom | {level}, samples=0)
 
 

@@ -96,11 +96,6 @@ def _quantified(universal: bool, variables: Any, body: object) -> Wrapped:
     return Wrapped(made, {name: sign for name, sign in assumed.items() if name not in names}, (universal, names))
 
 
-def outermost(given: object) -> tuple[bool, tuple[str, ...]] | None:
-    """Whether a wrapped formula begins with a universal quantifier, and its names; None where it begins with none."""
-    return given.block if isinstance(given, Wrapped) else None
-
-
 def _assumptions(symbols: Iterable[Any]) -> dict[str, Formula]:
     return {name: lower(node, _failing("assumptions")) for name, node in signs(symbols).items()}
 

@@ -162,7 +162,7 @@ class Reader:
         if e is sp.I:
             return "all numbers are real here, I is not; a complex number is written as its real and imaginary part"
         if isinstance(e, sp.NumberSymbol):
-            hint = "put a symbol in its place, with bounds for it in assuming"
+            hint = "put a symbol in its place, with bounds for it in assuming, as qe.sympy.reduce_inequalities does"
             return f"{e} is no algebraic number, coefficients are rational or algebraic; {hint}"
         if isinstance(e, sp.Pow):
             return f"powers whose exponents are no rational numbers are not algebraic: {shown(e)}"

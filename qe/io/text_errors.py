@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from qe.errors import ParseError
 from qe.spelling import QUOTED
 
-_QUOTED = re.compile(QUOTED)
-
 _CHARACTERS = {
     "`": "a name between backquotes needs both of them, on one line, and is not empty",
     ";": "several conditions are joined by and, or stand in braces {…, …}",
@@ -210,12 +208,8 @@ def way_out(name: str) -> str:
 
 
 def _last_word(before: str) -> str:
-    if before.endswith(")"):
-        return "(…)"
-    start = len(before)
-    while start and (before[start - 1].isalnum() or before[start - 1] in "_'."):
-        start -= 1
-    return before[start:] or "…"
+    word = re.search(r"[\w'.]+$", before)
+    return "(…)" if before.endswith(")") else word[0] if word else "…"
 
 
 def _expected(kinds: Collection[str]) -> str:
@@ -236,16 +230,9 @@ def _expected(kinds: Collection[str]) -> str:
 def _unmatched_opening(text: str) -> int | None:
     """The offset of the innermost '(' that has no ')' in ``text``; quoted names and comments are skipped."""
     open_at: list[int] = []
-    at = 0
-    while at < len(text):
-        character = text[at]
-        if character == "#":
-            at = text.find("\n", at) % (len(text) + 1)
-        elif character == "`" and (name := _QUOTED.match(text, at)):
-            at = name.end() - 1
-        elif character == "(":
-            open_at.append(at)
-        elif character == ")" and open_at:
+    for match in re.finditer(rf"#[^\n]*|{QUOTED}|[()]", text):
+        if match[0] == "(":
+            open_at.append(match.start())
+        elif match[0] == ")" and open_at:
             open_at.pop()
-        at += 1
     return open_at[-1] if open_at else None

@@ -47,7 +47,7 @@ def minimisers(goal: Goal, taken: Formula, table: CellTable, sign: int, budget: 
     """
 
     def refined(levels: frozenset[int]) -> CellTable:
-        raise Unable("the signs do not tell which value is the end")
+        raise Unable("the signs do not decide which value is the end")
 
     try:
         end = construct(_only_ends(table, sign), refined)[0]
