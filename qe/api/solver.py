@@ -66,14 +66,14 @@ def optimised(
     each by itself; the last point that was found, if any. Raises ``Unable``."""
     point: Mapping[str, Any] = {}
     for objective in objectives:
-        best = minimize if objective.least else maximize
-        found = objective.optimum = best(objective.term, whole, **settings)
+        solve = minimize if objective.least else maximize
+        best = objective.optimum = solve(objective.term, whole, **settings)
         if box:
             continue
-        if not found.attained or found.value is None:
+        if not best.attained or best.value is None:
             return point
-        point, value = found.point, new_name(whole.free, found.point)
-        same = substituted(graph_of(value, objective.term), {value: found.value})
+        point, value = best.point, new_name(whole.free, best.point)
+        same = substituted(graph_of(value, objective.term), {value: best.value})
         whole = conj(over_one_ring(whole, same))
     return point
 

@@ -310,12 +310,12 @@ def limited(
     with Display(wanted=not plain, lines=lines) as display:
         limits = Limits(timeout, memory, display)
         try:
-            done = run(partial(_with_doubts, work), limits, at_once=at_once, grace=grace, known=known)
+            return run(partial(_with_doubts, work), limits, at_once=at_once, grace=grace, known=known)
         except (RecursionError, MemoryError, ValueError) as error:
             raise rebuilt(portable(error)) from error
-    if NOTE in known.facts:
-        warnings.warn(str(known.facts[NOTE]), DoubtfulInput, stacklevel=2)
-    return done
+        finally:
+            if NOTE in known.facts:
+                warnings.warn(str(known.facts[NOTE]), DoubtfulInput, stacklevel=2)
 
 
 def _may_block(text: str) -> bool:

@@ -44,15 +44,15 @@ def optimised(
 
 def _value(goal: Objective) -> str:
     """The optimum as ``get-objectives`` writes it, behind a space; nothing where it was not looked for."""
-    found = goal.optimum
-    if found is None:
+    best = goal.optimum
+    if best is None:
         return ""
-    if found.status is OptimumStatus.UNBOUNDED:
+    if best.status is OptimumStatus.UNBOUNDED:
         return " (* (- 1) oo)" if goal.least else " oo"
-    if found.value is None:
+    if best.value is None:
         raise Unable("an objective has no optimum")
-    value = written(_plain(found.value))
-    return f" {value}" if found.attained else f" (+ {value} {'epsilon' if goal.least else '(* (- 1) epsilon)'})"
+    value = written(_plain(best.value))
+    return f" {value}" if best.attained else f" (+ {value} {'epsilon' if goal.least else '(* (- 1) epsilon)'})"
 
 
 def _plain(number: Number) -> Number:

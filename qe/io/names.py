@@ -28,10 +28,10 @@ def check_name(name: object) -> str:
 
 def bound_names(variables: object) -> tuple[str, ...]:
     """The names that a quantifier binds. Raises ``InputError`` for what gives none."""
-    found = names(variables, "variables")
-    if not found:
+    bound = names(variables, "variables")
+    if not bound:
         raise InputError("variables: a quantifier needs at least one variable")
-    return tuple(map(check_name, found))
+    return tuple(map(check_name, bound))
 
 
 class Renaming:
