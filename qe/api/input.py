@@ -207,8 +207,7 @@ def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
     """
     from qe.optimization.values import Objective, new_name
 
-    marks = ("free_symbols", "term", "sexpr", "get_type")  # of SymPy, of ours, of z3 and of pySMT
-    is_term = isinstance(given, str) or any(hasattr(given, mark) for mark in marks)
+    is_term = isinstance(given, str) or any(hasattr(given, mark) for mark in ("free_symbols", "term", "sexpr"))
     try:
         poly, scale = read_polynomial(given, "objective")
         return Objective.of(poly, scale, new_name(poly.ring.names, taken))

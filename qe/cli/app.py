@@ -286,11 +286,6 @@ def answered(
     return deliver(reply, files)
 
 
-def check_limits(timeout: float | None, memory: int | None) -> None:
-    """Raise ``InputError`` for limits that make no sense."""
-    checked({"timeout": timeout, "memory": memory})
-
-
 def deliver(reply: Reply, paths: dict[str, Path | None]) -> int:
     """Write the files first, then the answer; the exit status."""
     for key, path in paths.items():

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import TextIO, cast
+from typing import Any, TextIO, cast
 
 import qe
 import qe.api.eliminate as api
@@ -286,8 +286,7 @@ class Solver(Checks):
         if result.answer == "sat" and self.script.objectives:
             from qe.cli.smt_objectives import optimised  # and what optimises
 
-            box = self.options.get(":opt.priority") == "box"
-            result = optimised(self.script, result, [*nodes, *extra], self.left(), self.memory, box=box)
+            result = optimised(self.script, result, [*nodes, *extra], self.left(), self.memory)
         self.result = result._replace(asked=asked)
         if {self.status, result.answer} == {"sat", "unsat"}:
             self.warn(f"the script says :status {self.status}, but the answer is {result.answer}")
@@ -309,21 +308,21 @@ class Solver(Checks):
     def core(self) -> str:
         """Named assertions that cannot hold together with the others and what was assumed; none can be left out."""
         assumed = [self.script.formula(item, self.script.globals) for item in self.last("unsat").asked]
-        from qe.api.solver import needed
-
-        named = [a for a in self.script.assertions if a.name is not None]
+        named = [(a.name, a.node) for a in self.script.assertions if a.name is not None]
         others = [*assumed, *(a.node for a in self.script.assertions if a.name is None)]
-        kept = needed(named, lambda some: self.solved([*others, *(a.node for a in some)]).answer == "unsat")
-        return f"({' '.join(str(a.name) for a in kept)})"
+        return f"({' '.join(map(str, self.needed(named, others)))})"
 
     def refuted(self, asked: Sequence[Expression]) -> list[Expression]:
         """Assumptions that cannot hold together with the assertions; none of them can be left out."""
-        nodes = [a.node for a in self.script.assertions]
+        assumed = [(item, self.script.formula(item, self.script.globals)) for item in asked]
+        return self.needed(assumed, [a.node for a in self.script.assertions])
+
+    def needed(self, parts: Sequence[tuple[Any, s.Node]], others: Sequence[s.Node]) -> list[Any]:
+        """What names those of the parts, none of which can be left out, that contradict the others."""
         from qe.api.solver import needed
 
-        assumed = [(item, self.script.formula(item, self.script.globals)) for item in asked]
-        kept = needed(assumed, lambda some: self.solved([*nodes, *(node for _, node in some)]).answer == "unsat")
-        return [item for item, _ in kept]
+        kept = needed(parts, lambda some: self.solved([*others, *(node for _, node in some)]).answer == "unsat")
+        return [name for name, _ in kept]
 
     # --- models ----------------------------------------------------------------------------------------------
     def evaluation(self) -> Evaluation:

@@ -20,9 +20,7 @@ RELATIONS = {
     **dict.fromkeys(("Gt", "Greater"), Relation.GT),
 }
 FUNCTIONS = {
-    **{name: name for name in s.FUNCTIONS},
-    **{name.capitalize(): name for name in s.FUNCTIONS},
-    **{name.upper(): name for name in s.FUNCTIONS},
+    **{spelt: name for name in s.FUNCTIONS for spelt in (name, name.capitalize(), name.upper())},
     **dict.fromkeys(("sgn", "Sgn"), "sign"),
     "CubeRoot": "cbrt",
 }

@@ -19,19 +19,12 @@ def from_solver(given: Any) -> Formula | None:
 
 
 def graph_of(name: str, given: Any) -> Formula | None:
-    """Where a variable of this name has the value of a term of z3 or pySMT; None for any other."""
-    kind = type(given).__module__.partition(".")[0]
-    if kind == "z3":
-        import z3
+    """Where a variable of this name has the value of a term of z3; None for any other."""
+    if type(given).__module__.partition(".")[0] != "z3":
+        return None
+    import z3
 
-        return from_z3(z3.Real(name, given.ctx) == given)
-    if kind == "pysmt":
-        from pysmt.environment import get_env
-        from pysmt.typing import REAL
-
-        manager = get_env().formula_manager
-        return _from_pysmt(manager.Equals(manager.Symbol(name, REAL), given))
-    return None
+    return from_z3(z3.Real(name, given.ctx) == given)
 
 
 def from_z3(given: Any) -> Formula:
