@@ -48,10 +48,6 @@ MANY = 24
 """The same for so many alternatives of linear conditions in fewer variables (measured: two variables, each in one of 80
 intervals, 0.4 s for 0.1 s)."""
 
-WITH_FORM = 3
-"""So many variables are needed where a linear form has parameters in its coefficients: in fewer, the answers of
-substitution are as short, and have certificates (measured: in three 227 to 5,437 characters for 91 to 179)."""
-
 POSITION_TERMS = 5000
 """Terms of all atoms together up to which better coordinates are looked for."""
 
@@ -158,7 +154,7 @@ def polyhedron(problem: Block, options: Options) -> str | None:
     if not problem.free or not problem.is_flat:
         return None
     curved = [p for p in problem.conditions if not isinstance(p, Atom) or p.poly.total_degree > 1]
-    if len(curved) > 1 or (curved and (problem.degree > 1 or len(problem.variables) < WITH_FORM)):
+    if len(curved) > 1 or (curved and problem.degree > 1):
         return None
     kind = "a linear form with parameters on a polyhedron in" if curved else "a polyhedron projected along"
     return f"{kind} {len(problem.variables)} variables"

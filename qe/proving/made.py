@@ -9,7 +9,7 @@ from fractions import Fraction
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
-from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import atoms, children, conjuncts, map_atoms
 from qe.kernel.block import block_goals
 from qe.kernel.boolean import Goal, equivalence
@@ -258,3 +258,8 @@ def at_number(formula: Formula, x: int, value: Fraction | int) -> Formula:
 def equal(one: Poly, other: Poly) -> Atom:
     """That two different polynomials have the same value."""
     return Atom((one - other).normal()[1], Relation.EQ)
+
+
+def quantified(names: Sequence[str], body: Formula) -> Formula:
+    """The block; what is one inside stays one."""
+    return Exists(tuple(names), body) if names and body != FALSE else body

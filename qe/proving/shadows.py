@@ -10,29 +10,27 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from itertools import combinations
 from math import lcm
 
 from qe.convex.linear_rows import LinearRows, linear_atoms
 from qe.convex.polyhedron import HalfSpace, Polyhedron, Sums
 from qe.exact.ring import Poly
-from qe.formula.build import atom, conj, disj
+from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.kernel.block import existential
-from qe.kernel.boolean import Goal, Search, Theory
 from qe.kernel.elimination_points import Tried
 from qe.kernel.elimination_set import start
 from qe.kernel.negation import negation
-from qe.kernel.signs import read_polynomials
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.virtual_substitution import TestPoint
-from qe.proof.entry import Entry, Json
+from qe.proof.entry import Json
 from qe.proving.elimination_points import point_entry
 from qe.proving.lemma_list import Term, identities
 from qe.proving.linear import put_in
-from qe.proving.made import Made, solved
+from qe.proving.made import Made, quantified, solved
 from qe.proving.primitive_names import SIGNS
+from qe.proving.vertices import by_vertices, some_best
 
 MOST_PAIRS, MOST_POINTS = 1000, 30
 """Pairs of bounds, and bounds of one kind among which the largest is looked for, at most: such a step of a certificate
@@ -40,11 +38,13 @@ has half a million characters, and takes seconds."""
 
 
 def projected(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A block over linear equations and inequalities."""
+    """A block over linear equations and inequalities, or with one other condition, linear in its variables."""
     only(claim)
     block, after = existential(claim)
-    if not isinstance(block, Exists) or not (atoms := linear_atoms(block.body)):
-        raise claim.fail("expected a block over linear equations and inequalities")
+    if not isinstance(block, Exists):
+        raise claim.fail("expected a block")
+    if not (atoms := linear_atoms(block.body)):
+        return by_vertices(claim, block, context, limits).finished(after)
     system = LinearRows.of(atoms)
     shadow = _Shadow(Made(claim, limits, block, context), system.names)
     now = shadow.reduced(Polyhedron.of(system))
@@ -81,7 +81,7 @@ class _Shadow:
         given = equation.condition(self.names, ring, Relation.EQ)
         assert isinstance(block, Exists) and isinstance(given, Atom)
         image = put_in(block.body, ring.index[name], given.poly)
-        after = _block([v for v in block.variables if v != name], image)
+        after = quantified([v for v in block.variables if v != name], image)
         self.made.step("linear equation solved", block, after, solved(given, name))
         return None if image == FALSE else self.reduced(polyhedron.substituted(equation, j))
 
@@ -108,7 +108,7 @@ class _Shadow:
         assert isinstance(block, Exists)
         inner = Exists((self.names[j],), ends)
         others = conj(a for a in conjuncts(block.body) if a not in conjuncts(ends))
-        made.moved(block, _block([v for v in block.variables if v != self.names[j]], conj((others, inner))))
+        made.moved(block, quantified([v for v in block.variables if v != self.names[j]], conj((others, inner))))
         self._witnessed(inner, side, points, pairs)
         self._left_out([*stay, *(pairs if len(points) == 1 else ())], kept)
         return kept
@@ -135,48 +135,13 @@ class _Shadow:
         self.made.step("elimination set", inner, cases, evidence)
         if len(points) > 1:
             lemmas, used = self._because(pairs)
-            bounded = [(self._poly(row).coefficients(x), row.strict) for row in points]
-            theory = self._some_best(bounded, lemmas, (*used, TRUE, negation(cases)))
+            bounds = [
+                (rest, abs(lead.constant_value()), row.strict)
+                for row in points
+                for rest, lead in (self._poly(row).coefficients(x),)
+            ]
+            theory = some_best(bounds, lemmas, [(), (*used, TRUE, negation(cases))], ring, self.made.limits)
             self.made.step(SIGNS, cases, TRUE, {"theory": theory}, used)
-
-    def _some_best(
-        self, points: Sequence[tuple[Sequence[Poly], bool]], lemmas: Sequence[Sequence[Term]], goal: Goal
-    ) -> Json:
-        """One of the bounds of a kind is the best: as long as none is, each of the first r has a better one among them.
-
-        For r that is less by one, this follows: a better one than the last is better than those that the last is better
-        than. Of three bounds the differences, times positive numbers, add up to 0.
-        """
-        parts = [(rest, abs(lead.constant_value()), strict) for (rest, lead), strict in points]
-
-        def over(k: int, i: int) -> Poly:
-            (r, c, _), (s, d, _) = parts[k], parts[i]
-            return d * r - c * s
-
-        order: list[list[Term]] = [
-            [(parts[k][1], ((over(i, j), 1),)) for i, j, k in ((a, b, c), (b, c, a), (c, a, b))]
-            for a, b, c in combinations(range(len(points)), 3)
-        ]
-        theory = identities([*lemmas, *order], self.made.ring)
-        assert isinstance(theory, dict)
-        polys = read_polynomials(Entry(theory["polynomials"], "theory"), self.made.ring)
-        search = Search(Theory(polys, (), self.made.limits), goal)
-
-        def said(formula: Formula) -> int:
-            number, signs = search.literal(formula)
-            return 8 * number + signs
-
-        def better(k: int, i: int) -> int:
-            return said(atom(over(k, i), Relation.GE if parts[k][2] and not parts[i][2] else Relation.GT))
-
-        def worse(k: int, i: int) -> int:
-            """As the kernel says it next to a root."""
-            return said(disj(atom(over(k, i), relation) for relation in (Relation.LT, Relation.EQ)))
-
-        numbers = range(len(points))
-        cases: list[Json] = [[worse(k, i), better(k, i)] for i in numbers if parts[i][2] for k in numbers if k != i]
-        cases += [[better(k, i) for k in range(r) if k != i] for r in numbers[:1:-1] for i in range(r)]
-        return {**theory, "cases": [[1, clause] for clause in cases]}
 
     def _left_out(self, halves: Iterable[HalfSpace], kept: Polyhedron) -> None:
         """Those that are not kept follow from what is."""
@@ -231,8 +196,3 @@ class _Shadow:
 
     def _said(self, rows: Iterable[HalfSpace]) -> Formula:
         return conj(map(self._condition, rows))
-
-
-def _block(names: Sequence[str], body: Formula) -> Formula:
-    """The block; what is one inside stays one."""
-    return Exists(tuple(names), body) if names and body != FALSE else body

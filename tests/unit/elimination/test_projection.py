@@ -2,13 +2,17 @@ import random
 from fractions import Fraction
 
 import qe
+from qe.convex.cone import dot
+from qe.convex.vertices import Generated
 from qe.elimination import projection
+from qe.exact.quadratic_form import solve_linear
 from qe.formula.block import Block
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
-from qe.formula.traverse import disjuncts
+from qe.formula.traverse import conjuncts, disjuncts
 from qe.io.text import read
 from tests.tables import each
+from tests.unit.proving.elaborated import refused
 
 
 def test_shadows_are_equivalent_to_what_substitution_says():
@@ -113,3 +117,46 @@ def test_an_answer_at_ten_vertices_is_no_decomposition_of_four_parameters() -> N
     box = " and ".join(f"{v} >= -3 and {v} <= 3" for v in "xyz")
     answer = qe.eliminate(f"ex x, y, z. {rows} and {box} and a*x + b*y + c*z > k", process=False, timeout=5)
     assert answer.reason == "no proof was asked for" and len(disjuncts(answer.formula)) > 9
+
+
+@each(
+    "all x, y, z. abs(x) + abs(y) + abs(z) <= 1 -> a*x + b*y + c*z <= d",
+    "all x, y. x > 0 and y > 0 and x + y < 1 -> a*x + b*y <= c",  # open: no vertex belongs to it
+    "ex x, y. x >= 0 and y >= x and a*x + b*y >= 1",  # along directions
+    "ex x, y. x + y >= 1 and (a*x + b*y >= c or a*x > b)",  # along lines, two conditions
+    "ex x, y, z. 0 <= x and x <= 1 and 0 <= y and y <= z and z <= 1 and a*x*y + b*x*z > c",
+    "ex x, y, z. x <= y and y <= z and z <= x + 1 and x >= 0 and a*x + b*y + c*z > 0",
+    "ex x, y. x >= 0 and y >= 0 and x + y <= 1 and (x*a - x*a^2 > 1 or b*x + y >= 0)",  # true at a vertex
+)
+def test_answers_by_vertices_and_directions_are_proved(text: str) -> None:
+    answer = qe.eliminate(text, check=True, process=False)
+    assert (answer.guarantee, answer.unchecked_steps) == (qe.Guarantee.CHECKED, ())
+    assert len(answer.certificate.to_json()) < 25_000
+
+
+def test_no_other_answer_than_that_at_the_vertices_is_proved() -> None:
+    """Conditions at vertices left out, added or with another relation."""
+    block = "ex x, y. x >= 0 and y >= 0 and x + y <= 1 and a*x + b*y >= c"
+    assert not refused("projection", block, "c <= 0 or a >= c or b >= c", {})
+    for after in ("c <= 0 or a >= c", "c <= 0 or a >= c or b > c", "c <= 0 or a >= c or b >= c or a + b >= c"):
+        assert refused("projection", block, after, {}), after
+
+
+def test_the_largest_function_of_a_triangulation_tells_the_simplex() -> None:
+    """A point is a combination without negative weights of the generators of one of the pieces with that function."""
+    rng = random.Random(2)
+    names = ("x", "y", "z")
+    for k in range(12):
+        rows = [f"{rng.randint(-2, 2)}*x + {rng.randint(-2, 2)}*y + {rng.randint(-2, 2)}*z <= {rng.randint(1, 3)}"]
+        rows += [f"{v} >= -2" for v in names] + [f"{v} <= 2" for v in names[: k % 4]]
+        polyhedron = Generated.of(names, conjuncts(read(" and ".join(rows))), lambda: None)
+        assert polyhedron is not None
+        pieces, rays = polyhedron.pieces(), list(polyhedron.cone.rays)
+        assert pieces
+        for _ in range(5):
+            weights = [rng.randint(0, 3) for _ in rays]
+            point = tuple(sum(w * c for w, c in zip(weights, column)) for column in zip(*rays))
+            values = [Fraction(dot(f[:-1], point), f[-1]) for f, _ in pieces]
+            _, spanning = pieces[values.index(max(values))]
+            solution = solve_linear(list(zip(*spanning)), point, len(spanning))
+            assert solution is not None and min(solution.particular) >= 0
