@@ -17,6 +17,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, NoReturn
 
+import qe.formula.comparison
 import qe.kernel.derivation  # noqa: F401
 from qe.certify.claims import claim_of
 from qe.certify.trusts import trusts
