@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
+from dataclasses import replace
 from enum import Enum
 from functools import partial
 from typing import Any, Unpack
 
 from qe import arguments
-from qe.api.input import read_polynomial
-from qe.api.limits import limits_of, read_under
-from qe.api.settings import Limited, Proved, with_settings
+from qe.api.input import names_typed, read_polynomial
+from qe.api.limits import limits_of, read_under, under
+from qe.api.settings import Optimisation, Parametric, with_settings
+from qe.engine.assuming import can_hold, simplified
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import BlockOrder
 from qe.exact.groebner import MonomialOrder
 from qe.exact.ring import Poly, Ring, format_poly
+from qe.formula.build import conj, convert
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
+from qe.formula.traverse import conjuncts
 from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
 from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.processes.execution import perform
 
 Names = Any
@@ -37,7 +42,7 @@ class Order(Enum):
 _ORDERS = dict(zip(Order, (MonomialOrder.DEGREVLEX, MonomialOrder.DEGLEX, MonomialOrder.LEX), strict=True))
 
 
-@with_settings(Limited)
+@with_settings(Parametric)
 def comprehensive_groebner(
     polys: Sequence[Any],
     variables: Names,
@@ -48,7 +53,7 @@ def comprehensive_groebner(
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
     faithful: bool = False,
-    **settings: Unpack[Limited],
+    **settings: Unpack[Parametric],
 ) -> ComprehensiveGroebnerSystem:
     """A comprehensive Gröbner system: parameter space in disjoint segments, each with one basis for all its points.
 
@@ -57,18 +62,21 @@ def comprehensive_groebner(
     the monomials in the variables, ``"grevlex"``, ``"grlex"`` or ``"lex"``. ``constants``: names that stand for real
     algebraic numbers (``RealAlgebraic``, SymPy numbers), treated exactly by their minimal polynomials. ``equal`` and
     ``nonzero``: polynomials in the parameters; only where the former vanish and none of the latter does segments are
-    made. ``faithful``: every segment also has elements of the given ideal itself with the same values as its basis.
+    made; ``assuming`` says the same, and leaves out segments where it cannot hold. ``faithful``: every segment also has
+    elements of the given ideal itself with the same values as its basis.
     Raises ``InputError``, ``Unable`` where bases grow too large, ``BudgetExceeded``.
     """
     limits = limits_of(settings)
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
+    known = under(TRUE, TRUE, settings["assuming"], limits, others=names_typed(polys)).known
     given = polys, variables, parameters, chosen, constants, equal, nonzero
-    system, _ = read_under(limits, partial(read_system, *given), polys, equal, nonzero)
-    return perform(partial(system.solved, faithful=wanted), limits, at_once=limits.timeout is not None)
+    system, _ = read_under(limits, partial(read_system, *given, known=known), polys, equal, nonzero)
+    work = partial(_solved, system, convert(known, system.ring), wanted)
+    return perform(work, limits, at_once=limits.timeout is not None)
 
 
-@with_settings(Proved)
+@with_settings(Optimisation)
 def real_root_classification(
     polys: Sequence[Any],
     variables: Names,
@@ -78,7 +86,7 @@ def real_root_classification(
     constants: Mapping[str, Any] | None = None,
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
-    **settings: Unpack[Proved],
+    **settings: Unpack[Optimisation],
 ) -> RealRootClassification:
     """The partition of parameter space by the number of distinct real solutions of polys = 0, as formulas.
 
@@ -89,21 +97,38 @@ def real_root_classification(
     ``comprehensive_groebner``.
     """
     limits = limits_of(settings)
+    known = under(TRUE, TRUE, settings["assuming"], limits, others=names_typed(polys)).known
     given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive
-    system, signs = read_under(limits, partial(read_system, *given), polys, equal, nonzero, positive)
-    work = partial(_classified, system, signs, settings["check"])
+    system, signs = read_under(limits, partial(read_system, *given, known=known), polys, equal, nonzero, positive)
+    work = partial(_classified, system, signs, convert(known, system.ring), settings["check"])
     return perform(work, limits, at_once=limits.timeout is not None)
 
 
-def _classified(
-    system: ParametricSystem, positive: tuple[Poly, ...], check: bool, budget: Budget
-) -> RealRootClassification:
-    classification = classified(system, positive, budget)
-    if not check:
-        return classification
-    from qe.api.classified import certified
+def _solved(system: ParametricSystem, known: Formula, faithful: bool, budget: Budget) -> ComprehensiveGroebnerSystem:
+    """The system, without segments where the assumptions cannot hold."""
+    solved = system.solved(budget, faithful=faithful)
+    if known == TRUE:
+        return solved
+    kept = [s for s in solved if can_hold(conj((known, solved.condition(s))), Options(), budget)]
+    return replace(solved, segments=tuple(kept))
 
-    return certified(system, classification, budget)
+
+def _classified(
+    system: ParametricSystem, positive: tuple[Poly, ...], known: Formula, check: bool, budget: Budget
+) -> RealRootClassification:
+    """The classification, with conditions as short as the assumptions allow; its certificate is of those without."""
+    classification = classified(system, positive, budget)
+    if check:
+        from qe.api.classified import certified
+
+        classification = certified(system, classification, budget)
+    if known == TRUE:
+        return classification
+    shorter = [
+        replace(one, condition=simplified(one.condition, known, Options(), budget).outcome.formula)
+        for one in classification
+    ]
+    return replace(classification, classes=tuple(one for one in shorter if one.condition != FALSE))
 
 
 def read_system(
@@ -115,21 +140,30 @@ def read_system(
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
     positive: Sequence[Any] = (),
+    *,
+    known: Formula = TRUE,
 ) -> tuple[ParametricSystem, tuple[Poly, ...]]:
-    """The arguments of a question about a parametric system, checked, and ``positive``. Raises ``InputError``."""
+    """The arguments of a question about a parametric system, checked, and ``positive``. Raises ``InputError``.
+
+    ``known``: what is assumed of the parameters; its equations and strict relations join ``equal`` and ``nonzero``."""
     offered = arguments.by_name({} if constants is None else constants, "constants")
     fixed = {name: algebraic(value, f"constants: {name}") for name, value in offered.items()}
     largest = arguments.names(variables, "variables") or ()
     named = arguments.names(parameters, "parameters")
-    known = {*largest, *(named or ()), *fixed}
+    names = {*largest, *(named or ()), *fixed}
+    if strange := {*known.free} & {*largest} if named is None else {*known.free} - {*named, *fixed}:
+        raise InputError(f"assuming: conditions on the parameters expected, {min(strange)} found")
     offers = {"polys": polys, "equal": equal, "nonzero": nonzero, "positive": positive}
-    lists = [_polynomials(given, what, known) for what, given in offers.items()]
+    lists = [_polynomials(given, what, names) for what, given in offers.items()]
+    for part in conjuncts(known):
+        if isinstance(part, Atom) and part.relation not in (Relation.LE, Relation.GE):
+            lists[1 if part.relation is Relation.EQ else 2].append(part.poly)
     if not lists[0]:
         raise InputError("polys: at least one polynomial expected, none found")
     occurring = {
         what: {p.ring.names[i] for p in group for i in p.variables} for what, group in zip(offers, lists, strict=True)
     }
-    others = tuple(sorted(set[str]().union(*occurring.values()) - {*largest, *fixed})) if named is None else named
+    others = tuple(sorted(set(known.free).union(*occurring.values()) - {*largest, *fixed})) if named is None else named
     _check_names(largest, others, fixed, occurring)
     ring = Ring.of((*fixed, *reversed(others), *reversed(largest)))
     block = BlockOrder(

@@ -138,6 +138,10 @@ class Read(Assuming, total=False):
     format: Annotated[str, _FORMAT]
 
 
+class Parametric(Assuming, Limited, total=False):
+    """What is taken for granted, and the limits."""
+
+
 class Optimisation(Assuming, Proved, total=False):
     """What is taken for granted, the limits, and whether there is to be a certificate."""
 

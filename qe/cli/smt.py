@@ -286,7 +286,8 @@ class Solver(Checks):
         if result.answer == "sat" and self.script.objectives:
             from qe.cli.smt_objectives import optimised  # and what optimises
 
-            result = optimised(self.script, result, [*nodes, *extra], self.left(), self.memory)
+            box = self.options.get(":opt.priority") == "box"
+            result = optimised(self.script, result, [*nodes, *extra], self.left(), self.memory, box=box)
         self.result = result._replace(asked=asked)
         if {self.status, result.answer} == {"sat", "unsat"}:
             self.warn(f"the script says :status {self.status}, but the answer is {result.answer}")

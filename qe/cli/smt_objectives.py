@@ -1,83 +1,60 @@
-"""``minimize`` and ``maximize`` in SMT-LIB scripts: in their order, each where those before it are optimal."""
+"""``minimize`` and ``maximize`` in SMT-LIB scripts: in their order, each where those before it are optimal, or with
+the option ``:opt.priority box`` each by itself."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
-import qe.api.optimum as api
+from qe.api import solver
+from qe.api.solver import Objective
 from qe.cli.smt_check import Result
 from qe.cli.smt_values import Number, written
 from qe.errors import Unable
 from qe.exact.field import FieldElement
 from qe.exact.number import simplest
-from qe.exact.ring import Ring
-from qe.formula.build import conj, convert, exists
-from qe.formula.syntax import Formula, Relation
+from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.smtlib_parser import show
-from qe.io.smtlib_script import Objective, Script
+from qe.io.smtlib_script import Script
 from qe.io.total import Fill, Total
-from qe.optimization.global_optimum import number_conditions
 from qe.proof.multipliers import OptimumStatus
 
 VALUE = "objective value"
-"""The name of the term that is optimised, which no symbol of a script has."""
+"""The beginning of the names of the terms that are optimised, which no symbol of a script has."""
 
 
 def optimised(
-    script: Script, result: Result, nodes: Iterable[s.Node], limit: float | None, memory: int | None
+    script: Script, result: Result, nodes: Iterable[s.Node], limit: float | None, memory: int | None, *, box: bool
 ) -> Result:
     """The result of a check that was sat with the optima, and with a point that has them where one does."""
+    named = list(enumerate(script.objectives))
+    names = [f"{VALUE} {k}" for k, _ in named]
+    graphs = [s.Comparison([s.Name(names[k], -1), one.term], [Relation.EQ], -1) for k, one in named]
+    total = Total(fill=Fill.ANY)
+    whole = total.checked(script.lowered([*nodes, *graphs], total, [*script.names, *names], script.shared))
+    goals = [Objective(f"`{names[k]}`", one.least) for k, one in named]
     try:
-        lines, point = _best(script, list(nodes), limit, memory)
+        point = solver.optimised(goals, whole, {"timeout": limit, "memory": memory}, box=box)
+        lines = tuple(f"({show(one.written)}{_value(goals[k])})" for k, one in named)
     except Unable as error:
         return Result("unknown", f"(no optimum: {error})")
-    return result._replace(best=lines, point=point or result.point)
+    taken = {name: _plain(value) for name, value in point.items() if name not in names}
+    return result._replace(best=lines, point=taken or result.point)
 
 
-def _best(
-    script: Script, nodes: Sequence[s.Node], limit: float | None, memory: int | None
-) -> tuple[tuple[str, ...], dict[str, Number] | None]:
-    """The optima as ``get-objectives`` writes them; the point, where all are taken."""
-    lines, point, fixed = list[str](), dict[str, Number](), list[tuple[s.Node, Number]]()
-    for objective in script.objectives:
-        formula = _formula(script, objective, nodes, fixed)
-        solve = api.minimize if objective.least else api.maximize
-        optimum = solve(f"`{VALUE}`", formula, timeout=limit, memory=memory)
-        if optimum.status is OptimumStatus.UNBOUNDED:
-            value = "(* (- 1) oo)" if objective.least else "oo"
-        elif optimum.value is None:
-            raise Unable("an objective has no optimum")
-        else:
-            number = _plain(optimum.value)
-            value = written(number)
-            if optimum.attained is False:
-                value = f"(+ {value} {'epsilon' if objective.least else '(* (- 1) epsilon)'})"
-        lines.append(f"({show(objective.written)} {value})")
-        if optimum.attained is not True or optimum.value is None:
-            return (*lines, *(f"({show(o.written)})" for o in script.objectives[len(lines) :])), None
-        point = {name: _plain(given) for name, given in optimum.point.items() if name != VALUE}
-        fixed.append((_graph(objective, f"{VALUE} {len(fixed)}"), number))
-    return tuple(lines), point
+def _value(goal: Objective) -> str:
+    """The optimum as ``get-objectives`` writes it, behind a space; nothing where it was not looked for."""
+    best = goal.optimum
+    if best is None:
+        return ""
+    if best.status is OptimumStatus.UNBOUNDED:
+        return " (* (- 1) oo)" if goal.least else " oo"
+    if best.value is None:
+        raise Unable("an objective has no optimum")
+    value = written(_plain(best.value))
+    return f" {value}" if best.attained else f" (+ {value} {'epsilon' if goal.least else '(* (- 1) epsilon)'})"
 
 
 def _plain(number: Number) -> Number:
     """A number as ``qe.cli.smt_values`` takes it."""
     return simplest(number.to_algebraic() if isinstance(number, FieldElement) else number)
-
-
-def _graph(objective: Objective, name: str) -> s.Node:
-    return s.Comparison([s.Name(name, -1), objective.term], [Relation.EQ], -1)
-
-
-def _formula(
-    script: Script, objective: Objective, nodes: Sequence[s.Node], fixed: Sequence[tuple[s.Node, Number]]
-) -> Formula:
-    """The assertions with the value of the term by name, where the terms before it have their values."""
-    names = [VALUE, *(f"{VALUE} {k}" for k in range(len(fixed)))]
-    total = Total(fill=Fill.ANY)
-    whole = [*nodes, _graph(objective, VALUE), *(node for node, _ in fixed)]
-    formula = total.checked(script.lowered(whole, total, [*script.names, *names], script.shared))
-    ring = formula.ring or Ring.of(names)
-    conditions = [c for k, (_, value) in enumerate(fixed) for c in number_conditions(ring, names[k + 1], value)]
-    return exists(names[1:], conj((formula, *(convert(c, ring) for c in conditions))))

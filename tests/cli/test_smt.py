@@ -292,6 +292,10 @@ def test_a_script_under_a_limit_is_answered(tmp_path: Path, limit: tuple[str, st
     (XY + "(assert (= (* x x) 2))(maximize x)(check-sat)(get-objectives)", "(x (root-obj (+ (^ x 2) (- 2)) 2))"),
     (XY + "(assert (> x 1))(minimize x)(maximize y)(check-sat)(get-objectives)", "(x (+ 1.0 epsilon)) (y)"),
     (XY + "(maximize x)(check-sat)(get-objectives)", "(x oo)"),
+    (
+        "(set-option :opt.priority box)" + XY + "(assert (> x 1))(minimize x)(maximize y)(check-sat)(get-objectives)",
+        "(x (+ 1.0 epsilon)) (y oo)",
+    ),
     (XY + "(push)(maximize x)(pop)(check-sat)(get-objectives)", "sat (objectives )"),
     (XY + "(assert (< x x))(maximize x)(check-sat)", "unsat"),
     (XY + "(maximize (= x y))", "a term over the reals expected"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 import sympy
 
@@ -49,6 +51,28 @@ def test_assumptions_of_one_check() -> None:
     proved.add("x^2 = 2", "x > 0")
     assert proved.check() == "sat" and proved.answer.guarantee is qe.Guarantee.CHECKED  # type: ignore[union-attr]
     assert str(proved.model()["x"]) == "sqrt(2)"
+
+
+def test_objectives_as_z3_has_them() -> None:
+    solver = qe.Solver(timeout=60)
+    solver.add("0 <= x <= 1", "0 <= y <= 1")
+    low, high = solver.minimize("(x - y)^2"), solver.maximize("x")
+    assert solver.objectives() == [low, high]
+    with pytest.raises(qe.InputError, match="a check that was sat"):
+        low.value()
+    assert solver.check() == "sat" and solver.model() == {"x": 1, "y": 1}
+    assert (solver.lower(low), solver.upper(high), high.value()) == (0, 1, 1)
+    solver.push()
+    solver.add("y < 1/2")
+    below = solver.maximize("y")
+    assert solver.check() == "sat" and high.value() == Fraction(1, 2) and below.optimum is None  # not taken
+    assert qe.decide("0 <= x and y < 1/2", assuming=[f"{n} = {v}" for n, v in solver.model().items()])
+    solver.pop()
+    assert solver.objectives() == [low, high]
+    solver.reset()
+    solver.add("x > 0")
+    assert (solver.maximize("x"), solver.check()) and solver.objectives()[0].value() == float("inf")
+    assert solver.model()["x"] > 0 and solver.check("x < 0") == "unsat"
 
 
 def test_formulas_of_z3_and_pysmt() -> None:

@@ -294,3 +294,23 @@ def test_other_orders_of_the_variables(variables: list[str], order: str, line: t
     for zero in ours.solutions_at(points[0]):
         values = [float(zero.values[name]) for name in ("c1", "s1")]
         assert values[0] ** 2 + values[1] ** 2 == pytest.approx(1)
+
+
+@each(
+    ("a > 0", {0: "b^2 < 4*a*c", 1: "b^2 = 4*a*c", 2: "b^2 > 4*a*c"}),
+    ("a = 0 and b /= 0", {1: "true"}),
+    ("a >= 1 and b^2 < 4*a*c", {0: "true"}),
+    ("c = 0 and a*b > 0", {2: "true"}),
+)
+def test_a_classification_under_assumptions(known: str, classes: dict[int, str]) -> None:
+    found = qe.real_root_classification(["a*x^2 + b*x + c"], "x", assuming=known, check=True)
+    plain = qe.real_root_classification(["a*x^2 + b*x + c"], "x")
+    assert {one.count for one in found} == {*classes} and qe.verify(found.certificate).accepted
+    for one in found:
+        assert qe.equivalent(one.condition, classes[one.count], assuming=known)
+        assert qe.equivalent(one.condition, plain.condition(one.count), assuming=known)
+    system = qe.comprehensive_groebner(["a*x^2 + b*x + c"], "x", assuming=known)
+    assert len(system) == 1 and qe.decide(f"ex a, b, c. {known}")
+    for wrong in ("x > 0", "ex y. y > a"):
+        with pytest.raises(qe.InputError, match="assuming"):
+            qe.comprehensive_groebner(["a*x^2 + b*x + c"], "x", assuming=wrong)
