@@ -143,6 +143,7 @@ class Solver:
         return self._wanted(term, False)
 
     def _wanted(self, term: AnyFormula, least: bool) -> Objective:
+        graph_of("value", term)  # so that what is no term is refused here
         self.answer = None
         self._objectives.append(Objective(term, least))
         return self._objectives[-1]
@@ -153,6 +154,8 @@ class Solver:
 
     def lower(self, objective: Objective) -> Any:
         """The value of an objective, which is known exactly: ``upper`` is the same."""
+        if not isinstance(objective, Objective):
+            raise arguments.wrong("objective", "what minimize or maximize gave", objective)
         return objective.value()
 
     upper = lower

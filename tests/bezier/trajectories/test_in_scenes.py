@@ -88,7 +88,7 @@ def certified(folder: Path, moving: CubicSpline, scene: dict[str, Any], capsys: 
 
 
 @each(*range(len(KINDS)), daily=2)
-def test_what_is_met_is_what_samples_meet(folder: Path, k: int, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_met_is_what_samples_meet(k: int, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     size, table, away = KINDS[k]
     seen, proof = set(), str(folder / "c.json")
     for seed in range(6):

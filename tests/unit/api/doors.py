@@ -58,6 +58,12 @@ BOUND = {"assuming": {"none", "list"}}
 POINT = {"x": 0, "y": 0}
 GOAL = {"objective": {*NUMBERS, "digits", "float"}, "constraints": {"list", "bytes"}, "parameters": {"none", "list"}}
 
+TERMS = GOAL["objective"]
+GOALS = qe.Solver()
+GOALS.add("x > 0")
+LEAST = GOALS.minimize("x")
+GOALS.check()
+
 DOORS = {
     "eliminate": Door(qe.eliminate, {"formula": "ex x. x^2 = a"}, BOUND),
     "decide": Door(qe.decide, {"formula": "ex x. x^2 = 2"}, {"formula": set(), **BOUND}),
@@ -81,6 +87,7 @@ DOORS = {
             "constants": {"none", "dict"},
             "order": set(),
             "faithful": {"bool"},
+            "assuming": {"none", "list"},
             **{name: {"list"} for name in ("equal", "nonzero")},
         },
     ),
@@ -90,6 +97,7 @@ DOORS = {
         {
             "parameters": {"none"},
             "constants": {"none", "dict"},
+            "assuming": {"none", "list"},
             **{name: {"list"} for name in ("equal", "nonzero", "positive")},
         },
     ),
@@ -160,6 +168,10 @@ DOORS = {
         qe.Solver().assert_and_track, {"formula": "x > 0", "name": "n"}, {"name": {"text", "digits", "empty"}}
     ),
     "Solver.check": Door(lambda formula: qe.Solver().check(formula), {"formula": "x > 0"}),
+    "Solver.minimize": Door(lambda term: qe.Solver().minimize(term), {"term": "x"}, {"term": TERMS}),
+    "Solver.maximize": Door(lambda term: qe.Solver().maximize(term), {"term": "x"}, {"term": TERMS}),
+    "Solver.lower": Door(GOALS.lower, {"objective": LEAST}),
+    "Solver.upper": Door(GOALS.upper, {"objective": LEAST}),
     "Solver.pop": Door(qe.Solver().pop, {"num": 0}, {"num": {"zero"}}),
     "simplify": Door(qe.simplify, {"formula": "x > 0 or x > y"}),
     "reduce": Door(qe.reduce, {"formula": "x > y"}, {"variables": {"none", "text", "digits", "list"}}),
