@@ -55,7 +55,7 @@ class Objective:
     def value(self) -> Any:
         """The least or greatest value, which need not be taken; an infinite float where there is no bound."""
         if self.optimum is None:
-            raise InputError("value: a check that was sat expected before")
+            raise InputError("value: a check that was sat, and whose objectives before this one have optima, expected")
         return self.optimum.value if self.optimum.value is not None else float("-inf" if self.least else "inf")
 
 
