@@ -478,6 +478,20 @@ def test_an_obstacle_of_a_high_degree_is_not_left_out_of_a_check() -> None:
             checked(scene, qe.Certificate.bundle([(name, nothing)]))
 
 
+def test_what_is_proved_of_one_curve_is_nothing_about_the_next(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a curve has no sentence (a polynomial along it has too high a degree), no certificate is enough."""
+    scene, usual = read_scene({**SCENE, "obstacle": [{"kind": "formula", "formula": "y <= 1"}]}), route_module.meeting
+    aside = (scene.start[0], scene.start[1] + 1)
+    two = Route(scene, ((scene.start, aside), (aside, scene.goal)), None)
+    first, second = route_module.cleared(two, Budget())
+    two.check(qe.Certificate.bundle([first, second]))
+    monkeypatch.setattr(
+        route_module, "meeting", lambda curve, whole: usual(curve, whole) if curve.points[0][1] == 5 else None
+    )
+    with pytest.raises(qe.CertificateRejected):
+        two.check(qe.Certificate.bundle([first]))
+
+
 @pytest.mark.deep
 @each("plane10", "window")
 def test_short_paths_of_the_scenes_that_peers_were_run_on(name: str) -> None:
