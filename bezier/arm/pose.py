@@ -43,16 +43,7 @@ from bezier.proofs.inverse_pose import (
 )
 from bezier.proofs.inverse_position import positions_of
 from bezier.proofs.nested_roots import NO_ROOT, JointValue, Nested, Place, Root, nested, square, turn_between, turn_by
-from bezier.proofs.square_roots import (
-    ONE,
-    ZERO,
-    Motion,
-    Polynomial,
-    Surd,
-    Triple,
-    back,
-    is_motion,
-)
+from bezier.proofs.square_roots import ONE, ZERO, Motion, Polynomial, Surd, Triple, back, is_motion
 from bezier.proofs.three_joints import Positions
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.exact.nearby import rational_between

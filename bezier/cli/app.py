@@ -97,12 +97,7 @@ def coordinate(name: str) -> object:
     return typer.Argument(metavar=name, help='Exact, in mm: 3/4, 0.75, "44*sqrt(2)".', show_default=False)
 
 
-def plan(
-    problem: ProblemFile,
-    out: Out,
-    no_plots: NoPlots = False,
-    **common: Any,
-) -> Said:
+def plan(problem: ProblemFile, out: Out, no_plots: NoPlots = False, **common: Any) -> Said:
     """Plan a path; write report.html, region, path and certificate files into a folder, all or none."""
     from bezier.planner.outputs import all_or_none
     from bezier.problem import load_problem
@@ -115,10 +110,7 @@ def plan(
         return answered(partial(work, timeout=common["timeout"]), common)
 
 
-def check(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=False)],
-    **common: Any,
-) -> Said:
+def check(folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=False)], **common: Any) -> Said:
     """Verify the certificates in a folder written by plan, prove its path again, and compare every entry."""
     from bezier.check import recheck
 
@@ -180,12 +172,7 @@ def ik(
     return answered(work, common, certificate)
 
 
-def certify_path(
-    arm: ArmName,
-    path: RouteFile,
-    certificate: Evidence = None,
-    **common: Any,
-) -> Said:
+def certify_path(arm: ArmName, path: RouteFile, certificate: Evidence = None, **common: Any) -> Said:
     """Prove that ARM can follow the path for all s in [0, 1], or say exactly where it stops; follow all branches."""
     from bezier.arm.command import certify
     from bezier.arm.reader import load_arm, load_route

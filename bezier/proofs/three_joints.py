@@ -24,19 +24,7 @@ from bezier.proofs import square_roots as sr
 from bezier.proofs.families import Arcs, Position, not_negative
 from bezier.proofs.held_joint import spread
 from bezier.proofs.nested_roots import JointValue, Nested, Place, angle, nested
-from bezier.proofs.square_roots import (
-    ONE,
-    ZERO,
-    Interval,
-    Motion,
-    Polynomial,
-    Surd,
-    Triple,
-    back,
-    combined,
-    dot,
-    image,
-)
+from bezier.proofs.square_roots import ONE, ZERO, Interval, Motion, Polynomial, Surd, Triple, back, combined, dot, image
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry

@@ -34,17 +34,7 @@ from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
 from bezier.scenes.region import decomposed
 from bezier.scenes.scene import Scene
-from bezier.scenes.sentences import (
-    Curve,
-    cell_of,
-    coordinates,
-    covering,
-    every,
-    in_the_way,
-    of_sides,
-    surfaces,
-    taken,
-)
+from bezier.scenes.sentences import Curve, cell_of, coordinates, covering, every, in_the_way, of_sides, surfaces, taken
 from bezier.scenes.shortest import chains
 from bezier.scenes.solid import Solid, directions, in_space
 from qe.errors import CertificateRejected, InputError, Unable

@@ -23,14 +23,7 @@ from qe.exact.field import NumberField
 from qe.exact.kkt_system import MAX_DEGREE, Flat, HighDegree, Point
 from qe.exact.quadratic_form import Number, Quadratic, Vector, combine, solve_linear
 from qe.options import Budget
-from qe.proof.multipliers import (
-    Face,
-    FormRelation,
-    LinearEquation,
-    OptimumEvidence,
-    OptimumStatus,
-    derived_equations,
-)
+from qe.proof.multipliers import Face, FormRelation, LinearEquation, OptimumEvidence, OptimumStatus, derived_equations
 
 Frame = Callable[[Flat, Sequence[Quadratic]], Flat]
 _ZERO, _ONE = Fraction(0), Fraction(1)

@@ -21,16 +21,7 @@ from qe.formula.build import conj, disj
 from qe.formula.syntax import Formula, Relation
 from qe.io import terms
 from qe.io.collecting import chain
-from qe.io.surface import (
-    Apply,
-    Choice,
-    Comparison,
-    Minus,
-    Product,
-    Quotient,
-    Sum,
-    Term,
-)
+from qe.io.surface import Apply, Choice, Comparison, Minus, Product, Quotient, Sum, Term
 from qe.io.terms import Value
 
 With: TypeAlias = Callable[[Term], Term]
