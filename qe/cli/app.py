@@ -261,7 +261,7 @@ def prompt() -> int:
     """
     from qe.cli import prompt as cli_prompt
 
-    return cli_prompt.run(None if cli_prompt.is_wanted() else cli_prompt.plain_reader())
+    return cli_prompt.run(None if _is_asked() else cli_prompt.plain_reader())
 
 
 def answered(
@@ -302,6 +302,9 @@ def deliver(reply: Reply, paths: dict[str, Path | None]) -> int:
 def main(argv: Sequence[str] | None = None) -> int:
     """The entry point of the command ``qe``; returns the exit status."""
     words = sys.argv[1:] if argv is None else argv
-    if not words and all(stream is not None and stream.isatty() for stream in (sys.stdin, sys.stdout)):
-        words = ["prompt"]
-    return enter(app, words or ["--help"], name="qe")
+    return enter(app, words or ["prompt" if _is_asked() else "--help"], name="qe")
+
+
+def _is_asked() -> bool:
+    """Whether somebody sits there: questions come from a terminal and answers go to one."""
+    return all(stream is not None and stream.isatty() for stream in (sys.stdin, sys.stdout))

@@ -78,15 +78,8 @@ def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
     }
     if not isinstance(best, Optimum):
         points = [_exact(point) for point in best.points] or None
-        return {
-            **data,
-            "active": [],
-            "unique": None,
-            "multipliers": [],
-            "direction": {},
-            "minimisers": str(best.minimisers),
-            "points": points,
-        }
+        none: dict[str, Any] = {"active": [], "unique": None, "multipliers": [], "direction": {}}
+        return {**data, **none, "minimisers": str(best.minimisers), "points": points}
     if best.bound is not None:
         data["bound"] = exact_and_decimal(best.bound)
     return {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -74,6 +75,7 @@ def door(app: typer.Typer, name: str, *, also: tuple[str, ...] = ()) -> Callable
     return command(app, listed.settings, listed.says, *listed.examples, also=also, name=name)
 
 
+@functools.cache
 def option(name: str) -> inspect.Parameter:
     """The parameter of a command that is this setting."""
     hint, setting = settings_in(Elimination)[name]

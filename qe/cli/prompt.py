@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import re
 import shlex
-import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -172,18 +171,15 @@ class Session:
         self._keep(region, str(region.formula))
         return "\n".join(lines)
 
-    def _minimize(self, rest: str) -> str:
-        return self._best(rest, qe.minimize)
-
     def _maximize(self, rest: str) -> str:
-        return self._best(rest, qe.maximize)
+        return self._minimize(rest, "maximize")
 
     def _optimum(self, rest: str) -> str:
         return f"least: {self._minimize(rest)}\ngreatest: {self._maximize(rest)}"
 
-    def _best(self, rest: str, solve: Callable[..., Any]) -> str:
+    def _minimize(self, rest: str, door: str = "minimize") -> str:
         term, _, conditions = rest.partition(":")
-        best = solve(term, conditions.strip() or "true", **self._those_of("minimize"))
+        best = getattr(qe, door)(term, conditions.strip() or "true", **self._those_of("minimize"))
         if best.value is None:
             return str(best.status.name.lower())
         point = ", ".join(f"{name} = {value}" for name, value in best.point.items())
@@ -302,8 +298,3 @@ def _history() -> Path | None:
     except OSError:
         return None
     return place
-
-
-def is_wanted() -> bool:
-    """Whether somebody sits there: questions come from a terminal and answers go to one."""
-    return sys.stdin is not None and sys.stdout is not None and sys.stdin.isatty() and sys.stdout.isatty()

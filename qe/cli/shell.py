@@ -7,32 +7,30 @@ Ctrl-C, 143 by SIGTERM, both after what was half written has been taken away.
 from __future__ import annotations
 
 import io
-import json
 import os
 import signal
 import sys
-import tempfile
 import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from copy import copy
 from functools import partial
 from pathlib import Path
 from types import FrameType, TracebackType
-from typing import Any, TextIO, TypeVar
+from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
 import typer
-from typer.main import get_command
+from typer.main import get_command, get_command_name
 
 from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
 from qe.extras import lacking
-from qe.processes.channel import Channel, Known, WorkerDied, WorkerStopped
-from qe.processes.execution import grace_of, run
-from qe.processes.limits import Limits
-from qe.processes.portable import portable, rebuilt
-from qe.progress import Event
+
+if TYPE_CHECKING:
+    from qe.processes.channel import Channel
+    from qe.progress import Event
 
 T = TypeVar("T")
 
@@ -61,10 +59,10 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     sys.excepthook = _one_line_hook(name)
     sys.set_int_max_str_digits(0)  # the limits on input hold long numbers off, and answers may have them
     _open_streams()
-    command: Any = get_command(app)
+    words = sys.argv[1:] if argv is None else argv
+    command = _asked(app, words)
     take_plain_values(command)
     take_leading_minus(command)
-    words = sys.argv[1:] if argv is None else argv
 
     def reported(status: str, message: str, code: int) -> int:
         data = {"status": status, "message": " ".join(message.split()), "exit": code}
@@ -73,7 +71,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
             return _unheard(name, lost)
         return fail(name, _PREFIX.get(status, "") + message, code)
 
-    if misspelt := _misspelt(command, words):
+    if misspelt := _misspelt(command, words) and _misspelt(get_command(app), words):
         return reported("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
     before = _raising_at_termination()
     try:
@@ -110,8 +108,21 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
             signal.signal(signal.SIGTERM, before)
 
 
+def _asked(app: typer.Typer, words: Sequence[str]) -> Any:
+    """The commands of an app, or the one alone that the first word names: to build all takes longer than many a
+    problem."""
+    names = (one.name or get_command_name(one.callback.__name__) for one in app.registered_commands if one.callback)
+    named = [one for one, name in zip(app.registered_commands, names) if [name] == [*words[:1]]]
+    if named and app.registered_callback:  # without one, typer makes a single command of it
+        app = copy(app)
+        app.registered_commands = named
+    return get_command(app)
+
+
 def _failure(error: QEError) -> tuple[str, str, int]:
     """What is said of an error: its status, the message and the exit status."""
+    from qe.processes.channel import WorkerDied, WorkerStopped
+
     match error:
         case InputError():
             return "input_error", str(error), BAD_INPUT
@@ -148,8 +159,10 @@ def examples(*lines: str) -> str:
 
 def _put(data: dict[str, object]) -> OSError | None:
     """Write an object on stdout; the error that kept it from being written."""
+    from qe.cli.work import in_json
+
     try:
-        print(json.dumps(data, indent=2, ensure_ascii=False), flush=True)
+        print(in_json(data), flush=True)
     except OSError as error:
         return error
     return None
@@ -305,6 +318,11 @@ def limited(
 
     The time limit is the user's, for the whole command: what start-up has taken of it is gone.
     """
+    from qe.processes.channel import Known
+    from qe.processes.execution import grace_of, run
+    from qe.processes.limits import Limits
+    from qe.processes.portable import portable, rebuilt
+
     grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + grace_of(timeout), Known()
     at_once = text is None or timeout is not None or _may_block(text)
     with Display(wanted=not plain, lines=lines) as display:
@@ -376,6 +394,8 @@ def _is_no_plain_file(path: Path) -> bool:
 def write_file(path: Path, content: str | bytes) -> None:
     """Write a whole file or nothing: into a temporary file next to it, then renamed. What is no plain file (a device,
     a pipe, standard output) is written to; renaming would put a file in its place."""
+    import tempfile
+
     data = content.encode() if isinstance(content, str) else content
     try:
         if _is_no_plain_file(path):

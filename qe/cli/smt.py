@@ -13,21 +13,20 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Any, TextIO, cast
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
 import qe
-import qe.api.eliminate as api
 from qe.cli.smt_check import Checks, Result
-from qe.cli.smt_values import Evaluation, Number, written
 from qe.cli.source import MOST_BYTES
 from qe.errors import InputError, ParseError, Unable
-from qe.io import smtlib
 from qe.io import surface as s
 from qe.io.smtlib_parser import Ends, Expression, parse, plain, show
 from qe.io.smtlib_script import Script
 from qe.io.smtlib_words import is_real
 from qe.io.text_errors import Failing
-from qe.io.total import Fill, Total
+
+if TYPE_CHECKING:
+    from qe.cli.smt_values import Evaluation, Number
 
 MOST_LEVELS = 10_000
 PIECE = 1 << 20
@@ -328,11 +327,14 @@ class Solver(Checks):
     # --- models ----------------------------------------------------------------------------------------------
     def evaluation(self) -> Evaluation:
         """Terms at the point of the last check."""
+        from qe.cli.smt_values import Evaluation
+        from qe.io.total import Fill, Total
+
         result = self.last("sat")
-        if result.point is None or result.total is None:
+        if result.point is None:
             raise InputError("the formula is satisfiable, but no model was found")
         point = {**{name: Fraction(0) for _, name in self.script.constants.values()}, **result.point}
-        total = result.total
+        total = result.total or Total()
         outside = total.at(point)
 
         def value(function: str, argument: Number) -> Number:
@@ -345,6 +347,8 @@ class Solver(Checks):
         return Evaluation(point, value)
 
     def model(self) -> str:
+        from qe.cli.smt_values import written
+
         values = self.evaluation()
         lines = []
         for symbol, (sort, name) in self.script.constants.items():
@@ -362,6 +366,8 @@ class Solver(Checks):
 
     def value(self, item: Expression, values: Evaluation) -> str:
         """What a term, or a formula, is worth."""
+        from qe.cli.smt_values import written
+
         meaning = self.script.meaning(item, self.script.globals)
         if is_real(meaning):
             return written(values.term(cast(s.Term, meaning)))
@@ -369,15 +375,18 @@ class Solver(Checks):
 
     def eliminated(self, command: list[Expression]) -> str:
         """``get-qe``: an equivalent formula without quantifiers."""
+        from qe.io.smtlib import term
+        from qe.io.total import Total
+
         self.script.arity(command, 1)
         self.tick()
         asked = self.script.formula(command[1], self.script.globals)
-        formula, total = self.formula([asked], Total(fill=Fill.ANY), self.left())
-        answer = api.eliminate(total.checked(formula), timeout=self.left(), memory=self.memory)
+        formula, total = self.formula([asked], Total(), self.left())
+        answer = qe.eliminate(total.checked(formula), timeout=self.left(), memory=self.memory)
         if answer.formula is None:
             raise Unable(answer.reason or "no answer")
         symbols = {name: plain(symbol) for symbol, (_, name) in self.script.constants.items()}
-        return smtlib.term(answer.formula, symbols)
+        return term(answer.formula, symbols)
 
 
 def command_name(command: Expression) -> str:

@@ -6,27 +6,24 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from functools import partial
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from qe.api.eliminate import unproved
-from qe.api.limits import performed
-from qe.cli.smt_values import Number
 from qe.errors import BudgetExceeded, Unable
-from qe.formula.build import exists, forall
-from qe.formula.syntax import Formula
 from qe.io import surface as s
 from qe.io.smtlib_parser import Expression
 from qe.io.smtlib_script import Script
-from qe.io.total import Fill, Total
-from qe.options import Budget
-from qe.processes.execution import perform
-from qe.processes.limits import Limits
-from qe.proof.answer import Answer
+
+if TYPE_CHECKING:
+    from qe.cli.smt_values import Number
+    from qe.formula.syntax import Formula
+    from qe.io.total import Total
+    from qe.options import Budget
+    from qe.proof.answer import Answer
 
 MOST_PARTS = 300
 """Parts of a script up to which it is read in this process where no limit must hold."""
 
-Closing: TypeAlias = Callable[[Iterable[str], Formula], Formula]
+Closing: TypeAlias = "Callable[[Iterable[str], Formula], Formula]"
 """Makes a sentence of a formula with these free variables."""
 
 
@@ -74,8 +71,12 @@ class Checks:
         """Whether the nodes can hold together.
 
         What was not read may have any value: without a solution for any of them there is none, and where there
-        is one for each of them, there is one, which is not known.
+        is one for each of them, there is one, which is not known. Nothing is loaded for what holds everywhere.
         """
+        if not self.late and all(node == s.Truth(True) for node in nodes):
+            return Result("sat", point={})
+        from qe.formula.build import exists
+
         result = self.completed(nodes, exists)
         if result.answer != "sat" or not (self.script.fixed or self.script.varying):
             return result
@@ -86,6 +87,8 @@ class Checks:
 
     def completed(self, nodes: Sequence[s.Node], close: Closing) -> Result:
         """The answer for the functions that are not defined everywhere made total."""
+        from qe.io.total import Fill, Total
+
         result = self.attempt(nodes, Total(fill=Fill.ANY), close)
         if result.answer == "sat" and result.total is not None and result.total.weakened:
             for fill in (Fill.CONSTANT, Fill.ARGUMENT):
@@ -98,31 +101,36 @@ class Checks:
         return result
 
     def attempt(self, nodes: Sequence[s.Node], total: Total, close: Closing) -> Result:
+        from qe.api.eliminate import unproved
+        from qe.api.limits import performed
+        from qe.processes.execution import perform
+        from qe.processes.limits import Limits
+
         left = self.left()
         if left is not None and left <= 0:
             return Result("unknown", "timeout")
+        limits = Limits(left, self.memory)
         try:
             if self.is_short(nodes, left):
                 formula = self.script.formula_of(nodes, total)
                 sentence = close(formula.free, formula)
-                return _result(performed(partial(unproved, sentence), sentence, Limits()), formula, total)
-            return perform(partial(_attempted, self.sent(), nodes, total, close), self.limits(left), at_once=True)
+                return _result(performed(partial(unproved, sentence), sentence, limits), formula, total)
+            return perform(partial(_attempted, self.sent(), nodes, total, close), limits, at_once=True)
         except Unable as error:
             return Result("unknown", _reason(str(error)))
 
     def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:
         """What the nodes mean together; in a process of its own, which a limit ends, if there is one."""
+        from qe.processes.execution import perform
+        from qe.processes.limits import Limits
+
         if self.is_short(nodes, seconds):
             return self.script.formula_of(nodes, total), total
-        return perform(partial(_formula, self.sent(), nodes, total), self.limits(seconds), at_once=True)
+        return perform(partial(_formula, self.sent(), nodes, total), Limits(seconds, self.memory), at_once=True)
 
     def is_short(self, nodes: Sequence[s.Node], seconds: float | None) -> bool:
         """Whether nodes are read in this process."""
         return seconds is None and self.memory is None and len(self.script.used(nodes)) <= MOST_PARTS
-
-    def limits(self, seconds: float | None) -> Limits:
-        """Those of the work for one check."""
-        return Limits(seconds, self.memory)
 
     def sent(self) -> Script:
         """The script as another process has it: what nodes mean, and nothing of how they were read."""
@@ -143,12 +151,16 @@ def _formula(script: Script, nodes: Sequence[s.Node], total: Total, budget: Budg
 
 
 def _attempted(script: Script, nodes: Sequence[s.Node], total: Total, close: Closing, budget: Budget) -> Result:
+    from qe.api.eliminate import unproved
+
     formula, total = _formula(script, nodes, total, budget)
     return _result(unproved(close(formula.free, formula), budget), formula, total)
 
 
 def _whatever(fixed: Sequence[str], varying: Sequence[str], names: Iterable[str], formula: Formula) -> Formula:
     """Whether there is a solution whatever the values are that were not read."""
+    from qe.formula.build import exists, forall
+
     values = [name for name in names if name not in fixed and name not in varying]
     return forall(fixed, exists(values, forall(varying, formula)))
 

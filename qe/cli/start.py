@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from importlib import import_module
 
@@ -17,9 +18,12 @@ def bezier() -> int:
 
 
 def _run(name: str, module: str) -> int:
+    gc.disable()  # what is loaded stays: looking for garbage in it would be a fifteenth of a short command
     try:
         main = import_module(module).main
     except KeyboardInterrupt:
         print(f"{name}: interrupted", file=sys.stderr)
         return 130
+    finally:
+        gc.enable()
     return int(main())

@@ -6,7 +6,6 @@ are stored. Each function takes the channel first and returns a ``Reply``.
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,11 +16,11 @@ from qe.errors import CertificateRejected, InputError, Unable
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
-from qe.processes.channel import Channel
 from qe.spelling import quoted
 
 if TYPE_CHECKING:
     from qe.formula.syntax import Formula
+    from qe.processes.channel import Channel
     from qe.proof.answer import Answer
     from qe.proof.partial import Partial
 
@@ -81,6 +80,8 @@ class Request:
 
 def in_json(data: Mapping[str, Any]) -> str:
     """Data as commands print it."""
+    import json
+
     return json.dumps(data, indent=2, ensure_ascii=False)
 
 

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import count
-from typing import NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from qe.errors import InputError, Unable
-from qe.formula.build import exists
-from qe.formula.syntax import Formula
 from qe.io import surface as s
-from qe.io.lowering import lower
-from qe.io.sharing import named, ordered
 from qe.io.smtlib_parser import Expression, place, plain
 from qe.io.smtlib_terms import Terms
 from qe.io.smtlib_words import Foreign, Macro, Meaning, is_real
-from qe.io.total import Fill, Total
+
+if TYPE_CHECKING:
+    from qe.formula.syntax import Formula
+    from qe.io.total import Total
 
 
 class Assertion(NamedTuple):
@@ -171,23 +170,32 @@ class Script(Terms):
         What would be written out many times has names, which are quantified: a check binds them with the others.
         Raises ``Unable`` where it is much too long all the same.
         """
+        from qe.formula.build import exists
+        from qe.io.sharing import named
+
         new = (name for k in count(1) if (name := f"part_{k}") not in self.taken)
         known = named(nodes, self.shared, self.bound, lambda: next(new))
         nodes = [*known.definitions, *known.nodes]
         return exists(known.names, self.lowered(nodes, total, [*self.names, *known.names], known.shared))
 
     def lowered(self, nodes: Sequence[s.Node], total: Total, names: Sequence[str], shared: Sequence[s.Part]) -> Formula:
+        from qe.io.lowering import lower
+
         total.bound = frozenset(self.bound)
         return lower(s.Every(list(nodes)), self.fail, names=names, shared=shared, total=total)
 
     def used(self, nodes: Sequence[s.Node]) -> list[s.Part]:
         """The shared parts that the nodes contain, in their order."""
+        from qe.io.sharing import ordered
+
         contained = set(map(id, ordered(nodes)))
         return [part for part in self.shared if id(part) in contained]
 
     def whole(self) -> Formula:
         """The conjunction of all assertions, with quantifiers in it only if there were some or it is too long without.
         Raises where a value outside a domain cannot be written down."""
+        from qe.io.total import Fill, Total
+
         total, nodes = Total(fill=Fill.ANY), [a.node for a in self.assertions]
         try:
             formula = self.lowered(nodes, total, self.names, self.shared)

@@ -9,9 +9,7 @@ from typing import NamedTuple, Never, TypeAlias, cast
 from qe.errors import InputError
 from qe.formula.relation import Relation
 from qe.io import surface as s
-from qe.io.names import check_name
 from qe.io.smtlib_parser import Expression, is_symbol, place, plain, show, words
-from qe.io.terms import TermError, decimal
 
 Meaning: TypeAlias = s.Term | s.Node
 
@@ -97,6 +95,8 @@ class Words:
 
     def fresh(self, symbol: str) -> str:
         """A name of its own for a variable, its symbol where that is free and a possible name."""
+        from qe.io.names import check_name
+
         try:
             name = base = check_name(plain(symbol))
         except InputError:
@@ -161,6 +161,8 @@ class Words:
         return s.Number(-value.value) if number[1] else value
 
     def number(self, text: str, word: str) -> s.Number:
+        from qe.io.terms import TermError, decimal
+
         try:
             value = decimal(text)
         except TermError as error:

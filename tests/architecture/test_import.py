@@ -83,6 +83,11 @@ def test_a_short_command_loads_only_what_it_needs() -> None:
     assert set(heavy) == {"typer", "flint"}
 
 
+def test_a_script_without_assertions_loads_no_engine(tmp_path: Path) -> None:
+    (script := tmp_path / "s.smt2").write_text("(assert true)(check-sat)")
+    assert loaded(f"from qe.cli.app import main\nmain(['smt', {str(script)!r}])")["heavy"] == ["typer"]
+
+
 def test_a_short_command_takes_little_processor_time() -> None:
     script = "import sys\nfrom qe.cli.app import main\nsys.exit(main(['eliminate', 'x > 0']))"
     times = []

@@ -105,3 +105,28 @@ def test_a_limit_is_for_the_whole_command(monkeypatch: pytest.MonkeyPatch) -> No
     assert shell.remaining(10.0) == 7.0
     assert shell.remaining(3.2) == 0.8  # a quarter at least
     assert shell.age() > 0
+
+
+@each((False, ["one", "--two"]), (True, ["one", "--two"]), (True, ["one", "--thre"]), (True, ["on"]), (False, ["two"]))
+def test_the_command_that_is_named_is_built_alone_and_says_what_it_said(
+    has_callback: bool, words: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.excepthook", None)
+    app = typer.Typer()
+    if has_callback:
+        app.callback()(lambda: None)
+
+    @app.command()
+    def one(three: bool = False) -> None:
+        print(three)
+
+    @app.command()
+    def two(two: bool = False) -> None:
+        print(two)
+
+    def said() -> tuple[int, str, str]:
+        return shell.enter(app, words, name="prog"), *capsys.readouterr()
+
+    alone = said()
+    monkeypatch.setattr(shell, "_asked", lambda app, words: shell.get_command(app))
+    assert alone == said()
