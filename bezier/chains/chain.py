@@ -36,8 +36,18 @@ _ZERO, _ONE = Fraction(0), Fraction(1)
 _WORDS = ("place", "velocity", "acceleration")
 Place = tuple[int, int]
 """A control point by its curve and its number in it; a corner as that of the curve that begins there."""
-Equation = tuple[str, dict[Place, Fraction], Point]
-"""What it is about; the weights of points that are not known, whose sum is a point."""
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """The control points with the weights of ``terms`` sum up to ``value``; of a curve they are its derivative of this
+    ``order``. ``without``: it does not hold where one of these is free."""
+
+    label: str
+    order: int
+    without: tuple[str, ...]
+    terms: tuple[tuple[Place, Fraction], ...]
+    value: Point
 
 
 class Objective(Enum):
@@ -247,7 +257,7 @@ def solved_joins(chain: Chain) -> Solved:
     inner = [(k, j) for k in range(m) for j in range(1, d)]
     columns = sorted(inner, key=lambda at: (at in ends, at[1] <= d - 1 - c, at))
     columns += [(k, 0) for k, name in enumerate(chain.point_names) if name == chain.free]
-    width, listed = len(columns), list(_equations(chain))
+    width, listed = len(columns), [_unknown(chain, e) for e in equations(chain) if chain.free not in e.without]
     matrix = [[terms.get(at, _ZERO) for at in columns] for _, terms, _ in listed]
     work, pivots = echelon([[*row, *value] for row, (_, _, value) in zip(matrix, listed, strict=True)])
     contradictory = any(p >= width for p in pivots)
@@ -265,7 +275,10 @@ def solved_joins(chain: Chain) -> Solved:
 
 
 def _contradiction(
-    chain: Chain, listed: list[Equation], matrix: list[list[Fraction]], at: dict[Place, Affine]
+    chain: Chain,
+    listed: list[tuple[str, dict[Place, Fraction], Point]],
+    matrix: list[list[Fraction]],
+    at: dict[Place, Affine],
 ) -> tuple[tuple[Fraction, Requirement], ...]:
     """Weights with which equations have the sum 0 = 1 in one coordinate. Those with a weight are independent but for
     this, so that there is no other contradiction among them."""
@@ -285,22 +298,22 @@ def _contradiction(
     return tuple(joins)
 
 
-def _equations(chain: Chain) -> Iterator[Equation]:
-    """Of joins and ends, but for what is free. A free duration: without those that depend on it."""
-    m, names, zero = chain.pieces, chain.point_names, (_ZERO,) * chain.dimension
+def equations(chain: Chain) -> Iterator[Equation]:
+    """Of joins and ends."""
+    m, names, paces, zero = chain.pieces, chain.point_names, chain.paces, (_ZERO,) * chain.dimension
     for k in range(m if chain.closed else m - 1):
         after = (k + 1) % m
         for order in range(1, chain.continuity + 1):
             terms = [*derivative(chain, k, 1, order), *((p, -w) for p, w in derivative(chain, after, 0, order))]
-            if chain.free not in (f"durations[{k}]", f"durations[{after}]"):
-                yield _equation(chain, f"one {_WORDS[order]} at {names[(k + 1) % len(names)]}", terms, zero)
+            label = f"one {_WORDS[order]} at {names[(k + 1) % len(names)]}"
+            yield Equation(label, order, (paces[k], paces[after]), tuple(terms), zero)
     given = chain.velocities or ((zero, zero) if chain.is_still else ())
     for end, velocity in enumerate(given):
         k, name = end * (m - 1), names[-end]
-        if chain.free != f"velocities[{end}]" and not (chain.free == f"durations[{k}]" and any(velocity)):
-            yield _equation(chain, f"velocity at {name}", derivative(chain, k, end, 1), velocity)
+        without = (f"velocities[{end}]", *([paces[k]] if any(velocity) else []))
+        yield Equation(f"velocity at {name}", 1, without, tuple(derivative(chain, k, end, 1)), velocity)
         if chain.is_still and chain.degree == 5:
-            yield _equation(chain, f"acceleration at {name}", derivative(chain, k, end, 2), zero)
+            yield Equation(f"acceleration at {name}", 2, (), tuple(derivative(chain, k, end, 2)), zero)
 
 
 def derivative(chain: Chain, k: int, end: int, order: int) -> list[tuple[Place, Fraction]]:
@@ -312,14 +325,14 @@ def derivative(chain: Chain, k: int, end: int, order: int) -> list[tuple[Place, 
     return [((k, first + j), scale * (-1) ** (order - j) * comb(order, j)) for j in range(order + 1)]
 
 
-def _equation(chain: Chain, label: str, terms: list[tuple[Place, Fraction]], value: Point) -> Equation:
-    """With what is known on the right."""
-    unknown: dict[Place, Fraction] = {}
-    for (k, j), weight in terms:
+def _unknown(chain: Chain, equation: Equation) -> tuple[str, dict[Place, Fraction], Point]:
+    """What an equation is about, its weights of points that are not known, and what is known on the right."""
+    unknown, value = dict[Place, Fraction](), equation.value
+    for (k, j), weight in equation.terms:
         corner = (k + (j > 0)) % len(chain.points)
         if 0 < j < chain.degree or (chain.free and chain.point_names[corner] == chain.free):
             place = (k, j) if 0 < j < chain.degree else (corner, 0)
             unknown[place] = unknown.get(place, _ZERO) + weight
         else:
             value = tuple(v - weight * x for v, x in zip(value, chain.points[corner], strict=True))
-    return label, unknown, value
+    return equation.label, unknown, value

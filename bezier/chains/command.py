@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import qe
 from bezier.chains.checking import checked
 from bezier.chains.plan import bundled, planned
 from bezier.chains.reader import load_chain
@@ -40,7 +39,7 @@ def run(
 
 def check(channel: Channel, file: Path, against: Path, *, as_json: bool = False) -> str:
     """What a certificate proves about the chain of the file. Raises ``CertificateRejected``."""
-    lines = checked(load_chain(file), qe.Certificate.from_json(stored.text(against)))
+    lines = checked(load_chain(file), stored.certificate(against))
     if as_json:
         return json.dumps({"status": "accepted", "checked": lines}, indent=1, ensure_ascii=False)
     return "\n".join([*lines, "accepted"])

@@ -53,8 +53,8 @@ class ChainPlan:
     conflict: Conflict | None = None
     repair: Repair | None = None
     repairs: tuple[Repair, ...] = ()
-    excluded: tuple[tuple[str, Certificate], ...] = ()
-    """What is proved not to help, in words, with the proof."""
+    excluded: tuple[tuple[str, tuple[tuple[str, Contradiction], ...]], ...] = ()
+    """What is proved not to help, in words, with the proofs."""
     exact: Exact | None = None
     """The optimum itself, where at most one condition is active; with two it takes longer: ``exactly``."""
     searched: bool = False
@@ -97,8 +97,8 @@ class ChainPlan:
             repair = nearest_duration(given) if what == "duration" else nearest(given, names)
             if repair is not None:
                 found.append(repair)
-            elif names and (proof := excluded(given, names)) is not None:
-                proofs.append((f"another {what}", proof))
+            elif listed := excluded(given, names):
+                proofs.append((f"another {what}", listed))
         return replace(self, repairs=tuple(found), excluded=tuple(proofs))
 
     @property
@@ -106,7 +106,7 @@ class ChainPlan:
         """All certificates as one: the optimum, or the contradiction, the conflict and the repairs."""
         proofs = [self.certificate] if self.conflict is None else [self.conflict.certificate]
         proofs += [repair.certificate for repair in self.repairs or (self.repair,) if repair]
-        proofs += [proof for _, proof in self.excluded]
+        proofs += [Certificate.bundle([(label, c.certificate) for label, c in listed]) for _, listed in self.excluded]
         members = [m for m in bundled(proofs).payload if isinstance(m, Labelled)]
         return Certificate.bundle([(self._labelled(m.label), m.certificate) for m in members])
 

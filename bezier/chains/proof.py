@@ -9,11 +9,10 @@ the rule "multipliers" proves, and witnesses; a sentence about some of the condi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
-from itertools import product
 from math import lcm
 
 from bezier.chains import proposals
@@ -172,16 +171,40 @@ def best(
         lowered = objective.minimum(size, d, near)
         if lowered is not None and all(row.form.value(lowered[0]) <= 0 for row in rows):
             return bounded(chain, solved, rows, lowered[0], {})
-    reason = "no point near the optimum keeps all conditions"
+    if not points:
+        raise Unable("no point near the optimum keeps all conditions")
+    free = min(points, key=objective.value)
     fitted = proposals.fitted_weights(varying, objective, proposal.point) or ()
-    multipliers = [*rational_weights(proposal.weights), *rational_weights(fitted)]
-    for gap, free, weights in product(gaps, points, multipliers):
-        named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
-        try:
-            return bounded(chain, solved, rows, free, named, gap)
-        except Unable as error:
-            reason = str(error)
-    raise Unable(reason)
+    multipliers, value = [*rational_weights(proposal.weights), *rational_weights(fitted)], objective.value(free)
+    bound, _, weights = lower_bound(chain, size, objective, varying, multipliers, value - gaps[0] * abs(value))
+    named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
+    gap = next((gap for gap in gaps if value - bound <= gap * abs(value)), gaps[-1])
+    return bounded(chain, solved, rows, free, named, gap)
+
+
+def lower_bound(
+    chain: Chain,
+    size: int,
+    objective: Form,
+    rows: Sequence[Requirement],
+    multipliers: Iterable[Sequence[Fraction]],
+    enough: Fraction | None = None,
+) -> tuple[Fraction, tuple[Point, ...], Sequence[Fraction]]:
+    """The best bound that one of these multipliers proves, or the first that is ``enough``; where the sum with them is
+    least; and they. Raises ``Unable`` where none proves one."""
+    found = None
+    for weights in multipliers:
+        if min(weights, default=_ZERO) < 0:  # these prove nothing
+            continue
+        held = [(w, row.form) for w, row in zip(weights, rows, strict=True) if w]
+        lowest = weighted_sum([(_ONE, objective), *held]).minimum(size, chain.dimension)
+        if lowest is not None and (found is None or lowest[1] > found[0]):
+            found = lowest[1], lowest[0], weights
+            if enough is not None and found[0] >= enough:
+                break
+    if found is None:
+        raise Unable("it is unbounded, or no bound was proved")
+    return found
 
 
 def bounded(

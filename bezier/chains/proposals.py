@@ -6,15 +6,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isfinite, sqrt
+from math import inf, isfinite, sqrt
 from typing import Any
 
-from bezier.chains.chain import Chain
+from bezier.chains.chain import Chain, Equation, Place, equations
 from bezier.chains.form import Affine, Form, Requirement
 from qe.extras import wanted
 
 TOLERANCES = (1e-12, 1e-10, 1e-8)
 """Tried in this order: what is out of reach ends far from the optimum."""
+ROUGH = 1e-9
 ACTIVE = Fraction(1, 10**6)
 """The share of its room within which a condition counts as active."""
 
@@ -94,6 +95,68 @@ def _scaled(
     for k in range(dimension):
         terms = [(at[i][k], factor * float(a)) for i, a in point.coefficients.items()]
         yield terms, factor * float(point.constant[k]) / unit
+
+
+@dataclass(frozen=True, slots=True)
+class Loosened:
+    """``excess``: the least length by which something has to be given up. ``slopes``: by how much that falls, at first,
+    where a point or velocity moves by 1, or the logarithm of a duration grows by 1 (negative: where it shrinks)."""
+
+    excess: float
+    slopes: dict[str, float]
+
+    def change(self, name: str) -> float:
+        """By how much this has to change until nothing has to be given up, if the excess is linear in it; by at least
+        so much where it is convex."""
+        return self.excess / abs(self.slopes[name]) if self.slopes[name] else inf
+
+
+def loosened(chain: Chain, free: str = "") -> Loosened | None:
+    """By how much conditions have to be given up; where a point or velocity is ``free`` they hold, and that is by how
+    much it has to move. All control points are variables here and joins equations, which is quick. None where no length
+    is enough."""
+    with wanted():
+        from bezier.conic import Conic
+    d, unit, program = chain.dimension, max(abs(float(c)) for p in chain.points for c in p), Conic(ROUGH)
+    corners = program.variables((len(chain.points), d)).tolist()
+    inner = program.variables((chain.pieces, chain.degree - 1, d)).tolist()
+    length = (int(program.variables((1,), 1.0)[0]), 1.0)
+    excess = [] if free in chain.moving else [length]
+
+    def at(place: Place) -> list[int]:
+        k, j = place
+        return list(inner[k][j - 1] if 0 < j < chain.degree else corners[(k + (j > 0)) % len(corners)])
+
+    names = enumerate(zip(chain.point_names, chain.points, strict=True))
+    given = (Equation("", 0, (name,), (((k, 0), Fraction(1)),), point) for k, (name, point) in names)
+    listed = sorted((*given, *equations(chain)), key=lambda e: free in e.without)
+    kept = [e for e in listed if free not in e.without]
+    for number, e in enumerate(listed):
+        forms = [([(at(p)[i], float(w)) for p, w in e.terms], -float(e.value[i]) / unit) for i in range(d)]
+        if number < len(kept):
+            program.cone(forms, "ZeroConeT")
+        elif not excess:
+            program.cone([([length], 0.0), *forms])
+    program.at_least([length], -1.0)
+    for point in (*corners, *(p for row in inner for p in row)):
+        if chain.radius_squared is not None:
+            away = [([(i, 1.0)], -float(c) / unit) for i, c in zip(point, chain.centre, strict=True)]
+            program.cone([(excess, sqrt(chain.radius_squared) / unit), *away])
+        for normal, offset in chain.half_spaces:
+            size = sqrt(sum(c * c for c in normal))
+            downhill = [(i, float(c) / size) for i, c in zip(point, normal, strict=True)]
+            program.at_least([*downhill, *excess], float(offset) / size / unit)
+    if (x := program.solved()) is None:
+        return None
+    paces = chain.paces
+    slopes = dict.fromkeys((*chain.moving, *paces), 0.0)
+    for k, e in enumerate(kept):
+        z = program.multipliers[k * d : k * d + d]
+        for name in e.without if e.order < 2 and e.without[0] in chain.moving else ():
+            slopes[name] += sqrt(sum(c * c for c in z))
+        for p, w in e.terms if e.order else ():
+            slopes[paces[p[0]]] -= unit * e.order * float(w) * sum(c * x[i] for c, i in zip(z, at(p), strict=True))
+    return Loosened(x[length[0]] * unit, slopes)
 
 
 def fitted_weights(

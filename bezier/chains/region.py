@@ -20,7 +20,7 @@ from bezier.chains import proposals
 from bezier.chains.chain import Chain, freed, requirements
 from bezier.chains.form import Affine, Form, Point, Requirement, Solved, linear_form, weighted_sum
 from bezier.chains.hull import Facet, grown, simplex
-from bezier.chains.proof import Contradiction, decided, near_optimum, rational_weights, refuted, witness
+from bezier.chains.proof import Contradiction, decided, lower_bound, near_optimum, rational_weights, refuted, witness
 from bezier.curves.enclosure import root_above, root_below
 from bezier.curves.scalar import described, dot
 from qe.errors import InputError, Unable
@@ -93,25 +93,16 @@ class Places:
 
     def support(self, normal: Point) -> Support:
         """The farthest places in a direction, from both sides. Raises ``Unable``."""
-        size, d = self.solved.size, self.chain.dimension
+        size = self.solved.size
         objective = linear_form(tuple(-c for c in normal), self.place)
         proposal = proposals.least_value(self.chain, size, self.rows, objective)
         if proposal is None:
             raise Unable("no farthest place was proposed")
-        bounds = []
-        for weights in rational_weights(proposal.weights):
-            if min(weights) < 0:  # these prove nothing
-                continue
-            held = [(w, row.form) for w, row in zip(weights, self.rows, strict=True) if w]
-            lowest = weighted_sum([(_ONE, objective), *held]).minimum(size, d)
-            if lowest is not None:
-                bounds.append((lowest[1], lowest[0], weights))
+        multipliers = rational_weights(proposal.weights)
+        value, stationary, weights = lower_bound(self.chain, size, objective, self.rows, multipliers)
         points = [*near_optimum(self.chain, proposal, self.inside, self.rows, objective), self.inside]
-        if not bounds:
-            raise Unable("the places are unbounded in a direction, or no bound was proved")
-        value, stationary, weights = max(bounds)
         at = min(points, key=objective.value)
-        return Support(normal, -value, weights, stationary, at, self.place.at(at))
+        return Support(normal, -value, tuple(weights), stationary, at, self.place.at(at))
 
     def proof(self, support: Support) -> Certificate:
         """That no chain has the place beyond this half-space."""

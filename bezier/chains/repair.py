@@ -11,15 +11,17 @@ of one curve excludes all durations of it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import exp
 from typing import Any
 
 from bezier.chains import proposals
-from bezier.chains.chain import Chain, objective_form, requirements
+from bezier.chains.chain import Chain, requirements
 from bezier.chains.form import Requirement, Solved
 from bezier.chains.proof import GAPS, LEAST, Contradiction, best, decided, feasible
+from bezier.chains.proposals import loosened
 from bezier.chains.region import Places, at_label
 from qe.errors import Unable
 from qe.extras import wanted
@@ -29,7 +31,7 @@ NARROW = Fraction(1, 10**7)
 """How far, relative, the values that are proved to be enough, and not enough, lie from the one that was proposed."""
 _FACTORS = (1.25, 1.5, 2.0, 3.0, 4.0, 8.0)  # of a duration
 _GAPS = (*GAPS, Fraction(1, 20), Fraction(1, 2))  # of the square of a distance, which may be small
-_TOLERANCE = 1e-7  # of conditions, in floating point, in proportion to the room
+_FAR = 50.0  # of logarithms of durations
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +107,14 @@ def least_radius(given: Chain, solved: Solved, rows: Sequence[Requirement]) -> R
 def nearest(given: Chain, names: Sequence[str]) -> Repair | None:
     """Which of these points or velocities has to move least, and where to. That no other one could move by less is not
     proved."""
-    for _, name in sorted(_moves(given, names)):
+    start = loosened(given)
+    todo = [(0.0 if start is None else start.change(name), False, name) for name in names]
+    while todo := sorted(todo):  # first what has to move least; the excess is convex, so slopes give bounds from below
+        _, is_known, name = todo.pop(0)
+        if not is_known:
+            moved = loosened(given, name)
+            todo += [] if moved is None else [(moved.excess, True, name)]
+            continue
         try:
             places = Places.of(given, name)
             least = best(places.chain, places.solved, places.rows, places.inside, _GAPS)
@@ -119,52 +128,38 @@ def nearest(given: Chain, names: Sequence[str]) -> Repair | None:
     return None
 
 
-def _moves(given: Chain, names: Sequence[str]) -> Iterator[tuple[float, str]]:
-    """The squares of the distances, in floating point, by which points or velocities have to move."""
-    for name in names:
-        chain = replace(given, free=name)
-        rows = requirements(chain, chain.solved)
-        varying = [row for row in rows if not row.form.is_constant]
-        if chain.solved.joins or any(row.form.constant > 0 for row in rows if row.form.is_constant):
-            continue
-        objective = objective_form(chain, chain.solved)
-        proposal = proposals.least_value(chain, chain.solved.size, varying, objective)
-        if proposal is None:
-            continue
-        point: Any = proposal.point
-        if all(r.form.value(point) <= _TOLERANCE * max(1.0, abs(float(r.form.constant))) for r in varying):
-            yield float(objective.value(point)), name
-
-
-def excluded(given: Chain, names: Sequence[str]) -> Certificate | None:
-    """That no other value of one of these helps; None where that cannot be proved of all."""
+def excluded(given: Chain, names: Sequence[str]) -> tuple[tuple[str, Contradiction], ...]:
+    """That no other value of one of these helps; none where that cannot be proved of all."""
     proofs = []
     for name in names:
         chain = replace(given, free=name)
         try:
             none = decided(chain, chain.solved, requirements(chain, chain.solved))
         except Unable:
-            return None
+            return ()
         if not isinstance(none, Contradiction):
-            return None
-        proofs.append((f"impossible with {name} free", none.certificate))
-    return Certificate.bundle(proofs)
+            return ()
+        proofs.append((f"impossible with {name} free", none))
+    return tuple(proofs)
 
 
 def nearest_duration(given: Chain) -> Repair | None:
     """One curve made slower or faster by the least factor that was seen to help."""
-    seen = list[tuple[float, int, int]]()
-    for k in range(given.pieces):
+    seen, start = list[tuple[float, int, int]](), loosened(given)
+    ways = [(1.0, k, sign) for k in range(given.pieces) for sign in (1, -1)]
+    if start is not None:
+        foreseen = enumerate((min(start.change(name), _FAR), start.slopes[name]) for name in given.paces)
+        ways = [(exp(far), k, 1 if slope > 0 else -1) for k, (far, slope) in foreseen]
+    for far, k, sign in sorted(ways):
         least = min(seen)[0] if seen else _FACTORS[-1]
-        if _excess(replace(given, free=f"durations[{k}]")) > 0:
-            continue
-        for sign in (1, -1):
-            before = 1.0
-            for factor in (*(f for f in _FACTORS if f < least), least):
-                if _excess(_paced(given, k, factor**sign)) <= 0:
-                    seen.append((_threshold(given, k, before, factor, sign), sign, k))
-                    break
-                before = factor
+        if far > least**2:
+            break
+        before = 1.0
+        for factor in (*(f for f in _FACTORS if far < f < least), least):
+            if _excess(_paced(given, k, factor**sign)) <= 0:
+                seen.append((_threshold(given, k, before, factor, sign), sign, k))
+                break
+            before = factor
     for factor, sign, k in sorted(seen):
         time = given.times[k]
         low, high = (time * Fraction(factor * (1 + s * 1e-6)).limit_denominator(10**9) ** sign for s in (-1, 1))
@@ -186,8 +181,5 @@ def _paced(given: Chain, k: int, factor: float) -> Chain:
 
 
 def _excess(chain: Chain) -> float:
-    rows = requirements(chain, chain.solved)
-    if chain.solved.joins or any(row.form.is_constant and row.form.constant > 0 for row in rows):
-        return 1.0
-    proposal = proposals.least_excess(chain, chain.solved.size, [row for row in rows if not row.form.is_constant])
-    return 1.0 if proposal is None else proposal.excess
+    found = loosened(chain)
+    return 1.0 if found is None else found.excess

@@ -44,6 +44,7 @@ Out = Annotated[Path, typer.Option("--out", help="Folder for the report and all 
 TimedPath = Annotated[Path, typer.Argument(metavar="FILE", help=".csv, .json, .yaml, .npz", show_default=False)]
 Against = Annotated[Path | None, typer.Option("--check", help="Verify this certificate about the file.")]
 Charts = Annotated[Path | None, ending("--page", ".html", help="Write a page with each quantity over time here.")]
+Drawn = Annotated[Path | None, ending("--page", ".html", help="Write a page with pictures here.")]
 Evidence = Annotated[Path | None, typer.Option("--certificate", help="Write the certificates here.")]
 NoPlots = Annotated[bool, typer.Option("--no-plots", help="No pictures.")]
 TIMEOUT = typer.Option(callback=lambda given: seconds(given, "--timeout"), help="Seconds; enforced.")
@@ -274,7 +275,7 @@ def chain(
     file: Annotated[Path, typer.Argument(metavar="CHAIN.toml", help="Points and conditions.", show_default=False)],
     certificate: Evidence = None,
     check: Against = None,
-    page: Annotated[Path | None, ending("--page", ".html", help="Write a page with pictures here.")] = None,
+    page: Drawn = None,
     region: Annotated[str | None, typer.Option("--region", help="Where a point may be: start, via[0], C2.1, …")] = None,
     **common: Any,
 ) -> Said:
@@ -297,6 +298,7 @@ def route(
     picture: Annotated[
         Path | None, ending("--picture", ".svg", ".png", ".pdf", help="Write a picture here (.svg, .png, .pdf).")
     ] = None,
+    page: Drawn = None,
     shortest: Annotated[bool, typer.Option("--shortest", help="A short path, with a bound for all paths.")] = False,
     degree: Annotated[int, typer.Option("--degree", help="Of its curves, 1 for segments.")] = 3,
     continuity: Annotated[int, typer.Option("--continuity", help="Derivatives of it that are continuous.")] = 1,
@@ -312,8 +314,10 @@ def route(
     wish: Wish | None = Wish.of(degree, continuity, gap)
     kind = "" if picture is None else picture.suffix.lower().removeprefix(".") or "svg"
     wish = wish if shortest or gap is not None else None
-    work = partial(command.run, file=file, against=check, picture=kind, wish=wish)
-    return answered(work, common, certificate, picture)  # no certificate where start or goal itself is in an obstacle
+    work = partial(command.run, file=file, against=check, picture=kind, page=page is not None, wish=wish)
+    return answered(
+        work, common, certificate, picture, page
+    )  # no certificate where start or goal itself is in an obstacle
 
 
 def retime(

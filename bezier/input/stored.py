@@ -15,6 +15,7 @@ from bezier.curves.scalar import Vector
 from bezier.input.numbers import NotANumber, parse
 from bezier.input.toml_table import read_bytes
 from qe.errors import CertificateRejected, InputError
+from qe.proof.certificate import Certificate
 from qe.proof.entry import read_json
 
 MAX_BYTES = 200_000_000
@@ -29,6 +30,15 @@ def text(path: FilePath) -> str:
         return read_bytes(path, MAX_BYTES).decode("utf-8")
     except UnicodeDecodeError:
         raise CertificateRejected(path.name, "expected UTF-8 text") from None
+
+
+def certificate(path: FilePath) -> Certificate:
+    """The certificate in a file."""
+    written = text(path)
+    try:
+        return Certificate.from_json(written)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
 
 
 def table(path: FilePath) -> dict[str, Any]:

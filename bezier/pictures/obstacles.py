@@ -98,18 +98,26 @@ def _slice(body: HalfSpaceBody, reach: float) -> Array:
 
 def _cloud(obstacle: Obstacle, reach: float) -> Array:
     """Grid points inside an obstacle, within ``reach`` of the origin."""
-    axis = np.linspace(-reach, reach, GRID)
-    grid = np.stack(np.meshgrid(axis, axis, axis), axis=-1).reshape(-1, 3)
-    grid = grid[np.linalg.norm(grid, axis=1) <= reach]
-    return np.asarray(grid[excess([piece.constraints for piece in obstacle.pieces], grid) >= 0])
+    axes = [np.linspace(-reach, reach, GRID)] * 3
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    shown = excess([piece.constraints for piece in obstacle.pieces], axes).reshape(-1) >= 0
+    return np.asarray(grid[shown & (np.linalg.norm(grid, axis=1) <= reach)])
 
 
-def excess(pieces: Sequence[Sequence[Constraint]], points: Array) -> Array:
-    """Numbers that are not negative at those points (n, 3) that satisfy all conditions of a piece, at most 1."""
+def excess(pieces: Sequence[Sequence[Constraint]], axes: Sequence[Array]) -> Array:
+    """On a grid, numbers that are not negative where all conditions of a piece hold, at most 1; where an equation is
+    among them, in the cells that it goes through."""
+    from scipy.ndimage import maximum_filter
+
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
 
     def values(condition: Constraint) -> Array:
-        terms = (float(x) * np.prod(points ** np.array(e), axis=1) for e, x in condition.terms)
-        return np.asarray(sum(terms, np.zeros(len(points))))
+        terms = (float(x) * np.prod(points ** np.array(e), axis=-1) for e, x in condition.terms)
+        return np.asarray(sum(terms, np.zeros(points.shape[:-1])))
 
-    ones = np.ones(len(points))
-    return np.asarray(np.max([np.min([ones, *map(values, piece)], axis=0) for piece in pieces], axis=0))
+    def least(piece: Sequence[Constraint]) -> Array:
+        is_thin = not {c.terms for c in piece}.isdisjoint(c.negated.terms for c in piece)
+        listed = (maximum_filter(values(c), 3) if is_thin else values(c) for c in piece)
+        return np.asarray(np.min([np.ones(points.shape[:-1]), *listed], axis=0))
+
+    return np.asarray(np.max([least(piece) for piece in pieces], axis=0))

@@ -16,7 +16,7 @@ from bezier.scenes.route import Blocked, Route
 from bezier.scenes.scene import Scene
 from bezier.scenes.solid import Solid
 
-WIDTH, SAMPLES = 4.6, 160
+WIDTH, SAMPLES = 4.6, 320
 """Of a view, in inches; of conditions, along an axis."""
 WAY, WALL, SIDE, BODY = COLOURS["P"], "#b42318", "#fedad6", "#adb4c0"
 
@@ -83,15 +83,10 @@ def _view(axis: Any, known: Route | Blocked, i: int, j: int) -> None:
 
 def _shadow(scene: Scene, body: Solid, i: int, j: int) -> tuple[Array, Array, Array]:
     """Two coordinates of a grid, and numbers that are positive in the shadow of conditions."""
-    count = SAMPLES if scene.dimension == 2 else SAMPLES // 2
+    count = SAMPLES if scene.dimension == 2 else SAMPLES // 4
     ends = zip(scene.low, scene.high, strict=True)
     axes = [np.linspace(float(a), float(b), count) for a, b in ends] + [np.zeros(1)] * (3 - scene.dimension)
-    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-    most = (
-        excess(body.pieces, points)
-        .reshape([len(axis) for axis in axes])
-        .max(axis=tuple(k for k in range(3) if k not in (i, j)))
-    )
+    most = excess(body.pieces, axes).max(axis=tuple(k for k in range(3) if k not in (i, j)))
     return axes[i], axes[j], most.T
 
 

@@ -7,22 +7,34 @@ library to draw it: of a convex body only the faces towards the viewer are seen.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import combinations, product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bezier.motion.track import Track
-from bezier.pictures.mesh import Array, best_view
-from bezier.pictures.obstacles import ObstaclePicture
-from bezier.pictures.picture import CurvePicture, PathPicture, RegionPicture, boundary, written
+from bezier.pictures.mesh import Array, best_view, sampled
+from bezier.pictures.obstacles import ObstaclePicture, obstacle_pictures
+from bezier.pictures.picture import (
+    COLOURS,
+    CurvePicture,
+    PathPicture,
+    RegionPicture,
+    boundary,
+    numbers,
+    written,
+)
+from bezier.scenes.route import Blocked, Route
 
 FRAMES = 181
 VIEW = (20.0, -62.0)
 """Elevation and azimuth of the first look, in degrees."""
 TONES = {"P": "p", "Q": "q", "R": "r"}
 Scene = dict[str, Any]
+EMPTY: Scene = {"reach": None, "floor": False, "view": VIEW, "motion": None, "arm": None}
+EMPTY |= {key: [] for key in ("bodies", "clouds", "curves", "marks")}
 
 
 def path_scene(picture: PathPicture, track: Track | None, *, timed: bool, given: Mapping[str, Array]) -> Scene:
@@ -39,17 +51,13 @@ def path_scene(picture: PathPicture, track: Track | None, *, timed: bool, given:
             label = written(name) if picture.hatted_names else written(name).replace("\u0302", "")
             marks.append([label, _flat(point, picture.radius), 0])
     return {
+        **EMPTY,
         "reach": float(picture.radius),
         "floor": picture.has_floor,
-        "view": VIEW,
-        "bodies": [_body(o, picture.radius) for o in picture.obstacles if o.faces is not None],
-        "clouds": [
-            {"colour": o.colour, "v": _flat(o.vertices, picture.radius)} for o in picture.obstacles if o.faces is None
-        ],
+        **_obstacles(picture.obstacles, picture.radius),
         "curves": [curve(c, picture.radius, TONES.get(c.name, "ink")) for c in picture.curves],
         "marks": marks,
         "motion": None if track is None else _motion(track, picture.radius, timed),
-        "arm": None,
     }
 
 
@@ -63,9 +71,8 @@ def arm_scene(arm: Mapping[str, Any]) -> Scene:
     path = np.array(arm["path"], dtype=float)
     size = float(np.abs(path).max()) or 1.0
     line = {"tone": "r", "colour": "#2e9e6b", "v": _flat(path, size), "polygon": []}
-    scene: Scene = {"reach": None, "floor": True, "view": VIEW, "bodies": [], "clouds": [], "curves": [line]}
     marks = [[name, _flat(path[k], size), 1] for name, k in (("start", 0), ("goal", -1))]
-    return with_arm({**scene, "marks": marks, "motion": None}, arm)
+    return with_arm({**EMPTY, "floor": True, "curves": [line], "marks": marks}, arm)
 
 
 def region_scene(region: RegionPicture, seen_as: RegionPicture | None = None) -> Scene:
@@ -82,13 +89,33 @@ def region_scene(region: RegionPicture, seen_as: RegionPicture | None = None) ->
         "edges": [_flat(edge[::6] if len(edge) > 60 else edge, size) for edge in mesh.edges],
     }
     marks = [] if region.chosen is None else [["the best one", _flat(region.chosen, size), 1]]
-    scene: Scene = {"reach": None, "floor": False, "view": best_view((seen_as or region).mesh), "bodies": [body]}
-    return scene | {"clouds": [], "curves": [], "marks": marks, "motion": None, "arm": None}
+    return {**EMPTY, "view": best_view((seen_as or region).mesh), "bodies": [body], "marks": marks}
 
 
 def region_legend(region: RegionPicture) -> list[tuple[str, str]]:
     """The boundary surfaces that are seen: what each is, and its colour."""
     return [(boundary(region.labels[k]), region.colour(k)) for k in sorted(set(region.mesh.owner.tolist()))]
+
+
+def route_scene(known: Route | Blocked) -> Scene:
+    """A scene in space with the box around its workspace, and the way through it."""
+    scene, ends = known.scene, numbers([known.scene.low, known.scene.high])
+    size = float(np.abs(ends).max())
+    shown = obstacle_pictures([body.obstacle for body in scene.bodies], size * 3**0.5)
+    corners = [np.array(corner) for corner in product(*ends.T)]
+    edges = [_flat(np.array([a, b]), size) for a, b in combinations(corners, 2) if np.count_nonzero(a - b) == 1]
+    box = {"alpha": 0.5, "v": _flat(np.array(corners), size), "f": [], "colours": [], "edges": edges}
+    way = [sampled(curve, 2 if len(curve) == 2 else 25) for curve in known.curves] if isinstance(known, Route) else []
+    listed = [{"tone": "r", "colour": COLOURS["R"], "v": _flat(points, size), "polygon": []} for points in way]
+    marks = [[name, _flat(numbers([p]), size), 1] for name, p in (("start", scene.start), ("goal", scene.goal))]
+    whole = {**_obstacles(shown, size), "curves": listed, "marks": marks}
+    return {**EMPTY, **whole, "bodies": [box, *whole["bodies"]]}
+
+
+def _obstacles(shown: Sequence[ObstaclePicture], size: float) -> Scene:
+    """Bodies, and clouds where there are no faces."""
+    clouds = [{"colour": o.colour, "v": _flat(o.vertices, size)} for o in shown if o.faces is None]
+    return {"bodies": [_body(o, size) for o in shown if o.faces is not None], "clouds": clouds}
 
 
 def text(scene: Scene) -> str:

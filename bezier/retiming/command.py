@@ -6,7 +6,6 @@ import json
 from fractions import Fraction
 from pathlib import Path
 
-import qe
 from bezier.input import stored
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import Law
@@ -38,7 +37,7 @@ def run(
     if against is None:
         result = least_time(path, listed, law=law, accuracy=accuracy)
     else:
-        result = checked(path, listed, qe.Certificate.from_json(stored.text(against)))
+        result = checked(path, listed, stored.certificate(against))
     data, lines = result.to_json(), result.lines
     if against is not None:
         data["checked"] = True

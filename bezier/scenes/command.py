@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import qe
 from bezier.input import stored
 from bezier.scenes.route import Wish, checked, decided
 from bezier.scenes.scene import load_scene
@@ -20,11 +19,12 @@ def run(
     *,
     against: Path | None = None,
     picture: str = "",
+    page: bool = False,
     wish: Wish | None = None,
     as_json: bool = False,
-) -> tuple[str, str, bytes, bool]:
-    """What to print, the certificate, a ``picture`` of this kind (svg, png, pdf) where one is wanted, and whether there
-    is a way.
+) -> tuple[str, str, bytes, str, bool]:
+    """What to print, the certificate, a ``picture`` of this kind (svg, png, pdf) and a ``page`` where they are wanted,
+    and whether there is a way.
 
     ``against``: the file of a certificate that is checked about this scene, in place of a search. Raises
     ``CertificateRejected`` where it is not about it.
@@ -33,16 +33,21 @@ def run(
     if against is None:
         known = decided(scene, Budget(), wish=wish)
     else:
-        known = checked(scene, qe.Certificate.from_json(stored.text(against)))
-    data, lines = known.to_json(), [str(known)]
+        known = checked(scene, stored.certificate(against))
+    data, lines = known.to_json(), str(known).splitlines()
     if against is not None:
         data["checked"] = True
         lines.append("accepted")
-    drawn = b""
-    if picture:
-        with wanted():
+    drawn, shown = b"", ""
+    with wanted():
+        if picture:
             from bezier.pictures.route import drawing
 
-        drawn = drawing(known, picture)
+            drawn = drawing(known, picture)
+        if page:
+            from bezier.report import html, route
+
+            shown = html.document(route.page(known, lines, file.name))
     text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
-    return text, "" if known.certificate is None else known.certificate.to_json(), drawn, not known.blocked
+    proof = "" if known.certificate is None else known.certificate.to_json()
+    return text, proof, drawn, shown, not known.blocked

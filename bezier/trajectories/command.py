@@ -144,7 +144,7 @@ def certify(
     except OverflowError:
         raise InputError(f"{file}: expected quantities of usual size, found one beyond 10^308") from None
     if against is not None:
-        judged.check(qe.Certificate.from_json(stored.text(against)))
+        judged.check(stored.certificate(against))
         lines.append("the certificate proves it: accepted")
     proof = judged.certificate.to_json() if evidence else ""
     text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)

@@ -22,6 +22,7 @@ from bezier.conic import Conic
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, subtract
 from bezier.interface.function import table_value
+from bezier.pictures.obstacles import excess
 from bezier.scenes import route as route_module
 from bezier.scenes.barrier import barrier
 from bezier.scenes.bound import least_length
@@ -522,6 +523,7 @@ def test_a_picture_is_what_its_ending_says(ending: str, begin: bytes, tmp_path: 
 @each(
     ("route", "examples/scenes/slit.json", "--picture", "x.jpg", ".svg or .png or .pdf"),
     ("route", "examples/scenes/slit.json", "--picture", "x", ".svg or .png or .pdf"),
+    ("route", "examples/scenes/slit.json", "--page", "x.svg", ".html"),
     ("chain", "examples/chains/plane.toml", "--page", "x.png", ".html"),
     ("retime", "examples/joints/path.csv", "--page", "x.txt", ".html"),
     ("certify", "examples/joints/path.csv", "--page", "x.svg", ".html"),
@@ -534,6 +536,39 @@ def test_other_endings_are_refused_in_one_line(
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and f"{option} {tmp_path / name}: expected a name that ends in {expected}" in said
     assert not (tmp_path / name).exists()
+
+
+@each(("free", 0, 5), ("blocked", 3, 10))
+def test_the_page_of_a_scene_in_space_can_be_turned(word: str, status: int, wide: int, tmp_path: Path) -> None:
+    file, page = tmp_path / "scene.json", tmp_path / "page.html"
+    wall = {"kind": "box", "low": [4, 0, 0], "high": [6, wide, 10]}
+    domain = {"low": [0, 0, 0], "high": [10, 10, 10]}
+    file.write_text(json.dumps({"domain": domain, "start": [1, 1, 1], "goal": [9, 9, 9], "obstacle": [wall]}))
+    assert main(["route", str(file), "--page", str(page)]) == status
+    assert "data-scene" in page.read_text() and f">{word}<" in page.read_text()
+
+
+def test_an_obstacle_without_an_inside_is_drawn() -> None:
+    """A curve was nowhere to be seen on the picture of a free route."""
+    curve = {"kind": "formula", "formula": "y = x^2/10 & x >= 2"}
+    square = {"low": [0, 0], "high": [10, 10]}
+    (body,) = read_scene({"domain": square, "start": [1, 5], "goal": [9, 5], "obstacle": [curve]}).formulas
+    axis = np.linspace(0, 10, 101)
+    x, y = np.nonzero(excess(body.pieces, [axis, axis, np.zeros(1)])[:, :, 0] >= 0)
+    assert len(x) > 80 and axis[x].min() > 1.85 and np.abs(axis[y] - axis[x] ** 2 / 10).max() < 0.35
+
+
+@each(
+    "route examples/scenes/slit.json",
+    "chain examples/chains/plane.toml",
+    *(f"{name} examples/joints/path.csv --limits examples/joints/limits.toml" for name in ("certify", "retime")),
+)
+def test_what_is_no_certificate_is_named(words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "x.json"
+    file.write_text("{}")
+    command, *rest = (str(ROOT / word) if word.startswith("examples") else word for word in words.split())
+    assert main([command, *rest, "--check", str(file)]) == 2
+    assert f"{file}: not a certificate" in capsys.readouterr().err
 
 
 def test_a_wall_is_in_its_body_by_its_sides_and_not_by_the_corners_it_names() -> None:
