@@ -1,5 +1,5 @@
-"""Where the end point of an arm is while its joints move as polynomials of the time: polynomials again, and how far the
-end point is from them at most.
+"""Where the end point of an arm, and the origins of its frames, are while its joints move as polynomials of the time:
+polynomials again, and how far the points are from them at most.
 
 THEOREM (Taylor's, with the remainder of Lagrange). For a function f that is smooth on [m - r, m + r],
 
@@ -13,12 +13,15 @@ the end point are smooth everywhere: they are polynomials in cosines and sines o
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
+from itertools import takewhile
 
 from flint import arb, arb_series
 
-from bezier.arm.model import Arm, JointKind
+from bezier.arm.kinematics import ORIGIN
+from bezier.arm.model import Arm, JointKind, apply
 from bezier.arm.motion_chain import ball_of
 from bezier.proofs.duals import around, ball, radius_above
 from bezier.trajectories.piecewise import Row, Trajectory
@@ -44,27 +47,44 @@ def axes_of(arm: Arm, names: Sequence[str]) -> list[int]:
 
 def tip_of(arm: Arm, joints: Trajectory, error: Fraction) -> Trajectory:
     """Polynomials x, y, z (mm) from which the end point is nowhere ``error`` away. Raises ``Unable``."""
-    chain, axes = _Chain(arm), axes_of(arm, joints.names)
-    breaks, pieces = [joints.breaks[0]], []
+    return frames_of(arm, joints, error, [len(arm.rows)])[0]
+
+
+def frames_of(arm: Arm, joints: Trajectory, error: Fraction, numbers: Iterable[int]) -> list[Trajectory]:
+    """The same of the origins of the frames behind so many rows, on the same pieces."""
+    chains, axes = [_Chain(replace(arm, rows=arm.rows[:k])) for k in numbers], axes_of(arm, joints.names)
+    breaks, pieces = [joints.breaks[0]], list[list[Row]]()
     for start, length, row in zip(joints.breaks, joints.lengths, joints.pieces, strict=False):
-        for end, polys in _pieces(chain, [row[k] for k in axes], length, error):
+        for end, polys in _pieces(chains, [row[k] for k in axes], length, error):
             breaks.append(start + end)
             pieces.append(polys)
-    return Trajectory(("x", "y", "z"), tuple(breaks), tuple(pieces))
+    return [Trajectory(("x", "y", "z"), tuple(breaks), rows) for rows in zip(*pieces, strict=True)]
+
+
+def is_fixed(arm: Arm, number: int) -> bool:
+    """Whether the origin of the frame behind so many rows stays where it is: it is on the axis of each joint before."""
+    chain = replace(arm, rows=arm.rows[:number]).chain
+    place = ORIGIN
+    for constant, joint in zip(chain.constants[:0:-1], chain.joints[::-1], strict=True):
+        place = apply(constant, place)
+        if joint.motion is not JointKind.REVOLUTE or any(place[:2]):
+            return False
+    return True
 
 
 def _pieces(
-    chain: _Chain, q: Row | list[RationalPoly], length: Fraction, error: Fraction
-) -> Iterator[tuple[Fraction, Row]]:
+    chains: Sequence[_Chain], q: Row | list[RationalPoly], length: Fraction, error: Fraction
+) -> Iterator[tuple[Fraction, list[Row]]]:
     """The ends of intervals, with the polynomials from the end before."""
     todo, low = [length], Fraction(0)
     while todo:
-        polys = chain.polynomials(q, low, todo[-1], error)
-        if polys is not None:
+        known = (chain.polynomials(q, low, todo[-1], error) for chain in chains)
+        polys = [row for row in takewhile(bool, known) if row]
+        if len(polys) == len(chains):
             low = todo.pop()
             yield low, polys
         elif todo[-1] - low < SHORTEST * length:
-            raise Unable(f"the end point of the arm is not enclosed within {float(error):.3g} mm")
+            raise Unable(f"the arm is not enclosed within {float(error):.3g} mm")
         else:
             todo.append((low + todo[-1]) / 2)
 
@@ -97,7 +117,8 @@ class _Chain:
     def _tip(self, q: Sequence[RationalPoly], t: arb_series) -> list[arb_series]:
         """The end point with the joints at q(t)."""
         p = [arb_series([0], prec=t.prec)] * 3
-        for constant, turns, poly in zip(self.constants[:0:-1], self.turns[::-1], q[::-1], strict=True):
+        moving = q[: len(self.turns)]
+        for constant, turns, poly in zip(self.constants[:0:-1], self.turns[::-1], moving[::-1], strict=True):
             x, y, z = _placed(constant, p)
             value = arb_series([0], prec=t.prec)
             for c in reversed(poly.coefficients()):

@@ -17,6 +17,7 @@ from bezier.report import html
 from bezier.report.html import Card, Page, Section
 from bezier.trajectories.along import WORDS, Along
 from bezier.trajectories.limits import Outcome, Verdict, limited
+from bezier.trajectories.links import NEAR, Links
 from bezier.trajectories.piecewise import Trajectory
 
 SAMPLES = 2000
@@ -69,12 +70,15 @@ def page(
     findings: Sequence[Finding] = (),
     cards: Sequence[Card] = (),
     along: Along | None = None,
-    point: Trajectory | None = None,
+    links: Links | None = None,
 ) -> Page:
-    """``lines``: what the command says; ``findings``: of each piece of ``point`` and each obstacle; ``cards``: more
-    for the first line."""
+    """``lines``: what the command says; ``findings``: of each piece and each obstacle; ``cards``: more for the first
+    line."""
     quantities = [_limited(verdict.trajectory, outcome) for outcome in verdict.outcomes]
-    quantities += _clearances(point or verdict.trajectory, findings)
+    if links is not None:
+        quantities += _distances_of(links)
+    else:
+        quantities += _clearances(verdict.trajectory, findings)
     if along is not None:
         distance = _limited(along.verdict.trajectory, along.verdict.outcomes[0])
         quantities.append(replace(distance, words=WORDS, bounds=(None, float(along.within))))
@@ -115,20 +119,28 @@ def _clearances(trajectory: Trajectory, findings: Sequence[Finding]) -> Iterator
     times, values = _samples(trajectory, trajectory.pieces)
     points = np.pad(values, ((0, 0), (0, 3 - values.shape[1])))
     for obstacle in {f.obstacle.name: f.obstacle for f in findings}.values():
-        if obstacle.body is None:
-            continue
-        margin = float(obstacle.margin)
-        distances = signed_distances(points, obstacle.body) + margin
-        nearest = int(distances.argmin())
-        yield Quantity(
-            f"distance from {obstacle.name}",
-            times,
-            distances,
-            (margin, None),
-            (float(times[nearest]), float(distances[nearest])),
-            all(f.is_clear for f in findings if f.obstacle is obstacle),
-            "≈ ",
-        )
+        if obstacle.body is not None:
+            kept = all(f.is_clear for f in findings if f.obstacle is obstacle)
+            margin = float(obstacle.margin)
+            yield _distance(obstacle.name, times, signed_distances(points, obstacle.body) + margin, margin, kept)
+
+
+def _distances_of(links: Links) -> Iterator[Quantity]:
+    """The distance of the nearest link from each obstacle, its margin included."""
+    places = {k: _samples(frame, frame.pieces) for k, frame in links.frames.items()}
+    shares = np.linspace(0, 1, 13)[:, None, None]
+    for i, (name, body) in enumerate(links.bodies):
+        numbers = [k for k, j in links.spans if j == i]
+        points = [(1 - shares) * places[k - 1][1] + shares * places[k][1] for k in numbers]
+        away = [signed_distances(p.reshape(-1, 3), body).reshape(p.shape[:2]).min(axis=0) for p in points]
+        times, kept = places[numbers[0]][0], not any(j == i for _, j in links.touches)
+        yield _distance(name, times, np.min(away, axis=0) + float(NEAR), 0.0, kept)
+
+
+def _distance(name: str, times: Array, distances: Array, margin: float, kept: bool) -> Quantity:
+    nearest = int(distances.argmin())
+    worst = float(times[nearest]), float(distances[nearest])
+    return Quantity(f"distance from {name}", times, distances, (margin, None), worst, kept, "≈ ")
 
 
 def _samples(trajectory: Trajectory, rows: Sequence[Sequence[Any]]) -> tuple[Array, Array]:

@@ -12,8 +12,6 @@ from typing import Any
 import qe
 from bezier.arm.model import Arm
 from bezier.arm.tip import tip_of
-from bezier.curves import bernstein as bs
-from bezier.curves.curve import Bezier
 from bezier.curves.sentences import verified
 from bezier.input import stored
 from bezier.input.numbers import describe
@@ -27,6 +25,7 @@ from bezier.scenes.sentences import beyond, surfaces
 from bezier.trajectories.along import Along, arm_limits, load_path
 from bezier.trajectories.evidence import members, stated
 from bezier.trajectories.limits import Limit, Verdict, decided
+from bezier.trajectories.links import NEAR, Links
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.readers import load
 from bezier.trajectories.words import in_words, to_json
@@ -34,9 +33,6 @@ from qe.errors import InputError, Unable
 from qe.options import Budget
 from qe.processes.channel import Channel
 
-NEAR = Fraction(1, 1 << 20)
-"""How far (mm) the end point of an arm may be from the polynomials that are proved clear in its place."""
-END = f"part {{}} (the end point within {NEAR} mm of it)"
 KEYS = (*QUANTITIES, *(f"{name}_norm" for name in QUANTITIES[1:]))
 
 
@@ -99,20 +95,6 @@ def in_the_way(scene: Scene, axes: int) -> tuple[list[Obstacle], list[Limit]]:
     return [*obstacles, *([outside] if outside.pieces else [])], []
 
 
-def curves(trajectory: Trajectory, name: str = "piece {}") -> dict[str, Bezier]:
-    """Each piece as a curve in space; a third coordinate that is missing is 0."""
-    result = {}
-    for i, (row, h) in enumerate(zip(trajectory.pieces, trajectory.lengths, strict=True)):
-        degree = max(0, *(p.degree for p in row))
-        columns = []
-        for p in row:
-            scaled = [c * h**k for k, c in enumerate(p.coefficients())]
-            columns.append(bs.from_power([*scaled, *[Fraction(0)] * (degree + 1 - len(scaled))]))
-        columns += [(Fraction(0),) * (degree + 1)] * (3 - len(row))
-        result[name.format(i + 1)] = Bezier.of(list(zip(*columns, strict=True)))
-    return result
-
-
 def certify(
     channel: Channel,
     file: Path,
@@ -160,8 +142,8 @@ class Certified:
     findings: tuple[survey.Finding, ...] | None
     along: Along | None = None
     scene: Scene | None = None
-    point: Trajectory | None = None
-    """What the findings are about: with an arm its end point, up to ``NEAR``; obstacles are wider by that."""
+    links: Links | None = None
+    """Of an arm in a scene, in place of findings."""
 
     @staticmethod
     def of(
@@ -177,17 +159,22 @@ class Certified:
         ``InputError`` and ``Unable``, and ``OverflowError`` for numbers beyond floats."""
         if robot is not None:
             limits = [*limits, *arm_limits(robot, trajectory)]
-        point, scene, findings = trajectory, None, None
-        if table is not None:
-            if robot is not None and "domain" in table.values:
+        scene, findings, links = None, None, None
+        if table is not None and robot is not None:
+            if "domain" in table.values:
                 raise table.error("domain", "none with --robot (obstacles around it)", "one")
-            point = trajectory if robot is None else tip_of(robot, trajectory, NEAR)
-            scene = scene_of(table, point, Fraction(0) if robot is None else NEAR)
-            obstacles, inside = in_the_way(scene, len(point.names))
-            limits, listed = [*limits, *inside], curves(point) if robot is None else curves(point, END)
-            findings = survey.survey(listed, obstacles, distances=False)
+            scene = scene_of(table, tip_of(robot, trajectory, NEAR), NEAR)
+            links = Links.of(robot, trajectory, [(b.name, b.body) for b in scene.bodies if b.body is not None])
+        elif table is not None:
+            scene = scene_of(table, trajectory)
+            obstacles, inside = in_the_way(scene, len(trajectory.names))
+            limits, listed = (
+                [*limits, *inside],
+                enumerate(map(trajectory.curve, range(len(trajectory.pieces))), start=1),
+            )
+            findings = survey.survey({f"piece {i}": curve for i, curve in listed}, obstacles, distances=False)
         near = None if path is None else Along.of(trajectory, path, within, robot)
-        return Certified(decided(trajectory, limits, tolerance), findings, near, scene, point)
+        return Certified(decided(trajectory, limits, tolerance), findings, near, scene, links)
 
     @property
     def kept(self) -> bool:
@@ -197,7 +184,7 @@ class Certified:
     @property
     def clear(self) -> bool:
         """Whether no obstacle is met at any time."""
-        return not survey.contacts(self.findings or ())
+        return not survey.contacts(self.findings or ()) and (self.links is None or not self.links.touches)
 
     @property
     def slower_by(self) -> Fraction | None:
@@ -209,17 +196,15 @@ class Certified:
     def lines(self) -> list[str]:
         """A line for each limit, each contact, and what follows."""
         lines, contacts = in_words(self.verdict), survey.contacts(self.findings or ())
-        moved = self.point or self.verdict.trajectory
-        spans = zip(moved.breaks, moved.lengths, strict=False)
-        times = dict(zip(dict.fromkeys(f.name for f in self.findings or ()), spans, strict=False))
+        moved = self.verdict.trajectory
+        times = {f"piece {i}": span for i, span in enumerate(zip(moved.breaks, moved.lengths, strict=False), start=1)}
         for f in contacts:
             start, length = times[f.name]
             time = start + length * sum(f.outcome.t) / 2 if isinstance(f.outcome, Contact) else start
             lines.append(f"{survey.in_words(f)}, at the time {float(time):.10g}")
         if self.findings and not contacts:
             lines.append(f"clear of all obstacles for all t: {len(self.findings)} pairs of pieces and obstacles")
-        if self.findings and moved is not self.verdict.trajectory:
-            lines.append(f"obstacles: of the end point alone, which is known within {NEAR} mm; not of links")
+        lines += [] if self.links is None else self.links.lines
         return lines if self.along is None else [*lines, self.along.line]
 
     def __str__(self) -> str:
@@ -230,12 +215,15 @@ class Certified:
         """The proof of all that is said of limits, obstacles and a path; ``qe.verify`` checks it. Raises ``qe.Unable``
         where there is none: for what is not continuous, for instance."""
         verdict, near = self.verdict, () if self.along is None else self.along.members()
-        return qe.Certificate.bundle([*(members(verdict) if verdict.outcomes else ()), *near, *self._scene()])
+        links = () if self.links is None else self.links.members()
+        return qe.Certificate.bundle([*(members(verdict) if verdict.outcomes else ()), *near, *links, *self._scene()])
 
     def check(self, certificate: qe.Certificate) -> None:
         """Whether a certificate proves just this. Raises ``CertificateRejected``."""
-        near = [] if self.along is None else self.along.stated()
-        verified(certificate, [*(stated(self.verdict) if self.verdict.outcomes else ()), *near], self._scene())
+        said = [] if self.along is None else self.along.stated()
+        if self.links is not None and isinstance(certificate.payload, tuple):
+            said += self.links.stated([m.label for m in certificate.payload])
+        verified(certificate, [*(stated(self.verdict) if self.verdict.outcomes else ()), *said], self._scene())
 
     def _scene(self) -> list[tuple[str, qe.Certificate]]:
         parts = [] if self.scene is None else proved(dict(surfaces(self.scene)), Budget())
@@ -249,13 +237,15 @@ class Certified:
         from bezier.report.html import document
         from bezier.report.trajectory import page
 
-        return document(page(self.verdict, self.lines, title, self.findings or (), along=self.along, point=self.point))
+        return document(page(self.verdict, self.lines, title, self.findings or (), along=self.along, links=self.links))
 
     def to_json(self) -> dict[str, Any]:
         """Everything, with exact numbers."""
         data = to_json(self.verdict)
         if self.findings is not None:
             data["scene"] = [survey.to_json(f) for f in self.findings]
+        if self.links is not None:
+            data["links"] = self.links.to_json()
         if self.along is not None:
             data["along"] = self.along.to_json()
         data["kept"] = self.kept

@@ -12,6 +12,8 @@ from fractions import Fraction
 from functools import cache, cached_property
 from itertools import pairwise
 
+from bezier.curves import bernstein as bs
+from bezier.curves.curve import Bezier
 from qe.errors import InputError
 from qe.exact.rational_poly import RationalPoly, largest_gap
 
@@ -50,6 +52,16 @@ class Trajectory:
     def lengths(self) -> list[Fraction]:
         """How long each piece takes."""
         return [b - a for a, b in pairwise(self.breaks)]
+
+    def curve(self, i: int) -> Bezier:
+        """A piece as a curve in space; a third coordinate that is missing is 0."""
+        row, length, columns = self.pieces[i], self.lengths[i], []
+        degree = max(0, *(p.degree for p in row))
+        for p in row:
+            scaled = [c * length**k for k, c in enumerate(p.coefficients())]
+            columns.append(bs.from_power([*scaled, *[Fraction(0)] * (degree + 1 - len(scaled))]))
+        columns += [(Fraction(0),) * (degree + 1)] * (3 - len(row))
+        return Bezier.of(list(zip(*columns, strict=True)))
 
     def derivative(self, order: int) -> tuple[Row, ...]:
         """The pieces of a derivative."""

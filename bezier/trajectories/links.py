@@ -1,0 +1,263 @@
+"""Whether the links of an arm stay clear of convex bodies for all t, or when and where one first meets one.
+
+A link is the segment between the origins of neighbouring frames, unless both never move. The origins are known as
+polynomials of the time, up to ``NEAR`` (``bezier.arm.tip``); bodies are wider by that.
+
+THEOREM. Where a half-space holds a body, and the ends of a segment are not in it, the segment does not meet the body.
+So on an interval of t it is enough that neither end is, which is a sentence about two curves. That the half-space holds
+the body is exact code, which makes it from its normal alone.
+
+A link also meets what is less than ``NEAR`` away, so the search ends: it halves intervals from left to right until a
+plane across the shortest connection at their middle parts them, or a contact is at their left end.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cache, partial
+from itertools import groupby
+from typing import Any
+
+from bezier.arm.model import Arm, JointKind
+from bezier.arm.tip import frames_of, is_fixed
+from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import root_above
+from bezier.curves.scalar import Vector, described, dot, subtract
+from bezier.curves.sentences import CurveSentence, Said
+from bezier.input import stored
+from bezier.obstacles.bodies import Body, HalfSpaceBody, Rounded
+from bezier.obstacles.obstacle import Obstacle, ObstacleKind, Piece, half_space, pieces_of
+from bezier.obstacles.polyhedron import Point, nearest
+from bezier.obstacles.survey import clearance_certificate, meeting
+from bezier.trajectories.piecewise import Trajectory
+from qe.errors import CertificateRejected, Unable
+from qe.formula.syntax import FALSE, TRUE
+from qe.proof.certificate import Certificate
+
+NEAR = Fraction(1, 1 << 20)
+"""How far (mm) the origins of frames may be from the polynomials that stand for them."""
+SHORTEST = Fraction(1, 1 << 60)
+"""Of an interval, as a part of a piece."""
+FINE, DIGITS, BITS = 1 << 44, (10, 30, 60), 96
+"""Denominator of places and shares that are tried; binary digits of normals, in turn; those of roots."""
+ZERO, ONE, HALF = Fraction(0), Fraction(1), Fraction(1, 2)
+Pair = tuple[int, int]
+"""The number of a link, which is that of the frame at its end, and of a body."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Span:
+    """On this part of a piece no end of the link is in the half-space with this ``normal`` around a body."""
+
+    piece: int
+    low: Fraction
+    high: Fraction
+    normal: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """At ``t`` in [0, 1] of a piece the point that divides the link in this ``share`` is at most ``NEAR`` from the
+    body, which the link has not met before."""
+
+    piece: int
+    t: Fraction
+    share: Fraction
+
+
+@dataclass(frozen=True)
+class Links:
+    """``spans``: of each link and body, up to the end or to where they meet, which ``touches`` says."""
+
+    frames: Mapping[int, Trajectory]
+    bodies: tuple[tuple[str, Body], ...]
+    spans: Mapping[Pair, tuple[Span, ...]]
+    touches: Mapping[Pair, Touch]
+
+    @staticmethod
+    def of(arm: Arm, joints: Trajectory, bodies: Sequence[tuple[str, Body]]) -> Links:
+        """Everything decided. Raises ``Unable``."""
+        numbers = [k for k in range(1, len(arm.rows) + 1) if _moves(arm, k)]
+        used = sorted({*numbers, *(k - 1 for k in numbers)})
+        frames = dict(zip(used, frames_of(arm, joints, NEAR, used), strict=True))
+        spans, touches = dict[Pair, tuple[Span, ...]](), dict[Pair, Touch]()
+        for k in numbers:
+            part = cache(partial(_part, frames[k - 1], frames[k]))
+            for i, (_, body) in enumerate(bodies):
+                found = list(_followed(part, body, len(frames[k].pieces)))
+                spans[k, i] = tuple(s for s in found if isinstance(s, Span))
+                if isinstance(found[-1], Touch):
+                    touches[k, i] = found[-1]
+        return Links(frames, tuple(bodies), spans, touches)
+
+    def time(self, pair: Pair) -> Fraction:
+        """When a link meets a body."""
+        touch, frame = self.touches[pair], self.frames[pair[0]]
+        return frame.breaks[touch.piece] + frame.lengths[touch.piece] * touch.t
+
+    def through(self, pair: Pair) -> Bezier:
+        """The curve of the point of the link that meets a body."""
+        touch = self.touches[pair]
+        ends = (self.frames[k].curve(touch.piece).points for k in (pair[0] - 1, pair[0]))
+        return Bezier(tuple(_between(a, b, touch.share) for a, b in zip(*ends, strict=True)))
+
+    # --- proof ------------------------------------------------------------------------------------------------
+    def _apart(self) -> Iterator[tuple[str, Bezier, Obstacle]]:
+        """Of each origin and interval: a label, the curve, and the half-spaces that it is not in."""
+        spans = ((pair, span) for pair, listed in self.spans.items() for span in listed)
+        ends = ((k, pair, s) for pair, s in spans for k in (pair[0] - 1, pair[0]))
+        listed = sorted((k, s.piece, s.low, s.high, pair, s.normal) for k, pair, s in ends)
+        for (k, piece, low, high), group in groupby(listed, key=lambda entry: entry[:4]):
+            entries = [entry[4:] for entry in group]
+            said = "; ".join(f"{link} {i} {' '.join(map(str, normal))}" for (link, i), normal in entries)
+            label = f"frame {k}, piece {piece} from {low} to {high}: {said}"
+            sides = [(normal, _level(self.bodies[i][1], normal)) for (_, i), normal in entries]
+            pieces = (Piece((half_space(n, level),)) for n, level in dict.fromkeys(sides) if level is not None)
+            if any(level is None for _, level in sides):
+                raise CertificateRejected(label, "no half-space with this normal holds the body")
+            where = Obstacle(label, ObstacleKind.FORMULA, tuple(pieces))
+            yield label, self.frames[k].curve(piece).segment(low, high), where
+
+    def _met(self) -> Iterator[tuple[str, CurveSentence, Fraction]]:
+        """That links meet bodies, each at a time."""
+        for pair, touch in self.touches.items():
+            body = self.bodies[pair[1]][1]
+            pieces = pieces_of(replace(body, radius=body.radius + NEAR))
+            systems = [[(dict(c.terms), c.relation) for c in piece.constraints] for piece in pieces]
+            label = f"link {pair[0]} meets {pair[1]} in piece {touch.piece} at {touch.t}, share {touch.share}"
+            yield label, CurveSentence(self.through(pair), systems, between=(touch.t, touch.t)), touch.t
+
+    def members(self) -> Iterator[tuple[str, Certificate]]:
+        """The proof. Raises ``Unable``."""
+        for label, curve, where in self._apart():
+            if (proof := clearance_certificate(curve, where)) is None:
+                raise Unable("an interval has no certificate")
+            yield label, proof
+        yield from ((label, sentence.holds_at(t)) for label, sentence, t in self._met())
+
+    def stated(self, labels: Sequence[str]) -> list[Said]:
+        """What a certificate with these labels has to say so that it proves this; nothing is searched for. Raises
+        ``CertificateRejected``."""
+        read = replace(self, spans=self._read(labels))
+        for pair in self.spans:
+            touch, reached = self.touches.get(pair), ZERO
+            for span in sorted(read.spans.get(pair, ())):
+                reached = max(reached, span.piece + span.high) if span.piece + span.low <= reached else reached
+            if reached < (len(self.frames[pair[0]].pieces) if touch is None else touch.piece + touch.t):
+                raise CertificateRejected(f"link {pair[0]}", "its intervals do not cover the time")
+        apart = [(label, meeting(curve, where), FALSE) for label, curve, where in read._apart()]
+        met = [(label, sentence, TRUE) for label, sentence, _ in self._met()]
+        return [(label, sentence.formula, truth) for label, sentence, truth in (*apart, *met) if sentence is not None]
+
+    def _read(self, labels: Sequence[str]) -> dict[Pair, tuple[Span, ...]]:
+        """The spans that labels state, of the ends of links."""
+        spans = dict.fromkeys(self.spans, tuple[Span, ...]())
+        for label in labels:
+            matched = re.fullmatch(r"frame (\d{1,3}), piece (\d{1,6}) from (\S+) to (\S+): (.*)", label)
+            if matched is None:
+                continue
+            k, piece, low, high = (stored.rational(text, label) for text in matched.groups()[:4])
+            for link, i, *normal in (stored.row(entry, label) for entry in matched[5].split("; ")):
+                pair, is_part = (int(link), int(i)), 0 <= low < high <= 1
+                if pair not in spans or k not in (link, link - 1) or not is_part or len(normal) != 3 or not any(normal):
+                    raise CertificateRejected(label, "no part of a piece, link, body or normal")
+                spans[pair] += (Span(int(piece), low, high, tuple(normal)),) * (k == link)
+        return spans
+
+    # --- words ------------------------------------------------------------------------------------------------
+    @property
+    def lines(self) -> list[str]:
+        """What is proved."""
+        if not self.touches:
+            return [f"links, the segments between origins of frames: clear of all obstacles, {len(self.spans)} pairs"]
+        result = []
+        for pair in sorted(self.touches, key=self.time):
+            place = ", ".join(f"{float(c):.6g}" for c in self.through(pair).point(self.touches[pair].t))
+            met = f"link {pair[0]}: meets {self.bodies[pair[1]][0]} (within {float(3 * NEAR):.1g} mm)"
+            result.append(f"{met}, first at the time {float(self.time(pair)):.10g}, at ({place})")
+        return result
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Each link and obstacle, with exact times."""
+        times = {pair: described(self.time(pair)) for pair in self.touches}
+        return [{"link": k, "obstacle": self.bodies[i][0], "first contact": times.get((k, i))} for k, i in self.spans]
+
+
+def _moves(arm: Arm, number: int) -> bool:
+    """Whether a link has a length, and an end that moves."""
+    row = arm.rows[number - 1]
+    slides = row.joint is not None and row.joint.motion is JointKind.PRISMATIC
+    return (slides or bool(row.a or row.d)) and not (is_fixed(arm, number - 1) and is_fixed(arm, number))
+
+
+def _part(first: Trajectory, last: Trajectory, piece: int, low: Fraction, high: Fraction) -> tuple[Bezier, Bezier]:
+    return first.curve(piece).segment(low, high), last.curve(piece).segment(low, high)
+
+
+def _followed(part: Callable[..., tuple[Bezier, Bezier]], body: Body, pieces: int) -> Iterator[Span | Touch]:
+    """Intervals on which half-spaces part a link and a body, up to where they meet. Raises ``Unable``."""
+    todo = [(piece, ZERO, ONE) for piece in reversed(range(pieces))]
+    normal: Point | None = None
+    while todo:
+        piece, low, high = todo.pop()
+        ends = part(piece, low, high)
+        points = [p for curve in ends for p in curve.points]
+        if normal is None or not _is_beyond(body, normal, points):  # the last one often does
+            proposed = _normals(body, *(curve.point(HALF) for curve in ends))
+            normal = next((n for n in proposed if _is_beyond(body, n, points)), None)
+        if normal is not None:
+            yield Span(piece, low, high, normal)
+            continue
+        share, away = _connection(body, *(curve.points[0] for curve in ends))
+        if dot(away, away) <= (body.radius + NEAR / 2) ** 2:
+            yield Touch(piece, low, share)
+            return
+        if high - low < SHORTEST:
+            raise Unable("a link and an obstacle: neither apart nor together")
+        middle = (low + high) / 2
+        todo += [(piece, middle, high), (piece, low, middle)]
+
+
+def _normals(body: Body, a: Vector, b: Vector) -> Iterator[Point]:
+    """Across the shortest connection of a segment with a body, in whole numbers of more and more digits."""
+    if isinstance(body, HalfSpaceBody):
+        yield body.normal
+        return
+    away = _connection(body, a, b)[1]
+    if most := max(map(abs, away)):
+        yield from (tuple(Fraction(round(c * 2**digits / most)) for c in away) for digits in DIGITS)
+
+
+def _connection(body: Body, a: Vector, b: Vector) -> tuple[Fraction, Point]:
+    """About the shortest: where it divides a segment, and the vector to there from a point of the core."""
+    a, b = (tuple(Fraction(round(c * FINE), FINE) for c in p) for p in (a, b))
+    leg, low, high = subtract(b, a), ZERO, ONE
+    if isinstance(body, Rounded):
+        q = nearest(body.core.corners, (a, b))[0]
+        low = min(max(Fraction(dot(subtract(q, a), leg)) / (dot(leg, leg) or 1), ZERO), ONE)
+    else:  # along the segment the distance is convex
+        while high - low > Fraction(1, FINE):
+            p = _between(a, b, (low + high) / 2)
+            ahead = dot(subtract(p, body.nearest(p)), leg) > 0
+            low, high = (low, (low + high) / 2) if ahead else ((low + high) / 2, high)
+        q = body.nearest(_between(a, b, low))
+    share = Fraction(round(low * FINE), FINE)
+    return share, subtract(_between(a, b, share), q)
+
+
+def _between(a: Vector, b: Vector, share: Fraction) -> Point:
+    return tuple(x + share * (y - x) for x, y in zip(a, b, strict=True))
+
+
+def _level(body: Body, normal: Point) -> Fraction | None:
+    """Of the half-space with this normal that holds a body and nearly touches it; None where there is none."""
+    level = body.support(normal)
+    return None if level is None else level + body.radius * root_above(Fraction(dot(normal, normal)), BITS)
+
+
+def _is_beyond(body: Body, normal: Point, points: Sequence[Vector]) -> bool:
+    level = _level(body, normal)
+    return level is not None and all(dot(normal, p) > level for p in points)

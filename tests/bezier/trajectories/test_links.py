@@ -1,0 +1,155 @@
+"""The links of an arm in a scene: against distances of samples, and certificates that say something else."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction as F
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+import bezier
+import qe
+from bezier.arm.kinematics import skeleton
+from bezier.arm.reader import load_arm
+from bezier.arm.tip import frames_of, is_fixed
+from bezier.cli import main
+from bezier.pictures.distance import signed_distances
+from bezier.trajectories.links import NEAR, Links, Span, Touch
+from bezier.trajectories.objects import from_scipy
+from qe.errors import InputError
+from tests.tables import each
+
+TIMES, SHARES = np.linspace(0, 2, 81), np.linspace(0, 1, 61)[:, None]
+MOTION = CubicSpline([0, 1, 2], [[0, 0, 0], [0.5, 0.4, -0.3], [0.9, 0.2, 0.6]])
+SMALL = CubicSpline([0, 1, 2], [[0, 0, 0], [0.1, 0.05, -0.02], [0.2, 0.1, -0.05]])
+BALL = {"kind": "ball", "centre": [200, 150, 0], "radius": 20}
+"""Clear of the planar arm, which has links of 100, 80 and 50 mm."""
+
+
+def places(arm: str) -> Any:
+    """Of all frames at all times."""
+    return np.array([skeleton(load_arm(arm), q) for q in MOTION(TIMES)])
+
+
+def distances(found: Links, arm: str) -> dict[tuple[int, int], Any]:
+    """Of links and bodies, over the time."""
+    at, result = places(arm), {}
+    for k, i in found.spans:
+        points = [(1 - SHARES) * p[k - 1] + SHARES * p[k] for p in at]
+        result[k, i] = np.array([signed_distances(p, found.bodies[i][1]).min() for p in points]) + float(NEAR)
+    return result
+
+
+@each(
+    {"kind": "ball", "centre": [150, 60, 60], "radius": 30},
+    {"kind": "box", "low": [150, 40, -10], "high": [170, 60, 200], "margin": 4},
+    {"kind": "half_space", "normal": [-2, 0, 1], "offset": -300},
+    {"kind": "cylinder", "centre": [120, 70], "radius": 25},
+    {"kind": "capsule", "start": [180, 90, -50], "end": [150, 150, 200], "radius": 20},
+    daily=2,
+)
+@pytest.mark.parametrize("arm", ["planar-3r", "ev3-120"])
+def test_links_meet_what_samples_meet_and_when(obstacle: dict[str, Any], arm: str) -> None:
+    found = bezier.certify(MOTION, robot=arm, obstacles=[obstacle]).links
+    assert found is not None
+    for pair, away in distances(found, arm).items():
+        if pair not in found.touches:
+            assert away.min() > 0
+            continue
+        k = int(np.searchsorted(TIMES, float(found.time(pair))))
+        assert away[: max(k - 1, 0)].min(initial=1) > 0 > away[max(k - 1, 0) : k + 2].min() - 0.6
+
+
+@each(-1, 1)
+def test_a_ball_is_met_when_it_grows_by_a_hundredth(side: int) -> None:
+    centre = [200, 60, 40]
+    ends = (skeleton(load_arm("planar-3r"), SMALL(t)) for t in np.linspace(0, 2, 2001))
+    nearest = (((1 - SHARES) * p[2] + SHARES * np.array(p[3])) - centre for p in ends)
+    far = float(min(np.linalg.norm(points, axis=1).min() for points in nearest))
+    result = bezier.certify(
+        SMALL, robot="planar-3r", obstacles=[{**BALL, "centre": centre, "radius": far + side / 100}]
+    )
+    assert result.kept is (side < 0) and ("first at the time" in str(result)) is (side > 0)
+    result.check(qe.Certificate.from_json(result.certificate.to_json()))
+    assert "distance from ball 1" in result.page()
+
+
+@pytest.mark.parametrize("arm", ["ev3-120", "cylindrical", "six-joints"])
+def test_frames_are_where_floating_point_has_them_and_fixed_ones_stay(arm: str) -> None:
+    model, error = load_arm(arm), F(1, 2**20)
+    q = CubicSpline([0, 1], np.random.default_rng(3).uniform(-0.5, 0.5, (2, len(model.joints))))
+    frames = frames_of(model, from_scipy(q), error, range(len(model.rows) + 1))
+    ends = np.array([skeleton(model, q(t)) for t in (0, 0.4, 1)])
+    for k, frame in enumerate(frames):
+        ours = [[float(p(F(length))) for p in row] for row, length in zip(frame.pieces, frame.lengths, strict=True)]
+        assert np.linalg.norm(np.array(ours[-1]) - ends[2, k]) < float(error) + 1e-9
+        assert is_fixed(model, k) is bool(np.ptp(ends[:, k], axis=0).max() < 1e-9)
+
+
+def test_a_table_under_the_base_is_not_met_by_what_never_moves() -> None:
+    table = {"kind": "half_space", "normal": [0, 0, 1], "offset": 0}
+    assert bezier.certify(SMALL, robot="ev3-120", obstacles=[table]).kept
+    with pytest.raises(InputError, match="no margin for a formula"):
+        bezier.certify(SMALL, robot="ev3-120", obstacles=[{"kind": "formula", "formula": "x >= 900"}])
+
+
+@pytest.fixture(scope="module")
+def clear() -> Any:
+    return bezier.certify(SMALL, robot="planar-3r", obstacles=[BALL])
+
+
+def test_a_certificate_has_to_cover_the_time_with_parts_of_pieces(clear: Any) -> None:
+    """What is proved is true, but it is less than what is claimed."""
+    links: Links = clear.links
+    pair, spans = next((pair, spans) for pair, spans in links.spans.items() if len(spans) > 1)
+    wide = (*spans[:-2], Span(spans[-2].piece, F(0), F(2), spans[-2].normal))  # beyond its piece
+    for fewer in (spans[1:], spans[:-1], wide):
+        members = list(replace(links, spans={**links.spans, pair: fewer}).members())
+        with pytest.raises(qe.CertificateRejected, match=r"cover|no part"):
+            clear.check(qe.Certificate.bundle(members))
+
+
+def test_a_contact_is_not_believed_and_neither_is_another_scene(clear: Any) -> None:
+    other = bezier.certify(SMALL, robot="planar-3r", obstacles=[{**BALL, "radius": 21}])
+    late = bezier.certify(SMALL, robot="planar-3r", obstacles=[{**BALL, "centre": [215, 70, 0]}])
+    with pytest.raises(qe.CertificateRejected):
+        other.check(clear.certificate)
+    ((pair, touch),) = late.links.touches.items()
+    for moved in (Touch(touch.piece, touch.t + F(1, 64), touch.share), Touch(touch.piece, touch.t, touch.share / 2)):
+        forged = replace(late.links, touches={pair: moved})
+        with pytest.raises((qe.CertificateRejected, qe.Unable)):
+            late.check(qe.Certificate.bundle(list(forged.members())))
+
+
+@each(*range(40), daily=6)
+def test_altered_certificates_are_rejected(seed: int, clear: Any) -> None:
+    random, members = np.random.default_rng(seed), [(m.label, m.certificate) for m in clear.certificate.payload]
+    i = random.integers(len(members))
+    other = next(proof for _, proof in members[::-1] if proof != members[i][1])  # a fixed frame says the same twice
+    label, digits = members[i][0], [k for k, c in enumerate(members[i][0]) if c.isdigit()]
+    k = int(random.choice(digits))
+    changed = label[:k] + str((int(label[k]) + 1 + seed % 9) % 10) + label[k + 1 :]
+    for listed in (
+        members[:i] + members[i + 1 :],
+        [*members, members[i]],
+        [(changed, m[1]) if m is members[i] else m for m in members],
+        [(m[0], other) if m is members[i] else m for m in members],
+    ):
+        with pytest.raises(qe.CertificateRejected):
+            clear.check(qe.Certificate.bundle(listed))
+
+
+def test_both_doors_say_the_same_of_links(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, scene, proof = tmp_path / "q.csv", tmp_path / "s.json", tmp_path / "c.json"
+    file.write_text("time,q1,q2,q3\n0,0,0,0\n1,1,0.5,0.5\n")
+    scene.write_text(json.dumps({"obstacle": [BALL]}))
+    words = ["certify", str(file), "--robot", "planar-3r", "--scene", str(scene)]
+    assert main([*words, "--json", "--certificate", str(proof)]) == 0
+    result = bezier.certify(str(file), robot="planar-3r", obstacles=[BALL])
+    assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(result.to_json()))
+    assert main([*words, "--check", str(proof)]) == 0 and result.to_json()["links"]
