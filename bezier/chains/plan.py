@@ -71,8 +71,8 @@ class ChainPlan:
         if self.value is None or self.bound is None:
             return ""
         words, gap, size = ("a billionth", "a millionth", "a thousandth"), self.value - self.bound, abs(self.value)
-        known = (word for word, share in zip(words, GAPS, strict=True) if gap <= share * size)
-        return next(known, f"{100 * float(gap / size):.2g} %")
+        known = [word for word, share in zip(words, GAPS, strict=True) if gap <= share * size]
+        return known[0] if known else f"{100 * float(gap / size):.2g} %"
 
     def exactly(self) -> Exact | None:
         """The optimum itself as an algebraic number, where at most two conditions are active; else None."""

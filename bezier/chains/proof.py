@@ -174,8 +174,7 @@ def best(
     if not points:
         raise Unable("no point near the optimum keeps all conditions")
     free = min(points, key=objective.value)
-    fitted = proposals.fitted_weights(varying, objective, proposal.point) or ()
-    multipliers, value = [*rational_weights(proposal.weights), *rational_weights(fitted)], objective.value(free)
+    multipliers, value = rational_weights(proposal.weights), objective.value(free)
     bound, _, weights = lower_bound(chain, size, objective, varying, multipliers, value - gaps[0] * abs(value))
     named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
     gap = next((gap for gap in gaps if value - bound <= gap * abs(value)), gaps[-1])
@@ -192,19 +191,19 @@ def lower_bound(
 ) -> tuple[Fraction, tuple[Point, ...], Sequence[Fraction]]:
     """The best bound that one of these multipliers proves, or the first that is ``enough``; where the sum with them is
     least; and they. Raises ``Unable`` where none proves one."""
-    found = None
+    highest = None
     for weights in multipliers:
         if min(weights, default=_ZERO) < 0:  # these prove nothing
             continue
         held = [(w, row.form) for w, row in zip(weights, rows, strict=True) if w]
         lowest = weighted_sum([(_ONE, objective), *held]).minimum(size, chain.dimension)
-        if lowest is not None and (found is None or lowest[1] > found[0]):
-            found = lowest[1], lowest[0], weights
-            if enough is not None and found[0] >= enough:
+        if lowest is not None and (highest is None or lowest[1] > highest[0]):
+            highest = lowest[1], lowest[0], weights
+            if enough is not None and highest[0] >= enough:
                 break
-    if found is None:
+    if highest is None:
         raise Unable("it is unbounded, or no bound was proved")
-    return found
+    return highest
 
 
 def bounded(

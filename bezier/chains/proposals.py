@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, isfinite, sqrt
-from typing import Any
 
 from bezier.chains.chain import Chain, Equation, Place, equations
 from bezier.chains.form import Affine, Form, Requirement
@@ -16,8 +15,6 @@ from qe.extras import wanted
 TOLERANCES = (1e-12, 1e-10, 1e-8)
 """Tried in this order: what is out of reach ends far from the optimum."""
 ROUGH = 1e-9
-ACTIVE = Fraction(1, 10**6)
-"""The share of its room within which a condition counts as active."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,35 +154,3 @@ def loosened(chain: Chain, free: str = "") -> Loosened | None:
         for p, w in e.terms if e.order else ():
             slopes[paces[p[0]]] -= unit * e.order * float(w) * sum(c * x[i] for c, i in zip(z, at(p), strict=True))
     return Loosened(x[length[0]] * unit, slopes)
-
-
-def fitted_weights(
-    rows: Sequence[Requirement], objective: Form, point: Sequence[Sequence[float]]
-) -> tuple[float, ...] | None:
-    """Multipliers of the conditions that are active at a point, for which the Lagrange function is nearly stationary
-    there (least squares): better ones than the solver's where it stopped early."""
-    with wanted():
-        import numpy as np
-        from scipy.optimize import nnls
-    free = tuple(tuple(Fraction(c) for c in p) for p in point)
-    active = [k for k, row in enumerate(rows) if row.form.value(free) > -ACTIVE * (abs(row.form.constant) + 1)]
-    if not active:
-        return None
-    at = np.array(point, dtype=float)
-    columns = np.array([_slope(rows[k].form, at).ravel() for k in active]).T
-    try:
-        weights, _ = nnls(columns, -_slope(objective, at).ravel())
-    except (RuntimeError, ValueError):
-        return None
-    named = dict(zip(active, weights.tolist(), strict=True))
-    return tuple(named.get(k, 0.0) for k in range(len(rows)))
-
-
-def _slope(form: Form, at: Any) -> Any:
-    """The gradient, in floating point."""
-    slope = 0 * at
-    for (i, j), m in form.matrix.items():
-        slope[i] += 2 * float(m) * at[j]
-    for i, g in form.gradient.items():
-        slope[i] += [float(c) for c in g]
-    return slope

@@ -181,5 +181,5 @@ def _paced(given: Chain, k: int, factor: float) -> Chain:
 
 
 def _excess(chain: Chain) -> float:
-    found = loosened(chain)
-    return 1.0 if found is None else found.excess
+    loose = loosened(chain)
+    return 1.0 if loose is None else loose.excess

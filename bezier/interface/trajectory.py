@@ -58,7 +58,7 @@ def certify(
     ``BSpline`` of SciPy, a ``Trajectory``, or what ``bezier.plan`` and ``bezier.chain`` give. Limits are the keys of
     the command's file: one number for all axes or one for each, ``position`` a pair or a pair for each; in the units of
     the trajectory, and seconds. ``obstacles`` are tables as for ``bezier.plan``; for two axes bodies of the
-    plane. Positions may jump by ``tolerance``.
+    plane; with a ``robot`` its links have to be clear of them. Positions may jump by ``tolerance``.
 
     ``robot``: the name or file of an arm, or a ``Robot``: then the axes are its joints, whose limits have to hold, too.
     ``along`` and ``within``: the distance (mm) of the point, or of the robot's end point, from a Cartesian path at the

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, partial
-from itertools import groupby
+from itertools import chain, groupby
 from typing import Any
 
 from bezier.arm.model import Arm, JointKind
@@ -87,10 +87,10 @@ class Links:
         for k in numbers:
             part = cache(partial(_part, frames[k - 1], frames[k]))
             for i, (_, body) in enumerate(bodies):
-                found = list(_followed(part, body, len(frames[k].pieces)))
-                spans[k, i] = tuple(s for s in found if isinstance(s, Span))
-                if isinstance(found[-1], Touch):
-                    touches[k, i] = found[-1]
+                steps = list(_followed(part, body, len(frames[k].pieces)))
+                spans[k, i] = tuple(s for s in steps if isinstance(s, Span))
+                if isinstance(steps[-1], Touch):
+                    touches[k, i] = steps[-1]
         return Links(frames, tuple(bodies), spans, touches)
 
     def time(self, pair: Pair) -> Fraction:
@@ -105,7 +105,7 @@ class Links:
         return Bezier(tuple(_between(a, b, touch.share) for a, b in zip(*ends, strict=True)))
 
     # --- proof ------------------------------------------------------------------------------------------------
-    def _apart(self) -> Iterator[tuple[str, Bezier, Obstacle]]:
+    def _clear(self) -> Iterator[tuple[str, Bezier, Obstacle]]:
         """Of each origin and interval: a label, the curve, and the half-spaces that it is not in."""
         spans = ((pair, span) for pair, listed in self.spans.items() for span in listed)
         ends = ((k, pair, s) for pair, s in spans for k in (pair[0] - 1, pair[0]))
@@ -121,7 +121,7 @@ class Links:
             where = Obstacle(label, ObstacleKind.FORMULA, tuple(pieces))
             yield label, self.frames[k].curve(piece).segment(low, high), where
 
-    def _met(self) -> Iterator[tuple[str, CurveSentence, Fraction]]:
+    def _touching(self) -> Iterator[tuple[str, CurveSentence, Fraction]]:
         """That links meet bodies, each at a time."""
         for pair, touch in self.touches.items():
             body = self.bodies[pair[1]][1]
@@ -132,11 +132,11 @@ class Links:
 
     def members(self) -> Iterator[tuple[str, Certificate]]:
         """The proof. Raises ``Unable``."""
-        for label, curve, where in self._apart():
+        for label, curve, where in self._clear():
             if (proof := clearance_certificate(curve, where)) is None:
                 raise Unable("an interval has no certificate")
             yield label, proof
-        yield from ((label, sentence.holds_at(t)) for label, sentence, t in self._met())
+        yield from ((label, sentence.holds_at(t)) for label, sentence, t in self._touching())
 
     def stated(self, labels: Sequence[str]) -> list[Said]:
         """What a certificate with these labels has to say so that it proves this; nothing is searched for. Raises
@@ -148,9 +148,10 @@ class Links:
                 reached = max(reached, span.piece + span.high) if span.piece + span.low <= reached else reached
             if reached < (len(self.frames[pair[0]].pieces) if touch is None else touch.piece + touch.t):
                 raise CertificateRejected(f"link {pair[0]}", "its intervals do not cover the time")
-        apart = [(label, meeting(curve, where), FALSE) for label, curve, where in read._apart()]
-        met = [(label, sentence, TRUE) for label, sentence, _ in self._met()]
-        return [(label, sentence.formula, truth) for label, sentence, truth in (*apart, *met) if sentence is not None]
+        clear = ((label, meeting(curve, where), FALSE) for label, curve, where in read._clear())
+        touching = ((label, sentence, TRUE) for label, sentence, _ in self._touching())
+        listed = chain(clear, touching)
+        return [(label, sentence.formula, truth) for label, sentence, truth in listed if sentence is not None]
 
     def _read(self, labels: Sequence[str]) -> dict[Pair, tuple[Span, ...]]:
         """The spans that labels state, of the ends of links."""
@@ -176,8 +177,8 @@ class Links:
         result = []
         for pair in sorted(self.touches, key=self.time):
             place = ", ".join(f"{float(c):.6g}" for c in self.through(pair).point(self.touches[pair].t))
-            met = f"link {pair[0]}: meets {self.bodies[pair[1]][0]} (within {float(3 * NEAR):.1g} mm)"
-            result.append(f"{met}, first at the time {float(self.time(pair)):.10g}, at ({place})")
+            said = f"link {pair[0]}: meets {self.bodies[pair[1]][0]} (within {float(3 * NEAR):.1g} mm)"
+            result.append(f"{said}, first at the time {float(self.time(pair)):.10g}, at ({place})")
         return result
 
     def to_json(self) -> list[dict[str, Any]]:

@@ -65,6 +65,7 @@ ROWS = {
     "bezier.trajectories": 15,
     "bezier.trajectories.along": 18,
     "bezier.trajectories.command": 23,
+    "bezier.trajectories.links": 18,
     "bezier.scenes": 15,
     "bezier.scenes.command": 24,
     "bezier.retiming": 17,

@@ -224,6 +224,7 @@ def test_a_least_value_that_many_chains_have_is_exact() -> None:
     flat = chain(PLANE, continuity=1, objective="jerk", half_spaces=[([1, 0], "-0.1")], radius=8)
     none = chain(PLANE[:3], degree=5, objective="middle legs", velocities=[[0, 0], [-1, -3]], radius=6)
     assert flat.value == flat.bound == 0 == none.value == none.bound
+    assert str(flat) == "3 curves, objective 0, proved to a billionth"  # ended in a division by zero
 
 
 def test_a_chain_that_is_determined_has_a_certificate() -> None:
