@@ -164,7 +164,10 @@ class Certified:
             if "domain" in table.values:
                 raise table.error("domain", "none with --robot (obstacles around it)", "one")
             scene = scene_of(table, tip_of(robot, trajectory, NEAR), NEAR)
-            links = Links.of(robot, trajectory, [(b.name, b.body) for b in scene.bodies if b.body is not None])
+            bodies = [(b.name, b.body) for b in scene.bodies if b.body is not None]
+            if len(bodies) < len(scene.bodies):
+                raise table.error("obstacle", "bodies with --robot", "one that is none")
+            links = Links.of(robot, trajectory, bodies)
         elif table is not None:
             scene = scene_of(table, trajectory)
             obstacles, inside = in_the_way(scene, len(trajectory.names))
