@@ -211,7 +211,7 @@ def planned(given: Chain) -> ChainPlan:
     conflict = smallest_conflict(given, solved, found)
     if _is_bounded(given):  # a repair would have to keep the bounds, too
         return ChainPlan(given, (), None, None, found.certificate, conflict)
-    return ChainPlan(given, (), None, None, found.certificate, conflict, least_radius(given, solved, rows))
+    return ChainPlan(given, (), None, None, found.certificate, conflict, least_radius(given))
 
 
 def _is_quick(given: Chain) -> bool:

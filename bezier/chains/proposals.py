@@ -27,20 +27,18 @@ class Proposal:
     excess: float = 0.0
 
 
-def least_excess(chain: Chain, size: int, rows: Sequence[Requirement], *, balls_only: bool = False) -> Proposal | None:
-    """The smallest t such that all conditions hold with balls and half-spaces larger by t. ``balls_only``: half-spaces
-    as they are. None where clarabel gives up."""
-    return _solved(chain, size, rows, None, balls_only)
+def least_excess(chain: Chain, size: int, rows: Sequence[Requirement]) -> Proposal | None:
+    """The smallest t such that all conditions hold with balls and half-spaces larger by t. None where clarabel gives
+    up."""
+    return _solved(chain, size, rows, None)
 
 
 def least_value(chain: Chain, size: int, rows: Sequence[Requirement], objective: Form) -> Proposal | None:
     """The point where the objective is least, with multipliers."""
-    return _solved(chain, size, rows, objective, False)
+    return _solved(chain, size, rows, objective)
 
 
-def _solved(
-    chain: Chain, size: int, rows: Sequence[Requirement], objective: Form | None, balls_only: bool
-) -> Proposal | None:
+def _solved(chain: Chain, size: int, rows: Sequence[Requirement], objective: Form | None) -> Proposal | None:
     with wanted():
         from bezier.conic import Conic
     d, unit = chain.dimension, max(abs(float(c)) for p in chain.points for c in p)
@@ -53,13 +51,13 @@ def _solved(
         if row.squares:
             lengths.append(sqrt(max(float(row.right), 0.0)) / unit)
             parts = [part for w, point in row.squares for part in _scaled(point, sqrt(w), at, d, unit)]
-            program.cone([(excess if row.is_ball or not balls_only else [], lengths[-1]), *parts])
+            program.cone([(excess, lengths[-1]), *parts])
         else:
             line = [(at[i][k], float(c)) for i, g in row.form.gradient.items() for k, c in enumerate(g)]
             lengths.append(sqrt(sum(c * c for _, c in line)))
             downhill = [(k, -c / lengths[-1]) for k, c in line]
             level = float(row.form.constant) / lengths[-1] / unit
-            program.at_least([*downhill, *([] if balls_only else excess)], level)
+            program.at_least([*downhill, *excess], level)
     scale = 1.0
     if objective is None:
         program.at_least(excess, -(max(lengths, default=1.0) or 1.0))
@@ -109,9 +107,9 @@ class Loosened:
 
 
 def loosened(chain: Chain, free: str = "") -> Loosened | None:
-    """By how much conditions have to be given up; where a point or velocity is ``free`` they hold, and that is by how
-    much it has to move. All control points are variables here and joins equations, which is quick. None where no length
-    is enough."""
+    """By how much conditions have to be given up, with "radius" ``free`` those of the ball; where a point or velocity
+    is free they hold, and that is by how much it has to move. Joins are equations here, between all control points,
+    which is quick. None where no length is enough."""
     with wanted():
         from bezier.conic import Conic
     d, unit, program = chain.dimension, max(abs(float(c)) for p in chain.points for c in p), Conic(ROUGH)
@@ -142,7 +140,7 @@ def loosened(chain: Chain, free: str = "") -> Loosened | None:
         for normal, offset in chain.half_spaces:
             size = sqrt(sum(c * c for c in normal))
             downhill = [(i, float(c) / size) for i, c in zip(point, normal, strict=True)]
-            program.at_least([*downhill, *excess], float(offset) / size / unit)
+            program.at_least([*downhill, *(excess if free != "radius" else [])], float(offset) / size / unit)
     if (x := program.solved()) is None:
         return None
     paces = chain.paces

@@ -17,9 +17,7 @@ from fractions import Fraction
 from math import exp
 from typing import Any
 
-from bezier.chains import proposals
 from bezier.chains.chain import Chain, requirements
-from bezier.chains.form import Requirement, Solved
 from bezier.chains.proof import GAPS, LEAST, Contradiction, best, decided, feasible
 from bezier.chains.proposals import loosened
 from bezier.chains.region import Places, at_label
@@ -92,15 +90,12 @@ def both_sides(chain: Chain, change: str, enough: Fraction, less: Fraction) -> R
     )
 
 
-def least_radius(given: Chain, solved: Solved, rows: Sequence[Requirement]) -> Repair | None:
+def least_radius(given: Chain) -> Repair | None:
     """The least radius with which there is a chain, from both sides."""
-    if given.radius_squared is None:
+    loose = None if given.radius_squared is None else loosened(given, "radius")
+    if given.radius_squared is None or loose is None:
         return None
-    free = [row for row in rows if not row.form.is_constant]
-    proposal = proposals.least_excess(given, solved.size, free, balls_only=True) if free else None
-    fixed = [row.form.constant for row in rows if row.form.is_constant and row.is_ball]
-    farthest = float(max(fixed, default=Fraction(0)) + given.radius_squared) ** 0.5
-    wanted = Fraction(max(float(given.radius_squared) ** 0.5 + (proposal.excess if proposal else 0.0), farthest))
+    wanted = Fraction(float(given.radius_squared) ** 0.5 + loose.excess)
     return both_sides(given, "radius", wanted * (1 + NARROW), wanted * (1 - NARROW))
 
 
