@@ -161,11 +161,12 @@ class Links:
             if matched is None:
                 continue
             k, piece, low, high = (stored.rational(text, label) for text in matched.groups()[:4])
-            for link, i, *normal in (stored.row(entry, label) for entry in matched[5].split("; ")):
-                pair, is_part = (int(link), int(i)), 0 <= low < high <= 1
-                if pair not in spans or k not in (link, link - 1) or not is_part or len(normal) != 3 or not any(normal):
+            for row in (stored.row(entry, label) for entry in matched[5].split("; ")):
+                pair, normal = tuple(map(int, row[:2])), row[2:]
+                is_known = len(row) == 5 and any(normal) and pair in spans
+                if not (is_known and 0 <= low < high <= 1 and piece < len(self.frames[pair[0]].pieces)):
                     raise CertificateRejected(label, "no part of a piece, link, body or normal")
-                spans[pair] += (Span(int(piece), low, high, tuple(normal)),) * (k == link)
+                spans[pair[0], pair[1]] += (Span(int(piece), low, high, normal),) * (k == pair[0])
         return spans
 
     # --- words ------------------------------------------------------------------------------------------------

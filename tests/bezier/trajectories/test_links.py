@@ -106,6 +106,7 @@ def clear() -> Any:
 def test_a_certificate_has_to_cover_the_time_with_parts_of_pieces(clear: Any) -> None:
     """What is proved is true, but it is less than what is claimed."""
     links: Links = clear.links
+    assert links.bodies[0][1].radius == 20 + NEAR  # of the ball
     pair, spans = next((pair, spans) for pair, spans in links.spans.items() if len(spans) > 1)
     wide = (*spans[:-2], Span(spans[-2].piece, F(0), F(2), spans[-2].normal))  # beyond its piece
     for fewer in (spans[1:], spans[:-1], wide):
@@ -126,6 +127,16 @@ def test_a_contact_is_not_believed_and_neither_is_another_scene(clear: Any) -> N
             late.check(qe.Certificate.bundle(list(forged.members())))
 
 
+@each("", "1", "a b c d e", "1 0 0 0 0", "1 5 1 0 0", "9 0 1 0 0", "1/2 0 1 0 0", "1 0 1e999999 0 0", "1 0 1 0 0")
+def test_labels_that_say_nothing_are_rejected(entry: str, clear: Any) -> None:
+    """Some ended in an error of the reader."""
+    members = [(m.label, m.certificate) for m in clear.certificate.payload]
+    for piece in (0, 7):
+        added = (f"frame 1, piece {piece} from 0 to 1: {entry}", members[0][1])
+        with pytest.raises(qe.CertificateRejected):
+            clear.check(qe.Certificate.bundle([*members, added]))
+
+
 @each(*range(40), daily=6)
 def test_altered_certificates_are_rejected(seed: int, clear: Any) -> None:
     random, members = np.random.default_rng(seed), [(m.label, m.certificate) for m in clear.certificate.payload]
@@ -137,6 +148,7 @@ def test_altered_certificates_are_rejected(seed: int, clear: Any) -> None:
     for listed in (
         members[:i] + members[i + 1 :],
         [*members, members[i]],
+        [*members, (label.replace("piece ", "piece 9", 1), other)],
         [(changed, m[1]) if m is members[i] else m for m in members],
         [(m[0], other) if m is members[i] else m for m in members],
     ):
