@@ -15,6 +15,7 @@ from qe.extras import wanted
 TOLERANCES = (1e-12, 1e-10, 1e-8)
 """Tried in this order: what is out of reach ends far from the optimum."""
 ROUGH = 1e-9
+"""Where many problems are compared."""
 
 
 @dataclass(frozen=True, slots=True)
