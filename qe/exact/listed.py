@@ -27,6 +27,9 @@ class ListedPoly(WidePoly):
         # from the main variable down: the lexicographic order, highest first
         self.__dict__["_terms"] = tuple(sorted(terms, key=lambda term: term[0][::-1], reverse=True))
 
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        return ListedPoly, (self.ring, self._terms)
+
     @cached_property
     def p(self) -> fmpz_mpoly:
         return self.ring.from_sparse(self._terms).p
