@@ -48,6 +48,9 @@ MANY = 24
 """The same for so many alternatives of linear conditions in fewer variables (measured: two variables, each in one of 80
 intervals, 0.4 s for 0.1 s)."""
 
+LINEAR_TERMS = 1000
+"""Coefficients from which on a conjunction of linear conditions is decided as it stands."""
+
 POSITION_TERMS = 5000
 """Terms of all atoms together up to which better coordinates are looked for."""
 
@@ -111,6 +114,17 @@ def definitions(problem: Block, options: Options) -> str | None:
 def quantified(problem: Block, options: Options) -> str | None:
     """Any quantifier."""
     return None if problem.formula.is_quantifier_free else "quantifiers"
+
+
+def large_linear_system(problem: Block, options: Options) -> str | None:
+    """A sentence of linear conditions with so many coefficients that even simplifying takes longer than deciding."""
+    if problem.free or not problem.is_flat or options.method not in (Method.AUTO, Method.CONVEX):
+        return None
+    found = [a.poly for a in problem.conditions if isinstance(a, Atom) and a.relation is not Relation.NE]
+    if len(found) < len(problem.conditions) or any(poly.total_degree > 1 for poly in found):
+        return None
+    count = sum(poly.term_count() for poly in found)
+    return f"linear conditions with {count} coefficients" if count >= LINEAR_TERMS else None
 
 
 def curved_and_bound(problem: Block, options: Options) -> str | None:

@@ -77,7 +77,7 @@ class Ring:
 
     def constant(self, value: int) -> Poly:
         """The constant polynomial ``value``."""
-        return self.element(self.ctx.constant(value))
+        return self.element(self.ctx.constant(value), ())
 
     def element(self, p: fmpz_mpoly, support: Iterable[int] | None = None) -> Poly:
         """The polynomial with this value in FLINT; ``support``, where known, has all variables that occur."""
@@ -89,7 +89,7 @@ class Ring:
             raise InternalError("negative exponent")
         if self.size == 0:
             return self.constant(sum(terms.values()))
-        return Poly(self, self.ctx.from_dict({tuple(reversed(e)): int(c) for e, c in terms.items()}))
+        return self.element(self.ctx.from_dict({tuple(reversed(e)): int(c) for e, c in terms.items()}))
 
     def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
         """The polynomial with these terms; see ``Poly.sparse_terms``."""
@@ -195,7 +195,7 @@ class Poly:
     __rmul__ = __mul__
 
     def __neg__(self) -> Poly:
-        return self._scaled(-self.p)
+        return self._like(-self.p)
 
     def __pow__(self, exponent: int) -> Poly:
         return self._like(self.p**exponent)
@@ -207,10 +207,6 @@ class Poly:
     def _like(self, p: fmpz_mpoly) -> Poly:
         """A polynomial of the ring in which no other variables occur than here."""
         return Poly(self.ring, p)
-
-    def _scaled(self, p: fmpz_mpoly) -> Poly:
-        """A polynomial of the ring with just the monomials that occur here."""
-        return self._like(p)
 
     # --- structure -------------------------------------------------------------------------
     @cached_property
@@ -338,7 +334,7 @@ class Poly:
         unit = int(content)
         if primitive.leading_coefficient() < 0:
             unit, primitive = -unit, -primitive
-        return unit, (self if unit == 1 else self._scaled(primitive))
+        return unit, (self if unit == 1 else self._like(primitive))
 
     def normal(self) -> tuple[int, Poly]:
         """(u, q) with self = u*q, q primitive with positive leading coefficient; (0, 0) for zero."""

@@ -11,17 +11,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
-from math import lcm
+from math import gcd, lcm
+from operator import mul
 
-from flint import fmpq, fmpz, fmpz_mpoly, fmpz_poly
+from flint import fmpq, fmpz, fmpz_mpoly
 
-from qe.errors import InternalError
 from qe.exact.poly import Factors, Poly, Ring, SparseTerm
 
 WIDE = 24
 """In rings with more variables, polynomials keep track of the few that they contain."""
-_FEW = 8
-"""Variables that are looked for one by one."""
 
 
 class WideRing(Ring, more_than=WIDE):
@@ -34,28 +32,27 @@ class WideRing(Ring, more_than=WIDE):
         """The polynomial with this value in FLINT; ``support``, where known, has all variables that occur."""
         return WidePoly(self, p) if support is None else WidePoly.of(self, p, frozenset(support))
 
-    def constant(self, value: int) -> Poly:
-        return self.element(self.ctx.constant(value), ())
-
-    def from_terms(self, terms: Mapping[tuple[int, ...], int]) -> Poly:
-        """The polynomial with coefficient ``terms[e]`` at the exponent vector ``e`` (in ring order)."""
-        if any(k < 0 for e in terms for k in e):
-            raise InternalError("negative exponent")
-        return self.from_sparse([(tuple((i, k) for i, k in enumerate(e) if k), int(c)) for e, c in terms.items()])
+    def gen(self, i: int) -> Poly:
+        return LinearPoly(self, (i,), (1,))
 
     def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
         sums: dict[tuple[str, ...], int] = {}
         for powers, c in terms:
-            names = tuple(self.names[i] for i, k in powers for _ in range(k))
-            sums[names] = sums.get(names, 0) + c
-        kept = {names: c for names, c in sums.items() if c}
-        return self.combination(kept) if kept else self.constant(0)
+            key = tuple([self.names[i] for i, k in powers for _ in range(k)])
+            sums[key] = sums.get(key, 0) + c
+        return self.combination({key: c for key, c in sums.items() if c})
+
+    def linear(self, terms: Mapping[int, int], rest: int) -> Poly:
+        """The sum of multiples, not by zero, of variables, and a number."""
+        variables = tuple(sorted(terms))
+        numbers = tuple(map(terms.__getitem__, variables))
+        return LinearPoly(self, variables, numbers, rest) if terms else self.constant(rest)
 
     def combination(self, coefficients: Mapping[tuple[str, ...], int]) -> Poly:
-        made = super().combination(coefficients)
-        if isinstance(made, WidePoly):
-            made.__dict__["variables"] = tuple(sorted(made.support))  # nothing cancels
-        return made
+        if max(map(len, coefficients), default=0) < 2:
+            terms = {self.index[name]: c for names, c in coefficients.items() for name in names}
+            return self.linear(terms, coefficients.get((), 0))
+        return super().combination(coefficients)
 
     def hash_of(self, p: Poly) -> int:
         """The hash of a polynomial of the ring: equal for equal values."""
@@ -81,11 +78,6 @@ class WidePoly(Poly):
 
     def _like(self, p: fmpz_mpoly) -> WidePoly:
         return WidePoly.of(self.ring, p, self.support)
-
-    def _scaled(self, p: fmpz_mpoly) -> WidePoly:
-        made = self._like(p)
-        made.__dict__["variables"] = self.variables
-        return made
 
     def _with(self, p: fmpz_mpoly, other: Poly | int) -> WidePoly:
         if isinstance(other, int):
@@ -117,10 +109,6 @@ class WidePoly(Poly):
     @cached_property
     def variables(self) -> tuple[int, ...]:
         """The indices that occur, ascending."""
-        count, most = len(self.support), len(self.p)
-        linear = count > _FEW and most >= count and self.p.total_degree() == 1
-        if linear and (most > count or any(self.p.monomial(most - 1))):
-            return tuple(sorted(self.support))
         return tuple(i for i in sorted(self.support) if self.p.derivative(self.ring.slot(i)))
 
     @property
@@ -134,7 +122,7 @@ class WidePoly(Poly):
 
     @cached_property
     def _own_degrees(self) -> dict[int, int]:
-        if self.p.total_degree() == 1:
+        if self.total_degree == 1:
             return dict.fromkeys(self.variables, 1)
         return {i: len(self.coefficients(i)) - 1 for i in self.variables}
 
@@ -150,29 +138,14 @@ class WidePoly(Poly):
         if self.is_constant:
             return (((), self.constant_value()),) if self.p else ()
         if self.total_degree == 1:
-            return self._linear_terms()
+            slots = [(i, self.ring.slot(i)) for i in self.variables]
+            return tuple((tuple((i, 1) for i, slot in slots if e[slot]), int(c)) for e, c in self.p.terms())
         i = self.variables[-1]
         terms: list[SparseTerm] = []
         for k, c in enumerate(self.coefficients(i)):
             below = c._terms if isinstance(c, WidePoly) else c.sparse_terms()
             terms += [((*powers, (i, k)) if k else powers, a) for powers, a in below]
         return tuple(terms)
-
-    def _linear_terms(self) -> tuple[SparseTerm, ...]:
-        coefficients = [int(c) for c in self.p.coeffs()]  # that of the last variable first, the constant last
-        count = len(self.variables)
-        terms = tuple((((i, 1),), c) for i, c in zip(self.variables, coefficients[count - 1 :: -1]))
-        return (*terms, ((), coefficients[-1])) if len(coefficients) > count else terms
-
-    def terms(self) -> list[tuple[tuple[int, ...], int]]:
-        """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
-        terms = []
-        for powers, c in self.sparse_terms():
-            own = [0] * self.ring.size
-            for i, k in powers:
-                own[i] = k
-            terms.append((tuple(own), c))
-        return sorted(terms, key=lambda term: term[0][::-1], reverse=True)
 
     # --- in a ring of the variables that occur --------------------------------------------------
     def _compact(self, *others: Poly) -> tuple[tuple[int, ...], list[Poly]]:
@@ -218,11 +191,6 @@ class WidePoly(Poly):
         return self.at_rationals({i: value}) if i in self.variables else self
 
     def at_rationals(self, values: Mapping[int, Fraction | int]) -> Poly:
-        if self.total_degree == 1:  # one at a time would copy all terms as often
-            whole, put = lcm(*(v.denominator for v in values.values())), {((i, 1),): v for i, v in values.items()}
-            return self.ring.from_sparse(
-                ((), c * int(put[p] * whole)) if p in put else (p, c * whole) for p, c in self.sparse_terms()
-            )
         own, f = self._alone
         return self._expanded(own, f.at_rationals({own.index(i): value for i, value in values.items() if i in own}))
 
@@ -238,10 +206,114 @@ class WidePoly(Poly):
             total += reduce(lambda a, b: a * b, (f**k for f, (_, k) in zip(images, powers, strict=True)), total * 0 + c)
         return total
 
-    def to_univariate(self, i: int) -> fmpz_poly:
-        if self.variables not in ((i,), ()):
-            raise InternalError("a polynomial in one variable expected")
-        return fmpz_poly([c.constant_value() for c in self.coefficients(i)])
+
+class LinearPoly(WidePoly):
+    """sum ``numbers[k]`` * (variable ``variables[k]``) + ``rest``: at least one variable, ascending, no number zero.
+
+    Its value in FLINT, whose terms have a place for every variable of the ring, is made when it is asked for: long
+    scripts have a hundred thousand such forms, and a system of 640 in as many variables would take 2 GB.
+    """
+
+    __slots__ = ()
+    ring: WideRing
+    numbers: tuple[int, ...]
+    rest: int
+
+    def __init__(self, ring: WideRing, variables: tuple[int, ...], numbers: tuple[int, ...], rest: int = 0) -> None:
+        self.ring, self._hash = ring, None
+        known = {"variables": variables, "support": frozenset(variables), "total_degree": 1}
+        self.__dict__.update(known, numbers=numbers, rest=rest)
+
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        return LinearPoly, (self.ring, self.variables, self.numbers, self.rest)
+
+    @cached_property
+    def p(self) -> fmpz_mpoly:
+        terms = {tuple([self.ring.names[i] for i, _ in powers]): c for powers, c in self._terms}
+        return Ring.combination(self.ring, terms).p
+
+    @cached_property
+    def _terms(self) -> tuple[SparseTerm, ...]:
+        terms = tuple((((i, 1),), c) for i, c in zip(self.variables, self.numbers))
+        return (*terms, ((), self.rest)) if self.rest else terms
+
+    @cached_property
+    def _normal(self) -> tuple[int, Poly]:
+        unit = gcd(*self.numbers, self.rest) * (1 if self.numbers[-1] > 0 else -1)
+        if unit == 1:
+            return 1, self
+        return unit, LinearPoly(self.ring, self.variables, tuple([c // unit for c in self.numbers]), self.rest // unit)
+
+    def __neg__(self) -> Poly:
+        return self * -1
+
+    def __mul__(self, other: Poly | int) -> Poly:
+        other = _number(other)
+        if not isinstance(other, int) or not other:
+            return super().__mul__(other)
+        return LinearPoly(self.ring, self.variables, tuple([c * other for c in self.numbers]), self.rest * other)
+
+    def __add__(self, other: Poly | int) -> Poly:
+        other = _number(other)
+        if isinstance(other, int):
+            return LinearPoly(self.ring, self.variables, self.numbers, self.rest + other)
+        if not isinstance(other, LinearPoly) or other.ring is not self.ring:
+            return super().__add__(other)
+        terms = dict(zip(self.variables, self.numbers))
+        for i, c in zip(other.variables, other.numbers):
+            terms[i] = terms.get(i, 0) + c
+        return self.ring.linear({i: c for i, c in terms.items() if c}, self.rest + other.rest)
+
+    def __sub__(self, other: Poly | int) -> Poly:
+        return self + (-other) if isinstance(other, int | LinearPoly) else super().__sub__(other)
+
+    def __pow__(self, exponent: int) -> Poly:
+        return self if exponent == 1 else super().__pow__(exponent)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def coefficients(self, i: int) -> tuple[Poly, ...]:
+        if i not in self.support:
+            return (self,)
+        terms = dict(zip(self.variables, self.numbers))
+        number = terms.pop(i)
+        return self.ring.linear(terms, self.rest), self.ring.constant(number)
+
+    def _factored(self) -> Factors:
+        return self._normal[0], ((self._normal[1], 1),)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, LinearPoly):
+            return super().__eq__(other)
+        parts = [(f.ring, f.rest, f.numbers, f.variables) for f in (self, other)]
+        return parts[0] == parts[1]
+
+    def at_rationals(self, values: Mapping[int, Fraction | int]) -> Poly:
+        whole = lcm(*(v.denominator for v in values.values()))
+        terms, rest = dict(zip(self.variables, self.numbers)), self.rest * whole
+        for i in values.keys() & terms.keys():
+            rest += terms.pop(i) * int(values[i] * whole)
+        return self.ring.linear(terms if whole == 1 else {i: c * whole for i, c in terms.items()}, rest)
+
+    def _at(self, values: Iterable[Fraction | int]) -> fmpq | fmpz | int:
+        point = [v if isinstance(v, int) else fmpq(v.numerator, v.denominator) for v in values]
+        return sum(map(mul, self.numbers, map(point.__getitem__, self.variables)), self.rest)
+
+    def __hash__(self) -> int:
+        if self._hash is None:
+            self._hash = hash((self.variables, *self.numbers[::-1], *([self.rest] if self.rest else ())))
+        return self._hash
+
+    def __bool__(self) -> bool:
+        return True
+
+    def term_count(self) -> int:
+        return len(self.numbers) + bool(self.rest)
+
+
+def _number(given: Poly | int) -> Poly | int:
+    """What is given, as an integer where it is a constant."""
+    return given.constant_value() if isinstance(given, WidePoly) and given.is_constant else given
 
 
 @cache

@@ -42,7 +42,8 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
         if unused.keys().isdisjoint(name):
             notes.append(f"{name} is one name; a product is written {product}")
     letters = {name for name in names if len(name) == 1}
-    split = {word for word in {*_WORD.findall(typed)} if len(word) > 1 and {*word} <= letters and word not in names}
+    words = {*_WORD.findall(typed)} if letters else ()
+    split = {word for word in words if len(word) > 1 and {*word} <= letters and word not in names}
     notes += [f"{word} is read as the product {'*'.join(word)}" for word in sorted(split - KEYWORDS)]
     read = [name for name in names if len(name) == 1 and re.search(rf"(?<![\w`]){name}\(", typed)]
     notes += [f"{name}(…) is the product {name}*(…)" for name in read]

@@ -13,7 +13,6 @@ from math import lcm, prod
 from typing import NamedTuple, cast
 
 from qe.errors import InputError
-from qe.exact import listed
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
 from qe.formula.syntax import Formula, Relation
@@ -86,7 +85,7 @@ def combination(ring: Ring, coefficients: Mapping[tuple[str, ...], Fraction | in
         whole = {names: c.numerator * (den // c.denominator) for names, c in coefficients.items()}
     bits = max(map(int.bit_length, whole.values()))
     _bounded(len(whole), bits)
-    return Value(listed.combination(ring, whole), den, bits)
+    return Value(ring.combination(whole), den, bits)
 
 
 def negative(value: Value) -> Value:

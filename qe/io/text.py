@@ -67,7 +67,7 @@ def _node(text: str, fail: Failing) -> Node:
 
 def _written_out(text: str) -> str:
     """The text with terms in the place of the capitals that it ends with: ``D > 0 where D = b^2 - 4*a*c``."""
-    where = _WHERE.fullmatch(text)
+    where = _WHERE.fullmatch(text) if "where" in text else None
     if where is None:
         return text
     terms = {name: f"({term})" for name, term in _DEFINED.findall(where[2])}

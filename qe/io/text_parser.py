@@ -37,7 +37,8 @@ from qe.spelling import WORD
 _COMPARED = re.compile(rf"\{{\s*{WORD}(?:\s*,\s*{WORD})*\s*\}}(?=\s*(?:[<>=≤≥≠]|!=|/=))")
 """A list of variables that are compared, as Mathematica does."""
 
-_MULTIPLES = re.compile(r"([-+]?)\s*\(?(-?[0-9]+|)\)?[\s*]*([A-Za-z][A-Za-z0-9_]*|)")
+_MULTIPLES = re.compile(r"([-+]?[0-9]*)([A-Za-z][A-Za-z0-9_]*|)")
+_UNITS, _IDLE = {"": 1, "+": 1, "-": -1}, str.maketrans("", "", "()*")
 
 
 class TextParser(QuantifiedParser):
@@ -198,13 +199,13 @@ class TextParser(QuantifiedParser):
     def linear(self) -> s.Term:
         """A sum of multiples of names: wide systems have a million of them, so their tokens are not read alone."""
         _, text, at = self.advance()
-        listed = ((name, sign + "1", number or 1) for sign, number, name in _MULTIPLES.findall(text) if number or name)
-        parts = [(name, int(sign) * int(number)) for name, sign, number in listed]
-        terms: Coefficients = {(name,) if name else (): number for name, number in parts}
+        bare = "".join(text.split()).translate(_IDLE).replace("+-", "-").replace("--", "+")
+        parts = [(_UNITS.get(number) or int(number), name) for number, name in _MULTIPLES.findall(bare)[:-1]]
+        terms: Coefficients = {(name,) if name else (): number for number, name in parts}
         if len(terms) == len(parts) and all(terms.values()):
             return s.Polynomial(terms)
         # a name that cancels is a name all the same
-        return s.Sum([s.Product(s.Number(c), s.Name(name, at), at) if name else s.Number(c) for name, c in parts])
+        return s.Sum([s.Product(s.Number(c), s.Name(name, at), at) if name else s.Number(c) for c, name in parts])
 
     def infinity(self) -> s.Term:
         return s.Infinity(self.advance().at)

@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import assert_never
 
 from qe.errors import CertificateRejected
@@ -148,6 +149,7 @@ def poly_to_text(poly: Poly) -> str:
     return poly.ring.remembered(("text of", poly), lambda: format_poly(poly, _spelled))
 
 
+@lru_cache(maxsize=10_000)
 def _spelled(name: str) -> str:
     return name if _PLAIN.fullmatch(name) else between_quotes(name)
 

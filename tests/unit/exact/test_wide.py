@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.exact.ring import WIDE, Poly, Ring, format_poly
-from qe.exact.wide import WidePoly
+from qe.exact.wide import LinearPoly, WidePoly
 
 BIG = Ring.of(f"y{i}" for i in range(2 * WIDE))
 NAMES = ("y3", f"y{WIDE - 1}", f"y{WIDE}", f"y{2 * WIDE - 1}")
@@ -131,3 +131,36 @@ def test_a_combination_of_products_of_names(size: int, terms: dict[tuple[int, ..
     assert made == total and hash(made) == hash(total) and made.variables == total.variables
     assert made.normal() == total.normal() and made.degrees == total.degrees
     assert hash(-made) == hash(-total) and (-made).variables == total.variables
+
+
+LINEAR = st.tuples(st.lists(COEFFICIENTS, min_size=4, max_size=4), COEFFICIENTS).map(
+    lambda parts: sum((SMALL.gen(i) * c for i, c in enumerate(parts[0])), start=SMALL.constant(parts[1]))
+)
+
+
+@given(LINEAR, LINEAR, st.integers(-9, 9), RATIONALS)
+def test_linear_forms_stay_lists(f, g, number, value):
+    """So that as many dense ones as there are variables are read, sent to other processes and checked at all."""
+    if f.is_constant:
+        return
+    large, other = wide(f), wide(g)
+    for made in (large, pickle.loads(pickle.dumps(large)), large.normal()[1], number + large, -large, 3 * large):
+        assert isinstance(made, LinearPoly) and "p" not in made.__dict__
+    same(f + g, large + other)
+    same(f - g, large - other)
+    same(number - f, number - large)
+    same(number - f, BIG.constant(number) - large)
+    same(f + number, BIG.constant(number) + large)
+    same(f * g, large * other)
+    same(number * f, number * large)
+    same(f * number, BIG.constant(number) * large)
+    same(f.normal()[1], large.normal()[1])
+    assert large.normal()[0] == f.normal()[0] and large.term_count() == f.term_count()
+    assert large.height_bits() == f.height_bits()
+    for i, place in enumerate(PLACES):
+        assert len(f.coefficients(i)) == len(large.coefficients(place))
+        for a, b in zip(f.coefficients(i), large.coefficients(place), strict=True):
+            same(a, b)
+        same(f.at_rational(i, value), large.at_rational(place, value))
+    assert f.factors()[0] == large.factors()[0]
+    same(f.factors()[1][0][0], large.factors()[1][0][0])
