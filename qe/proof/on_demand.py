@@ -43,7 +43,7 @@ def completed(step: Step, budget: Budget) -> Step:
         match value:
             case OnDemand(make):
                 try:
-                    return make(budget)
+                    return made(make(budget))
                 except Unable:
                     budget.check("prove")
                     return {}

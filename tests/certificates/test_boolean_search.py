@@ -24,6 +24,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.io.text import read
 from qe.options import Budget, Options
+from qe.proof.on_demand import completed
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.prover import Prover
@@ -51,7 +52,7 @@ def step_of(sentence: Formula) -> Step:
 def evidence(step: Step) -> Any:
     """Its evidence, accepted; None where none is found."""
     assert step.before.ring is not None
-    found = Prover(step.before.ring, Options(certify=True), Budget(120)).own(step, ())
+    found = Prover(step.before.ring, Options(certify=True), Budget(120)).own(completed(step, Budget(120)), ())
     return None if found is None else found[1]
 
 

@@ -30,6 +30,7 @@ from qe.formula.build import conj, convert, exists
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula
 from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
+from qe.proof.on_demand import Evidence, OnDemand
 from qe.proof.step import Nested, Step
 
 RULE = "Boolean search"
@@ -53,7 +54,7 @@ class BooleanSearch:
         dual = problem.dual
         found = found_point(dual.positive, context)
         if isinstance(found, Refuted):
-            evidence = {"proof": {"refuted": found.evidence()}}
+            evidence = {"proof": OnDemand(found.evidence)}
             context.log.step(RULE, problem.formula, problem.asked(FALSE), evidence=evidence)
             return Outcome(problem.asked(FALSE))
         context.log.step(RULE, problem.formula, problem.asked(TRUE))
@@ -68,9 +69,9 @@ class Refuted:
     conflicts: tuple[tuple[Atom, ...], ...]
     decided: Mapping[frozenset[Formula], Nested]
 
-    def evidence(self) -> list[dict[str, object]]:
+    def evidence(self, budget: Budget) -> Evidence:
         """The conflicts with the derivation that refutes each of them."""
-        return [{"atoms": atoms, "steps": self._steps(atoms)} for atoms in self.conflicts]
+        return {"refuted": [{"atoms": atoms, "steps": self._steps(atoms)} for atoms in self.conflicts]}
 
     def _steps(self, atoms: Sequence[Atom]) -> Nested:
         together = conj(atoms)

@@ -167,13 +167,15 @@ class Propagator:
         if self._refuted or self._next == len(self._told):
             return []
         self.check()
+        marks = [theory.mark() for theory in self.theories]
         while self._next < len(self._told):
             literal = self._told[self._next]
-            self._marks.append([theory.mark() for theory in self.theories])
+            self._marks.append(marks)
             self._next += 1
-            for theory in self.theories if literal in self.needed else ():
-                if self._against(theory.tell(literal)):
+            if literal in self.needed:  # others change nothing
+                if any(self._against(theory.tell(literal)) for theory in self.theories):
                     return []
+                marks = [theory.mark() for theory in self.theories]
         if any(self._against(theory.settle()) for theory in self.theories):
             return []
         implied = dict[int, None]()
