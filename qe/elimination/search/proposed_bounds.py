@@ -51,7 +51,7 @@ class ProposedBounds(Bounds):
     def conflict(self, check: Callable[[], object], *, now: bool = True) -> set[Hashable] | None:
         """Reasons of bounds that cannot hold together; None where floats do not see any, or see what is none.
 
-        Otherwise than ``now`` it may wait for more bounds, for the longer the more often there was no conflict.
+        Otherwise than ``now`` it may wait for more bounds, for the longer the more often there was none, or none that is exact.
         """
         check()
         program = self._program()
@@ -60,11 +60,11 @@ class ProposedBounds(Bounds):
             return None
         before, self._waiting = program.values, 0
         ray = program.contradiction()
-        if ray is not None:
-            self._patience = max(1, self._patience // 4)
-        elif program.values is not before:
-            self._patience = min(2 * self._patience, _PATIENCE)
         self._stuck = [] if ray is None else self._exact({i: w for i, w in ray.items() if abs(w) > _TINY})
+        if self._stuck:
+            self._patience = max(1, self._patience // 4)
+        elif ray is not None or program.values is not before:  # what is not believed once comes again
+            self._patience = min(2 * self._patience, _PATIENCE)
         return {reason for *_, reason in self._stuck} or None
 
     def weakened(self, offered: Offered) -> set[Hashable]:
