@@ -172,19 +172,23 @@ class FloatRows:
         import numpy as np
 
         self.lower, self.upper = np.full(len(rows), -inf), np.full(len(rows), inf)
-        self.values: Sequence[float] = [0.0] * len(rows)
-        self.point: Sequence[float] = [0.0] * size
-        self._known = self.lower.copy(), self.upper.copy()
+        self.values: Any = np.zeros(len(rows))
+        self._solution: Any = None
+        self._size, self._known = size, (self.lower.copy(), self.upper.copy())
         self._solver = _solver(seconds, {"presolve": "off", "solver": "simplex", "simplex_strategy": 1})
         self._solver.passModel(_program(size, rows, self.lower.tolist(), self.upper.tolist()))
+
+    @property
+    def point(self) -> Sequence[float]:
+        """A point at which the rows have their values."""
+        return [0.0] * self._size if self._solution is None else list(self._solution.col_value)
 
     def contradiction(self) -> dict[int, float] | None:
         """Multipliers of rows whose bounds are said to contradict each other; None where the point keeps all, now."""
         import highspy
         import numpy as np
 
-        values = np.array(self.values)
-        if ((self.lower - _NEAR <= values) & (values <= self.upper + _NEAR)).all():
+        if ((self.lower - _NEAR <= self.values) & (self.values <= self.upper + _NEAR)).all():
             return None
         (changed,) = np.nonzero((self.lower != self._known[0]) | (self.upper != self._known[1]))
         self._known = self.lower.copy(), self.upper.copy()
@@ -197,7 +201,7 @@ class FloatRows:
             status = self._solver.getModelStatus()
         if status == highspy.HighsModelStatus.kOptimal:
             solution = self._solver.getSolution()
-            self.values, self.point = list(solution.row_value), list(solution.col_value)
+            self.values, self._solution = np.array(solution.row_value), solution
         if status != highspy.HighsModelStatus.kInfeasible:
             return None
         _, known, ray = self._solver.getDualRay()
@@ -224,6 +228,6 @@ class Offers:
         if values is self._seen:
             return []
         self._seen = values
-        held = (np.array(values)[self._rows] - self._numbers) * self._signs > self._least
+        held = (np.asarray(values)[self._rows] - self._numbers) * self._signs > self._least
         new, self._held = held & ~self._held, held
         return [int(literal) for literal in self._literals[new]]

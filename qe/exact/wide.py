@@ -296,8 +296,9 @@ class LinearPoly(WidePoly):
         return self.ring.linear(terms if whole == 1 else {i: c * whole for i, c in terms.items()}, rest)
 
     def _at(self, values: Iterable[Fraction | int]) -> fmpq | fmpz | int:
-        point = [v if isinstance(v, int) else fmpq(v.numerator, v.denominator) for v in values]
-        return sum(map(mul, self.numbers, map(point.__getitem__, self.variables)), self.rest)
+        at = tuple(values).__getitem__
+        own = [v if isinstance(v, int) else fmpq(v.numerator, v.denominator) for v in map(at, self.variables)]
+        return sum(map(mul, self.numbers, own), self.rest)
 
     def __hash__(self) -> int:
         if self._hash is None:
@@ -318,5 +319,4 @@ def _number(given: Poly | int) -> Poly | int:
 
 @cache
 def _plain(count: int) -> Ring:
-    """The ring of so many variables that keeps track of none, however many they are: a polynomial may contain all."""
-    return Ring(tuple(f"x{j}" for j in range(count)))
+    return Ring(tuple(f"x{j}" for j in range(count)))  # which keeps track of none: a polynomial may contain all
