@@ -173,15 +173,10 @@ class FloatRows:
 
         self.lower, self.upper = np.full(len(rows), -inf), np.full(len(rows), inf)
         self.values: Any = np.zeros(len(rows))
-        self._solution: Any = None
-        self._size, self._known = size, (self.lower.copy(), self.upper.copy())
+        self.point: Sequence[float] = [0.0] * size
+        self._known = self.lower.copy(), self.upper.copy()
         self._solver = _solver(seconds, {"presolve": "off", "solver": "simplex", "simplex_strategy": 1})
         self._solver.passModel(_program(size, rows, self.lower.tolist(), self.upper.tolist()))
-
-    @property
-    def point(self) -> Sequence[float]:
-        """A point at which the rows have their values."""
-        return [0.0] * self._size if self._solution is None else list(self._solution.col_value)
 
     def contradiction(self) -> dict[int, float] | None:
         """Multipliers of rows whose bounds are said to contradict each other; None where the point keeps all, now."""
@@ -201,7 +196,7 @@ class FloatRows:
             status = self._solver.getModelStatus()
         if status == highspy.HighsModelStatus.kOptimal:
             solution = self._solver.getSolution()
-            self.values, self._solution = np.array(solution.row_value), solution
+            self.values, self.point = np.array(solution.row_value), solution.col_value
         if status != highspy.HighsModelStatus.kInfeasible:
             return None
         _, known, ray = self._solver.getDualRay()

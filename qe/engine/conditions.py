@@ -121,9 +121,8 @@ def large_linear_system(problem: Block, options: Options) -> str | None:
     if problem.free or not problem.is_flat or options.method not in (Method.AUTO, Method.CONVEX):
         return None
     found = [a.poly for a in problem.conditions if isinstance(a, Atom) and a.relation is not Relation.NE]
-    if len(found) < len(problem.conditions) or any(poly.total_degree > 1 for poly in found):
-        return None
-    count = sum(poly.term_count() for poly in found)
+    is_linear = len(found) == len(problem.conditions) and all(poly.total_degree <= 1 for poly in found)
+    count = sum(poly.term_count() for poly in found) if is_linear else 0
     return f"linear conditions with {count} coefficients" if count >= LINEAR_TERMS else None
 
 

@@ -51,7 +51,7 @@ class ProposedBounds(Bounds):
     def conflict(self, check: Callable[[], object], *, now: bool = True) -> set[Hashable] | None:
         """Reasons of bounds that cannot hold together; None where floats do not see any, or see what is none.
 
-        Otherwise than ``now`` it may wait for more bounds, for the longer the more often there was none, or none that is exact.
+        Otherwise than ``now`` it may wait for more bounds, for the longer the more often there was none that is exact.
         """
         check()
         program = self._program()

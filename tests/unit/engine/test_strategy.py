@@ -7,11 +7,11 @@ import pytest
 
 import qe
 from qe.certify.registry import RULES
-from qe.engine.conditions import convex_conditions, quadratic_and_few_parameters
+from qe.engine.conditions import LINEAR_TERMS, convex_conditions, large_linear_system, quadratic_and_few_parameters
 from qe.engine.run import solve
 from qe.engine.strategy import METHODS, STRATEGY, Attempt, Listed, Scope, attempts
 from qe.formula.block import Block
-from qe.formula.syntax import TRUE, Formula
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import atoms
 from qe.io import formats
 from qe.options import Budget, Method, Options, Stage
@@ -202,3 +202,19 @@ def test_many_balls_in_space() -> None:
     assert [a.method for a, _, _ in attempts(Scope.ASKED, all_of_them, Options())] == ["convex"]
     assert not list(attempts(Scope.ASKED, three, Options()))
     assert solve(all_of_them.formula, Options(), Budget(work=5000)).formula == TRUE
+
+
+def test_large_linear_systems_are_decided_before_anything_is_simplified() -> None:
+    """Simplifying and checking 640 dense rows took longer than deciding them."""
+    names = [f"v{k}" for k in range(40)]
+    row = " + ".join(f"{k + 1}*{name}" for k, name in enumerate(names))
+    rows = [f"{row} <= {k}" for k in range(LINEAR_TERMS // 40 + 1)]
+    text = f"ex {', '.join(names)}. {' and '.join(rows)}"
+    assert large_linear_system(problem(text), Options()) is not None
+    assert large_linear_system(problem(f"{text} and v1 /= 0"), Options()) is None
+    assert large_linear_system(problem(f"{text} and v1*v2 < 1"), Options()) is None
+    assert large_linear_system(problem(text), Options(method=Method.CAD)) is None
+    answer = qe.eliminate(f"{text} and {row} >= 1")
+    assert answer.formula == FALSE and answer.certificate is not None and qe.verify(answer.certificate).accepted
+    sat = qe.eliminate(text)
+    assert sat.formula == TRUE and set(sat.witness or ()) == set(names)
