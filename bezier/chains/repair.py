@@ -14,7 +14,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import exp
+from math import copysign, exp
 from typing import Any
 
 from bezier.chains.chain import Chain, requirements
@@ -22,14 +22,12 @@ from bezier.chains.proof import GAPS, LEAST, Contradiction, best, decided, feasi
 from bezier.chains.proposals import loosened
 from bezier.chains.region import Places, at_label
 from qe.errors import Unable
-from qe.extras import wanted
 from qe.proof.certificate import Certificate, Labelled
 
 NARROW = Fraction(1, 10**7)
 """How far, relative, the values that are proved to be enough, and not enough, lie from the one that was proposed."""
-_FACTORS = (1.25, 1.5, 2.0, 3.0, 4.0, 8.0)  # of a duration
 _GAPS = (*GAPS, Fraction(1, 20), Fraction(1, 2))  # of the square of a distance, which may be small
-_FAR = 50.0  # of logarithms of durations
+_FAR, _CLOSE, _STEPS = 2.1, 1e-7, 20  # of logarithms of factors of durations
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,41 +138,35 @@ def excluded(given: Chain, names: Sequence[str]) -> tuple[tuple[str, Contradicti
 
 def nearest_duration(given: Chain) -> Repair | None:
     """One curve made slower or faster by the least factor that was seen to help."""
-    seen, start = list[tuple[float, int, int]](), loosened(given)
-    ways = [(1.0, k, sign) for k in range(given.pieces) for sign in (1, -1)]
-    if start is not None:
-        foreseen = enumerate((min(start.change(name), _FAR), start.slopes[name]) for name in given.paces)
-        ways = [(exp(far), k, 1 if slope > 0 else -1) for k, (far, slope) in foreseen]
-    for far, k, sign in sorted(ways):
-        least = min(seen)[0] if seen else _FACTORS[-1]
-        if far > least**2:
+    start, seen = loosened(given), list[tuple[float, int, float]]()
+    named = [] if start is None else [(start.change(name), k) for k, name in enumerate(given.paces)]
+    for far, k in sorted(named):
+        if far > 2 * min(seen, default=(_FAR,))[0]:
             break
-        before = 1.0
-        for factor in (*(f for f in _FACTORS if far < f < least), least):
-            if _excess(_paced(given, k, factor**sign)) <= 0:
-                seen.append((_threshold(given, k, before, factor, sign), sign, k))
-                break
-            before = factor
-    for factor, sign, k in sorted(seen):
-        time = given.times[k]
-        low, high = (time * Fraction(factor * (1 + s * 1e-6)).limit_denominator(10**9) ** sign for s in (-1, 1))
+        if (log := _logarithm(given, k)) is not None:
+            seen.append((abs(log), k, log))
+    for _, k, log in sorted(seen):
+        high, low = (_paced(given, k, log + side * copysign(1e-6, log)).times[k] for side in (1, -1))
         if (repair := both_sides(given, f"durations[{k}]", high, low)) is not None:
             return repair
     return None
 
 
-def _threshold(given: Chain, k: int, low: float, high: float, sign: int) -> float:
-    """Where between a factor that does not help and one that does the excess is zero."""
-    with wanted():
-        from scipy.optimize import brentq
-    return float(brentq(lambda factor: _excess(_paced(given, k, factor**sign)), low, high, rtol=1e-7))
+def _logarithm(given: Chain, k: int) -> float | None:
+    """That of the factor of a duration from which on nothing has to be given up, by Newton's method; None where there
+    is none nearby."""
+    log, last, steps = 0.0, 0.0, 0
+    while abs(log) < _FAR and steps < _STEPS:
+        loose = loosened(_paced(given, k, log))
+        slope = 0.0 if loose is None else loose.slopes[given.paces[k]]
+        if loose is None or not slope or (loose.excess > 0 and slope * last < 0):
+            return None
+        log, last, steps = log + loose.excess / slope, slope, steps + 1
+        if abs(loose.excess / slope) < _CLOSE:
+            return log
+    return None
 
 
-def _paced(given: Chain, k: int, factor: float) -> Chain:
-    time = given.times[k] * Fraction(factor).limit_denominator(10**12)
+def _paced(given: Chain, k: int, log: float) -> Chain:
+    time = given.times[k] * Fraction(exp(log)).limit_denominator(10**9)
     return replace(given, durations=_with(given.times, k, time))
-
-
-def _excess(chain: Chain) -> float:
-    loose = loosened(chain)
-    return 1.0 if loose is None else loose.excess
