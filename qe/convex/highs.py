@@ -74,9 +74,6 @@ class Proposal:
     ray: bool = False
 
 
-_DENSE: Mapping[str, object] = {"presolve": "off", "simplex_strategy": 4, "simplex_scale_strategy": 0}
-"""The primal simplex method as the rows are, which powers of two have scaled (640 dense rows: 0.74 s for 1.14)."""
-
 Proposer = Callable[[Slackened, float | None], Proposal | None]
 """From the problem and the seconds left; None where there is nothing to propose."""
 
@@ -88,7 +85,8 @@ def highs(problem: Slackened, seconds: float | None) -> Proposal | None:
     except ImportError:
         return None
     sparse = problem.system.is_sparse
-    solver = _solver(seconds, {"solver": "ipm"} if sparse else _DENSE)
+    dense: Mapping[str, object] = {"presolve": "off", "simplex_strategy": 4, "simplex_scale_strategy": 0}  # scaled rows
+    solver = _solver(seconds, {"solver": "ipm"} if sparse else dense)
     try:
         solver.passModel(_model(problem))
     except OverflowError:

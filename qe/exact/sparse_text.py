@@ -10,12 +10,9 @@ SparseTerm = tuple[tuple[tuple[int, int], ...], int]
 """((variable, exponent > 0), ...), ascending, and the coefficient."""
 
 
-_SHORT = 1 << 64
-
-
 def digits(value: int) -> str:
     """Decimal digits (``str`` refuses more than 4300 of them, and takes quadratic time for those it gives)."""
-    return str(value) if abs(value) < _SHORT else str(fmpz(value))
+    return str(value) if -(1 << 64) < value < 1 << 64 else str(fmpz(value))
 
 
 def sparse_text(terms: Iterable[SparseTerm], names: Sequence[str] | Mapping[int, str]) -> str:

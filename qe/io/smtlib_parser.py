@@ -22,7 +22,7 @@ _WORDS = re.compile(rf"[()]|{_WORD}|;[^\n]*|\S[\s\S]*")
 """Words, brackets and comments; as the last, all that follows where none of them begins."""
 LONG = 100_000
 """Characters of a text from which on the collector waits until it is read."""
-_QUOTING = re.compile(r'[;|"]')
+_QUOTING, _BRACKET = re.compile(r'[;|"]'), re.compile(r"[()]")
 _INSIDE = re.compile(r'[^()|";]+')  # what opens and closes nothing
 
 
@@ -161,6 +161,15 @@ class Ends:
     def found(self, text: str) -> Iterator[int]:
         """The offsets behind them."""
         while self.at < len(text):
+            if self.depth and text[-1] == "\n" and not _QUOTING.search(text, self.at):  # brackets alone matter
+                for bracket in _BRACKET.finditer(text, self.at):
+                    self.depth, self.at = self.depth + (1 if bracket[0] == "(" else -1), bracket.end()
+                    if not self.depth:
+                        yield self.at
+                        break
+                else:
+                    self.at = len(text)
+                continue
             if self.depth and (passed := _INSIDE.match(text, self.at)) is not None:
                 self.at = passed.end()
                 continue
