@@ -274,7 +274,8 @@ def compared(text: str, seed: int, method: str = "auto", seconds: float = 20.0) 
         return False
     answer, seconds, way = asked(other, method, 20 * (took + SLACK))  # of a busy machine; less is asked below
     assert answer.formula is not None, (text, str(other), answer.reason)
-    assert way == plan, (str(other), way, plan)
+    methods = iter(plan)  # a name may save a method, where preparation solves for it; it never needs another one
+    assert all(choice in methods for choice in way), (str(other), way, plan)
     assert seconds <= 2 * took + SLACK, (str(other), seconds, took)
     assert answer.formula == plain.formula or qe.equivalent(answer.formula, plain.formula), str(other)
     for name, value in (answer.witness or {}).items():
@@ -283,8 +284,13 @@ def compared(text: str, seed: int, method: str = "auto", seconds: float = 20.0) 
 
 
 def test_named_terms() -> None:
-    share = sorted(PROBLEMS)[::5]
+    share = sorted(PROBLEMS)[::8]
     assert sum(compared(PROBLEMS[name], seed) for seed, name in enumerate(share)) > len(share) // 2
+
+
+def test_a_name_may_save_a_method() -> None:
+    """The term under the name was solved for, and nothing was left for the projection that the problem takes."""
+    assert compared(PROBLEMS["true-conjunct"], 31)
 
 
 @pytest.mark.deep
