@@ -124,7 +124,7 @@ def clearance(
     certificate: Evidence = None,
     **common: Any,
 ) -> Said:
-    """Prove each curve clear of each obstacle for all t, or say where it first meets it."""
+    """Prove each curve clear of each obstacle for all t, or say where it first meets one."""
     from bezier.check.clearance import clearance as examine
 
     work = partial(examine, source=source, other=obstacles, evidence=certificate is not None)
@@ -191,12 +191,12 @@ def joints(
     path: RouteFile,
     out: Out,
     duration: Annotated[str, typer.Option("--duration", help="Seconds, exactly.")] = "50",
-    law: Annotated[Law, typer.Option("--law", help="How the path is run through.")] = Law.QUINTIC,
+    law: Annotated[Law, typer.Option("--law", help="Time law along the path.")] = Law.QUINTIC,
     samples: Annotated[int, typer.Option("--samples", help="Rows of the sequence.")] = 200,
     **common: Any,
 ) -> Said:
-    """Find the joint sequence of least change, prove joint velocities and accelerations; write data and a moving
-    page."""
+    """Find the joint sequence of least change, prove joint velocities and accelerations; write data and an
+    animated page."""
     from bezier.arm.reader import load_arm, load_route
     from bezier.planner.outputs import all_or_none
 
@@ -235,14 +235,14 @@ def certify(
     limits: Annotated[Path | None, typer.Option("--limits", help="A TOML file, such as velocity = 1.")] = None,
     scene: Annotated[Path | None, typer.Option("--scene", help="A file with [[obstacle]] tables.")] = None,
     robot: Annotated[
-        str | None, typer.Option("--robot", metavar="ARM", help="The axes are its joints, whose limits hold, too.")
+        str | None, typer.Option("--robot", metavar="ARM", help="The axes are joints of this arm, within its limits.")
     ] = None,
     along: Annotated[Path | None, typer.Option("--along", help="A Cartesian path: [[curve]] tables, or timed.")] = None,
     within: Annotated[
         str | None, typer.Option("--within", metavar="MM", help="Largest distance of the end point from it.")
     ] = None,
     interpolation: Annotated[
-        Interpolation | None, typer.Option("--interpolation", help="Of states; default: the highest they allow.")
+        Interpolation | None, typer.Option("--interpolation", help="Between states; default: the highest.")
     ] = None,
     tolerance: Annotated[str, typer.Option("--tolerance", help="Largest jump that counts as continuous.")] = "1e-9",
     certificate: Evidence = None,
@@ -300,9 +300,9 @@ def route(
     ] = None,
     page: Drawn = None,
     shortest: Annotated[bool, typer.Option("--shortest", help="A short path, with a bound for all paths.")] = False,
-    degree: Annotated[int, typer.Option("--degree", help="Of its curves, 1 for segments.")] = 3,
-    continuity: Annotated[int, typer.Option("--continuity", help="Derivatives of it that are continuous.")] = 1,
-    gap: Annotated[str | None, typer.Option(help="Try more ways until it is so close to the shortest, say 5%.")] = None,
+    degree: Annotated[int, typer.Option("--degree", help="Degree of its curves; 1: segments.")] = 3,
+    continuity: Annotated[int, typer.Option("--continuity", help="Number of continuous derivatives.")] = 1,
+    gap: Annotated[str | None, typer.Option(help="Try more ways until the proved gap is so small, as in 5%.")] = None,
     **common: Any,
 ) -> Said:
     """Find a path from start to goal that is clear of all obstacles, or prove that there is none (status 3)."""
@@ -331,8 +331,8 @@ def retime(
     page: Charts = None,
     **common: Any,
 ) -> Said:
-    """Run through the path of a trajectory in the least time that keeps all limits for all t, with seconds that no
-    motion can beat; both proved."""
+    """Find the fastest motion along the path of a trajectory that keeps all limits for all t, and seconds that every
+    motion takes at least; both proved."""
     from bezier.retiming import command
 
     if check is not None and (certificate is not None or law is not Law.LEAST):
@@ -359,7 +359,7 @@ COMMANDS: tuple[tuple[str, Callable[..., Said], str, str], ...] = (
         "The least time along a path, from both sides.",
         "examples/joints/path.csv --limits examples/joints/limits.toml",
     ),
-    ("chain", chain, "Curves through many via points, at best.", "examples/chains/plane.toml"),
+    ("chain", chain, "The best curves through many via points.", "examples/chains/plane.toml"),
     ("route", route, "A path through a scene, or proof of none.", "examples/scenes/slit.json"),
     ("compare", compare, "Quadratic and cubic curves side by side.", "examples/cubic_joins.toml --out out"),
     ("ik", ik, "All joint positions of an arm at a point.", "ev3-120 599/66 824/33 323/10"),

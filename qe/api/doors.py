@@ -56,7 +56,7 @@ _LISTED = (
     Door("solve", ProvedQuestion, "All solutions of FORMULA, case by case.", "[x, y:] FORMULA", also=("reduce",)),
     Door("region", ProvedQuestion, "The set of points that satisfy FORMULA."),
     Door("simplify", ProvedQuestion, "A formula as short as it gets."),
-    Door("equivalent", Search, "Whether two formulas say the same.", "FORMULA ; FORMULA"),
+    Door("equivalent", Search, "Whether two formulas are equivalent.", "FORMULA ; FORMULA"),
     Door("witnesses", ProvedBlock, "Solutions as terms in the parameters.", also=("parametric_witnesses",)),
     Door("minimize", Optimisation, "The exact least value under CONSTRAINTS.", TERM, ("min",)),
     Door("maximize", Optimisation, "The exact greatest value under CONSTRAINTS.", TERM, ("max",)),

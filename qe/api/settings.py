@@ -64,8 +64,8 @@ _CHECK = Setting(
 )
 _DIVISION = Setting(
     False,
-    "a quotient x/0 is some number, as in SMT-LIB, instead of nothing; the formula holds if it does for "
-    "a choice of these numbers",
+    "a quotient x/0 has some unknown value, as in SMT-LIB, instead of none; the formula holds if it does for "
+    "a choice of these values",
 )
 _METHOD = Setting(Method.AUTO, "elimination method, the only one to be used", partial(arguments.member, choices=Method))
 _ORDER = Setting(None, "variable order, as in x,y,z", arguments.names)
@@ -78,7 +78,7 @@ _ROOT_ATOMS = Setting(False, "the answer may have x < root(k, p)")
 _WITHOUT = Setting(
     (), "stages of the engine to be left out; to measure what they gain", partial(arguments.members, choices=Stage)
 )
-_EXPLAIN = Setting(False, "how the answer was reached is written to stderr; Answer.explanation has the same text")
+_EXPLAIN = Setting(False, "write to stderr how the answer was reached; Answer.explanation has the same text")
 _WORKERS = Setting(
     0,
     "processes on this machine for long decompositions; the answer and its certificate are the same as without",
@@ -92,8 +92,8 @@ _RACE = Setting(
 )
 _ANYTIME = Setting(
     False,
-    "at the time limit, which is shared, say where it is true, where false, what is open; Answer.partial says "
-    "so of the values of the free variables, with check under a certificate",
+    "at the time limit, report where the formula is known to be true, where false, and what is open, as formulas in "
+    "the free variables: Answer.partial, with check under a certificate",
 )
 
 

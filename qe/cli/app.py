@@ -75,8 +75,8 @@ def decide(formula: Formula, format: InputFormat = None, **settings: Any) -> int
 @door(app, "find")
 def find(
     formula: Formula,
-    n: Annotated[int, typer.Option("-n", help="So many different points, fewer where there are no more.")] = 1,
-    seed: Annotated[int, typer.Option("--seed", help="Other points for another number.")] = 0,
+    n: Annotated[int, typer.Option("-n", help="Number of points; fewer if there are no more.")] = 1,
+    seed: Annotated[int, typer.Option("--seed", help="Another number gives other points.")] = 0,
     format: InputFormat = None,
     **settings: Any,
 ) -> int:
@@ -100,7 +100,7 @@ def region(formula: Formula, format: InputFormat = None, plot: PictureFile = Non
 def solve(
     formula: Formula,
     variables: Annotated[
-        str | None, typer.Option("--variables", help="Those to solve for, as in x,y; the others come before them.")
+        str | None, typer.Option("--variables", help="Variables to solve for, as in x,y; the others are parameters.")
     ] = None,
     format: InputFormat = None,
     **settings: Any,
@@ -161,7 +161,8 @@ def _optimise(name: str, greatest: bool | None) -> None:
         work = partial(cli_optimize.optimize, goal=cli_optimize.Goal(objective, greatest, parameters))
         return answered(work, constraints, format, settings)
 
-    optimised.__doc__ = f"Print {DOORS[name].says[0].lower()}{DOORS[name].says[1:-1]}, and where it is attained."
+    attained = "where they are attained" if greatest is None else "where it is attained"
+    optimised.__doc__ = f"Print {DOORS[name].says[0].lower()}{DOORS[name].says[1:-1]}, and {attained}."
     door(app, name)(optimised)
 
 
@@ -170,14 +171,14 @@ for _name, _greatest in (("minimize", False), ("maximize", True), ("optimum", No
 
 
 @door(app, "verify")
-@command(app, Limited, "The other name of verify.", "qe check c.json")
+@command(app, Limited, "Another name of verify.", "qe check c.json")
 def check(
     certificate: CertificateSource,
     formula: Annotated[
-        str | None, typer.Option("--formula", metavar="FORMULA|FILE", help="The question that it has to be about.")
+        str | None, typer.Option("--formula", metavar="FORMULA|FILE", help="Accept it only as an answer to this.")
     ] = None,
-    assuming: Annotated[str | None, typer.Option("--assuming", help="What that was asked under.")] = None,
-    core: Annotated[bool, typer.Option("--core", help="Believe the kernel and the listed theorems alone.")] = False,
+    assuming: Annotated[str | None, typer.Option("--assuming", help="The assumptions of that question.")] = None,
+    core: Annotated[bool, typer.Option("--core", help="Trust the kernel and the listed theorems alone.")] = False,
     plain: Annotated[bool, typer.Option("--plain", help="As --core, and in plain Python, without FLINT.")] = False,
     json: Json = False,
     **settings: Any,
