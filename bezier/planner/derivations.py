@@ -101,7 +101,7 @@ def with_stated(plan: Plan, certificate: Certificate) -> Plan:
             name = member.label.removeprefix(PREFIX)
             _check_question(member, known.get(name))
             result[name] = Derived(member.certificate)
-    return _with(plan, result)
+    return _with(plan, {name: result[name] for name in known if name in result})  # in the order of planning
 
 
 def questions(plan: Plan) -> dict[str, Formula]:
