@@ -63,10 +63,10 @@ def joint_plan(
 
     ``parts``: what each curve takes of the path's parameter; all the same by default.
     """
-    path = joint_path(arm, curves)
     sizes = [Fraction(1) if parts is None else parts[name] for name in curves]
     ends = tuple(total / sum(sizes) for total in accumulate(sizes))
     moments = samples_of(ends, law, samples)
+    path = joint_path(arm, curves)
     remarks: list[str] = []
     if path.is_stopped and (path.excesses or path.is_reachable):
         within = " within the limits of the joints" if path.excesses else ""

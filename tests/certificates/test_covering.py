@@ -69,12 +69,12 @@ def test_altered_evidence_never_proves_more(text: str) -> None:
     listed = list(paths(given))
     satisfiable = [f for f in relaxed(body) if qe.eliminate(exists(f.free, f), process=False).truth]
     rejected = 0
-    for path in rng.sample(listed, min(len(listed), 60)):
+    for path in rng.sample(listed, min(len(listed), 30)):
         changed = altered(given, path, rng)
         rejected += bool(verdict(body, changed))
         for weaker in satisfiable[:3]:
             assert verdict(weaker, changed)
-    assert rejected > 30
+    assert rejected > 15
 
 
 def relaxed(body: Formula) -> list[Formula]:
@@ -233,11 +233,11 @@ def test_altered_evidence_with_parameters_never_proves_another_answer(text: str)
     assert wrong
     listed = [p for p in paths(given) if p[0] != "matrix"]
     rejected = 0
-    for path in rng.sample(listed, min(len(listed), 25)):
+    for path in rng.sample(listed, min(len(listed), 13)):
         changed = altered(given, path, rng)
         rejected += bool(judged(question, answer, changed))
         assert all(judged(question, f, changed) for f in wrong)
-    assert rejected > 10
+    assert rejected > 5
 
 
 def others(answer: Formula) -> list[Formula]:

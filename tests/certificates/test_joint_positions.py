@@ -223,7 +223,7 @@ POINTS = {
 EACH = [*((arm, solve_pose) for arm in POSES.values()), *((arm, solve) for arm in POINTS.values())]
 
 
-@each(dict(zip((*POSES, *POINTS), EACH, strict=True)), daily=3)
+@each(dict(zip((*POSES, *POINTS), EACH, strict=True)), daily=4)
 @settings(max_examples=settings.default.max_examples // 5)
 @given(TANGENTS, st.sampled_from((0, 0, 0, 1, -1)))
 def test_the_joints_that_led_there_are_found(
@@ -286,7 +286,7 @@ def test_what_it_claims() -> None:
     assert "ex c1_1, s1_1, d2_1, d3_1, c1_2, s1_2, d2_2, d3_2. " in claim_of(at_point).words[0]
 
 
-@pytest.mark.parametrize("name", CHOSEN)
+@each(*CHOSEN, daily=2)
 def test_a_joint_that_can_be_chosen(name: str) -> None:
     found, payload = case(name), payload_of(name)
     assert found.free and payload["count"] is None and families(payload)
@@ -489,7 +489,7 @@ def changes(name: str) -> dict[str, Change]:
     return found
 
 
-@each(*CASES, *CHOSEN, daily=2)
+@each(*CASES, *CHOSEN, daily=3)
 def test_changed_certificates_are_rejected(name: str) -> None:
     effective = 0
     for what, change in changes(name).items():

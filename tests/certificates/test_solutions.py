@@ -26,6 +26,7 @@ from qe.groebner.counting import RealRootClassification
 from qe.groebner.evidence import solutions_certificate
 from qe.proof.entry import Entry
 from tests.certificates.mutation import EVIDENCE, PLACE, evidence_in, replaced, without
+from tests.tables import each
 from tests.unit.proving.elaborated import refused
 
 RING = Ring.of(("w", "y", "x"))
@@ -315,7 +316,7 @@ def wrong(content: dict[str, Any], **other: Any) -> None:
         assert not verdict.accepted and verdict.step.startswith(PLACE), "accepted"
 
 
-@pytest.mark.parametrize("found", [CUBIC, QUADRATIC, POSITIVE, IRRATIONAL])
+@each(CUBIC, QUADRATIC, POSITIVE, IRRATIONAL, daily=2)
 def test_classes_cannot_be_changed(found: RealRootClassification) -> None:
     content = data(found)
     classes = evidence_in(content)["classes"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import doctest
 import json
 import re
 import shlex
@@ -141,13 +140,6 @@ def test_what_is_refused_is_told_in_one_line() -> None:
 def test_the_prompt_notes_each_time() -> None:
     done = command.run("qe", "prompt", stdin=f"{JOINED}\n{JOINED}\n:min e^2\n")
     assert done.stderr == 2 * NOTE + "qe: note: e is a variable here, no number\n"
-
-
-def test_the_page() -> None:
-    text = (ROOT / "docs" / "groebner.md").read_text()
-    test = doctest.DocTestParser().get_doctest(text.replace("```", ""), {}, "groebner", "docs/groebner.md", 0)
-    assert len(test.examples) > 8
-    assert doctest.DocTestRunner().run(test).failed == 0
 
 
 APPS = {"qe": qe.cli.app.app, "bezier": bezier.cli.app.app, "experiments": experiments.cli.app}

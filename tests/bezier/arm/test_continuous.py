@@ -141,10 +141,15 @@ def motions_by_hand(case: str) -> ContinuousMotions:
 
 @pytest.mark.parametrize("case", CASES)
 def test_motions_by_hand(case: str) -> None:
-    name, curves, expected = CASES[case]
-    found = motions_by_hand(case)
+    found, expected = motions_by_hand(case), CASES[case][2]
     assert found.count == expected
     assert len(found.motions) == expected
+
+
+@each(*CASES, daily=3)
+def test_motions_by_hand_are_certified_and_pass_the_solutions_at_samples(case: str) -> None:
+    name, curves, expected = CASES[case]
+    found = motions_by_hand(case)
     evidence = motions_certificate(found)
     assert qe.verify(evidence).accepted
     assert evidence_of(evidence)["motions"] == expected
@@ -225,7 +230,7 @@ def check_random(seed: int) -> bool:
     return True
 
 
-@each((range(10), 4), pytest.param(range(1000, 1500), 250, marks=pytest.mark.deep))
+@each((range(5), 2), pytest.param(range(1000, 1500), 250, marks=pytest.mark.deep))
 def test_random_paths_near_the_axis_and_near_borders(seeds: range, simple: int) -> None:
     assert sum(check_random(seed) for seed in seeds) >= simple
 

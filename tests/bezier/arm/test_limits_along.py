@@ -220,7 +220,7 @@ def close_passes(rng: random.Random) -> int:
     return 2
 
 
-@each((4, 2), *(pytest.param(100 + part, 50, marks=pytest.mark.deep) for part in range(8)))
+@each((4, 1), *(pytest.param(100 + part, 50, marks=pytest.mark.deep) for part in range(8)))
 def test_closeness_to_a_limit_is_decided(seed: int, paths: int) -> None:
     rng, tried = random.Random(seed), 0
     while tried < paths:
@@ -451,6 +451,6 @@ def check_random(seed: int) -> int:
     return sum(verdict is not None for verdict in verdicts)
 
 
-@each((range(1, len(PATHS), 5), 6), pytest.param(range(500), 1000, marks=pytest.mark.deep))
+@each((range(1, len(PATHS), 9), 3), pytest.param(range(500), 1000, marks=pytest.mark.deep))
 def test_motions_within_random_limits_are_those_of_samples(seeds: range, judged_at_least: int) -> None:
     assert sum(check_random(seed) for seed in seeds) >= judged_at_least

@@ -112,7 +112,7 @@ def test_a_curve_close_to_the_axis_takes_few_boxes(curve: Bezier) -> None:
     assert all(verify(c).accepted for _, c in certificates(found))
 
 
-@sized(3, 8, st.integers(-60, 60), st.integers(0, 3), st.integers(20, 200))
+@sized(2, 8, st.integers(-60, 60), st.integers(0, 3), st.integers(20, 200))
 def test_boxes_grow_with_the_logarithm_of_the_distance_to_the_axis(y: int, power: int, z: int) -> None:
     """Before, with its inverse."""
     distance = Fraction(1, 10**power)

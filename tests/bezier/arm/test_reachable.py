@@ -35,6 +35,7 @@ from qe.exact.field import NumberField
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
 from tests.bezier.arm.test_pose import arm_of, pairs_of
+from tests.bezier.folder_mutation import Memory
 from tests.tables import each
 
 EV3 = {length: Robot.load(f"ev3-{length}") for length in (112, 120)}
@@ -94,6 +95,7 @@ def test_a_plan_with_an_arm_is_written_and_checked(tmp_path: Path, monkeypatch: 
     listed = sorted([*files, "report.html", "summary.json"])
     told = facts(made) | {"files": [str(tmp_path / name) for name in listed], "seconds": {"total": 1.0}}
     (tmp_path / "summary.json").write_text(json.dumps(told))
+    Memory().use(monkeypatch, plans=False)
     assert recheck(_Channel(), tmp_path)  # type: ignore[arg-type]
     table = (tmp_path / "joints.csv").read_text()
     (tmp_path / "joints.csv").write_text(table.replace("0.", "1.", 1))

@@ -6,6 +6,7 @@ import json
 import random
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -102,11 +103,16 @@ def test_values_are_those_of_another_optimiser(seed: int) -> None:
         assert not other.success or max(value(other.x, row.form) for row in rows) > 1e-6
 
 
+@cache
+def honest_chains() -> tuple[Any, Any]:
+    """One that there is, and one that there is not."""
+    return chain(PLANE, radius=6), chain(CROWDED, radius="13/2")
+
+
 @each(*range(8), daily=2)
 def test_a_broken_proposer_never_proves_anything_false(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    chance = random.Random(seed)
+    chance, right = random.Random(seed), honest_chains()
     honest = {"least_excess": proposals.least_excess, "least_value": proposals.least_value}
-    right = [chain(PLANE, radius=6), chain(CROWDED, radius="13/2")]
 
     def broken(name: str) -> Any:
         def proposal(*given: Any, **named: Any) -> Any:
@@ -256,10 +262,11 @@ def test_bad_input_is_one_line(given: dict[str, Any], word: str) -> None:
     assert "\n" not in str(refused.value) and isinstance(Ends("free"), Ends)
 
 
-def test_the_chains_of_the_corpus(shared: Path) -> None:
+@each(6, pytest.param(12, marks=pytest.mark.deep))
+def test_the_chains_of_the_corpus(points: int, shared: Path) -> None:
     """Values within 1e-8 of another solver's; what is infeasible has a smallest conflict and a repair that works."""
     for record in json.loads((shared / "corpora" / "scenes" / "chains.json").read_text()):
-        if record["via"] > 12:
+        if record["via"] > points:
             continue
         made = chain(record["points"], radius=record["radius"])
         assert made.feasible is (record["status"] == "optimal")

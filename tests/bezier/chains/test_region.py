@@ -127,7 +127,8 @@ def test_regions_in_space_and_of_infeasible_chains() -> None:
 
 
 def test_a_broken_proposer_gives_no_wrong_region(monkeypatch: pytest.MonkeyPatch) -> None:
-    right, honest, chance = chain(PLANE[:4], radius=6).region("start"), proposals._solved, random.Random(5)
+    right = chain(PLANE[:4], radius=6).region("start", Fraction(1, 10))
+    honest, chance = proposals._solved, random.Random(5)
 
     def broken(*given: Any) -> Any:
         answer = honest(*given)
@@ -166,17 +167,23 @@ def test_hulls_are_those_of_qhull(dimension: int) -> None:
 
 def test_the_command_says_where(capsys: pytest.CaptureFixture[str], tmp_path: Any) -> None:
     file, page = tmp_path / "chain.toml", tmp_path / "page.html"
-    file.write_text("start = [0, 0]\nvia = [[2, 1], [3, 3]]\ngoal = [5, 2]\nradius = 6\n")
+    file.write_text("start = [0, 0]\nvia = [[2, 1]]\ngoal = [3, 3]\nradius = 6\n")
     assert main(["chain", str(file), "--region", "via[0]", "--page", str(page), "--json"]) == 0
     data = json.loads(capsys.readouterr().out)["region"]
     assert len(data["inner"]) == len(data["outer"]) and len(data["may move by"]) == 2
     assert "where via[0] may be" in page.read_text()
+    assert main(["chain", str(file), "--region", "via[7]"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "expected one of" in line
+
+
+def test_wrong_names_and_accuracies_are_refused() -> None:
+    made = chain(PLANE, radius=8)
     for name in ("via[7]", "C9.1", "C1.9", "x"):
-        assert main(["chain", str(file), "--region", name]) == 2
-        (line,) = capsys.readouterr().err.splitlines()
-        assert "expected one of" in line
+        with pytest.raises(InputError, match="expected one of"):
+            made.region(name)
     for name, accuracy, word in ((3, None, "name"), ("start", "x", "accuracy"), ("start", 0, "accuracy")):
         with pytest.raises(InputError, match=word):
-            chain(PLANE, radius=8).region(name, accuracy)
+            made.region(name, accuracy)
     with pytest.raises(InputError, match="bounds"):
-        chain(PLANE, radius=8, max_length=20).region("via[0]")
+        chain(PLANE[:3], radius=8, max_length=20).region("via[0]")

@@ -25,12 +25,12 @@ SCENE: dict[str, Any] = {
 
 
 def _shortest_over_edges() -> float:
-    """The shortest way whose corners are on the edges, 20 to each, a little outside."""
+    """The shortest way whose corners are on the edges, 12 to each, a little outside."""
     points = [np.array(p, float) for p in (START, GOAL)]
     for low, high in BOXES:
         middle = (np.array(low) + high) / 2
         for axis, signs in product(range(3), product((0, 1), repeat=2)):
-            for t in np.linspace(0, 1, 20):
+            for t in np.linspace(0, 1, 12):
                 point = np.insert(np.array(signs, float), axis, t) * np.subtract(high, low) + low
                 points.append(middle + (point - middle) * (1 + 1e-6))
     p = np.array(points)

@@ -185,8 +185,8 @@ def decide_twice(scene: Scene) -> Blocked | Route:
 
 def test_the_plane_is_decided_completely() -> None:
     rng = random.Random(12)
-    free = [decide_twice(mixed(rng, "disc" if k % 2 else "disc box capsule polyhedron half_plane")) for k in range(4)]
-    assert 0 < sum(isinstance(f, Route) for f in free) < 4
+    free = [decide_twice(mixed(rng, "disc" if k % 2 else "disc box capsule polyhedron half_plane")) for k in range(3)]
+    assert 0 < sum(isinstance(f, Route) for f in free) < 3
 
 
 @pytest.mark.deep

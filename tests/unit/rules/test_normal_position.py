@@ -105,7 +105,7 @@ def test_a_counterexample_comes_back() -> None:
 SMALL = [p for p in tagged("classics") if len(p.formula) < 90]
 
 
-@each(*range(6))
+@each(*range(6), daily=2)
 def test_affine_changes_of_the_corpus(seed: int) -> None:
     """The same answers, with certificates that are accepted."""
     rng = random.Random(seed)

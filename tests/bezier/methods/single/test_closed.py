@@ -56,7 +56,7 @@ def check_curve(given_task, workspace, found):
     assert found.value - found.bound <= 3 * TOLERANCE * max(abs(found.bound), F(1, 10))
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(tasks(3, 7, both=True), RATIO, SPACE)
 def test_what_is_found_is_proved(given_task, ratio, kind):
     workspace = ball_for(given_task, ratio, kind)
