@@ -17,6 +17,7 @@ from typing import Any
 
 from qe import arguments
 from qe.errors import InputError, NoTruthValue
+from qe.exact.algebraic import real_roots
 from qe.exact.field import FieldElement
 from qe.exact.ring import Poly
 from qe.formula.build import JOINS, conj, exists, forall, implies
@@ -192,9 +193,34 @@ def term_to_sympy(term: s.Term) -> Any:
             return term_to_sympy(base) ** term_to_sympy(exponent)
         case s.Minus(part):
             return -term_to_sympy(part)
+        case s.Apply("cbrt", [part]):
+            return sp.real_root(term_to_sympy(part), 3)
         case s.Apply(function, parts) if function in _FUNCTIONS:
             return getattr(sp, _FUNCTIONS[function])(*map(term_to_sympy, parts))
+        case s.Root(s.Number(k), part):
+            poly = lower_term(part, s.unplaced).poly
+            if len(poly.variables) == 1:
+                return number_to_sympy(real_roots(poly.to_univariate(poly.level))[int(k) - 1])
+            raise InputError("SymPy has no form for a root of a polynomial with parameters")
     raise InputError("SymPy has no form for this term")
+
+
+def _node_to_sympy(node: s.Node) -> Any:
+    """The SymPy Boolean of a surface tree without quantifiers."""
+    import sympy as sp
+
+    match node:
+        case s.Truth(value):
+            return sp.true if value else sp.false
+        case s.Every(parts):
+            return sp.And(*map(_node_to_sympy, parts))
+        case s.Some(parts):
+            return sp.Or(*map(_node_to_sympy, parts))
+        case s.Comparison(given, relations):
+            terms = [term_to_sympy(side) for side in given]
+            pairs = zip(terms, relations, terms[1:], strict=False)
+            return sp.And(*(getattr(sp, r.name.title())(left, right) for left, r, right in pairs))
+    raise InputError("SymPy has no form for this formula")
 
 
 def expression_from(given: object) -> Any:
@@ -219,12 +245,16 @@ def _basic(given: object, expected: str) -> Any:
 
 
 def sympy_form(value: Any) -> Any:
-    """What SymPy takes a value for: the Boolean of a formula or of a set that has one, the values of a point by their
-    symbols, the number that equals a number or the value of an optimum (None: there is none)."""
+    """What SymPy takes a value for: the Boolean of a formula, of a set that has one, of solutions as they are printed;
+    the values of a point by their symbols; the number that equals a number or an optimum (None: there is none)."""
     import sympy
 
     if isinstance(value, Formula):
         return to_sympy(value)
+    if hasattr(value, "lines"):
+        from qe.io.text import read_node  # the parser, which reading SymPy does not need
+
+        return _node_to_sympy(read_node(" or ".join(value.lines) or "false"))
     if hasattr(value, "formula"):
         return to_sympy(value.formula)
     if isinstance(value, dict):

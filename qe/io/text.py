@@ -95,6 +95,11 @@ def read_term(text: str) -> Term:
     return cast(Term, parsed(parser_of(text), text, Failing(text, "<text>"), TERM))
 
 
+def read_node(text: str) -> Node:
+    """The formula that ``text`` is, as a surface tree. Names and errors as for ``read``."""
+    return _node(text, Failing(text, "<text>"))
+
+
 def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
     """Whether the outermost quantifier of a text that can be read is universal, and its names; None without one."""
     node = parsed(parser_of(text), text, Failing(text, "<text>"))

@@ -8,6 +8,7 @@ import pytest
 import sympy as sp
 from sympy.abc import x, y
 
+import qe
 from qe.errors import InputError
 from qe.formula.syntax import TRUE
 from qe.io.sympy import Exists, ForAll, from_sympy, to_sympy
@@ -87,6 +88,28 @@ def test_writing_uses_the_symbols_given() -> None:
     assert written.free_symbols == {real}
     assert to_sympy(TRUE) is sp.true
     assert to_sympy(read("x^2 > 2 and not x < 0")).subs({sp.Symbol("x"): 2}) is sp.true
+
+
+@each(
+    ("x^2 < 2", "(x < sqrt(2)) & (-sqrt(2) < x)"),
+    ("a*x = 1", "Ne(a, 0) & Eq(x, 1/a)"),
+    ("x^2 = a", "(a >= 0) & (Eq(x, sqrt(a)) | Eq(x, -sqrt(a)))"),
+    ("x^5 - x - 1 = 0", "Eq(x, CRootOf(x**5 - x - 1, 0))"),
+    ("x^2 < 0", "False"),
+    ("x^2 >= 0", "True"),
+)
+def test_solutions_are_written_as_their_text_says_them(text: str, written: str) -> None:
+    """They were written as formulas in which each sign at each root is a condition, or refused (x^2 = a)."""
+    assert str(qe.solve(text, variables=["x"]).to_sympy()) == written
+
+
+def test_the_real_cube_root() -> None:
+    assert qe.solve("x^3 = a", variables=["x"]).to_sympy().subs("a", -8).subs("x", -2) == sp.true
+
+
+def test_roots_with_parameters_are_refused() -> None:
+    with pytest.raises(InputError, match="root of a polynomial with parameters"):
+        qe.solve("x^3 + a*x + b = 0", variables=["x"]).to_sympy()
 
 
 @each("ex x. x > y", "x < root(1, x^2 - y)")
