@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import qe.api.decide as api_decide
 import qe.api.eliminate as api
+import qe.api.optimum as api_optimum
 import qe.api.solve as api_solve
 from qe import arguments
 from qe.api.limits import read_under
@@ -78,43 +79,27 @@ def function_range(
 
     For one symbol the condition may be its domain, a SymPy set.
     """
-    import sympy
-
-    function = expression_from(function)
-    names = _listed(symbols) if symbols is not None else sorted(function.free_symbols, key=str)
-    if isinstance(condition, sympy.Set):
-        if len(names) != 1:
-            raise InputError(f"condition: a domain goes with one symbol, {len(names)} found")
-        condition = sympy.Contains(names[0], condition)
-    value = sympy.Dummy("value").name
-    while value in {symbol.name for symbol in function.free_symbols}:
-        value += "_"
-    equation = sympy.Eq(sympy.Symbol(value, real=True), function, evaluate=False)
-    parts = [equation] if condition is True else [equation, *_conditions(condition)]
-    question = _Question.of(parts, timeout)
-    if names:
-        question = replace(question, formula=Exists(names, question.formula).formula())
-    return _set_of(question, value, timeout)
+    function, names, parts = _posed(function, symbols, condition)
+    if others := {s.name for s in (function, *parts) for s in s.free_symbols} - {s.name for s in names}:
+        raise InputError(f"symbols: all of the expression expected ({', '.join(sorted(others))}); minimum takes others")
+    return _set_of(*_values(function, names, parts, timeout), timeout)
 
 
 def minimum(
     function: Any, symbols: Iterable[Any] | Any = None, condition: Condition = True, *, timeout: float | None = None
 ) -> sympy.Expr:
-    """The greatest lower bound of an expression under a condition; oo where nothing satisfies it."""
-    import sympy
+    """The greatest lower bound of an expression under a condition; oo where nothing satisfies it.
 
-    found = function_range(function, symbols, condition, timeout=timeout)
-    return sympy.oo if found is sympy.S.EmptySet else found.inf
+    With symbols that are none of ``symbols`` it is a ``Piecewise`` of them, which has no value where nothing does.
+    """
+    return _bound("minimize", function, symbols, condition, timeout)
 
 
 def maximum(
     function: Any, symbols: Iterable[Any] | Any = None, condition: Condition = True, *, timeout: float | None = None
 ) -> sympy.Expr:
-    """The least upper bound of an expression under a condition; -oo where nothing satisfies it."""
-    import sympy
-
-    found = function_range(function, symbols, condition, timeout=timeout)
-    return -sympy.oo if found is sympy.S.EmptySet else found.sup
+    """The least upper bound of an expression under a condition, as in ``minimum``; -oo where nothing satisfies it."""
+    return _bound("maximize", function, symbols, condition, timeout)
 
 
 def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bool:
@@ -132,6 +117,46 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
     if found is sympy.true or found is sympy.false:
         return bool(found)
     raise Unable(f"SymPy does not decide {found}")
+
+
+def _posed(function: Any, symbols: Any, condition: Condition) -> tuple[Any, list[Any], list[Any]]:
+    """The expression, the symbols over which it ranges, and the conditions."""
+    import sympy
+
+    function = expression_from(function)
+    names = _listed(symbols) if symbols is not None else sorted(function.free_symbols, key=str)
+    if isinstance(condition, sympy.Set):
+        if len(names) != 1:
+            raise InputError(f"condition: a domain goes with one symbol, {len(names)} found")
+        condition = sympy.Contains(names[0], condition)
+    return function, names, [] if condition is True else _conditions(condition)
+
+
+def _values(function: Any, names: list[Any], parts: list[Any], timeout: float | None) -> tuple[_Question, str]:
+    """The question which values are taken, and the variable for them."""
+    import sympy
+
+    value = sympy.Dummy("value").name
+    while value in {symbol.name for symbol in function.free_symbols}:
+        value += "_"
+    equation = sympy.Eq(sympy.Symbol(value, real=True), function, evaluate=False)
+    question = _Question.of([equation, *parts], timeout)
+    return replace(question, formula=Exists(names, question.formula).formula()) if names else question, value
+
+
+def _bound(way: str, function: Any, symbols: Any, condition: Condition, timeout: float | None) -> Any:
+    import sympy
+
+    function, names, parts = _posed(function, symbols, condition)
+    known = {name.name for name in names}
+    given = {s.name: s for part in (function, *parts) for s in part.free_symbols}
+    if parameters := [name for name in given if name not in known]:
+        found = getattr(api_optimum, way)(function, sympy.And(*parts), parameters=parameters, timeout=timeout)
+        return found.to_sympy().xreplace({sympy.Symbol(name): symbol for name, symbol in given.items()})
+    least, values = way == "minimize", _set_of(*_values(function, names, parts, timeout), timeout)
+    if values is sympy.S.EmptySet:
+        return sympy.oo if least else -sympy.oo
+    return values.inf if least else values.sup
 
 
 def _conditions(given: Condition) -> list[Any]:

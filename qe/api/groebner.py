@@ -24,6 +24,7 @@ from qe.formula.traverse import conjuncts
 from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
 from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
+from qe.io.substitution import over_one_ring
 from qe.options import Budget, Options
 from qe.processes.execution import perform
 
@@ -69,7 +70,8 @@ def comprehensive_groebner(
     limits = limits_of(settings)
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
-    known = under(TRUE, TRUE, settings["assuming"], limits, others=names_typed(polys)).known
+    inner, _ = _assumed(variables, polys, equal, nonzero)  # an ideal knows no signs of its variables
+    known = under(TRUE, inner, settings["assuming"], limits, others=names_typed(polys)).known
     given = polys, variables, parameters, chosen, constants, equal, nonzero
     system, _ = read_under(limits, partial(read_system, *given, known=known), polys, equal, nonzero)
     work = partial(_solved, system, convert(known, system.ring), wanted)
@@ -97,11 +99,35 @@ def real_root_classification(
     ``comprehensive_groebner``.
     """
     limits = limits_of(settings)
-    known = under(TRUE, TRUE, settings["assuming"], limits, others=names_typed(polys)).known
+    inner, signs = _assumed(variables, polys, equal, nonzero, positive)
+    known = under(TRUE, inner, settings["assuming"], limits, others=names_typed(polys)).known
+    positive = (*positive, *signs) if signs else positive
     given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive
-    system, signs = read_under(limits, partial(read_system, *given, known=known), polys, equal, nonzero, positive)
-    work = partial(_classified, system, signs, convert(known, system.ring), settings["check"])
+    system, above = read_under(limits, partial(read_system, *given, known=known), polys, equal, nonzero, positive)
+    work = partial(_classified, system, above, convert(known, system.ring), settings["check"])
     return perform(work, limits, at_once=limits.timeout is not None)
+
+
+def _assumed(variables: Names, *given: Sequence[Any]) -> tuple[Formula, list[Poly]]:
+    """What SymPy's symbols are assumed to be: of parameters, and polynomials that are positive where variables are so.
+
+    Raises ``InputError`` where a variable is assumed to be no more than nonnegative or nonpositive."""
+    symbolic = [part for listed in given if isinstance(listed, list | tuple) for part in listed]
+    symbolic = [part for part in symbolic if hasattr(part, "free_symbols")]
+    if not symbolic:
+        return TRUE, []
+    from qe.io.sympy import assumed_of
+
+    own, inner, signs = arguments.names(variables, "variables") or (), list[Formula](), list[Poly]()
+    for condition in dict.fromkeys(one for part in symbolic for one in assumed_of(part)):
+        if condition.free[0] not in own:
+            inner.append(condition)
+        elif isinstance(condition, Atom) and condition.relation in (Relation.GT, Relation.LT, Relation.NE):
+            poly, sides = condition.poly, {Relation.GT: 1, Relation.LT: -1}
+            signs.append(sides.get(condition.relation, condition.poly) * poly)
+        else:
+            raise InputError(f"polys: {condition.free[0]} is assumed to satisfy {condition}, expected > or < or /=")
+    return conj(over_one_ring(*inner)) if inner else TRUE, signs
 
 
 def _solved(system: ParametricSystem, known: Formula, faithful: bool, budget: Budget) -> ComprehensiveGroebnerSystem:

@@ -164,9 +164,14 @@ def order_of(order: Any, given: AnyFormula, formula: Formula) -> tuple[str, ...]
     return tuple(name for name in names if name in known)
 
 
-def read_posed_constraints(given: AnyFormula) -> Read:
-    """One formula, or the conjunction of a list of formulas, and what is assumed."""
-    return (TRUE, TRUE) if isinstance(given, list | tuple) and not given else read_posed(given)
+def read_posed_constraints(given: AnyFormula, objective: AnyFormula) -> Read:
+    """One formula, or the conjunction of a list of formulas, and what is assumed, of symbols of the objective, too."""
+    formula, known = (TRUE, TRUE) if isinstance(given, list | tuple) and not given else read_posed(given)
+    if not hasattr(objective, "free_symbols"):
+        return formula, known
+    from qe.io.sympy import assumed_of
+
+    return formula, conj(over_one_ring(known, *assumed_of(objective)))
 
 
 def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:

@@ -20,6 +20,7 @@ from qe.io.text import optimum_asked
 from qe.optimization.values import Goal, Objective
 from qe.options import Budget
 from qe.proof.answer import Guarantee
+from qe.services import SymPyForm
 
 if TYPE_CHECKING:
     from qe.optimization.global_optimum import GlobalOptimum
@@ -95,7 +96,7 @@ def maximize(
 
 
 @dataclass(frozen=True, slots=True)
-class Extremes:
+class Extremes(SymPyForm):
     """The ``least`` and the ``greatest`` value, each as ``minimize`` and ``maximize`` give it."""
 
     least: AnyOptimum
@@ -138,7 +139,7 @@ def _best(
             raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
         constraints = [constraints, more]
         parameters = sorted(names_typed([objective, more]) - {*variables}) or parameters
-    read = read_under(limits, partial(read_posed_constraints, constraints), constraints)
+    read = read_under(limits, partial(read_posed_constraints, constraints, objective), constraints)
     stated = under(*read, settings["assuming"], limits, others=names_typed([objective]))
     conditions = stated.restricted
     given = arguments.names(parameters, "parameters")

@@ -101,6 +101,11 @@ def _assumptions(symbols: Iterable[Any]) -> dict[str, Formula]:
     return {name: lower(node, _failing("assumptions")) for name, node in signs(symbols).items()}
 
 
+def assumed_of(expression: Any) -> Iterable[Formula]:
+    """What the symbols of an expression are assumed to be."""
+    return _assumptions(sorted(expression.free_symbols, key=str)).values()
+
+
 def _failing(whole: object) -> s.Fail:
     return lambda message, _: InputError(f"{shown(whole)}: {message}")
 
@@ -193,6 +198,8 @@ def term_to_sympy(term: s.Term) -> Any:
             return term_to_sympy(base) ** term_to_sympy(exponent)
         case s.Minus(part):
             return -term_to_sympy(part)
+        case s.Infinity():
+            return sp.oo
         case s.Apply("cbrt", [part]):
             return sp.real_root(term_to_sympy(part), 3)
         case s.Apply(function, parts) if function in _FUNCTIONS:
@@ -246,15 +253,19 @@ def _basic(given: object, expected: str) -> Any:
 
 def sympy_form(value: Any) -> Any:
     """What SymPy takes a value for: the Boolean of a formula, of a set that has one, of solutions as they are printed;
-    the values of a point by their symbols; the number that equals a number or an optimum (None: there is none)."""
+    the values of a point by their symbols; the number that equals a number or an optimum (None: there is none), a
+    ``Piecewise`` where it depends on parameters."""
     import sympy
 
     if isinstance(value, Formula):
         return to_sympy(value)
     if hasattr(value, "lines"):
-        from qe.io.text import read_node  # the parser, which reading SymPy does not need
-
-        return _node_to_sympy(read_node(" or ".join(value.lines) or "false"))
+        return _said(" or ".join(value.lines) or "false")
+    if hasattr(value, "branches"):
+        pieces = [(_said(best, term=True), _said(where)) for best, where in value.branches]
+        return sympy.Piecewise(*pieces) if pieces else sympy.nan
+    if hasattr(value, "least"):
+        return sympy.Tuple(*map(sympy_form, value))
     if hasattr(value, "formula"):
         return to_sympy(value.formula)
     if isinstance(value, dict):
@@ -262,6 +273,13 @@ def sympy_form(value: Any) -> Any:
     if hasattr(value, "attained"):
         return None if value.value is None else sympy.sympify(value.value)
     return number_to_sympy(value.to_algebraic() if isinstance(value, FieldElement) else value)
+
+
+def _said(text: str, *, term: bool = False) -> Any:
+    """The SymPy Boolean, or term, of a text as it is written."""
+    from qe.io.text import read_node, read_term  # the parser, which reading SymPy does not need
+
+    return term_to_sympy(read_term(text)) if term else _node_to_sympy(read_node(text))
 
 
 def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> Any:

@@ -29,9 +29,10 @@ from qe.options import Budget, Options
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee
-from qe.proof.cells import CellTable
+from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
+from qe.services import SymPyForm
 from qe.spelling import quoted
 
 Place = tuple[Range, ...]
@@ -73,7 +74,7 @@ def _said(place: Place) -> str:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class ParametricOptimum:
+class ParametricOptimum(SymPyForm):
     """The minimum or maximum as a function of the parameters: ``cases`` with disjoint conditions.
 
     Where no case applies, no point meets the constraints. ``at`` gives the optimum at numbers. ``minimisers``: holds
@@ -81,7 +82,7 @@ class ParametricOptimum:
     of ``variable`` and the parameters. ``certificate``: of the elimination and of the cells that the values and their
     ends are read from, not of the minimisers; None where it had none. ``answer``: how the values were found.
     ``guarantee``, ``reason``: with ``check``, as in ``GlobalOptimum``. ``str`` writes one case a line; ``to_json`` and
-    ``to_latex`` write all cases.
+    ``to_latex`` write all cases; in SymPy it is a ``Piecewise``.
     """
 
     cases: tuple[Case, ...]
@@ -96,6 +97,15 @@ class ParametricOptimum:
     certificate: Certificate | None = None
     guarantee: Guarantee = Guarantee.DERIVED
     reason: str = ""
+
+    @property
+    def branches(self) -> list[tuple[str, str]]:
+        """For each case the value, or infinity with its sign, and the condition under which it is the optimum."""
+        none = "-infinity" if self._sign > 0 else "infinity"
+        return [
+            (str(case.value or none), " and ".join(str(r) for r in case.ranges if r.is_bounded) or "true")
+            for case in self.cases
+        ]
 
     def __iter__(self) -> Iterator[Case]:
         return iter(self.cases)
@@ -174,7 +184,8 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
     taken = values.formula
     order = (*goal.parameters, goal.value)
     table = decompose(taken, order, ("",) * len(order), budget=limits).table
-    cases = list(_by_value(merge(table, budget=limits), sign))
+    ends = replace(table, root=_closed(table.root, len(order), sign))
+    cases = list(_by_value(merge(ends, budget=limits), sign))
     roots = list(dict.fromkeys(case.value.poly for _, case in cases if case.value is not None and case.attained))
     if goal.variables:
         pieces = points(goal, taken, roots, sign, limits)
@@ -204,13 +215,26 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
     return replace(optimum, answer=answer, certificate=Certificate.bundle(members))
 
 
+def _closed(cell: Cell, levels: int, sign: int) -> Cell:
+    """The values that are taken, so many levels above a cell, with all above them (``sign`` -1: below): cells of
+    parameters with the same optimum differ in nothing else."""
+    if cell.stack is None:
+        return cell
+    cells = cell.stack.cells
+    if levels > 1:
+        cells = tuple(_closed(below, levels - 1, sign) for below in cells)
+    else:
+        first = next((k for k, below in enumerate(cells[::sign]) if below.truth), len(cells))
+        cells = tuple(replace(below, truth=k >= first) for k, below in enumerate(cells[::sign]))[::sign]
+    return replace(cell, stack=replace(cell.stack, cells=cells))
+
+
 def _by_value(pieces: Iterable[Piece], sign: int) -> Iterator[tuple[Number, Case]]:
-    """The cases of the pieces of the values that are taken, each with its place."""
-    for ranges, stack in groupby(pieces, key=lambda piece: piece.ranges[:-1]):
-        values = list(stack)
-        end = values[0 if sign > 0 else -1].ranges[-1]
-        end_value, closed = end.end(lower=sign > 0)
-        yield _place(values[0]), Case(ranges, end_value, end_value is not None and closed)
+    """The cases of the pieces of the values from the optimum on, each with its place."""
+    for piece in pieces:
+        *ranges, values = piece.ranges
+        end, closed = values.end(lower=sign > 0)
+        yield _place(piece), Case(tuple(ranges), end, end is not None and closed)
 
 
 def _with_points(pieces: Iterable[Piece], size: int) -> Iterator[tuple[Number, Case]]:

@@ -55,6 +55,10 @@ def test_regions(condition: object, expected: sp.Set) -> None:
     (lambda: exact.solve_region(sp.Symbol("m", nonpositive=True) ** 2 < 4), sp.Interval.Lopen(-2, 0)),
     (lambda: exact.minimum(p + 1 / p), 2),
     (lambda: exact.maximum(x * y, (x, y), x**2 + y**2 <= 1), sp.Rational(1, 2)),
+    (lambda: exact.minimum(x**2 - a * x, x), -(a**2) / 4),
+    (lambda: exact.maximum(x * (a - x), x, x > 0), sp.Piecewise((0, a <= 0), (a**2 / 4, True))),
+    (lambda: exact.minimum(p + a / p, p), sp.Piecewise((-sp.oo, a < 0), (0, sp.Eq(a, 0)), (2 * sp.sqrt(a), a > 0))),
+    (lambda: exact.minimum(x + p, x, sp.Interval(p, 1)), sp.Piecewise((2 * p, p <= 1))),
     (lambda: exact.minimum(x, x, x > x), sp.oo),
     (lambda: exact.is_true_for_all(x**2 >= 0), True),
     (lambda: exact.is_true_for_all(p > 0), True),
@@ -103,6 +107,41 @@ def test_assumptions_are_conditions_in_their_place() -> None:
     assert qe.equivalent(from_sympy(sp.Symbol("z", zero=True) >= x), "z = 0 and z >= x")
 
 
+def test_what_symbols_of_an_objective_are_assumed_to_be_is_read() -> None:
+    """``p + 1/p`` for a positive p was called unbounded."""
+    least = qe.minimize(p + 1 / p)
+    assert least.value == 2 and least.point == {"p": 1}
+    assert str(qe.minimize(p**2 + 2 * p)) == "Optimum(0, not attained)"
+    assert str(qe.minimize(x + a / x, x > 0, parameters=[a])) == str(qe.minimize(p + a / p, parameters=[a])).replace(
+        "p", "x"
+    )
+    solver = qe.Solver()
+    lowest = solver.minimize(p + 1 / p)
+    assert solver.check() == "sat" and solver.lower(lowest) == 2
+
+
+def test_what_symbols_of_a_system_are_assumed_to_be_is_read() -> None:
+    """All solutions of p^2 + a*p + 1 = 0 were counted, not the positive ones."""
+    found = {one.count: str(one.condition) for one in qe.real_root_classification([p**2 + a * p + 1], [p])}
+    assert found == {0: "a > -2", 1: "a = -2", 2: "a < -2"}
+    negative = qe.real_root_classification([sp.Symbol("m", negative=True) ** 2 - p], ["m"])
+    assert [(one.count, str(one.condition)) for one in negative] == [(1, "true")]
+    assert [str(one.count) for one in qe.real_root_classification([n**2 - a * n], [n])] == ["0", "1"]
+    assert str(qe.comprehensive_groebner([p * x - 1], [x])) == str(
+        qe.comprehensive_groebner(["p*x - 1"], ["x"], assuming="p > 0")
+    )
+    with pytest.raises(qe.InputError, match="w is assumed to satisfy w >= 0"):
+        qe.real_root_classification([sp.Symbol("w", nonnegative=True) - a], ["w"])
+
+
+def test_optima_with_parameters_are_piecewise() -> None:
+    least, greatest = qe.optimum("x^2 - a*x", "x >= 0", parameters="a").to_sympy()
+    assert least == sp.Piecewise((0, a <= 0), (-(a**2) / 4, True)) and greatest == sp.oo
+    assert qe.minimize("x", "x^2 < 0 and a = a", parameters="a").to_sympy() is sp.nan
+    with pytest.raises(qe.InputError, match="root of a polynomial with parameters"):
+        qe.minimize("x", "x^5 - x - a = 0", parameters="a").to_sympy()
+
+
 @each(
     (lambda: exact.solve_region(x < y), "one free symbol"),
     (lambda: exact.solve_region(x < y, x), "one free symbol"),
@@ -115,6 +154,7 @@ def test_assumptions_are_conditions_in_their_place() -> None:
     (lambda: exact.reduce_inequalities(x**sp.pi < 1), r"not algebraic: x\*\*pi"),
     (lambda: exact.reduce_inequalities(x < 1, 5), "symbols: the name of a variable"),
     (lambda: exact.is_true_for_all(x), "Boolean combination"),
+    (lambda: exact.function_range(x**2 + a, x), r"all of the expression expected \(a\); minimum takes others"),
     (lambda: exact.function_range("x**2"), "a SymPy expression expected, 'x..2' found"),
     (lambda: exact.minimum(None), "a SymPy expression expected, None found"),
     (lambda: exact.maximum(x > 0), "a SymPy expression expected, x > 0 found"),

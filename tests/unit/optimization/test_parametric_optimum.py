@@ -13,7 +13,7 @@ from tests.tables import each
 
 @each(
     ("x^2 + b*x + c", "true", "b, c", ["(4*c - b^2)/4 at x = -b/2"]),
-    ("a*x^2 + x", "true", "a", ["unbounded if a < 0", "unbounded if a = 0", "-1/(4*a) at x = -1/(2*a) if a > 0"]),
+    ("a*x^2 + x", "true", "a", ["unbounded if a <= 0", "-1/(4*a) at x = -1/(2*a) if a > 0"]),
     ("x", "x^2 + y^2 <= r", "r", ["-sqrt(r) at x = -sqrt(r), y = 0 if r >= 0"]),
     (
         "x^4 + a*x^2",
@@ -31,6 +31,13 @@ from tests.tables import each
 )
 def test_cases(objective, constraints, parameters, printed):
     assert str(qe.minimize(objective, constraints, parameters=parameters)).splitlines() == printed
+
+
+def test_cases_that_differ_in_values_beyond_the_optimum_are_one():
+    """For a <= 0 and for a > 0 "unbounded" stood on a line of its own, since the least values differ."""
+    found = qe.optimum("x^2 - a*x", "x >= 0", parameters="a")
+    assert str(found) == "least: 0 at x = 0 if a <= 0\n-a^2/4 at x = a/2 if a > 0\ngreatest: unbounded"
+    assert str(qe.optimum("x + a", "0 <= x <= 1", parameters="a").least) == "a at x = 0"
 
 
 def test_the_greatest_value():
