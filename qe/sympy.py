@@ -45,7 +45,7 @@ def reduce_inequalities(
 
     An ``Or`` of cases, each an ``And`` of relations that put a symbol between ends in terms of the other symbols and of
     those of ``symbols`` before it; relations with infinities are left out. Where an end is no term of SymPy (a root
-    of degree 3 or more with parameters), the conditions are simplified only. Equations, ``Ne``, ``And``, ``Or`` and
+    with parameters that is no radical), the conditions are simplified only. Equations, ``Ne``, ``And``, ``Or`` and
     parameters are taken, too; constants such as ``pi`` may occur wherever symbols may.
     """
     question = _Question.of(inequalities, timeout)
@@ -228,16 +228,13 @@ class _Question:
         import sympy
 
         free = self.formula.free
-        terms = {**{name: sympy.Symbol(name) for name in free}, **self.symbols, **self.constants}
         constants = [name for name in free if name in self.constants]
         order = [*constants, *(v for v in free if v not in {*constants, *wanted}), *wanted]
-        cases = []
-        for case in api_solve.solve(self.formula, order, timeout=timeout):
-            relations = [_relation(r, terms) for r in case.ranges]
-            if None in relations:
-                return None
-            cases.append(sympy.And(*relations))
-        return sympy.Or(*cases)
+        terms = {sympy.Symbol(name): term for name, term in {**self.symbols, **self.constants}.items()}
+        try:
+            return api_solve.solve(self.formula, order, timeout=timeout).to_sympy().xreplace(terms)
+        except InputError:
+            return None
 
 
 def _with_symbols(given: Any, names: dict[Any, Any]) -> Any:

@@ -201,7 +201,7 @@ def term_to_sympy(term: s.Term) -> Any:
         case s.Infinity():
             return sp.oo
         case s.Apply("cbrt", [part]):
-            return sp.real_root(term_to_sympy(part), 3)
+            return sp.sign(inner := term_to_sympy(part)) * sp.Abs(inner) ** sp.Rational(1, 3)
         case s.Apply(function, parts) if function in _FUNCTIONS:
             return getattr(sp, _FUNCTIONS[function])(*map(term_to_sympy, parts))
         case s.Root(s.Number(k), part):
@@ -226,7 +226,8 @@ def _node_to_sympy(node: s.Node) -> Any:
         case s.Comparison(given, relations):
             terms = [term_to_sympy(side) for side in given]
             pairs = zip(terms, relations, terms[1:], strict=False)
-            return sp.And(*(getattr(sp, r.name.title())(left, right) for left, r, right in pairs))
+            said = [getattr(sp, r.name.title())(left, right, evaluate=False) for left, r, right in pairs]
+            return sp.And(*(one.reversed if one.rhs.is_Symbol and not one.lhs.is_Symbol else one for one in said))
     raise InputError("SymPy has no form for this formula")
 
 

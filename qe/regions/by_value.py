@@ -307,7 +307,9 @@ def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Term
             where.setdefault(terms, set()).add(solution)
     uncovered, chosen = set(found), []
     while uncovered:
-        best = min(where, key=lambda terms: (-len(where[terms] & uncovered), sum(map(len, terms)), min(where[terms])))
+        best = min(
+            where, key=lambda terms: (-len(where[terms] & uncovered), sum(map(len, terms)), min(where[terms]), terms)
+        )
         chosen.append(best)
         uncovered -= where[best]
     return sorted(
