@@ -108,7 +108,7 @@ provide(
     {
         Service.CONNECTED: lambda: import_module("qe.io.expressions").connected,
         Service.SUBSTITUTED: lambda: import_module("qe.io.expressions").substituted,
-        Service.COMPARISON: lambda: import_module("qe.formula.comparison").written,
+        Service.COMPARISON: lambda: import_module("qe.formula.comparison"),
         Service.WRITTEN: lambda: import_module("qe.io.formats").write,
         Service.SYMPY: lambda: import_module("qe.io.sympy").sympy_form,
         Service.REGION: lambda: import_module("qe.api.eliminate").region,

@@ -1,14 +1,21 @@
-"""Comparisons as people write them: ``x >= 2/3``, ``x^2 + y^2 <= 1``, ``b^2 - 4*a*c >= 0``, ``x*(x - 2) <= 0``."""
+"""Comparisons as people write them: ``0 < x <= 2/3``, ``x^2 + y^2 <= 1``, ``b^2 - 4*a*c >= 0``, ``x*(x - 2) <= 0``."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import prod
 
 from qe.exact.ring import Poly
-from qe.formula.notation import Monomial, Notation, digits, monomials, oriented, polynomial, positive
+from qe.formula.notation import Level, Monomial, Notation, digits, monomials, oriented, polynomial, positive
 from qe.formula.relation import Relation
+from qe.formula.syntax import Atom, Formula
+
+End = tuple[list[Monomial], int]
+"""One side of a comparison: a sum and its denominator."""
+
+Between = tuple[End, Relation, list[Monomial], Relation, End]
+"""``0 < x <= 2``."""
 
 MOST_FACTORED = 40
 """Terms, and total degree, up to which a polynomial is factored to be written."""
@@ -38,12 +45,54 @@ def sides(poly: Poly, relation: Relation) -> tuple[list[Monomial], Relation, lis
     return [(c, m) for c, m in parts if c > 0], relation, [(-c, m) for c, m in parts if c < 0], 1
 
 
+def ranges(parts: Sequence[Formula]) -> Iterator[Formula | Between]:
+    """Conditions that hold together; a lower and an upper bound of one term that follow one another as a range."""
+    rest = [*parts]
+    while rest:
+        found = _between(rest[0], rest[1]) if len(rest) > 1 else None
+        yield rest[0] if found is None else found
+        del rest[: 1 if found is None else 2]
+
+
+def _between(first: Formula, second: Formula) -> Between | None:
+    if not (isinstance(first, Atom) and isinstance(second, Atom)):
+        return None
+    lower, upper = sides(first.poly, first.relation), sides(second.poly, second.relation)
+    if lower[1] in (Relation.LT, Relation.LE):
+        lower, upper = upper, lower
+    left, above, low, below = lower
+    same, under, high, over = upper
+    if left != same or above not in (Relation.GT, Relation.GE) or under not in (Relation.LT, Relation.LE):
+        return None
+    if not any(powers for _, powers in (*low, *high)) and _number(low) * over >= _number(high) * below:
+        return None  # nothing lies there
+    return (low, below), above.flipped, left, under, (high, over)
+
+
+def _number(parts: list[Monomial]) -> int:
+    return sum(c for c, _ in parts)
+
+
+def conjuncts(parts: Sequence[Formula], last: bool, notation: Notation) -> Iterator[str]:
+    """The texts of conditions that hold together; ``last``: whether nothing follows them."""
+    for part in ranges(parts):
+        if isinstance(part, tuple):
+            low, above, term, under, high = part
+            middle = f"{notation.relation(above)} {polynomial(term, notation)} {notation.relation(under)}"
+            yield f"{_end(*low, notation)} {middle} {_end(*high, notation)}"
+        else:
+            yield part.written(notation, Level.AND, last and part is parts[-1])
+
+
+def _end(parts: list[Monomial], divisor: int, notation: Notation) -> str:
+    text = polynomial(parts, notation)
+    return text if divisor == 1 else notation.quotient(text, digits(divisor))
+
+
 def written(poly: Poly, relation: Relation, notation: Notation) -> str:
     """``poly relation 0`` by its ``sides``, or as a product of factors compared with 0 where that is no longer."""
     left, between, right, divisor = sides(poly, relation)
-    end = polynomial(right, notation)
-    end = end if divisor == 1 else notation.quotient(end, digits(divisor))
-    text = f"{polynomial(left, notation)} {notation.relation(between)} {end}"
+    text = f"{polynomial(left, notation)} {notation.relation(between)} {_end(right, divisor, notation)}"
     if not 1 < poly.term_count() <= MOST_FACTORED or not 1 < poly.total_degree <= MOST_FACTORED:
         return text
     unit, factors = poly.factors()

@@ -86,7 +86,7 @@ def polynomial(parts: list[Monomial], notation: Notation) -> str:
 def comparison(poly: Poly, relation: Relation, notation: Notation) -> str:
     """``poly relation 0``; first coefficients are positive."""
     if notation.customary:
-        return str(service(Service.COMPARISON)(poly, relation, notation))
+        return str(service(Service.COMPARISON).written(poly, relation, notation))
     parts, relation = oriented(poly, relation)
     return f"{polynomial(parts, notation)} {notation.relation(relation)} 0"
 
@@ -100,6 +100,9 @@ def chain(parts: Sequence[Written], own: Level, around: Level, last: bool, notat
     """A conjunction (``own`` is ``Level.AND``) or disjunction of the parts, bracketed where ``around`` asks for it."""
     operator = notation.conjunction if own is Level.AND else notation.disjunction
     enclosed = around >= own or (notation.strict and around is not Level.OPEN)
-    ends = [(last or enclosed) and i == len(parts) - 1 for i in range(len(parts))]
-    text = operator.join(part.written(notation, own, end) for part, end in zip(parts, ends, strict=True))
+    last = last or enclosed
+    if notation.customary and own is Level.AND:
+        text = operator.join(service(Service.COMPARISON).conjuncts(parts, last, notation))
+    else:
+        text = operator.join(part.written(notation, own, last and part is parts[-1]) for part in parts)
     return notation.brackets[0] + text + notation.brackets[1] if enclosed else text

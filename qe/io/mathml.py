@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from html import escape
 from itertools import pairwise
 from typing import Never
 
-from qe.formula.comparison import sides
+from qe.formula.comparison import ranges, sides
 from qe.formula.features import length
 from qe.formula.notation import Monomial, digits, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
@@ -67,7 +67,7 @@ def _lines(formula: Formula) -> str:
 def _rows(formula: And | Or, draw: Draw) -> str:
     """The operands of an operator, each in a row."""
     operator = _operator(_AND if isinstance(formula, And) else _OR)
-    drawn = (expression(arg, bracket=True, draw=draw, broken=True) for arg in formula.args)
+    drawn = _operands(formula, draw, True)
     rows = (f"<mtr><mtd>{operator if i else ''}</mtd><mtd{LEFT}>{arg}</mtd></mtr>" for i, arg in enumerate(drawn))
     return f"<mtable columnalign='right left'>{''.join(rows)}</mtable>"
 
@@ -79,10 +79,7 @@ def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, br
             return f"<mi>{'true' if value else 'false'}</mi>"
         case Atom():
             parts, relation, right, divisor = sides(formula.poly, formula.relation)
-            side = polynomial(right, draw)
-            if divisor > 1:
-                side = f"<mfrac>{side}<mn>{digits(divisor)}</mn></mfrac>"
-            end = f"{_relation(relation)}{side}"
+            end = f"{_relation(relation)}{_end(right, divisor, draw)}"
             lines = _line_starts(parts) if broken else [0]
             if len(lines) > 1:
                 return _in_lines(parts, lines, draw, end)
@@ -96,13 +93,28 @@ def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, br
             inner = f"{_quantifier(formula, draw)}{expression(body, draw=draw, broken=broken)}"
         case And() | Or() if broken and length(formula)[1] > WIDTH:
             inner = _rows(formula, draw)
-        case And(args) | Or(args):
-            operator = _operator(_AND if isinstance(formula, And) else _OR)
-            inner = operator.join(expression(arg, bracket=True, draw=draw, broken=broken) for arg in args)
+        case And() | Or():
+            inner = _operator(_AND if isinstance(formula, And) else _OR).join(_operands(formula, draw, broken))
         case _:
             unknown: Never = formula  # mypy holds the cases against all kinds
             raise TypeError(f"not a formula: {unknown!r}")
     return bracketed(inner) if bracket else f"<mrow>{inner}</mrow>"
+
+
+def _operands(formula: And | Or, draw: Draw, broken: bool) -> Iterator[str]:
+    for part in ranges(formula.args) if isinstance(formula, And) else formula.args:
+        if isinstance(part, tuple):
+            low, above, term, under, high = part
+            middle = f"{_relation(above)}{polynomial(term, draw)}{_relation(under)}"
+            yield f"<mrow>{_end(*low, draw)}{middle}{_end(*high, draw)}</mrow>"
+        else:
+            yield expression(part, bracket=True, draw=draw, broken=broken)
+
+
+def _end(parts: list[Monomial], divisor: int, draw: Draw) -> str:
+    """A sum over a denominator."""
+    side = polynomial(parts, draw)
+    return side if divisor == 1 else f"<mfrac>{side}<mn>{digits(divisor)}</mn></mfrac>"
 
 
 def bracketed(inner: str) -> str:

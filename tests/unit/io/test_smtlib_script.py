@@ -135,9 +135,9 @@ def test_declarations_and_definitions() -> None:
 def test_levels_take_declarations_and_assertions_back() -> None:
     made = script("(declare-const x Real)(assert (> x 0))(push 2)(declare-const y Real)(assert (> y x))(push 1)")
     run(made, "(declare-const z Real)(assert (> z y))")
-    assert str(made.whole()) == "x > 0 and x < y and y < z"
+    assert str(made.whole()) == "0 < x < y and y < z"
     run(made, "(pop 1)")
-    assert list(made.constants) == ["x", "y"] and str(made.whole()) == "x > 0 and x < y"
+    assert list(made.constants) == ["x", "y"] and str(made.whole()) == "0 < x < y"
     run(made, "(pop 2)(declare-const y Bool)")
     assert made.constants == {"x": ("Real", "x"), "y": ("Bool", "y")} and str(made.whole()) == "x > 0"
     with pytest.raises(InputError, match="7: pop 1, but there are only 0 levels"):
