@@ -19,13 +19,11 @@ import qe.api.optimum as api_optimum
 import qe.api.solve as api_solve
 from qe import arguments
 from qe.api.limits import read_under
-from qe.decomposition.pieces import Range, RootFunction
 from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall
 from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
-from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_to_sympy, to_sympy
-from qe.io.sympy_numbers import number_to_sympy
+from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, said, to_sympy
 from qe.processes.limits import Limits
 
 if TYPE_CHECKING:
@@ -249,37 +247,6 @@ def _with_symbols(given: Any, names: dict[Any, Any]) -> Any:
     return given.func(*(_with_symbols(part, names) for part in given.args))
 
 
-def _relation(r: Range, terms: Mapping[str, Any]) -> Any:
-    """A range as a SymPy Boolean; None where an end is no term."""
-    import sympy
-
-    symbol, ends = terms[r.variable], [_term(end, terms) for end in (r.lower, r.upper)]
-    if (r.lower is not None and ends[0] is None) or (r.upper is not None and ends[1] is None):
-        return None
-    if r.is_point:
-        return sympy.Eq(symbol, ends[0])
-    low = sympy.true if r.lower is None else (symbol >= ends[0]) if r.lower_closed else (symbol > ends[0])
-    high = sympy.true if r.upper is None else (symbol <= ends[1]) if r.upper_closed else (symbol < ends[1])
-    return sympy.And(low, high)
-
-
-def _term(root: RootFunction | None, terms: Mapping[str, Any]) -> Any:
-    """An end of a range in terms of the variables before it, where it is one."""
-    import sympy
-
-    if root is None:
-        return None
-    if root.value is not None:
-        return number_to_sympy(root.value)
-    if root.written is None:
-        return None
-    front, inside, bottom = root.written
-    top = polynomial_to_sympy(front, terms)
-    if inside is not None:
-        top += (-1 if root.k == 1 else 1) * sympy.sqrt(polynomial_to_sympy(inside, terms))
-    return top / polynomial_to_sympy(bottom, terms)
-
-
 def _quantifier_free(question: _Question, timeout: float | None) -> Any:
     answer = api.eliminate(question.formula, timeout=timeout)
     if answer.formula is None:
@@ -291,19 +258,19 @@ def _set_of(question: _Question, name: str, timeout: float | None) -> Any:
     """The solutions of a condition in one variable (and in constants)."""
     import sympy
 
-    terms = {name: sympy.Symbol(name, real=True), **question.constants}
-    parts = []
-    order = [*(v for v in question.formula.free if v in question.constants), name]
+    constants = {sympy.Symbol(name): number for name, number in question.constants.items()}
+    order, parts = [*(v for v in question.formula.free if v in question.constants), name], []
     for case in api.region(question.formula, order=order, timeout=timeout).cells:
         *before, within = case.ranges
-        low, high = _term(within.lower, terms), _term(within.upper, terms)
-        holds = [_relation(r, terms) for r in before]
-        if None in holds or (within.lower and low is None) or (within.upper and high is None):
-            raise Unable("an end of the set is no term of SymPy")
-        if sympy.And(*holds) is sympy.false:
+        try:
+            holds = sympy.And(*(said(str(r)).xreplace(constants) for r in before if r.is_bounded))
+            texts = str(within.lower or "-infinity"), str(within.upper or "infinity")
+            low, high = (said(text, term=True).xreplace(constants) for text in texts)
+        except InputError:
+            raise Unable("an end of the set is no term of SymPy") from None
+        if holds is sympy.false:
             continue
-        if sympy.And(*holds) is not sympy.true:
-            raise Unable(f"SymPy does not decide {sympy.And(*holds)}")
-        low, high = -sympy.oo if low is None else low, sympy.oo if high is None else high
+        if holds is not sympy.true:
+            raise Unable(f"SymPy does not decide {holds}")
         parts.append(sympy.Interval(low, high, not within.lower_closed, not within.upper_closed))
     return sympy.Union(*parts) if parts else sympy.S.EmptySet

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from math import prod
+from math import gcd, prod
 
 from qe.exact.ring import Poly
 from qe.formula.notation import Level, Monomial, Notation, digits, monomials, oriented, polynomial, positive
 from qe.formula.relation import Relation
 from qe.formula.syntax import Atom, Formula
 
+Side = tuple[list[Monomial], Relation, list[Monomial], int]
+"""The left side of a comparison, the relation, and the right side with its denominator."""
 End = tuple[list[Monomial], int]
-"""One side of a comparison: a sum and its denominator."""
-
+"""A sum and its denominator."""
 Between = tuple[End, Relation, list[Monomial], Relation, End]
 """``0 < x <= 2``."""
 
@@ -21,7 +22,7 @@ MOST_FACTORED = 40
 """Terms, and total degree, up to which a polynomial is factored to be written."""
 
 
-def sides(poly: Poly, relation: Relation) -> tuple[list[Monomial], Relation, list[Monomial], int]:
+def sides(poly: Poly, relation: Relation) -> Side:
     """``poly relation 0`` as people write it: left side, relation, and right side with its denominator.
 
     A bound of one variable is ``x <= 2/3``. Linear terms stand where they are positive, and so does the constant
@@ -30,12 +31,11 @@ def sides(poly: Poly, relation: Relation) -> tuple[list[Monomial], Relation, lis
     """
     parts, relation = oriented(poly, relation)
     terms = [(c, powers) for c, powers in parts if powers]
-    (lead, first), last = terms[0], terms[-1][1]
+    first, last = terms[0][1], terms[-1][1]
     names = {name for _, powers in terms for name, _ in powers}
     linear = poly.total_degree == 1
     if linear and len(terms) == 1:
-        bound = Fraction(-sum(c for c, powers in parts if not powers), lead)
-        return [(1, first)], relation, [(bound.numerator, ())] if bound else [], bound.denominator
+        return _bounded(poly, relation)
     variable = [name for name, k in last] if sum(k for _, k in last) == 1 else []
     if not linear and [c for c, _ in parts] == [1, -1] and variable and variable[0] not in dict(first):
         return [(1, last)], relation.flipped, [(1, first)], 1
@@ -57,20 +57,29 @@ def ranges(parts: Sequence[Formula]) -> Iterator[Formula | Between]:
 def _between(first: Formula, second: Formula) -> Between | None:
     if not (isinstance(first, Atom) and isinstance(second, Atom)):
         return None
-    lower, upper = sides(first.poly, first.relation), sides(second.poly, second.relation)
-    if lower[1] in (Relation.LT, Relation.LE):
-        lower, upper = upper, lower
-    left, above, low, below = lower
-    same, under, high, over = upper
-    if left != same or above not in (Relation.GT, Relation.GE) or under not in (Relation.LT, Relation.LE):
-        return None
-    if not any(powers for _, powers in (*low, *high)) and _number(low) * over >= _number(high) * below:
-        return None  # nothing lies there
-    return (low, below), above.flipped, left, under, (high, over)
+    for form in (_bounded, sides):
+        lower, upper = form(first.poly, first.relation), form(second.poly, second.relation)
+        if lower[1] in (Relation.LT, Relation.LE):
+            lower, upper = upper, lower
+        left, above, low, below = lower
+        same, under, high, over = upper
+        if left == same and above in (Relation.GT, Relation.GE) and under in (Relation.LT, Relation.LE):
+            empty = form is _bounded and _number(low) * over >= _number(high) * below
+            return None if empty else ((low, below), above.flipped, left, under, (high, over))
+    return None
+
+
+def _bounded(poly: Poly, relation: Relation) -> Side:
+    """``poly relation 0`` with a number on the right."""
+    parts, relation = oriented(poly, relation)
+    divisor = gcd(*(c for c, powers in parts if powers))
+    bound = Fraction(-_number(parts), divisor)
+    left = [(c // divisor, powers) for c, powers in parts if powers]
+    return left, relation, [(bound.numerator, ())] if bound else [], bound.denominator
 
 
 def _number(parts: list[Monomial]) -> int:
-    return sum(c for c, _ in parts)
+    return sum(c for c, powers in parts if not powers)
 
 
 def conjuncts(parts: Sequence[Formula], last: bool, notation: Notation) -> Iterator[str]:

@@ -22,7 +22,7 @@ from qe.exact.field import FieldElement
 from qe.exact.ring import Poly
 from qe.formula.build import JOINS, conj, exists, forall, implies
 from qe.formula.comparison import sides
-from qe.formula.notation import Monomial, monomials
+from qe.formula.notation import Monomial
 from qe.formula.operators import Connected
 from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Not, Or
 from qe.io import surface as s
@@ -261,9 +261,9 @@ def sympy_form(value: Any) -> Any:
     if isinstance(value, Formula):
         return to_sympy(value)
     if hasattr(value, "lines"):
-        return _said(" or ".join(value.lines) or "false")
+        return said(" or ".join(value.lines) or "false")
     if hasattr(value, "branches"):
-        pieces = [(_said(best, term=True), _said(where)) for best, where in value.branches]
+        pieces = [(said(best, term=True), said(where)) for best, where in value.branches]
         return sympy.Piecewise(*pieces) if pieces else sympy.nan
     if hasattr(value, "least"):
         return sympy.Tuple(*map(sympy_form, value))
@@ -276,7 +276,7 @@ def sympy_form(value: Any) -> Any:
     return number_to_sympy(value.to_algebraic() if isinstance(value, FieldElement) else value)
 
 
-def _said(text: str, *, term: bool = False) -> Any:
+def said(text: str, *, term: bool = False) -> Any:
     """The SymPy Boolean, or term, of a text as it is written."""
     from qe.io.text import read_node, read_term  # the parser, which reading SymPy does not need
 
@@ -294,11 +294,6 @@ def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> A
     table = {name: sympy.Symbol(name) for name in names_in(formula)}
     table.update(symbols or {})
     return _boolean(formula, table, sympy)
-
-
-def polynomial_to_sympy(poly: Poly, symbols: Mapping[str, Any]) -> Any:
-    """The SymPy expression of a polynomial, with these symbols (or other terms) for its variables."""
-    return _sum(monomials(poly), symbols)
 
 
 def _sum(parts: list[Monomial], symbols: Mapping[str, Any]) -> Any:

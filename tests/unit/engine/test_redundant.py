@@ -14,6 +14,7 @@ from qe.elimination.protocol import Context, Outcome
 from qe.engine.redundant import is_worth_questions, without_part, without_redundant_parts
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Formula
+from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
@@ -94,7 +95,7 @@ def test_cases_that_linear_conditions_beside_them_imply_are_dropped() -> None:
     lowest = "a + b - 2*c <= 1 and a <= c and b <= c"
     cases = " or ".join(f"{v} <= {u} and {u} <= {w} and {w} - {v} <= 1" for v, u, w in permutations("abc"))
     log, question = RunLog(), read_formula(f"{beside} and ({cases} or {lowest})")
-    assert shorter(question, log) == read_formula(beside)
+    assert {*conjuncts(shorter(question, log))} == {*conjuncts(read_formula(beside))}
     assert all(accepted(step) for step in log.steps() if step.rule == "redundant part")
 
 

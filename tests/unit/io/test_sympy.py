@@ -26,7 +26,7 @@ HALF = sp.Rational(1, 2)
     (x < -sp.Float("1.5e-3"), "x < -3/2000"),
     (x > sp.Float("1e30"), "x > 1000000000000000000000000000000"),
     (x < sp.Float("0.1", 60), "x < 1/10"),
-    (sp.Abs(x) <= 1, "x <= 1 and x >= -1"),
+    (sp.Abs(x) <= 1, "-1 <= x <= 1"),
     (sp.Implies(x > 0, y > 0), "x <= 0 or y > 0"),
     (sp.Xor(x > 0, y > 0), "not ((x <= 0 or y > 0) and (y <= 0 or x > 0))"),
     (sp.Equivalent(x > 0, y > 0), "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
