@@ -37,7 +37,7 @@ UNIT = f"ex x. 0 <= x and x <= 1 and {FORM}"
     (f"r >= 0 and s <= 0 and ({DISCS})", "r >= 0 and s <= 0 and r^2 - 2*r*s + s^2 - a^2 - b^2 >= 0"),
     (DISCS, "r^2 - a^2 - b^2 + 2*r*s + s^2 >= 0 or r^2 - a^2 - b^2 - 2*r*s + s^2 >= 0"),
     ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
-    ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "a < 2 and a > -2"),
+    ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "-2 < a < 2"),
     ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 >= 9"),
     ("all x, y. (x-a)^2 + (y-b)^2 <= 4 -> x^2 + y^2 <= 9", "a^2 + b^2 <= 1"),
     (f"r > 0 and s > 0 and ({DISCS.replace('<', '')})", f"r > 0 and s > 0 and {NEAR} >= 0 and {FAR} <= 0"),
@@ -46,7 +46,7 @@ UNIT = f"ex x. 0 <= x and x <= 1 and {FORM}"
         f"r > 0 and s > 0 and ({DISCS.replace('<=', '=', 1)})",
         f"r > 0 and s > 0 and {NEAR} >= 0 and ({FAR} <= 0 or r <= s)",
     ),
-    ("ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b", "a <= b and a >= 0"),
+    ("ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b", "0 <= a <= b"),
     ("ex x, y. x^2 + y^2 > a and x^2 + y^2 <= b", "b >= 0 and a < b"),
     (
         "a > 0 and ex t. t >= 0 and t <= a and u*t + p >= 0 and u*t + p <= 1",
