@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from math import gcd, prod
+from typing import NamedTuple
 
 from qe.exact.ring import Poly
 from qe.formula.notation import Level, Monomial, Notation, digits, monomials, oriented, polynomial, positive
@@ -15,8 +16,22 @@ Side = tuple[list[Monomial], Relation, list[Monomial], int]
 """The left side of a comparison, the relation, and the right side with its denominator."""
 End = tuple[list[Monomial], int]
 """A sum and its denominator."""
-Between = tuple[End, Relation, list[Monomial], Relation, End]
-"""``0 < x <= 2``."""
+
+
+class Range(NamedTuple):
+    """``0 < x <= 2``."""
+
+    low: End
+    above: Relation
+    term: list[Monomial]
+    under: Relation
+    high: End
+
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        """As formulas are."""
+        middle = f"{notation.relation(self.above)} {polynomial(self.term, notation)} {notation.relation(self.under)}"
+        return f"{_end(*self.low, notation)} {middle} {_end(*self.high, notation)}"
+
 
 MOST_FACTORED = 40
 """Terms, and total degree, up to which a polynomial is factored to be written."""
@@ -45,16 +60,18 @@ def sides(poly: Poly, relation: Relation) -> Side:
     return [(c, m) for c, m in parts if c > 0], relation, [(-c, m) for c, m in parts if c < 0], 1
 
 
-def ranges(parts: Sequence[Formula]) -> Iterator[Formula | Between]:
+def ranges(parts: Sequence[Formula]) -> list[Formula | Range]:
     """Conditions that hold together; a lower and an upper bound of one term that follow one another as a range."""
-    rest = [*parts]
-    while rest:
-        found = _between(rest[0], rest[1]) if len(rest) > 1 else None
-        yield rest[0] if found is None else found
-        del rest[: 1 if found is None else 2]
+    listed: list[Formula | Range] = []
+    for part in parts:
+        both = _between(listed[-1], part) if listed else None
+        if both is not None:
+            listed.pop()
+        listed.append(part if both is None else both)
+    return listed
 
 
-def _between(first: Formula, second: Formula) -> Between | None:
+def _between(first: Formula | Range, second: Formula) -> Range | None:
     if not (isinstance(first, Atom) and isinstance(second, Atom)):
         return None
     for form in (_bounded, sides):
@@ -65,7 +82,7 @@ def _between(first: Formula, second: Formula) -> Between | None:
         same, under, high, over = upper
         if left == same and above in (Relation.GT, Relation.GE) and under in (Relation.LT, Relation.LE):
             empty = form is _bounded and _number(low) * over >= _number(high) * below
-            return None if empty else ((low, below), above.flipped, left, under, (high, over))
+            return None if empty else Range((low, below), above.flipped, left, under, (high, over))
     return None
 
 
@@ -80,17 +97,6 @@ def _bounded(poly: Poly, relation: Relation) -> Side:
 
 def _number(parts: list[Monomial]) -> int:
     return sum(c for c, powers in parts if not powers)
-
-
-def conjuncts(parts: Sequence[Formula], last: bool, notation: Notation) -> Iterator[str]:
-    """The texts of conditions that hold together; ``last``: whether nothing follows them."""
-    for part in ranges(parts):
-        if isinstance(part, tuple):
-            low, above, term, under, high = part
-            middle = f"{notation.relation(above)} {polynomial(term, notation)} {notation.relation(under)}"
-            yield f"{_end(*low, notation)} {middle} {_end(*high, notation)}"
-        else:
-            yield part.written(notation, Level.AND, last and part is parts[-1])
 
 
 def _end(parts: list[Monomial], divisor: int, notation: Notation) -> str:

@@ -46,10 +46,9 @@ def positive(poly: Poly) -> list[Monomial]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Notation:
-    """The tokens of a line format. ``quantifier(universal, names)`` gives a prefix; ``root(variable, relation, poly,
-    k)`` prints a root atom. ``scope``: brackets around the body of a quantifier (None: the body runs on to the right).
-    ``strict``: what follows a negation is bracketed, and so is ``and`` inside ``or``. ``customary``: comparisons have
-    the form of ``qe.formula.comparison``; else they are a sum and 0."""
+    """The tokens of a line format. ``quantifier(universal, names)`` gives a prefix, ``root(variable, relation, poly,
+    k)`` a root atom. ``scope``: brackets around the body of a quantifier (None: it runs on to the right). ``strict``:
+    brackets after a negation, and around ``and`` inside ``or``. ``customary``: as in ``qe.formula.comparison``."""
 
     name: Callable[[str], str]
     quantifier: Callable[[bool, tuple[str, ...]], str]
@@ -100,9 +99,7 @@ def chain(parts: Sequence[Written], own: Level, around: Level, last: bool, notat
     """A conjunction (``own`` is ``Level.AND``) or disjunction of the parts, bracketed where ``around`` asks for it."""
     operator = notation.conjunction if own is Level.AND else notation.disjunction
     enclosed = around >= own or (notation.strict and around is not Level.OPEN)
-    last = last or enclosed
     if notation.customary and own is Level.AND:
-        text = operator.join(service(Service.COMPARISON).conjuncts(parts, last, notation))
-    else:
-        text = operator.join(part.written(notation, own, last and part is parts[-1]) for part in parts)
+        parts = service(Service.COMPARISON).ranges(parts)
+    text = operator.join(part.written(notation, own, (last or enclosed) and part is parts[-1]) for part in parts)
     return notation.brackets[0] + text + notation.brackets[1] if enclosed else text

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from qe.exact.ring import Poly
-from qe.formula.comparison import conjuncts
+from qe.formula.comparison import ranges
 from qe.formula.notation import Level, Notation, monomials, polynomial, positive
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation
 from qe.spelling import visible
@@ -48,12 +48,10 @@ def write(formula: Formula) -> str:
     prefix, body = _prefix(formula)
     if not isinstance(body, And | Or):
         return text
-    if isinstance(body, And):
-        operator, parts = _NOTATION.conjunction, conjuncts(body.args, False, _NOTATION)
-    else:
-        operator = _NOTATION.disjunction
-        parts = (arg.written(_NOTATION, Level.OR, last=False) for arg in body.args)
-    joined = (r" \\" + f"\n{operator.strip()}\\; & ").join(parts)
+    level, operator = (Level.AND, _NOTATION.conjunction) if isinstance(body, And) else (Level.OR, _NOTATION.disjunction)
+    joined = (r" \\" + f"\n{operator.strip()}\\; & ").join(
+        arg.written(_NOTATION, level, last=False) for arg in (ranges(body.args) if level is Level.AND else body.args)
+    )
     return f"{prefix}\\begin{{array}}{{rl}}\n& {joined}\n\\end{{array}}"
 
 

@@ -8,7 +8,7 @@ from html import escape
 from itertools import pairwise
 from typing import Never
 
-from qe.formula.comparison import ranges, sides
+from qe.formula.comparison import Range, ranges, sides
 from qe.formula.features import length
 from qe.formula.notation import Monomial, digits, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
@@ -103,7 +103,7 @@ def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, br
 
 def _operands(formula: And | Or, draw: Draw, broken: bool) -> Iterator[str]:
     for part in ranges(formula.args) if isinstance(formula, And) else formula.args:
-        if isinstance(part, tuple):
+        if isinstance(part, Range):
             low, above, term, under, high = part
             middle = f"{_relation(above)}{polynomial(term, draw)}{_relation(under)}"
             yield f"<mrow>{_end(*low, draw)}{middle}{_end(*high, draw)}</mrow>"

@@ -351,7 +351,7 @@ def test_first_contacts_are_certified(certificate: Certificate) -> None:
 
 def test_the_first_contact_is_said_exactly_where_it_is_rational() -> None:
     words = claim_of(CONTACTS[1]).words
-    assert "not before: the sentence  ex t, x, y, z. t >= 0 and t < 1/2 and" in words[1]
+    assert "not before: the sentence  ex t, x, y, z. 0 <= t < 1/2 and" in words[1]
     assert "there: the sentence  ex t, x, y, z. t = 1/2 and" in words[4] and words[5] == "there: is true"
 
 

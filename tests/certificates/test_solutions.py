@@ -287,7 +287,7 @@ def test_the_claim_of_classifications_in_words() -> None:
         (CUBIC, "count = 3 and p < 0 and 4*p^3 + 27*q^2 < 0"),
         (QUADRATIC, "not (c = 0 and b = 0 and a = 0) and "),  # else there are infinitely many complex solutions
         (POSITIVE, "count = 1 and a > 1"),
-        (IRRATIONAL, "w^2 = 2 and w >= -3 and w <= 0"),
+        (IRRATIONAL, "w^2 = 2 and -3 <= w <= 0"),
     ):
         assert found.certificate is not None
         before, after, rules = claim_of(found.certificate).words

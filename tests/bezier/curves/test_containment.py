@@ -255,15 +255,15 @@ def disc(square: Fraction | int, relation: Relation = Relation.GT) -> Any:
 
 
 @each(
-    (ARCH, "ex t, x, y. t >= 0 and t <= 1 and 2*t = x + 1 and 4*t^2 - 4*t + y = 0 and x^2 + y^2 > 4"),
+    (ARCH, "ex t, x, y. 0 <= t <= 1 and 2*t = x + 1 and 4*t^2 - 4*t + y = 0 and x^2 + y^2 > 4"),
     (
         Bezier.of([(ROOT2, 0), (0, ROOT2)]),
-        "ex root, t, x, y. root^2 = 2 and root >= 1 and root <= 3/2 and t >= 0 and t <= 1 and"
+        "ex root, t, x, y. root^2 = 2 and 1 <= root <= 3/2 and 0 <= t <= 1 and"
         " root*t - root + x = 0 and y = root*t and x^2 + y^2 > 4",
     ),
     (
         Bezier.of([(SMALLEST, 0)]),
-        "ex root, t, x, y. root^3 - 3*root + 1 = 0 and root >= -2 and root <= -3/2 and t >= 0 and t <= 1 and"
+        "ex root, t, x, y. root^3 - 3*root + 1 = 0 and -2 <= root <= -3/2 and 0 <= t <= 1 and"
         " root = x and y = 0 and x^2 + y^2 > 4",
     ),
 )
