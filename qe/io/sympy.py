@@ -21,13 +21,11 @@ from qe.exact.algebraic import real_roots
 from qe.exact.field import FieldElement
 from qe.exact.ring import Poly
 from qe.formula.build import JOINS, conj, exists, forall, implies
-from qe.formula.comparison import sides
-from qe.formula.notation import Monomial
 from qe.formula.operators import Connected
-from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Not, Or
+from qe.formula.syntax import TRUE, Formula
 from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
-from qe.io.names import bound_names, names_in
+from qe.io.names import bound_names
 from qe.io.substitution import over_one_ring
 from qe.io.sympy_numbers import number_to_sympy
 from qe.io.sympy_reader import Reader, shown, signs
@@ -227,8 +225,15 @@ def _node_to_sympy(node: s.Node) -> Any:
             terms = [term_to_sympy(side) for side in given]
             pairs = zip(terms, relations, terms[1:], strict=False)
             said = [getattr(sp, r.name.title())(left, right, evaluate=False) for left, r, right in pairs]
-            return sp.And(*(one.reversed if one.rhs.is_Symbol and not one.lhs.is_Symbol else one for one in said))
-    raise InputError("SymPy has no form for this formula")
+            return sp.And(*(one.reversed if _is_end(one.lhs, one.rhs) else one for one in said))
+        case s.Negation(part):
+            return sp.Not(_node_to_sympy(part))
+    raise InputError("SymPy has no quantifiers; eliminate them first")
+
+
+def _is_end(left: Any, right: Any) -> bool:
+    """Whether a comparison has what is compared on the right: ``0 < x``."""
+    return bool(left.is_number or (right.is_Symbol and not left.is_Symbol))
 
 
 def expression_from(given: object) -> Any:
@@ -284,33 +289,12 @@ def said(text: str, *, term: bool = False) -> Any:
 
 
 def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> Any:
-    """The SymPy Boolean of a quantifier-free formula; ``subs`` with numbers for all variables decides it.
+    """The SymPy Boolean of a quantifier-free formula, as it is printed; ``subs`` with numbers for all variables decides
+    it.
 
     ``symbols`` gives the symbols to use for names (default: ``Symbol(name)``). SymPy may simplify as it builds. Raises
-    ``InputError`` for quantifiers and root atoms, which SymPy cannot express.
+    ``InputError`` for quantifiers, and for roots of polynomials with parameters.
     """
     import sympy
 
-    table = {name: sympy.Symbol(name) for name in names_in(formula)}
-    table.update(symbols or {})
-    return _boolean(formula, table, sympy)
-
-
-def _sum(parts: list[Monomial], symbols: Mapping[str, Any]) -> Any:
-    import sympy as sp
-
-    return sp.Add(*(sp.Mul(sp.Integer(c), *(symbols[v] ** k for v, k in powers)) for c, powers in parts))
-
-
-def _boolean(formula: Formula, symbols: Mapping[str, Any], sp: Any) -> Any:
-    match formula:
-        case Constant(value):
-            return sp.true if value else sp.false
-        case Atom(poly, relation):
-            left, between, right, divisor = sides(poly, relation)
-            return getattr(sp, between.name.title())(_sum(left, symbols), _sum(right, symbols) / divisor)
-        case And(args) | Or(args):
-            return getattr(sp, type(formula).__name__)(*(_boolean(arg, symbols, sp) for arg in args))
-        case Not(arg):
-            return sp.Not(_boolean(arg, symbols, sp))
-    raise InputError("SymPy has no quantifiers and no root atoms; eliminate the quantifiers first")
+    return said(str(formula)).xreplace({sympy.Symbol(name): symbol for name, symbol in (symbols or {}).items()})
