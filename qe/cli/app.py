@@ -21,7 +21,7 @@ from qe.api.settings import Limited
 from qe.cli import work
 from qe.cli.options import REPORT, Json, checked, command, door
 from qe.cli.shell import check_writable, enter, examples, limited, remaining, write_file
-from qe.cli.source import ProofFormat, no_file, read_source
+from qe.cli.source import ProofFormat, Source, no_file, read_source
 from qe.cli.work import Reply, Request
 from qe.errors import InputError
 from qe.io.formats import READABLE, Format
@@ -187,10 +187,10 @@ def check(
 
     Exit status 4 when it is rejected or not about --formula, 3 when the time does not suffice to tell.
     """
-    text, limits = _certificate(certificate, settings)
+    source, limits = _certificate(certificate, settings)
     asked = None if formula is None else read_source(formula, None)
     seconds = remaining(limits["timeout"])
-    verdict = partial(work.check, text=text, asked=asked, assuming=assuming, seconds=seconds, as_json=json)
+    verdict = partial(work.check, source=source, asked=asked, assuming=assuming, seconds=seconds, as_json=json)
     verdict = partial(verdict, core=core, plainly=plain)
     return deliver(limited(verdict, **limits), {})
 
@@ -205,18 +205,18 @@ def export_proof(
 
     Exit status 4 when it is rejected, 3 where it is of a kind that cannot be written so.
     """
-    text, limits = _certificate(certificate, settings)
+    source, limits = _certificate(certificate, settings)
     seconds = remaining(limits["timeout"])
-    return deliver(limited(partial(work.export_proof, text=text, seconds=seconds), **limits), {})
+    return deliver(limited(partial(work.export_proof, source=source, seconds=seconds), **limits), {})
 
 
-def _certificate(name: str, settings: dict[str, Any]) -> tuple[str, dict[str, Any]]:
-    """The text of a certificate, and the limits for its verification."""
+def _certificate(name: str, settings: dict[str, Any]) -> tuple[Source, dict[str, Any]]:
+    """A certificate as it is written, and the limits for its verification."""
     limits = checked(settings)
     source = read_source(name, Format.JSON)
     if source.name == "<argument>":
         raise no_file(name)
-    return source.text, {**limits, "timeout": limits["timeout"] or VERIFY_SECONDS, "plain": True}
+    return source, {**limits, "timeout": limits["timeout"] or VERIFY_SECONDS, "plain": True}
 
 
 @command(app, Limited, "FORMULA in another format.", 'qe convert "ex x. x^2 = a" --output smtlib')

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from qe.formula.syntax import Formula
     from qe.processes.channel import Channel
     from qe.proof.answer import Answer
+    from qe.proof.certificate import Certificate
     from qe.proof.partial import Partial
 
 
@@ -191,7 +192,7 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
 
 def check(
     channel: Channel,
-    text: str,
+    source: Source,
     asked: Source | None,
     seconds: float,
     *,
@@ -207,16 +208,15 @@ def check(
     from qe.certify.verify import verify
     from qe.formula.assumed import claimed
     from qe.processes.limits import Limits
-    from qe.proof.certificate import Certificate
 
     start = time.perf_counter()
     formula = None
     if asked is not None:
         stated = under(*read_question(channel, asked), assuming, Limits(seconds))
         formula = claimed(stated.known, stated.formula, stated.formula)
-    certificate = Certificate.from_json(text)
+    certificate = _certificate(source)
     budget = Budget(seconds, listener=channel.event)
-    verdict = read_plainly(text, seconds) if plainly else verify(certificate, budget, core=core)
+    verdict = read_plainly(source.text, seconds) if plainly else verify(certificate, budget, core=core)
     if verdict.accepted and formula is not None:
         verdict = of_question(certificate, formula)
     if not verdict.decided:
@@ -239,19 +239,27 @@ def check(
     return Reply("\n".join(lines))
 
 
-def export_proof(channel: Channel, text: str, seconds: float) -> Reply:
+def export_proof(channel: Channel, source: Source, seconds: float) -> Reply:
     """``qe export-proof``: exit status 4 when the certificate is rejected, 3 where it cannot be checked or written."""
     from qe.certify.verify import verify
     from qe.coq.export import to_coq
-    from qe.proof.certificate import Certificate
 
-    certificate = Certificate.from_json(text)
+    certificate = _certificate(source)
     verdict = verify(certificate, Budget(seconds, listener=channel.event))
     if not verdict.decided:
         raise Unable(f"not decided: {verdict.reason}")
     if not verdict.accepted:
         raise CertificateRejected(verdict.step, verdict.reason)
     return Reply(to_coq(certificate).rstrip("\n"))
+
+
+def _certificate(source: Source) -> Certificate:
+    from qe.proof.certificate import Certificate
+
+    try:
+        return Certificate.from_json(source.text)
+    except InputError as error:
+        raise InputError(f"{source.name}: {error}") from None
 
 
 def certificate_text(answer: object) -> str:
