@@ -12,6 +12,9 @@ from qe.formula.notation import Level, Monomial, Notation, digits, monomials, or
 from qe.formula.relation import Relation
 from qe.formula.syntax import Atom, Formula
 
+MOST_FACTORED = 40
+"""Terms, and total degree, up to which a polynomial is factored to be written."""
+
 Side = tuple[list[Monomial], Relation, list[Monomial], int]
 """The left side of a comparison, the relation, and the right side with its denominator."""
 End = tuple[list[Monomial], int]
@@ -31,10 +34,6 @@ class Range(NamedTuple):
         """As formulas are."""
         middle = f"{notation.relation(self.above)} {polynomial(self.term, notation)} {notation.relation(self.under)}"
         return f"{_end(*self.low, notation)} {middle} {_end(*self.high, notation)}"
-
-
-MOST_FACTORED = 40
-"""Terms, and total degree, up to which a polynomial is factored to be written."""
 
 
 def sides(poly: Poly, relation: Relation) -> Side:

@@ -202,11 +202,12 @@ def term_to_sympy(term: s.Term) -> Any:
             return sp.sign(inner := term_to_sympy(part)) * sp.Abs(inner) ** sp.Rational(1, 3)
         case s.Apply(function, parts) if function in _FUNCTIONS:
             return getattr(sp, _FUNCTIONS[function])(*map(term_to_sympy, parts))
-        case s.Root(s.Number(k), part):
+        case s.Root(s.Number(k), part, variable):
             poly = lower_term(part, s.unplaced).poly
-            if len(poly.variables) == 1:
-                return number_to_sympy(real_roots(poly.to_univariate(poly.level))[int(k) - 1])
-            raise InputError("SymPy has no form for a root of a polynomial with parameters")
+            if len(poly.variables) != 1 or variable not in (None, poly.ring.names[poly.level]):
+                raise InputError("SymPy has no form for a root of a polynomial with parameters")
+            if 1 <= abs(k) <= len(roots := real_roots(poly.to_univariate(poly.level))):
+                return number_to_sympy(roots[int(k) - (k > 0)])  # from the end where it is negative
     raise InputError("SymPy has no form for this term")
 
 

@@ -112,6 +112,16 @@ def test_roots_with_parameters_are_refused() -> None:
         qe.solve("x^3 + a*x + b = 0", variables=["x"]).to_sympy()
 
 
+@each(
+    ("x < root(1, x^2 - 2)", x < -sp.sqrt(2)),
+    ("x < root(-1, x^2 - 2)", x < sp.sqrt(2)),
+    ("x < root(3, x^2 - 2)", sp.false),
+    ("1 < x and x <= root(2, x^2 - 3)", sp.And(x > 1, x <= sp.sqrt(3))),
+)
+def test_root_atoms_without_parameters_are_numbers(text: str, written: object) -> None:
+    assert to_sympy(read(text)) == written
+
+
 @each("ex x. x > y", "x < root(1, x^2 - y)")
 def test_what_sympy_cannot_say_is_refused(text: str) -> None:
     with pytest.raises(InputError):
