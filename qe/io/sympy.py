@@ -206,8 +206,9 @@ def term_to_sympy(term: s.Term) -> Any:
             poly = lower_term(part, s.unplaced).poly
             if len(poly.variables) != 1 or variable not in (None, poly.ring.names[poly.level]):
                 raise InputError("SymPy has no form for a root of a polynomial with parameters")
-            if 1 <= abs(k) <= len(roots := real_roots(poly.to_univariate(poly.level))):
-                return number_to_sympy(roots[int(k) - (k > 0)])  # from the end where it is negative
+            place = int(k)
+            if 1 <= abs(place) <= len(roots := real_roots(poly.to_univariate(poly.level))):
+                return number_to_sympy(roots[place - (place > 0)])  # from the end where it is negative
     raise InputError("SymPy has no form for this term")
 
 
