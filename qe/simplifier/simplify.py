@@ -281,7 +281,7 @@ def _reduce(given: Atom, view: Facts, conjunctive: bool) -> Formula:
 def _emit(board: _Board, conjunctive: bool) -> list[Atom] | None:
     """The shortest list of atoms for the ranges on the board; None if a range is empty."""
     out: list[Atom] = []
-    for key in board.groups:
+    for key, group in board.groups.items():
         board.facts.watch()
         board.hide(key)
         base = board.view.known(key)
@@ -293,5 +293,5 @@ def _emit(board: _Board, conjunctive: bool) -> list[Atom] | None:
         fresh = [atom_of(key, relation, value) for relation, value in wanted]
         if not conjunctive:
             fresh = [Atom(a.poly, a.relation.negated) for a in fresh]
-        out += fresh
+        out += group if group == fresh or set(group) == set(fresh) else fresh
     return out
