@@ -150,8 +150,12 @@ class Links:
                 raise CertificateRejected(f"link {pair[0]}", "its intervals do not cover the time")
         clear = ((label, meeting(curve, where), FALSE) for label, curve, where in read._clear())
         touching = ((label, sentence, TRUE) for label, sentence, _ in self._touching())
-        listed = chain(clear, touching)
-        return [(label, sentence.formula, truth) for label, sentence, truth in listed if sentence is not None]
+        said = list[Said]()
+        for label, sentence, truth in chain(clear, touching):
+            if sentence is None:
+                raise CertificateRejected(label, "a polynomial along it has too high a degree")
+            said.append((label, sentence.formula, truth))
+        return said
 
     def _read(self, labels: Sequence[str]) -> dict[Pair, tuple[Span, ...]]:
         """The spans that labels state, of the ends of links."""

@@ -127,6 +127,13 @@ def test_a_contact_is_not_believed_and_neither_is_another_scene(clear: Any) -> N
             late.check(qe.Certificate.bundle(list(forged.members())))
 
 
+def test_what_is_said_of_no_origin_is_rejected(clear: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no sentence can be made, its absence from a certificate is no proof."""
+    monkeypatch.setattr("bezier.trajectories.links.meeting", lambda curve, where: None)
+    with pytest.raises(qe.CertificateRejected, match="too high a degree"):
+        clear.links.stated([member.label for member in clear.certificate.payload])
+
+
 @each("", "1", "a b c d e", "1 0 0 0 0", "1 5 1 0 0", "9 0 1 0 0", "1/2 0 1 0 0", "1 0 1e999999 0 0", "1 0 1 0 0")
 def test_labels_that_say_nothing_are_rejected(entry: str, clear: Any) -> None:
     """Some ended in an error of the reader."""
