@@ -186,6 +186,8 @@ def term_to_sympy(term: s.Term) -> Any:
             return sp.Rational(value.numerator, value.denominator)
         case s.Algebraic(number):
             return number_to_sympy(number)
+        case s.Polynomial(terms):
+            return sp.Add(*(sp.Mul(sp.Rational(c), *map(sp.Symbol, names)) for names, c in terms.items()))
         case s.Sum(parts):
             return sp.Add(*map(term_to_sympy, parts))
         case s.Product(left, right):

@@ -117,8 +117,9 @@ def test_roots_with_parameters_are_refused() -> None:
     ("x < root(-1, x^2 - 2)", x < sp.sqrt(2)),
     ("x < root(3, x^2 - 2)", sp.false),
     ("1 < x and x <= root(2, x^2 - 3)", sp.And(x > 1, x <= sp.sqrt(3))),
+    ("3*x + y + 5 <= 0", 3 * x + y + 5 <= 0),  # a long linear term, which is read at once
 )
-def test_root_atoms_without_parameters_are_numbers(text: str, written: object) -> None:
+def test_root_atoms_without_parameters_are_numbers_and_sums_are_sums(text: str, written: object) -> None:
     assert to_sympy(read(text)) == written
 
 
