@@ -78,7 +78,7 @@ def function_range(
     For one symbol the condition may be its domain, a SymPy set.
     """
     function, names, parts = _posed(function, symbols, condition)
-    if others := {s.name for s in (function, *parts) for s in s.free_symbols} - {s.name for s in names}:
+    if others := {*_symbols_of([function, *parts])} - {*_names(names)}:
         raise InputError(f"symbols: all of the expression expected ({', '.join(sorted(others))}); minimum takes others")
     return _set_of(*_values(function, names, parts, timeout), timeout)
 
@@ -146,10 +146,10 @@ def _bound(way: str, function: Any, symbols: Any, condition: Condition, timeout:
     import sympy
 
     function, names, parts = _posed(function, symbols, condition)
-    known = {name.name for name in names}
-    given = {s.name: s for part in (function, *parts) for s in part.free_symbols}
+    known, given = _names(names), _symbols_of([function, *parts])
     if parameters := [name for name in given if name not in known]:
-        found = getattr(api_optimum, way)(function, sympy.And(*parts), parameters=parameters, timeout=timeout)
+        conditions = [from_sympy(sympy.sympify(part) if isinstance(part, bool) else part) for part in parts]
+        found = getattr(api_optimum, way)(function, conditions, parameters=parameters, timeout=timeout)
         return found.to_sympy().xreplace({sympy.Symbol(name): symbol for name, symbol in given.items()})
     least, values = way == "minimize", _set_of(*_values(function, names, parts, timeout), timeout)
     if values is sympy.S.EmptySet:
@@ -229,8 +229,9 @@ class _Question:
         constants = [name for name in free if name in self.constants]
         order = [*constants, *(v for v in free if v not in {*constants, *wanted}), *wanted]
         terms = {sympy.Symbol(name): term for name, term in {**self.symbols, **self.constants}.items()}
+        solutions = api_solve.solve(self.formula, order, timeout=timeout)
         try:
-            return api_solve.solve(self.formula, order, timeout=timeout).to_sympy().xreplace(terms)
+            return solutions.to_sympy().xreplace(terms)
         except InputError:
             return None
 
