@@ -26,8 +26,11 @@ KEYWORDS = frozenset(
 )
 """Words that mean something else in the text syntax."""
 
-CONSTANTS = frozenset(("pi", "Pi", "π", "nan", "NaN"))
-"""Words that mathematics reads as numbers: the text syntax takes them as free variables only between backquotes."""
+NUMBERS = PI, *_ = ("ℼ", "ℯ", "ℽ", "𝐺")
+"""Variables that stand for pi, e, Euler's and Catalan's constant (``qe.formula.numbers``)."""
+WORDS_FOR_PI = ("pi", "Pi", "π")
+CONSTANTS = frozenset((*WORDS_FOR_PI, "nan", "NaN"))
+"""Words that mathematics reads as numbers: in text they are variables only between backquotes."""
 
 _PLAIN = re.compile(WORD)
 _ESCAPE = re.compile(r"\\(?:u\{([0-9a-fA-F]{1,6})\}|([`\\]))")
@@ -39,8 +42,8 @@ def quoted(name: str) -> str:
 
 
 def quoted_if_needed(name: str) -> str:
-    """The name as text reads it where it is a bound variable: ``pi`` and its kind stay as they are."""
-    return name if _PLAIN.fullmatch(name) and name not in KEYWORDS else between_quotes(name)
+    """The name as text reads it where it is no word for a number."""
+    return "pi" if name == PI else name if _PLAIN.fullmatch(name) and name not in KEYWORDS else between_quotes(name)
 
 
 def between_quotes(name: str) -> str:

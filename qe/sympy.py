@@ -25,6 +25,7 @@ from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, said, to_sympy
 from qe.processes.limits import Limits
+from qe.spelling import NUMBERS
 
 if TYPE_CHECKING:
     import sympy
@@ -47,10 +48,8 @@ def reduce_inequalities(
     parameters are taken, too; constants such as ``pi`` may occur wherever symbols may.
     """
     question = _Question.of(inequalities, timeout)
-    free = question.formula.free
-    wanted = [name for name in _names(symbols) if name in free] or [
-        name for name in free if name not in question.constants
-    ]
+    free = question.free
+    wanted = [name for name in _names(symbols) if name in free] or free
     found = question.solved(wanted, timeout)
     return _quantifier_free(question, timeout) if found is None else found
 
@@ -61,7 +60,7 @@ def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | N
     Intervals and points with exact ends. Raises ``InputError`` where there are several free symbols.
     """
     question = _Question.of(condition, timeout)
-    free = [name for name in question.formula.free if name not in question.constants]
+    free = question.free
     names = _names(() if symbol is None else symbol)
     others = [name for name in free if name not in names]
     if (names and others) or len({*free, *names}) > 1:
@@ -108,13 +107,8 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
     parts = question.parts
     whole = parts[0] if len(parts) == 1 else sympy.And(*parts, evaluate=False)
     formula = ForAll(list(symbols.values()), whole).formula() if symbols else question.formula
-    inner = [name for name in formula.free if name not in question.constants]
-    if not question.constants:
-        return api_decide.decide(forall(inner, formula), timeout=timeout)
-    found = replace(question, formula=forall(inner, formula)).solved([], timeout)
-    if found is sympy.true or found is sympy.false:
-        return bool(found)
-    raise Unable(f"SymPy does not decide {found}")
+    inner = [name for name in formula.free if name not in NUMBERS]
+    return api_decide.decide(forall(inner, formula), timeout=timeout)
 
 
 def _posed(function: Any, symbols: Any, condition: Condition) -> tuple[Any, list[Any], list[Any]]:
@@ -175,18 +169,12 @@ def _symbols_of(given: Condition) -> dict[str, Any]:
     return {s.name: s for part in _conditions(given) for s in getattr(part, "free_symbols", ())}
 
 
-# --- constants that are no algebraic numbers --------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class _Question:
-    """A condition as a formula, and its ``parts`` as they are read, which hold together. ``symbols``: by name.
-
-    ``constants``: numbers of SymPy that are not algebraic, by the names of variables that stand for them. Whatever is
-    equivalent for all values of a variable is so for this one; what SymPy knows of it exactly is part of the formula.
-    """
+    """A condition as a formula, and its ``parts`` as they are read, which hold together. ``symbols``: by name."""
 
     formula: Formula
     symbols: Mapping[str, Any]
-    constants: Mapping[str, Any]
     parts: tuple[Any, ...]
 
     @staticmethod
@@ -198,75 +186,44 @@ class _Question:
     def _of(given: Condition) -> _Question:
         import sympy
 
-        parts, symbols = _conditions(given), _symbols_of(given)
-        parts = [sympy.sympify(part) if isinstance(part, bool) else part for part in parts]  # decided by SymPy
-        constants: dict[str, Any] = {}
-        try:
-            formulas = [from_sympy(part) for part in parts]
-        except InputError:
-            names: dict[Any, Any] = {}
-            replaced = [_with_symbols(part, names) for part in parts]
-            if not names:
-                raise
-            try:
-                formulas = [from_sympy(part) for part in replaced]
-            except InputError:
-                names = {}
-            if not names:
-                raise  # what is wrong with the condition as it was given
-            constants, parts = {symbol.name: number for number, symbol in names.items()}, replaced
-            for number, symbol in names.items():
-                low, high = number.approximation_interval(sympy.Integer)
-                bounds = from_sympy(sympy.And(low < symbol, symbol < high))
-                formulas = [bounds, *formulas]
-        return _Question(conj(over_one_ring(*formulas)), symbols, constants, tuple(parts))
+        parts = [sympy.sympify(part) if isinstance(part, bool) else part for part in _conditions(given)]
+        return _Question(conj(over_one_ring(*map(from_sympy, parts))), _symbols_of(given), tuple(parts))
+
+    @property
+    def free(self) -> list[str]:
+        """The free variables."""
+        return [name for name in self.formula.free if name not in NUMBERS]
 
     def solved(self, wanted: list[str], timeout: float | None) -> Any:
         """The cases, solved for these variables; None where SymPy has no term for an end."""
         import sympy
 
-        free = self.formula.free
-        constants = [name for name in free if name in self.constants]
-        order = [*constants, *(v for v in free if v not in {*constants, *wanted}), *wanted]
-        terms = {sympy.Symbol(name): term for name, term in {**self.symbols, **self.constants}.items()}
-        solutions = api_solve.solve(self.formula, order, timeout=timeout)
+        terms = {sympy.Symbol(name): symbol for name, symbol in self.symbols.items()}
+        solutions = api_solve.solve(self.formula, wanted, timeout=timeout)
         try:
             return solutions.to_sympy().xreplace(terms)
         except InputError:
             return None
 
 
-def _with_symbols(given: Any, names: dict[Any, Any]) -> Any:
-    """The expression with symbols in the places of constants, which ``names`` collects; not inside functions."""
-    import sympy
-
-    if isinstance(given, sympy.NumberSymbol) and given.is_algebraic is not True:
-        return names.setdefault(given, sympy.Symbol(f"the number {given}", real=True))
-    known = sympy.Add | sympy.Mul | sympy.Pow | sympy.Abs | sympy.Max | sympy.Min | sympy.Piecewise
-    if not isinstance(given, known | sympy.Rel | sympy.logic.boolalg.BooleanFunction | sympy.Tuple):
-        return given
-    return given.func(*(_with_symbols(part, names) for part in given.args))
-
-
 def _quantifier_free(question: _Question, timeout: float | None) -> Any:
     answer = api.eliminate(question.formula, timeout=timeout)
     if answer.formula is None:
         raise Unable(answer.reason or "no answer")
-    return to_sympy(answer.formula, symbols={**question.symbols, **question.constants})
+    return to_sympy(answer.formula, symbols=question.symbols)
 
 
 def _set_of(question: _Question, name: str, timeout: float | None) -> Any:
     """The solutions of a condition in one variable (and in constants)."""
     import sympy
 
-    constants = {sympy.Symbol(name): number for name, number in question.constants.items()}
-    order, parts = [*(v for v in question.formula.free if v in question.constants), name], []
-    for case in api.region(question.formula, order=order, timeout=timeout).cells:
+    parts = []
+    for case in api_solve.solve(question.formula, [name], timeout=timeout).cases:
         *before, within = case.ranges
         try:
-            holds = sympy.And(*(said(str(r)).xreplace(constants) for r in before if r.is_bounded))
+            holds = sympy.And(*(said(str(r)).doit() for r in before if r.is_bounded))
             texts = str(within.lower or "-infinity"), str(within.upper or "infinity")
-            low, high = (said(text, term=True).xreplace(constants) for text in texts)
+            low, high = (said(text, term=True) for text in texts)
         except InputError:
             raise Unable("an end of the set is no term of SymPy") from None
         if holds is sympy.false:

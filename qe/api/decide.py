@@ -15,13 +15,16 @@ from qe.api.settings import Decision, Search, settings_in, with_settings
 from qe.errors import InputError, Unable
 from qe.exact.number import Assignment, ExactPoint
 from qe.exact.ring import Poly, Ring
+from qe.formula.assumed import Posed
 from qe.formula.build import conj, convert, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
+from qe.formula.numbers import bounds_of_numbers
 from qe.formula.syntax import TRUE, Formula
 from qe.io.substitution import over_one_ring
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer
+from qe.spelling import NUMBERS
 
 
 @with_settings(Decision)
@@ -31,7 +34,7 @@ def decide(formula: AnyFormula, **settings: Unpack[Decision]) -> bool:
     Raises ``InputError`` for other free variables and ``Unable`` at a limit.
     """
     limits = limits_of(settings)
-    given = posed(formula, settings, limits)
+    given = posed(formula, settings, limits, numbers=True)
     strange = [name for name in given.formula.free if name not in given.known.free]
     sentence = given.formula if strange else given.closed(given.formula)
     return _decided(sentence, formula, settings, limits).truth is True
@@ -65,14 +68,14 @@ def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **set
     from qe.elimination.witness import Term, instantiate
 
     limits = limits_of(settings)
-    stated = posed(sentence, settings, limits)
+    stated = posed(sentence, settings, limits, numbers=True)
     given = without_root_atoms(stated.formula)
     offered, known = arguments.by_name(witness, "witness"), features(given).bound
     read = read_under(limits, partial(_polynomials, offered, known), offered)
     rings = [r for r in (given.ring, *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
-    whole = under(instantiate(convert(given, ring), terms), TRUE, stated.known, limits)
+    whole = under(instantiate(convert(given, ring), terms), TRUE, stated.known, limits, numbers=True)
     return _decided(whole.closed(whole.formula), sentence, settings, limits).truth is True
 
 
@@ -94,19 +97,25 @@ def compared(first: AnyFormula, second: AnyFormula, given: Mapping[str, Any]) ->
     settings = cast(Search, {name: s.default for name, (_, s) in settings_in(Search).items()} | {**given})
     limits = limits_of(settings)
     plain: dict[str, Any] = {**settings, "assuming": None}
-    one, other = (posed(formula, plain, limits) for formula in (first, second))
+    one, other = (posed(formula, plain, limits, numbers=True) for formula in (first, second))
     f, g, *inner = over_one_ring(one.formula, other.formula, one.known, other.known)
-    stated = under(iff(f, g), conj(inner), settings["assuming"], limits, others=(*f.free, *g.free))
-    claim = forall(dict.fromkeys((*f.free, *g.free, *stated.known.free)), implies(stated.known, stated.formula))
+    stated = under(iff(f, g), conj(inner), settings["assuming"], limits, others=(*f.free, *g.free), numbers=True)
+    names = dict.fromkeys((*f.free, *g.free, *stated.known.free))
+    claim = forall((name for name in names if name not in NUMBERS), implies(stated.known, stated.formula))
     return _decided(claim, [first, second], settings, limits)
 
 
 def _decided(sentence: Formula, given: AnyFormula, settings: Search, limits: Limits) -> Answer:
-    """The answer to a sentence, which is true or false; ``given``: what it was made of."""
-    if free := sentence.free:
+    """The answer to a sentence, which is true or false; ``given``: what it was made of.
+
+    Numbers that are not algebraic are free in it: what holds for some values between their bounds only is not decided.
+    """
+    known = bounds_of_numbers(sentence)
+    if free := [name for name in sentence.free if name not in NUMBERS]:
         names = ", ".join(free)
         raise InputError(f"a sentence expected; free: {names} (all {names}. … or ex {names}. … says what is meant)")
-    answer = answered_under(sentence, order_of(settings["order"], given, sentence), settings, limits)
+    sentence, known = over_one_ring(sentence, known)
+    answer = answered_under(Posed(sentence, known), order_of(settings["order"], given, sentence), settings, limits)
     if answer.truth is None:
         raise Unable(answer.reason or "no decision was reached")
     return answer

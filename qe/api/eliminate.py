@@ -49,7 +49,7 @@ def eliminate(formula: AnyFormula, **settings: Unpack[Elimination]) -> Answer:
     """
     limits = limits_of(settings)
     try:
-        given = posed(formula, settings, limits)
+        given = posed(formula, settings, limits, numbers=True)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     order = order_of(settings["order"], formula, given.restricted)
@@ -66,7 +66,7 @@ def simplify(formula: AnyFormula, **settings: Unpack[ProvedQuestion]) -> Answer:
     """
     limits = limits_of(settings)
     try:
-        given = posed(formula, settings, limits)
+        given = posed(formula, settings, limits, numbers=True)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     problem, options = Posed(given.formula, given.known, Aim.SHORTER), Options(certify=settings["check"])
@@ -265,7 +265,7 @@ def verify(
     chosen = formats.checked(format)
     problem = None
     if formula is not None:
-        given = under(*read_posed(formula, chosen.value), assuming, Limits())
+        given = under(*read_posed(formula, chosen.value), assuming, Limits(), numbers=True)
         problem = claimed(given.known, given.formula, given.formula)
     arguments.flag(core, "core")
     return check(certificate, formula=problem, timeout=arguments.seconds(timeout), core=core)

@@ -18,7 +18,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import TRUE, Constant, Exists, ForAll, Formula
 from qe.formula.traverse import has_root_atoms
-from qe.io.names import names_in
+from qe.io.names import names_in, refuse_numbers
 from qe.io.substitution import over_one_ring
 from qe.proof.answer import Answer
 from qe.spelling import KEYWORDS, QUOTED, WORD, unquoted
@@ -233,4 +233,5 @@ def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
             graph = graph_of(value, given)
     except InputError as error:
         raise InputError(f"objective: a term expected: {error}") from None
+    refuse_numbers(graph.free)
     return Objective(graph, value, tuple(name for name in graph.free if name != value))

@@ -13,9 +13,11 @@ from qe.api.settings import Limited
 from qe.errors import InputError
 from qe.formula.assumed import Posed
 from qe.formula.build import conj
+from qe.formula.numbers import bounds_of_numbers
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import bound_variables, conjuncts
 from qe.formula.weight import may_block, text_may_block
+from qe.io.names import refuse_numbers
 from qe.io.sharing import refuse_shared
 from qe.io.substitution import over_one_ring
 from qe.options import Budget, Options
@@ -61,10 +63,12 @@ def posed(
     *,
     reader: Reader = read_posed,
     solved: Sequence[str] = (),
+    numbers: bool = False,
 ) -> Posed:
     """The formula, to be ``solved`` for these, and what is assumed, read under the limits where that may take long.
 
-    Raises ``BudgetExceeded`` at one, ``InputError`` for what cannot be assumed, ``Unable`` for a formula whose parts
+    ``numbers``: whether numbers that are not algebraic (``qe.formula.numbers``) may occur. Raises ``BudgetExceeded`` at
+    a limit, ``InputError`` for what cannot be assumed, ``Unable`` for a formula whose parts
     are shared so much that no method, all of which write it out, comes to an end. Warns of assumptions that contradict
     each other, and of such about something else.
     """
@@ -72,19 +76,32 @@ def posed(
     result, inner = read_under(limits, partial(reader, formula, format, division), formula)
     refuse_shared(result)
     note_doubts(formula, result, format, solved)
-    return under(result, inner, settings.get("assuming"), limits)
+    return under(result, inner, settings.get("assuming"), limits, numbers=numbers)
 
 
-def under(formula: Formula, inner: Formula, assuming: AnyFormula, limits: Limits, others: Iterable[str] = ()) -> Posed:
-    """A formula that was read, under what it assumes itself and what the caller does; ``others``: names of what else is
-    in question."""
-    if assuming is None and inner == TRUE:
+def under(
+    formula: Formula,
+    inner: Formula,
+    assuming: AnyFormula,
+    limits: Limits,
+    others: Iterable[str] = (),
+    *,
+    numbers: bool = False,
+) -> Posed:
+    """A formula that was read, under what it assumes itself, what the caller does, and what is known of ``numbers``;
+    ``others``: names of what else is in question."""
+    outer = TRUE if assuming is None else read_under(limits, partial(read_assumptions, assuming), assuming)
+    bounds = bounds_of_numbers(formula, inner, outer)
+    if inner == outer == bounds == TRUE:
         return Posed(formula)
-    outer = read_under(limits, partial(read_assumptions, assuming), assuming)
+    if not numbers:
+        refuse_numbers(bounds.free)
     refuse_shared(outer)
     note_doubts(assuming, outer)
-    formula, *known = over_one_ring(formula, inner, outer)
-    both, bound = conj(known), {*bound_variables(formula)} - {*formula.free}
+    formula, *known, bounds = over_one_ring(formula, inner, outer, bounds)
+    if conj(known) == TRUE:
+        return Posed(formula, bounds)
+    both, bound = conj((*known, bounds)), {*bound_variables(formula)} - {*formula.free}
     if hidden := [name for name in both.free if name in bound]:
         raise InputError(f"assuming: free variables expected, {', '.join(hidden)} is bound in the formula")
     seen = {*formula.free, *others}

@@ -31,6 +31,7 @@ from qe.proving import certificates
 from qe.regions.by_value import cases_by_value
 from qe.regions.solutions import Solutions
 from qe.regions.walk import MOST_POINTS, different_points
+from qe.spelling import NUMBERS
 
 if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitnesses
@@ -51,8 +52,10 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
     asked = solved_for(formula) if variables is None and isinstance(formula, str) else variables
     limits, wanted = limits_of(settings), arguments.names(asked, "variables")
     whole = replace(limits, start=None)
-    stated = posed(formula, settings, limits, solved=wanted or ())
+    stated = posed(formula, settings, limits, solved=wanted or (), numbers=True)
     given = stated.restricted
+    if wanted is None and not {*NUMBERS}.isdisjoint(given.free):
+        wanted = tuple(name for name in given.free if name not in NUMBERS)
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
     solved = len(given.free if wanted is None else wanted)
     work = partial(_solutions, given, stated.known, order, solved, whole, settings["check"])

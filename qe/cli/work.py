@@ -152,7 +152,7 @@ def decide(channel: Channel, request: Request) -> Reply:
     script = request.source.format is Format.SMTLIB
     formula, inner = read_question(channel, request.source)
     start, keywords = time.perf_counter(), request.keywords(channel, formula, inner)
-    stated = under(formula, build.conj(()), keywords.pop("assuming"), Limits())
+    stated = under(formula, build.conj(()), keywords.pop("assuming"), Limits(), numbers=True)
     if script:
         sentence = build.exists(stated.restricted.free, stated.restricted)
     else:
@@ -212,7 +212,7 @@ def check(
     start = time.perf_counter()
     formula = None
     if asked is not None:
-        stated = under(*read_question(channel, asked), assuming, Limits(seconds))
+        stated = under(*read_question(channel, asked), assuming, Limits(seconds), numbers=True)
         formula = claimed(stated.known, stated.formula, stated.formula)
     certificate = _certificate(source)
     budget = Budget(seconds, listener=channel.event)

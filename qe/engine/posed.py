@@ -31,11 +31,13 @@ def answered(problem: Posed, options: Options, budget: Budget) -> Known:
         made = simplified(clear, problem.known, options, budget)
     else:
         plain = log.step("roots counted", clear, without_root_atoms(clear))
-        made = answered_assuming(plain, problem.known, options, budget, generic=problem.aim is Aim.GENERIC)
+        known = problem.known if plain.ring is None else convert(problem.known, plain.ring)
+        made = answered_assuming(plain, known, options, budget, generic=problem.aim is Aim.GENERIC)
     made.outcome.log.entries[:0] = log.entries
     formula, ring = made.outcome.formula, Ring.of(problem.formula.free) if problem.formula.free else None
     outcome = made.outcome if ring is None else replace(made.outcome, formula=_moved(formula, ring))
-    return replace(made, question=problem.formula, outcome=outcome)
+    given = made.assuming if ring is None else convert(made.assuming, problem.formula.ring or ring)
+    return replace(made, question=problem.formula, outcome=outcome, assuming=given)
 
 
 def _moved(formula: Formula, ring: Ring) -> Formula:

@@ -13,6 +13,7 @@ from enum import Enum
 from qe.formula.build import conj, convert, disj, forall, implies
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, ForAll, Formula
+from qe.spelling import NUMBERS
 
 
 class Aim(Enum):
@@ -37,8 +38,9 @@ class Posed:
         return conj((self.known, self.formula))
 
     def closed(self, formula: Formula) -> Formula:
-        """A formula wherever the assumptions hold; the values of what they speak of are any."""
-        return formula if self.known == TRUE else forall(self.known.free, implies(self.known, formula))
+        """A formula wherever the assumptions hold; the values of the variables of which they speak are any."""
+        names = [name for name in self.known.free if name not in NUMBERS]
+        return formula if self.known == TRUE else forall(names, implies(self.known, formula))
 
 
 def claimed(known: Formula, question: Formula, formula: Formula) -> Formula:

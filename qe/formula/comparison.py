@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from math import gcd, prod
 from typing import NamedTuple
 
@@ -11,6 +10,7 @@ from qe.exact.ring import Poly
 from qe.formula.notation import Level, Monomial, Notation, digits, monomials, oriented, polynomial, positive
 from qe.formula.relation import Relation
 from qe.formula.syntax import Atom, Formula
+from qe.spelling import NUMBERS
 
 MOST_FACTORED = 40
 """Terms, and total degree, up to which a polynomial is factored to be written."""
@@ -43,8 +43,7 @@ def sides(poly: Poly, relation: Relation) -> Side:
     next to sums and powers of positive terms (``x^2 + y^2 <= 1``); a variable is compared with one other term
     (``y <= x^2``). All else, as ``b^2 - 4*a*c`` and ``x^2 - 2*x - 1``, is compared with 0.
     """
-    parts, relation = oriented(poly, relation)
-    terms = [(c, powers) for c, powers in parts if powers]
+    parts, between, terms = _oriented(poly, relation)
     first, last = terms[0][1], terms[-1][1]
     names = {name for _, powers in terms for name, _ in powers}
     linear = poly.total_degree == 1
@@ -52,11 +51,23 @@ def sides(poly: Poly, relation: Relation) -> Side:
         return _bounded(poly, relation)
     variable = [name for name, k in last] if sum(k for _, k in last) == 1 else []
     if not linear and [c for c, _ in parts] == [1, -1] and variable and variable[0] not in dict(first):
-        return [(1, last)], relation.flipped, [(1, first)], 1
+        return [(1, last)], between.flipped, [(1, first)], 1
     bounded = len(terms) < len(parts) and all(c > 0 for c, _ in terms) and (len(names) > 1 or len(terms) == 1)
     if not (linear or bounded):
-        return parts, relation, [], 1
-    return [(c, m) for c, m in parts if c > 0], relation, [(-c, m) for c, m in parts if c < 0], 1
+        return parts, between, [], 1
+    return [(c, m) for c, m in parts if c > 0], between, [(-c, m) for c, m in parts if c < 0], 1
+
+
+def _oriented(poly: Poly, relation: Relation) -> tuple[list[Monomial], Relation, list[Monomial]]:
+    """The monomials and the relation of ``poly relation 0``, and those monomials that are no number, of which the first
+    is positive."""
+    parts, relation = oriented(poly, relation)
+    terms = [part for part in parts if part[1]]
+    if numbers := {*NUMBERS}.intersection(poly.ring.names):
+        terms = [part for part in terms if not numbers.issuperset(dict(part[1]))] or terms
+    if terms[0][0] > 0:
+        return parts, relation, terms
+    return [(-c, m) for c, m in parts], relation.flipped, [(-c, m) for c, m in terms]
 
 
 def ranges(parts: Sequence[Formula]) -> list[Formula | Range]:
@@ -80,18 +91,20 @@ def _between(first: Formula | Range, second: Formula) -> Range | None:
         left, above, low, below = lower
         same, under, high, over = upper
         if left == same and above in (Relation.GT, Relation.GE) and under in (Relation.LT, Relation.LE):
-            empty = form is _bounded and _number(low) * over >= _number(high) * below
+            known = form is _bounded and not any(powers for _, powers in (*low, *high))
+            empty = known and _number(low) * over >= _number(high) * below
             return None if empty else Range((low, below), above.flipped, left, under, (high, over))
     return None
 
 
 def _bounded(poly: Poly, relation: Relation) -> Side:
     """``poly relation 0`` with a number on the right."""
-    parts, relation = oriented(poly, relation)
-    divisor = gcd(*(c for c, powers in parts if powers))
-    bound = Fraction(-_number(parts), divisor)
-    left = [(c // divisor, powers) for c, powers in parts if powers]
-    return left, relation, [(bound.numerator, ())] if bound else [], bound.denominator
+    parts, relation, terms = _oriented(poly, relation)
+    divisor = gcd(*(c for c, _ in terms))
+    right = [(-c, powers) for c, powers in parts if (c, powers) not in terms]
+    common = gcd(divisor, *(c for c, _ in right))
+    left = [(c // divisor, powers) for c, powers in terms]
+    return left, relation, [(c // common, powers) for c, powers in right], divisor // common
 
 
 def _number(parts: list[Monomial]) -> int:
@@ -100,6 +113,8 @@ def _number(parts: list[Monomial]) -> int:
 
 def _end(parts: list[Monomial], divisor: int, notation: Notation) -> str:
     text = polynomial(parts, notation)
+    if len(parts) > 1 and divisor > 1:
+        text = f"{notation.brackets[0]}{text}{notation.brackets[1]}"
     return text if divisor == 1 else notation.quotient(text, digits(divisor))
 
 

@@ -23,6 +23,7 @@ from qe.io.surface import (
     Root,
     Term,
 )
+from qe.spelling import PI
 
 
 def chain(term: Term, known: Container[int] = ()) -> tuple[Term, list[Product | Quotient]]:
@@ -71,6 +72,8 @@ class Names:
             case Power(_, exponent, _):
                 self.special += not isinstance(exponent, Number) or exponent.value.denominator > 1
             case Quantification(_, names, _):
+                if PI in names:
+                    raise self.fail("pi is a number here; a variable of this name is written `pi`", -1)
                 self.bound.update(dict.fromkeys(names))
                 scope = scope.union(names)
             case Quantity(_, count, name, _):

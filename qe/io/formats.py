@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from qe import arguments
 from qe.arguments import shown
 from qe.errors import InputError
+from qe.spelling import NUMBERS, quoted
 
 if TYPE_CHECKING:
     from qe.formula.syntax import Formula
@@ -87,6 +88,8 @@ def write(formula: Formula, format: str | Format = Format.TEXT) -> str:
     chosen = checked(format)
     if not isinstance(formula, Formula):
         raise arguments.wrong("formula", "a Formula", formula)
+    if chosen in (Format.SMTLIB, Format.QEPCAD, Format.REDLOG) and (found := {*NUMBERS}.intersection(formula.free)):
+        raise InputError(f"the format {chosen.value} has no word for {', '.join(map(quoted, found))}")
     text: str = _module(chosen).write(formula)
     return text
 

@@ -21,6 +21,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, 
 from qe.io.names import check_name, names_in
 from qe.io.surface import MAX_DEPTH
 from qe.io.terms import MAX_DEGREE, TermError, integer
+from qe.spelling import NUMBERS
 
 FORMAT, VERSION = "real formula", 1
 _INTEGER = re.compile(r"-?[0-9]+")
@@ -121,7 +122,7 @@ def _decode(data: object, ring: Ring, depth: int) -> Formula:
 def _names(data: object) -> list[str]:
     if not isinstance(data, list):
         raise InputError("a list of names expected")
-    return [check_name(name) for name in data]
+    return [name if name in NUMBERS else check_name(name) for name in data]
 
 
 def _relation(data: object) -> Relation:

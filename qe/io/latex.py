@@ -8,7 +8,7 @@ from qe.exact.ring import Poly
 from qe.formula.comparison import ranges
 from qe.formula.notation import Level, Notation, monomials, polynomial, positive
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation
-from qe.spelling import visible
+from qe.spelling import PI, WORDS_FOR_PI, visible
 
 WIDTH = 90
 """Characters of source after which a formula is broken at its outermost operator."""
@@ -68,7 +68,9 @@ def name(variable: str) -> str:
 
     The index of ``x_1`` looks like that of ``x1``, but is another text.
     """
-    parts = _NAME.fullmatch(variable)
+    if variable == PI:
+        return r"\pi"
+    parts = None if variable in WORDS_FOR_PI else _NAME.fullmatch(variable)
     if parts is None:
         plain = variable.rstrip("'") or variable
         upright = "".join(_ESCAPES.get(c, c) for c in visible(plain))

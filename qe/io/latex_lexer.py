@@ -13,7 +13,7 @@ from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, way_out
 from qe.io.text_lexer import OPERAND_ENDS, State
 from qe.io.tokens import SIGNS, Token
-from qe.spelling import NUMERALS, QUOTED, visible
+from qe.spelling import NUMERALS, PI, QUOTED, WORDS_FOR_PI, visible
 
 _COMMANDS = {
     **dict.fromkeys(("land", "wedge"), ("AND", "and")),
@@ -279,7 +279,8 @@ class _Source:
             after = index.end()
         while self.text.startswith("'", after):
             name, after = name + "'", after + 1
-        yield from self.put("NAME", name, at)
+        is_pi = name in WORDS_FOR_PI and re.match(r"\\pi\b|π", self.text[at:])
+        yield from self.put("NAME", PI if is_pi else name, at)
         return after
 
 

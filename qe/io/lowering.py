@@ -24,6 +24,7 @@ from qe.io import terms
 from qe.io.auxiliaries import Exhausted
 from qe.io.collected import sides
 from qe.io.collecting import Names
+from qe.io.names import refuse_numbers
 from qe.io.radicals import Place
 from qe.io.sharing import ordered, refuse_long
 from qe.io.surface import (
@@ -115,7 +116,7 @@ def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None) ->
     """The polynomial over Q that ``term`` means, in the ring of its names."""
     collected = Names(fail, meet)
     collected.part(term)
-    names = collected.all()
+    refuse_numbers(names := collected.all())
     try:
         value = Lowering(Ring.of(names), fail, [], None).values.term(term)
     except Exhausted:

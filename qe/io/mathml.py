@@ -13,7 +13,7 @@ from qe.formula.features import length
 from qe.formula.notation import Monomial, digits, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 from qe.io.latex import GREEK
-from qe.spelling import visible
+from qe.spelling import PI, visible
 
 WIDTH = 12
 """Leaves (monomials) after which an operator is written in lines."""
@@ -35,7 +35,7 @@ _AND, _OR = "∧", "∨"
 
 def name(variable: str) -> str:
     """A variable: ``x1`` as x with an index, Greek letters by name, long words upright."""
-    parts = _NAME.fullmatch(variable)
+    parts = _NAME.fullmatch("pi" if variable == PI else variable)
     if parts is None:
         return f"<mi>{escape(visible(variable))}</mi>"
     letters, number, primes = parts.groups()
@@ -114,7 +114,7 @@ def _operands(formula: And | Or, draw: Draw, broken: bool) -> Iterator[str]:
 def _end(parts: list[Monomial], divisor: int, draw: Draw) -> str:
     """A sum over a denominator."""
     side = polynomial(parts, draw)
-    return side if divisor == 1 else f"<mfrac>{side}<mn>{digits(divisor)}</mn></mfrac>"
+    return side if divisor == 1 else f"<mfrac><mrow>{side}</mrow><mn>{digits(divisor)}</mn></mfrac>"
 
 
 def bracketed(inner: str) -> str:

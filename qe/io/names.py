@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from qe.arguments import names, wrong
 from qe.errors import InputError
 from qe.formula.syntax import Atom, Formula
 from qe.formula.traverse import atoms, bound_variables
+from qe.spelling import NUMBERS, quoted
 
 _FORBIDDEN = re.compile(r"[|\\\ud800-\udfff]")
 
@@ -23,7 +24,17 @@ def check_name(name: object) -> str:
     if not name or _FORBIDDEN.search(name):
         reason = "it holds a bar, a backslash or half a character" if name else "it is empty"
         raise InputError(f"{name!r} cannot be the name of a variable: {reason}")
+    if name in NUMBERS:
+        raise InputError(f"{name} cannot be the name of a variable: it is a number")
     return name
+
+
+def refuse_numbers(names: Iterable[str]) -> None:
+    """Raises ``InputError`` where one of the names stands for a number that is not algebraic."""
+    if found := [quoted(name) for name in names if name in NUMBERS]:
+        hint = 'put a variable in its place, with bounds for it in assuming: "3.14159 < p < 3.1416"'
+        taking = "eliminate, decide, equivalent, simplify and solve take it in conditions"
+        raise InputError(f"{found[0]} is not algebraic: {taking}; elsewhere {hint}")
 
 
 def bound_names(variables: object) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
 from qe.io.names import bound_names
 from qe.io.substitution import over_one_ring
-from qe.io.sympy_numbers import number_to_sympy
+from qe.io.sympy_numbers import number_to_sympy, numbers_in, symbol_of
 from qe.io.sympy_reader import Reader, shown, signs
 
 _FUNCTIONS = {"abs": "Abs", "sign": "sign", "sqrt": "sqrt", "min": "Min", "max": "Max"}
@@ -147,7 +147,7 @@ def _parts(expression: object) -> tuple[Formula, Mapping[str, Formula]]:
     symbols = sorted(getattr(whole, "free_symbols", ()), key=str)
     try:
         node = Reader(sympy).boolean(whole)
-        names = dict.fromkeys(symbol.name for symbol in symbols)
+        names = dict.fromkeys((*numbers_in(whole), *(symbol.name for symbol in symbols)))
         return lower(node, _failing(whole), names=names), _assumptions(symbols)
     except RecursionError:
         raise InputError("the expression is nested too deeply") from None
@@ -181,13 +181,13 @@ def term_to_sympy(term: s.Term) -> Any:
 
     match term:
         case s.Name(name):
-            return sp.Symbol(name)
+            return symbol_of(name)
         case s.Number(value):
             return sp.Rational(value.numerator, value.denominator)
         case s.Algebraic(number):
             return number_to_sympy(number)
         case s.Polynomial(terms):
-            return sp.Add(*(sp.Mul(sp.Rational(c), *map(sp.Symbol, names)) for names, c in terms.items()))
+            return sp.Add(*(sp.Mul(sp.Rational(c), *map(symbol_of, names)) for names, c in terms.items()))
         case s.Sum(parts):
             return sp.Add(*map(term_to_sympy, parts))
         case s.Product(left, right):

@@ -9,6 +9,23 @@ from typing import Any
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.io.terms import decimal
+from qe.spelling import NUMBERS
+
+_SYMBOLS = dict(zip(NUMBERS, ("pi", "E", "EulerGamma", "Catalan")))
+
+
+def symbol_of(name: str) -> Any:
+    """The SymPy symbol of a variable, the number where the name is that of one (``qe.formula.numbers``)."""
+    import sympy
+
+    return getattr(sympy, _SYMBOLS[name]) if name in _SYMBOLS else sympy.Symbol(name)
+
+
+def numbers_in(expression: Any) -> list[str]:
+    """The names of the numbers that are not algebraic in a SymPy expression."""
+    import sympy
+
+    return [name for name in _SYMBOLS if symbol_of(name) in expression.atoms(sympy.NumberSymbol)]
 
 
 def decimal_of(number: Any) -> Fraction:

@@ -11,7 +11,7 @@ from qe.errors import InputError
 from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.names import check_name
-from qe.io.sympy_numbers import decimal_of, number_from_sympy
+from qe.io.sympy_numbers import decimal_of, number_from_sympy, numbers_in
 from qe.io.text_errors import way_out
 
 _RELATIONS = {**{relation.value: relation for relation in Relation}, "==": Relation.EQ, "!=": Relation.NE}
@@ -139,6 +139,8 @@ class Reader:
             return s.Number(0) if isinstance(e, sp.im) else self.real(e.args[0])
         if self.is_to_be_done(e):
             return self.real(e.doit())
+        if isinstance(e, sp.NumberSymbol) and (names := numbers_in(e)):
+            return s.Name(names[0], -1)
         if e.is_number and (number := number_from_sympy(e)) is not None:
             return s.Algebraic(number, -1)
         raise InputError(self.refusal(e))
@@ -161,9 +163,6 @@ class Reader:
         sp = self.sympy
         if e is sp.I:
             return "all numbers are real here, I is not; a complex number is written as its real and imaginary part"
-        if isinstance(e, sp.NumberSymbol):
-            hint = "put a symbol in its place, with bounds for it in assuming, as qe.sympy.reduce_inequalities does"
-            return f"{e} is no algebraic number, coefficients are rational or algebraic; {hint}"
         if isinstance(e, sp.Pow):
             return f"powers whose exponents are no rational numbers are not algebraic: {shown(e)}"
         message = way_out(type(e).__name__)

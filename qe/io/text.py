@@ -26,7 +26,7 @@ from qe.io.text_lexer import COMMANDS
 from qe.io.text_parser import is_latex, parser_of
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
-from qe.spelling import QUOTED, WORD
+from qe.spelling import QUOTED, WORD, WORDS_FOR_PI
 
 _ASKED = re.compile(
     rf"\s*(?:{'|'.join(COMMANDS)})\[.*,\s*(?!Reals)(\{{[^{{}}<>=]*\}}|{WORD})\s*(?:,\s*Reals\s*)?\]\s*", re.DOTALL
@@ -39,11 +39,13 @@ _OPTIMUM = re.compile(r"\s*(Min|Max)imize\[(.*)\]\s*", re.DOTALL)
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
     """The formula that ``text`` means. ``source`` names the text in messages.
 
-    ``pi`` is no number here: as a free variable it is refused unless it stands between backquotes or is ``known`` to be
-    a variable (for texts that programs wrote); in LaTeX so is ``e``. A quotient has no value where its denominator is
-    zero; with ``total_division`` it has one there that nothing is known of, as in SMT-LIB, and the formula holds if it
-    holds for some choice of these values. Raises ``ParseError``, one line with line, column and what was expected.
+    ``pi`` is the number, a variable with a name of its own (``qe.formula.numbers``), unless it stands between
+    backquotes or is ``known`` to be a variable (for texts that programs wrote). A quotient has no value where its
+    denominator is zero; with ``total_division`` it has one there that nothing is known of, as in SMT-LIB, and the
+    formula holds if it holds for some choice of these values. Raises ``ParseError``, one line with line, column and
+    what was expected.
     """
+    text = _quoting(text, known)
     fail = Failing(text, source)
     total = Total() if total_division else None
     formula = lower(_node(text, fail), fail, meet=_no_constants(fail, known), total=total)
@@ -74,8 +76,15 @@ def _written_out(text: str) -> str:
     return re.sub(rf"{QUOTED}|{WORD}", lambda word: terms.get(word[0], word[0]), where[1])
 
 
+def _quoting(text: str, known: Container[str]) -> str:
+    """The text with backquotes around words for pi that are variables."""
+    words = {word: f"`{word}`" for word in WORDS_FOR_PI if word in known}
+    return re.sub(rf"{QUOTED}|{WORD}", lambda word: words.get(word[0], word[0]), text) if words else text
+
+
 def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] = ()) -> tuple[Poly, Fraction]:
     """A polynomial p and a rational s: ``text`` means s*p. Names and errors as for ``read``."""
+    text = _quoting(text, known)
     fail = Failing(text, source)
     term = parsed(parser_of(text), text, fail, TERM)
     value = lower_term(cast(Term, term), fail, meet=_no_constants(fail, known))
@@ -139,8 +148,7 @@ def _no_constants(fail: Failing, known: Container[str]) -> Meet:
 
     def meet(name: str, at: int) -> None:
         if name in refused and name not in known and not fail.text.startswith("`", at):
-            bounds = ' with bounds, as in assuming="3.14159 < p < 3.1416"' if name in ("pi", "Pi", "π") else ""
-            hint = f"put a variable in its place{bounds}, or write `{name}` for a variable of that name"
+            hint = f"put a variable in its place, or write `{name}` for a variable of that name"
             raise fail(f"{name} is no number here, coefficients are rational; {hint}", at)
 
     return meet

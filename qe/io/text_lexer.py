@@ -16,7 +16,7 @@ from qe.io.names import check_name
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_character
 from qe.io.tokens import Token, kinds
-from qe.spelling import CONSTANTS, QUOTED, WORD, unquoted
+from qe.spelling import CONSTANTS, PI, QUOTED, WORD, WORDS_FOR_PI, unquoted
 
 _LIST = rf"(?:{WORD}|{QUOTED})"
 QUANTITY = r"infinitely\s+many|all\s+but\s+finitely\s+many|almost\s+all|exactly\s+(?:[0-9]+|one)|connected"
@@ -176,7 +176,7 @@ def tokens(text: str) -> Iterator[Token]:
                     yield from state.put("TIMES", "*", place)
                 yield from state.put("NAME", letter, place)
         elif kind == "NAME":
-            yield from state.put(KEYWORDS.get(value, "NAME"), value, at)
+            yield from state.put(KEYWORDS.get(value, "NAME"), PI if value in WORDS_FOR_PI else value, at)
         elif kind == "OPERATOR":
             typed = value == ":" and state.header and _TYPE.match(text, at + 1)
             yield from state.put("IN" if typed else _operator(value, at), value, at)

@@ -31,7 +31,8 @@ NO_DOT = "the condition of a quantifier ends with a dot"
 
 
 @each(
-    *((text, NO_NUMBER) for text in ("x > pi", "ex x. x^2 = Pi", "x < 2*π", "(all π. π > 0) or π = 1", r"x \leq e")),
+    *((text, NO_NUMBER) for text in ("x > nan", r"x \leq e")),
+    *((text, "pi is a number") for text in ("ex pi. pi > 0", "(all π. π > 0) or π = 1")),
     # root(3, x) > 2 was false: the polynomial x has no third root
     *((text, RADICAL) for text in ("root(3, x) > 2", "Root[2, x] < y", "root(x, 3) > 2", "root(x - 1, 3) > 2")),
     *((text, NO_DOT) for text in ("∀t>0 a*t^2 > -1", "∀t>0a*t^2 > -1", "exists t >= 1/2 2*t = a", "all t>0 not a>t")),
@@ -43,8 +44,6 @@ def test_what_is_not_meant_as_it_reads_is_refused_with_a_hint(given: str, hint: 
 
 def test_constants_may_be_names_where_that_is_meant() -> None:
     assert formats.read("`pi` > `e` and `e` = i").free == ("pi", "e", "i")
-    with pytest.raises(qe.InputError):
-        qe.eliminate(sp.Eq(x, sp.E))
     assert qe.decide("all e. e > 0 -> ex d. d > 0 and d < e")
     answer = qe.eliminate(formats.read("(declare-const e Real)(assert (> (* e e) 2))", "smtlib"))
     assert qe.equivalent(str(answer), answer.formula)
@@ -122,7 +121,6 @@ def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: st
     "exists y > 0, y > 1, x > 2",  # no further variable
     r"\forall a > 0, b > 0, c > 0",
     "x^2 + b*x + c = 0 has two distinct real roots",
-    "2 Pi r > 1",
     "x >= 0 if a > 0 else x <= 0",
     "x > 1 where x > 0",
     "x > 1 where x = a",  # a definition, or one more condition

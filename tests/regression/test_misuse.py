@@ -132,7 +132,6 @@ def test_a_list_holds_together() -> None:
 
 
 @each(
-    (lambda: qe.eliminate("x = pi"), "coefficients are rational"),
     (lambda: qe.eliminate("sin(x) = 0"), "c^2 + s^2 = 1"),
     (lambda: qe.eliminate("exp(x) > 1"), "new variable"),
     (lambda: qe.eliminate("Exists[x, x > 0 And y > 1]"), "an operator is missing"),
@@ -155,7 +154,12 @@ def test_a_list_holds_together() -> None:
     (lambda: qe.eliminate("if x > 0 then x > -1"), "p -> q"),
     (lambda: qe.eliminate("0x10 < x"), "decimal"),
     (lambda: qe.eliminate("x = NaN"), "no number"),
-    (lambda: qe.eliminate("Pi*x > 1"), "no number"),
+    (lambda: qe.find("Pi*x > 1"), "pi is not algebraic"),
+    (lambda: qe.minimize("x^2 - pi*x"), "pi is not algebraic"),
+    (lambda: qe.region("x^2 < pi"), "pi is not algebraic"),
+    (lambda: qe.Solver().add("x > pi"), "pi is not algebraic"),
+    (lambda: qe.comprehensive_groebner(["x - pi*a"], ["x"]), "pi is not algebraic"),
+    (lambda: qe.Exists("ℼ", qe.parse("a > 0")), "it is a number"),
     (lambda: qe.eliminate("x > 0 xor y > 0"), "Xor(p, q)"),
     (lambda: qe.eliminate("let y = x^2 in y > 1"), "definitions are not read"),
     (lambda: qe.eliminate("x > 0 // why"), "a comment starts with #"),
