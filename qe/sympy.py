@@ -23,7 +23,7 @@ from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall
 from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
-from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, said, to_sympy
+from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, to_sympy
 from qe.processes.limits import Limits
 from qe.spelling import NUMBERS
 
@@ -214,21 +214,11 @@ def _quantifier_free(question: _Question, timeout: float | None) -> Any:
 
 
 def _set_of(question: _Question, name: str, timeout: float | None) -> Any:
-    """The solutions of a condition in one variable (and in constants)."""
+    """The solutions of a condition in one variable."""
     import sympy
 
-    parts = []
-    for case in api_solve.solve(question.formula, [name], timeout=timeout).cases:
-        *before, within = case.ranges
-        try:
-            holds = sympy.And(*(said(str(r)).doit() for r in before if r.is_bounded))
-            texts = str(within.lower or "-infinity"), str(within.upper or "infinity")
-            low, high = (said(text, term=True) for text in texts)
-        except InputError:
-            raise Unable("an end of the set is no term of SymPy") from None
-        if holds is sympy.false:
-            continue
-        if holds is not sympy.true:
-            raise Unable(f"SymPy does not decide {holds}")
-        parts.append(sympy.Interval(low, high, not within.lower_closed, not within.upper_closed))
-    return sympy.Union(*parts) if parts else sympy.S.EmptySet
+    try:
+        found = api_solve.solve(question.formula, [name], timeout=timeout).to_sympy()
+    except InputError:
+        raise Unable("an end of the set is no term of SymPy") from None
+    return sympy.S.Reals if found is sympy.true else found.as_set()

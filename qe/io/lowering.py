@@ -112,11 +112,14 @@ def _lowered(
     return convert(formula, Ring.of([*names, *(name for name in extra if name in used)]))
 
 
-def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None) -> Value:
-    """The polynomial over Q that ``term`` means, in the ring of its names."""
+def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None, numbers: bool = False) -> Value:
+    """The polynomial over Q that ``term`` means, in the ring of its names; ``numbers`` that are not algebraic may be
+    among these."""
     collected = Names(fail, meet)
     collected.part(term)
-    refuse_numbers(names := collected.all())
+    names = collected.all()
+    if not numbers:
+        refuse_numbers(names)
     try:
         value = Lowering(Ring.of(names), fail, [], None).values.term(term)
     except Exhausted:

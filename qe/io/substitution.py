@@ -77,6 +77,6 @@ def _names(term: s.Term) -> list[str]:
 
 def _polynomial(term: s.Term) -> Value | None:
     try:
-        return lower_term(term, s.unplaced)
+        return lower_term(term, s.unplaced, numbers=True)
     except InputError:
         return None

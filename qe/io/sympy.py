@@ -205,7 +205,7 @@ def term_to_sympy(term: s.Term) -> Any:
         case s.Apply(function, parts) if function in _FUNCTIONS:
             return getattr(sp, _FUNCTIONS[function])(*map(term_to_sympy, parts))
         case s.Root(s.Number(k), part, variable):
-            poly = lower_term(part, s.unplaced).poly
+            poly = lower_term(part, s.unplaced, numbers=True).poly
             if len(poly.variables) != 1 or variable not in (None, poly.ring.names[poly.level]):
                 raise InputError("SymPy has no form for a root of a polynomial with parameters")
             place = int(k)

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import mpmath
 import sympy as sp
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.tables import each
 
@@ -70,6 +70,7 @@ def test_solutions_and_words() -> None:
     assert qe.solve(sp.Eq(sp.Symbol("x"), sp.E)).to_sympy() == sp.Eq(sp.Symbol("x"), sp.E)
 
 
+@settings(max_examples=20)
 @given(st.lists(st.integers(-9, 9), min_size=6, max_size=6), st.integers(-400, 400))
 def test_an_answer_holds_where_the_question_does(c: list[int], hundredths: int) -> None:
     """The question at a rational x by forty digits of pi, the answer by an enclosure of its own."""
