@@ -161,13 +161,15 @@ class Joint:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One row. Where it moves, ``theta`` or ``d`` is the offset that is added to the value of the joint."""
+    """One row. Where it moves, ``theta`` or ``d`` is the offset that is added to the value of the joint. ``is_within``:
+    its frame is one inside of a link, whose ends are others."""
 
     a: Fraction
     alpha: Angle
     d: Fraction
     theta: Angle
     joint: Joint | None = None
+    is_within: bool = False
 
 
 @dataclass(frozen=True, slots=True)

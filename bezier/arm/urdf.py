@@ -113,7 +113,7 @@ def _rows(file: str, joint: Any) -> Iterator[Row]:
     tilt, about = (0, 0) if moving is None else _tilt(joint.axis, where)
     none = Fraction(0)
     rows = [
-        Row(x, Angle(), z, Angle(QUARTER)),
+        Row(x, Angle(), z, Angle(QUARTER), is_within=bool(y)),
         Row(y, Angle(), none, _angle(yaw)),
         Row(none, _angle(pitch), none, _angle(-QUARTER)),
         Row(none, _angle(roll + tilt), none, _angle(QUARTER if about else 0), None if about else moving),

@@ -52,6 +52,6 @@ def route(
     """
     given = given_scene(scene, "bezier.route", table_value)
     short = arguments.flag(shortest, "shortest") or gap is not None
-    degree, continuity = arguments.whole(degree, "degree"), arguments.whole(continuity, "continuity")
+    degree, continuity = arguments.whole(degree, "degree", 5), arguments.whole(continuity, "continuity", 2)
     wish = Wish.of(degree, continuity, gap)
     return limited(partial(decided, given, wish=wish if short else None), timeout, memory, progress)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import TypeVar
 
@@ -91,7 +90,7 @@ class Work:
         if bounds.timeout is not None:
             if self.seconds >= bounds.timeout:
                 raise BudgetExceeded(f"time limit of {bounds.timeout:g} s reached before this was asked for")
-            bounds = replace(bounds, timeout=bounds.timeout - self.seconds)
+            bounds = bounds.begun(time.monotonic() - self.seconds)
         try:
             if bounds.timeout is None and bounds.memory is None:
                 return work(Clock(listener=bounds.progress))

@@ -131,7 +131,7 @@ def _distances_of(links: Links) -> Iterator[Quantity]:
     shares = np.linspace(0, 1, 13)[:, None, None]
     for i, (name, body) in enumerate(links.bodies):
         numbers = [k for k, j in links.spans if j == i]
-        points = [(1 - shares) * places[k - 1][1] + shares * places[k][1] for k in numbers]
+        points = [(1 - shares) * places[links.starts[k]][1] + shares * places[k][1] for k in numbers]
         away = [signed_distances(p.reshape(-1, 3), body).reshape(p.shape[:2]).min(axis=0) for p in points]
         times, kept = places[numbers[0]][0], not any(j == i for _, j in links.touches)
         yield _distance(name, times, np.min(away, axis=0) + float(NEAR), 0.0, kept)

@@ -189,13 +189,16 @@ def _least_time(
 
 
 def _proposals(grid: Grid, bounds: Bounds, accuracy: float, budget: Budget) -> tuple[Grid, Proposal]:
-    """The best of several grids, each finer where the gap is."""
+    """The best of several grids, each finer where the gap is; one below zero is a failure of the solver."""
     best = None
     for _ in range(PASSES):
         budget.check("speeds and multipliers")
-        given = proposal(grid, bounds)
-        gap = given.duration - given.bound
-        if best is None or gap < best[1].duration - best[1].bound:
+        with np.errstate(all="ignore"):
+            given = proposal(grid, bounds)
+        gap = abs(given.duration - given.bound)
+        if not np.isfinite(gap) or np.count_nonzero(given.squares) + len(grid.resting) < grid.nodes:
+            raise Unable("the path and its limits have numbers that floating point cannot hold")
+        if best is None or gap < abs(best[1].duration - best[1].bound):
             best = grid, given
         if gap <= accuracy * given.bound:
             break
@@ -236,7 +239,8 @@ def _keeping(
         if verdict.is_kept:
             return steps, verdict
         if verdict.factor is None:
-            worst, what = verdict.worst, " and ".join(f"{QUANTITIES[j.order]} jumps" for j in verdict.breaking)
+            jumps = (f"{QUANTITIES[j.order]} jumps by {float(j.size):.2g}" for j in verdict.breaking)
+            worst, what = verdict.worst, " and ".join(jumps)
             if worst is not None and not what:
                 what = f"{worst.limit.words(grid.path.names)} is {worst.value:.10g}"
             raise InputError(f"path: no motion along it keeps the limits: {what}")

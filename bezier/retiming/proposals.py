@@ -145,7 +145,7 @@ def _fastest(grid: Grid, arrays: tuple[Any, Any, Any], bounds: Bounds, unit: flo
         right = np.zeros(rows[0].shape)
         right[..., 0] = 1.0
         program.block([(at, row) for at, row in zip(pair, rows, strict=True)], right, right.shape[-1])
-    program.block([(every, 1.0)], np.full(nodes, LARGEST))
+    program.block([(every, 1 / LARGEST)], np.ones(nodes))
     program.block([(every, -1.0)], np.zeros(nodes))
     if grid.resting:
         program.block([(every[grid.resting], 1.0)], np.zeros(len(grid.resting)), -1)

@@ -26,7 +26,6 @@ from bezier.curves.enclosure import root_above
 from bezier.curves.scalar import dot, sign, subtract
 from bezier.curves.sentences import said_of, verified
 from bezier.input import stored
-from bezier.input.numbers import NotANumber, parse, shorten
 from bezier.obstacles.obstacle import Constraint
 from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
@@ -37,6 +36,7 @@ from bezier.scenes.scene import Scene
 from bezier.scenes.sentences import Curve, cell_of, coordinates, covering, every, in_the_way, of_sides, surfaces, taken
 from bezier.scenes.shortest import chains
 from bezier.scenes.solid import Solid, directions, in_space
+from qe import arguments
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.formula.build import conj, disj, neg
 from qe.formula.syntax import FALSE, Formula
@@ -229,13 +229,13 @@ class Wish:
     @staticmethod
     def of(degree: int, continuity: int, gap: object) -> Wish:
         """With a gap that is a number, or has a percent sign."""
-        text = str(gap)
+        part, unit = (gap[:-1], 100) if isinstance(gap, str) and gap.endswith("%") else (gap, 1)
         try:
-            value = None if gap is None else parse(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
-        except NotANumber:
+            value = None if gap is None else arguments.rational(part, "gap") / unit
+        except InputError:
             value = Fraction(-1)
         if value is not None and value < 0:
-            raise InputError(f"gap: expected a share such as 5% or 0.05, found '{shorten(text)}'")
+            raise InputError(f"gap: expected a share such as 5% or 0.05, found {arguments.shown(gap)}")
         return Wish(degree, continuity, value)
 
 
@@ -276,6 +276,8 @@ def _labels(curves: Sequence[Curve]) -> list[str]:
 def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tuple[str, Certificate]]]:
     """A short path in place of one that is known, which stays where passages are too narrow for floating point."""
     scene, is_plane, short = known.scene, known.scene.dimension == 2, list[Route]()
+    if scene.start == scene.goal:
+        return replace(known, bound=LengthBound(scene)), []
     bound, proofs = least_length(scene, budget)
     for fine in (2, 1):
         parts = decomposed(scene, fine, budget, Fraction(1, 32 if is_plane else 4))

@@ -1,7 +1,7 @@
 """Whether the links of an arm stay clear of convex bodies for all t, or when and where one first meets one.
 
-A link is the segment between the origins of neighbouring frames, unless both never move. The origins are known as
-polynomials of the time, up to ``NEAR`` (``bezier.arm.tip``); bodies are wider by that.
+A link is the segment between the origins of neighbouring frames, those within one left out, unless both never move. The
+origins are known as polynomials of the time, up to ``NEAR`` (``bezier.arm.tip``); bodies are wider by that.
 
 THEOREM. Where a half-space holds a body, and the ends of a segment are not in it, the segment does not meet the body.
 So on an interval of t it is enough that neither end is, which is a sentence about two curves. That the half-space holds
@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, partial
-from itertools import chain, groupby
+from itertools import chain, groupby, pairwise
 from typing import Any
 
 from bezier.arm.model import Arm, JointKind
@@ -70,8 +70,10 @@ class Touch:
 
 @dataclass(frozen=True)
 class Links:
-    """``spans``: of each link and body, up to the end or to where they meet, which ``touches`` says."""
+    """``starts``: the frame at the beginning of each link. ``spans``: of each link and body, up to the end or to where
+    they meet, which ``touches`` says."""
 
+    starts: Mapping[int, int]
     frames: Mapping[int, Trajectory]
     bodies: tuple[tuple[str, Body], ...]
     spans: Mapping[Pair, tuple[Span, ...]]
@@ -80,18 +82,19 @@ class Links:
     @staticmethod
     def of(arm: Arm, joints: Trajectory, bodies: Sequence[tuple[str, Body]]) -> Links:
         """Everything decided. Raises ``Unable``."""
-        numbers = [k for k in range(1, len(arm.rows) + 1) if _moves(arm, k)]
-        used = sorted({*numbers, *(k - 1 for k in numbers)})
+        ends = [0, *(k for k, row in enumerate(arm.rows, start=1) if not row.is_within)]
+        starts = {k: start for start, k in pairwise(ends) if _moves(arm, start, k)}
+        used = sorted({*starts, *starts.values()})
         frames = dict(zip(used, frames_of(arm, joints, NEAR, used), strict=True))
         spans, touches = dict[Pair, tuple[Span, ...]](), dict[Pair, Touch]()
-        for k in numbers:
-            part = cache(partial(_part, frames[k - 1], frames[k]))
+        for k, start in starts.items():
+            part = cache(partial(_part, frames[start], frames[k]))
             for i, (_, body) in enumerate(bodies):
                 steps = list(_followed(part, body, len(frames[k].pieces)))
                 spans[k, i] = tuple(s for s in steps if isinstance(s, Span))
                 if isinstance(steps[-1], Touch):
                     touches[k, i] = steps[-1]
-        return Links(frames, tuple(bodies), spans, touches)
+        return Links(starts, frames, tuple(bodies), spans, touches)
 
     def time(self, pair: Pair) -> Fraction:
         """When a link meets a body."""
@@ -101,14 +104,15 @@ class Links:
     def through(self, pair: Pair) -> Bezier:
         """The curve of the point of the link that meets a body."""
         touch = self.touches[pair]
-        ends = (self.frames[k].curve(touch.piece).points for k in (pair[0] - 1, pair[0]))
-        return Bezier(tuple(_between(a, b, touch.share) for a, b in zip(*ends, strict=True)))
+        ends = [self.frames[k].curve(touch.piece) for k in (self.starts[pair[0]], pair[0])]
+        points = (end.elevate(max(e.degree for e in ends)).points for end in ends)
+        return Bezier(tuple(_between(a, b, touch.share) for a, b in zip(*points, strict=True)))
 
     # --- proof ------------------------------------------------------------------------------------------------
     def _clear(self) -> Iterator[tuple[str, Bezier, Obstacle]]:
         """Of each origin and interval: a label, the curve, and the half-spaces that it is not in."""
         spans = ((pair, span) for pair, listed in self.spans.items() for span in listed)
-        ends = ((k, pair, s) for pair, s in spans for k in (pair[0] - 1, pair[0]))
+        ends = ((k, pair, s) for pair, s in spans for k in (self.starts[pair[0]], pair[0]))
         listed = sorted((k, s.piece, s.low, s.high, pair, s.normal) for k, pair, s in ends)
         for (k, piece, low, high), group in groupby(listed, key=lambda entry: entry[:4]):
             entries = [entry[4:] for entry in group]
@@ -192,11 +196,11 @@ class Links:
         return [{"link": k, "obstacle": self.bodies[i][0], "first contact": times.get((k, i))} for k, i in self.spans]
 
 
-def _moves(arm: Arm, number: int) -> bool:
-    """Whether a link has a length, and an end that moves."""
-    row = arm.rows[number - 1]
-    slides = row.joint is not None and row.joint.motion is JointKind.PRISMATIC
-    return (slides or bool(row.a or row.d)) and not (is_fixed(arm, number - 1) and is_fixed(arm, number))
+def _moves(arm: Arm, start: int, end: int) -> bool:
+    """Whether the link between two frames has a length, and an end that moves."""
+    rows = arm.rows[start:end]
+    slides = any(row.joint is not None and row.joint.motion is JointKind.PRISMATIC for row in rows)
+    return (slides or any(row.a or row.d for row in rows)) and not (is_fixed(arm, start) and is_fixed(arm, end))
 
 
 def _part(first: Trajectory, last: Trajectory, piece: int, low: Fraction, high: Fraction) -> tuple[Bezier, Bezier]:

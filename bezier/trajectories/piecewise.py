@@ -47,6 +47,8 @@ class Trajectory:
             raise InputError("trajectory: expected times that ascend strictly")
         if not self.names or any(len(row) != len(self.names) for row in self.pieces):
             raise InputError("trajectory: expected a polynomial for each axis, and at least one axis")
+        if len({*self.names}) < len(self.names) or not all(self.names):
+            raise InputError(f"trajectory: expected different names of axes, found {', '.join(self.names)}")
 
     @cached_property
     def lengths(self) -> list[Fraction]:

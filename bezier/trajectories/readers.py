@@ -45,23 +45,26 @@ def load(file: Path, interpolation: str | None = None) -> Trajectory:
         text = read_bytes(file, MAX_BYTES).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(f"{file}: expected UTF-8 text") from None
-    reader = _Reader(str(file), interpolation)
-    return reader.table(text) if kind == ".csv" else reader.tree(_parsed(text, kind, str(file)))
-
-
-def _parsed(text: str, kind: str, source: str) -> Any:
+    reader = _Reader(interpolation)
     try:
-        return stored.parsed(text) if kind == ".json" else _yaml(text, source)
+        return reader.table(text) if kind == ".csv" else reader.tree(_parsed(text, kind))
+    except InputError as error:
+        raise InputError(f"{file}: {error}") from None
+
+
+def _parsed(text: str, kind: str) -> Any:
+    try:
+        return stored.parsed(text) if kind == ".json" else _yaml(text)
     except (ValueError, RecursionError) as error:
-        raise InputError(f"{source}: expected {kind[1:].upper()}, found: {' '.join(str(error).split())}") from None
+        raise InputError(f"expected {kind[1:].upper()}, found: {' '.join(str(error).split())}") from None
 
 
-def _yaml(text: str, source: str) -> Any:
+def _yaml(text: str) -> Any:
     """Lists, dictionaries and texts, so that decimals stay exact."""
     try:
         import yaml
     except ImportError:
-        raise InputError(f"{source}: reading YAML needs the package PyYAML") from None
+        raise InputError("reading YAML needs the package PyYAML") from None
     try:
         return yaml.load(text, Loader=yaml.BaseLoader)
     except yaml.YAMLError as error:
@@ -69,10 +72,10 @@ def _yaml(text: str, source: str) -> Any:
 
 
 class _Reader:
-    """What is said of a file in every message, and how its states are interpolated."""
+    """Of the content of a file; how its states are interpolated."""
 
-    def __init__(self, source: str, interpolation: str | None) -> None:
-        self.source, self.interpolation = source, interpolation
+    def __init__(self, interpolation: str | None) -> None:
+        self.interpolation = interpolation
 
     def number(self, raw: object, place: str) -> Fraction:
         """An exact number."""
@@ -81,13 +84,13 @@ class _Reader:
                 raise NotANumber(describe(raw))
             return parse(str(raw))
         except NotANumber as error:
-            raise InputError(f"{self.source}: {place}: expected a number, found {error}") from None
+            raise InputError(f"{place}: expected a number, found {error}") from None
 
     def numbers(self, raw: object, place: str, count: int | None = None) -> list[Fraction]:
         """A list of them."""
         if not isinstance(raw, list) or (count is not None and len(raw) != count):
             many = "numbers" if count is None else f"{count} numbers"
-            raise InputError(f"{self.source}: {place}: expected a list of {many}, found {describe(raw)}")
+            raise InputError(f"{place}: expected a list of {many}, found {describe(raw)}")
         return [self.number(value, f"{place}[{k}]") for k, value in enumerate(raw)]
 
     def orders(self, given: int) -> int:
@@ -96,7 +99,7 @@ class _Reader:
             return given
         wanted = ORDERS[self.interpolation]
         if wanted > given:
-            raise InputError(f"{self.source}: {self.interpolation} interpolation: expected {STATES[wanted - 1]}")
+            raise InputError(f"{self.interpolation} interpolation: expected {STATES[wanted - 1]}")
         return wanted
 
     # --- tables --------------------------------------------------------------------------------------------------
@@ -106,17 +109,17 @@ class _Reader:
         rows = [row for row in csv.reader(text.splitlines()) if any(cell.strip() for cell in row)]
         head = [cell.strip() for cell in rows[0]] if rows else []
         if len(rows) < 2 or len(head) < 2 or len({*head}) != len(head):
-            raise InputError(f"{self.source}: expected a line of different names of columns, and lines of numbers")
+            raise InputError("expected a line of different names of columns, and lines of numbers")
         for i, row in enumerate(rows):
             if len(row) != len(head):
-                raise InputError(f"{self.source}: row {i + 1}: expected {len(head)} values, found {len(row)}")
+                raise InputError(f"row {i + 1}: expected {len(head)} values, found {len(row)}")
         columns: dict[str, list[Fraction]] = {}
         for k, name in enumerate(head):
             columns[name] = [self.number(row[k], f"row {i}, column {name}") for i, row in enumerate(rows[1:], start=2)]
         if head[0].lower() == "duration":
             return self._polynomials(columns, head)
         if head[0].lower() not in ("t", "time"):
-            raise InputError(f"{self.source}: first column: expected time or duration, found {head[0]}")
+            raise InputError(f"first column: expected time or duration, found {head[0]}")
         names = [name for name in head[1:] if not name.endswith(("_velocity", "_acceleration"))]
         given, known = 1, {head[0], *names}
         for ending in ("_velocity", "_acceleration"):
@@ -126,7 +129,7 @@ class _Reader:
             else:
                 break
         if odd := [name for name in head if name not in known]:
-            raise InputError(f"{self.source}: column {odd[0]}: expected such a column for every axis, velocities first")
+            raise InputError(f"column {odd[0]}: expected such a column for every axis, velocities first")
         endings = ("", "_velocity", "_acceleration")[: self.orders(given)]
         states = [[[columns[n + e][i] for n in names] for e in endings] for i in range(len(rows) - 1)]
         return by_points(names, columns[head[0]], states)
@@ -136,7 +139,7 @@ class _Reader:
         for name in head[1:]:
             axis, _, power = name.partition("^")
             if not power.isdecimal() or len(power) > 2:
-                raise InputError(f"{self.source}: column {name}: expected a power such as x^3")
+                raise InputError(f"column {name}: expected a power such as x^3")
             axes.setdefault(axis, {})[int(power)] = columns[name]
         breaks, pieces = [Fraction(0)], []
         for i, length in enumerate(columns[head[0]]):
@@ -159,20 +162,20 @@ class _Reader:
         listed = data if isinstance(data, list) else [data]
         if listed and all(isinstance(part, dict) and "control_points" in part for part in listed):
             return self._curves(listed)
-        raise InputError(f"{self.source}: expected points (JointTrajectory) or control_points (Drake)")
+        raise InputError("expected points (JointTrajectory) or control_points (Drake)")
 
     def _joints(self, data: Mapping[str, Any]) -> Trajectory:
         names, points = data.get("joint_names"), data["points"]
         if not isinstance(names, list) or not names or not all(isinstance(n, str) for n in names):
-            raise InputError(f"{self.source}: joint_names: expected a list of names")
+            raise InputError("joint_names: expected a list of names")
         if not isinstance(points, list) or len(points) < 2 or not all(isinstance(p, dict) for p in points):
-            raise InputError(f"{self.source}: points: expected at least two points")
+            raise InputError("points: expected at least two points")
         given = next((k for k, name in enumerate(STATES) if not all(p.get(name) for p in points)), len(STATES))
         if not given:
-            raise InputError(f"{self.source}: points: expected positions in each of them")
+            raise InputError("points: expected positions in each of them")
         for i, point in enumerate(points):
             if extra := [name for name in STATES[given:] if point.get(name)]:
-                raise InputError(f"{self.source}: points[{i}]: expected {extra[0]} in all points or in none")
+                raise InputError(f"points[{i}]: expected {extra[0]} in all points or in none")
         orders = self.orders(given)
         states = [
             [self.numbers(p[name], f"points[{i}].{name}", len(names)) for name in STATES[:orders]]
@@ -185,25 +188,25 @@ class _Reader:
         if not isinstance(raw, dict):
             return self.number(raw, place)
         if not raw or {*raw} - {"sec", "nanosec", "secs", "nsecs"}:
-            raise InputError(f"{self.source}: {place}: expected sec and nanosec")
+            raise InputError(f"{place}: expected sec and nanosec")
         scale = {"sec": 1, "secs": 1, "nanosec": 10**9, "nsecs": 10**9}
         return sum((self.number(v, f"{place}.{k}") / scale[k] for k, v in raw.items()), Fraction(0))
 
     def _points(self, raw: object, place: str) -> list[tuple[Fraction, ...]]:
         """Control points from a matrix with one row for each axis."""
         if not isinstance(raw, list) or not raw or not isinstance(raw[0], list) or not raw[0]:
-            raise InputError(f"{self.source}: {place}: expected a list of numbers for each axis")
+            raise InputError(f"{place}: expected a list of numbers for each axis")
         rows = [self.numbers(row, f"{place}[{k}]", len(raw[0])) for k, row in enumerate(raw)]
         return list(zip(*rows, strict=True))
 
     def _spline(self, data: Mapping[str, Any]) -> Trajectory:
         basis = data["basis"]
         if not isinstance(basis, dict):
-            raise InputError(f"{self.source}: basis: expected order and knots")
+            raise InputError("basis: expected order and knots")
         points = self._points(data.get("control_points"), "control_points")
         order = self.number(basis.get("order"), "basis.order")
         if order.denominator > 1 or not 1 <= order <= 32:
-            raise InputError(f"{self.source}: basis.order: expected a whole number from 1 to 32, found {order}")
+            raise InputError(f"basis.order: expected a whole number from 1 to 32, found {order}")
         knots = self.numbers(basis.get("knots"), "basis.knots")
         return by_spline(_axes(len(points[0])), knots, points, int(order) - 1)
 
@@ -212,9 +215,9 @@ class _Reader:
         for i, part in enumerate(listed):
             start, end = (self.number(part.get(k), f"curve {i + 1}: {k}") for k in ("start_time", "end_time"))
             if breaks and breaks[-1] != start:
-                raise InputError(f"{self.source}: curve {i + 1}: expected to start where the one before ends")
+                raise InputError(f"curve {i + 1}: expected to start where the one before ends")
             if start >= end:
-                raise InputError(f"{self.source}: curve {i + 1}: expected end_time after start_time")
+                raise InputError(f"curve {i + 1}: expected end_time after start_time")
             breaks += [end] if breaks else [start, end]
             pieces.append(by_control_points(self._points(part["control_points"], f"curve {i + 1}"), end - start))
         return Trajectory(_axes(len(pieces[0])), tuple(breaks), tuple(pieces))

@@ -85,6 +85,13 @@ def test_the_least_time_lies_between_both_sides(along: Trajectory, limits: dict[
         assert checked(along, listed, motion.certificate).duration == motion.duration
 
 
+def test_a_limit_of_velocity_that_is_far_away_changes_nothing() -> None:
+    """It took five times as long: the solver met rows that it could not scale, and its failure looked like a gap."""
+    back = spline(np.array([[-0.747], [-0.747], [0.011]]))
+    motion = bezier.retime(back, velocity=1000, acceleration=1)
+    assert motion.gap <= F(1, 250) and motion.duration < F(5, 2)
+
+
 @each((3, "norms"), (6, "axes"), (3, "axes"), daily=3)
 def test_paths_are_as_fast_as_those_of_toppra_and_keep_their_limits(axes: int, kind: str) -> None:
     curve = spline(np.random.default_rng(axes).uniform(-1, 1, (7, axes)))
@@ -136,6 +143,12 @@ def test_a_limit_of_jerk_is_kept_and_the_bound_is_that_without_it() -> None:
 def test_what_is_no_path_is_refused(along: Trajectory, words: str) -> None:
     with pytest.raises(InputError, match=words):
         bezier.retime(along, velocity=1, acceleration=1)
+
+
+@pytest.mark.parametrize("along", [path([[0, 10**300]]), path([[0, F(10) ** 300]], breaks=(0, F(1, 10**300)))])
+def test_numbers_beyond_floating_point_are_one_line(along: Trajectory) -> None:
+    with pytest.raises(qe.Unable, match="floating point cannot hold"):
+        bezier.retime(along, velocity=2, acceleration=5)
 
 
 def test_arguments_that_make_no_sense_are_one_line() -> None:

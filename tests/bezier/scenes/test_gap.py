@@ -62,3 +62,15 @@ def test_ways_are_tried_until_the_gap_is_proved() -> None:
 def test_a_gap_that_is_no_share_is_refused(gap: Any) -> None:
     with pytest.raises(qe.InputError, match="gap"):
         Wish.of(3, 1, gap)
+
+
+def test_a_number_of_thousands_of_digits_is_one_line() -> None:
+    for name in ("degree", "continuity", "gap"):
+        with pytest.raises(qe.InputError, match=f"{name}: .*a large integer"):
+            bezier.route(SCENE, shortest=True, **{name: -(10**5000)})  # type: ignore[arg-type]
+
+
+def test_the_shortest_path_from_a_point_to_itself_has_no_length() -> None:
+    found = bezier.route({**SCENE, "goal": SCENE["start"]}, gap="1%")
+    found.check()
+    assert found.length == found.at_least == 0

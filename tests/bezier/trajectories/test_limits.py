@@ -226,15 +226,20 @@ def test_the_same_motion_in_every_format(tmp_path: Path) -> None:
     assert load(tmp_path / "a.csv", "linear").pieces[0][0] == RationalPoly.of([F(0), F(1, 2)])
 
 
+TWICE = [{"positions": [k, k], "time_from_start": k} for k in (0, 1)]
+
+
 @pytest.mark.parametrize(
     ("name", "text", "says"),
     [
         ("a.csv", "time,x\n0,0\n", "two times"),
-        ("a.csv", "time,x\n0,0\n0,1\n", "ascend"),
+        ("a.csv", "time,x\n0,0\n0,1\n", "a.csv: trajectory: expected times that ascend"),
+        ("a.csv", "duration,x^0,^1\n1,0,0\n", "a.csv: trajectory: expected different names of axes"),
         ("a.csv", "time,x\n0,nan\n1,1\n", "row 2, column x: expected a number"),
         ("a.csv", "time,x,y,x_velocity\n0,0,0,0\n1,1,1,1\n", "for every axis"),
         ("a.csv", "", "names of columns"),
         ("a.json", '{"points": 3}', "joint_names"),
+        ("a.json", json.dumps({"joint_names": ["a", "a"], "points": TWICE}), "names of axes, found a, a"),
         ("a.json", "[]", "expected points"),
         ("a.json", '{"basis": {"order": 2, "knots": [0, 1]}, "control_points": [[1, 2]]}', "knots"),
         ("a.yaml", "points: [", "expected YAML"),

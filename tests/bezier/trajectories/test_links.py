@@ -15,7 +15,9 @@ from scipy.interpolate import CubicSpline
 import bezier
 import qe
 from bezier.arm.kinematics import skeleton
+from bezier.arm.model import Angle, Arm, Convention, Joint, JointKind, Row
 from bezier.arm.reader import load_arm
+from bezier.arm.robot import Robot
 from bezier.arm.tip import frames_of, is_fixed
 from bezier.cli import main
 from bezier.pictures.distance import signed_distances
@@ -77,6 +79,29 @@ def test_a_ball_is_met_when_it_grows_by_a_hundredth(side: int) -> None:
     assert result.kept is (side < 0) and ("first at the time" in str(result)) is (side > 0)
     result.check(qe.Certificate.from_json(result.certificate.to_json()))
     assert "distance from ball 1" in result.page()
+
+
+def test_a_contact_of_a_link_that_begins_at_the_base_has_a_certificate() -> None:
+    """One end stays, the other moves: polynomials of different degrees."""
+    result = bezier.certify(SMALL, robot="planar-3r", obstacles=[{**BALL, "centre": [50, 20, 0], "radius": 18}])
+    result.check(result.certificate)
+    assert min(result.links.touches) == (1, 0)
+
+
+@pytest.mark.parametrize("is_within", [True, False])
+def test_a_shift_along_two_axes_is_one_straight_link_where_it_is_one(is_within: bool) -> None:
+    """The rows of a joint in URDF: along x, then along y."""
+    joint = Joint("q", JointKind.REVOLUTE, None, None)
+    lengths = (F(0), 0, joint), (F(100), 6, None), (F(100), -6, None)
+    rows = [Row(a, Angle(), F(0), Angle(turn), moving) for a, turn, moving in lengths]
+    rows[1] = replace(rows[1], is_within=is_within)
+    arm = Robot(Arm("L", Convention.MODIFIED, tuple(rows), "test"))
+    moved = CubicSpline([0, 1, 2], [[0], [0.1], [0.2]])
+    for centre, is_straight in (([80, 10, 0], False), ([50, 50, 0], True)):
+        found = bezier.certify(moved, robot=arm, obstacles=[{**BALL, "centre": centre}])
+        assert found.kept is (is_straight is not is_within)
+        found.check(found.certificate)
+        assert "distance from ball 1" in found.page()
 
 
 @pytest.mark.parametrize("arm", ["ev3-120", "cylindrical", "six-joints"])
