@@ -104,8 +104,9 @@ def _pinned(
 ) -> Iterator[list[Quadratic]]:
     """The active equations, with coordinates that they leave free fixed at simple rationals near the proposal."""
     active = [forms[i] for i in support]
-    rows: list[list[float]] = [[float(h) for h in row] for q in (objective, *active) for row in q.hessian if any(row)]
-    rows += [to_float(q, natural_scale(q)).value_and_slope(proposal.point)[1] for q in active]
+    scales = [(q, natural_scale(q)) for q in (objective, *active)]
+    rows = [[float(h) * scale for h in row] for q, scale in scales for row in q.hessian if any(row)]
+    rows += [to_float(q, scale).value_and_slope(proposal.point)[1] for q, scale in scales[1:]]
     free = free_columns(rows, objective.size)
     if not free:
         yield active

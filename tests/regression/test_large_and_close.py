@@ -145,6 +145,14 @@ def test_numbers_that_no_float_holds_were_a_crash_of_the_convex_methods() -> Non
         assert "numerical" in str(error) or "could" in str(error)
 
 
+def test_a_minimum_inside_was_not_found_in_small_units() -> None:
+    """Where a condition far from 1 sets the unit, the second derivatives of the objective counted as zero."""
+    for unit in (Fraction(1, 10**9), Fraction(1, 10**20), Fraction(10**20)):
+        u, v = f"(x - {3 * unit})^2", f"(y - {4 * unit})^2"
+        least = qe.minimize(f"{u} + {v}", f"x^2 + y^2 <= {40 * unit**2} and x >= {-9 * unit}", method="convex")
+        assert (least.value, least.certificate is not None) == (0, True)
+
+
 def test_no_number_was_looked_for_between_ends_in_the_wrong_order_for_ever() -> None:
     root = RealAlgebraic.from_root((-2, 0, 1), 1, 2)
     for low, high in ((root, root), (Fraction(2), root), (Fraction(1), Fraction(1)), (root, Fraction(1))):
