@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import TypeVar
 
@@ -90,7 +91,7 @@ class Work:
         if bounds.timeout is not None:
             if self.seconds >= bounds.timeout:
                 raise BudgetExceeded(f"time limit of {bounds.timeout:g} s reached before this was asked for")
-            bounds = bounds.begun(time.monotonic() - self.seconds)
+            bounds = replace(bounds, timeout=bounds.timeout - self.seconds)
         try:
             if bounds.timeout is None and bounds.memory is None:
                 return work(Clock(listener=bounds.progress))
