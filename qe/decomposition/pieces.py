@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from qe.decomposition.radicals import halved, quotient_text
+from qe.decomposition.radicals import halved, quotient_text, radicals
 from qe.decomposition.sampled_cells import Number, Place, child, coordinates, root_place
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.radicals import brief_algebraic
@@ -31,8 +31,8 @@ LONGEST_BITS = 10_000
 class RootFunction:
     """The k-th real root (from 1) of ``poly`` in its main variable; its text is a term that can be read back.
 
-    Distinct roots are counted, as in root atoms; those of a polynomial of degree 2 with a constant leading
-    coefficient, which are written with ``sqrt``, by their multiplicity. ``value`` is the number itself when the
+    Distinct roots are counted, as in root atoms; those of a polynomial with a constant leading coefficient of degree 2
+    or of two terms, which are written with radicals, by their multiplicity. ``value`` is the number itself when the
     polynomial has one variable.
     """
 
@@ -53,6 +53,10 @@ class RootFunction:
     def __str__(self) -> str:
         if self.value is not None:
             return str(self.value)
+        c = self.poly.coefficients(self.poly.level)
+        if len(c) > 3 and c[-1].is_constant and not any(c[1:-1]):
+            for radical in radicals(c, self.k, 1 + len(c) % 2, c[-1].constant_value()):
+                return radical.text
         written = self.written
         if written is None:
             return f"root({self.k}, {format_poly(self.poly)}, {quoted(self.poly.ring.names[self.poly.level])})"
@@ -221,9 +225,10 @@ class Sections:
             for j in members:
                 poly = self.table.factors[level][j]
                 k = seen.get(j, 0) + 1
-                # both roots can be written with ``sqrt`` wherever they are real, also where they meet
-                quadratic = poly.degree(level) == 2 and poly.leading(level).is_constant
-                double = not self.distinct and totals[j] == 1 and quadratic
+                # both roots can be written with radicals wherever they are real, also where they meet
+                c = poly.coefficients(level)
+                paired = c[-1].is_constant and (len(c) == 3 or (len(c) % 2 and not any(c[1:-1])))
+                double = not self.distinct and totals[j] == 1 and paired
                 multiplicity = 2 if double else 1
                 value = self.value(poly, met[j]) if poly.variables == (level,) else None
                 met[j] += 1
