@@ -18,10 +18,10 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import TRUE, Constant, Exists, ForAll, Formula
 from qe.formula.traverse import has_root_atoms
-from qe.io.names import names_in, refuse_numbers
+from qe.io.names import names_in
 from qe.io.substitution import over_one_ring
 from qe.proof.answer import Answer
-from qe.spelling import KEYWORDS, QUOTED, WORD, unquoted
+from qe.spelling import KEYWORDS, QUOTED, WORD, WORDS_FOR_PI, unquoted
 
 if TYPE_CHECKING:
     from qe.optimization.values import Objective
@@ -138,7 +138,9 @@ def read_block(given: AnyFormula, format: str = "text", total_division: bool = F
 def names_typed(given: AnyFormula) -> set[str]:
     """The names in what a caller gave, also those that reading simplifies away: ``0 < 0 and (ex x. x > a)`` has two."""
     if isinstance(given, str):
-        return set(re.findall(WORD, given)) - KEYWORDS | {unquoted(name) for name in re.findall(QUOTED, given)}
+        return set(re.findall(WORD, given)).difference(KEYWORDS, WORDS_FOR_PI) | {
+            unquoted(name) for name in re.findall(QUOTED, given)
+        }
     if isinstance(given, Formula):
         return set(names_in(given))
     if isinstance(given, Mapping):
@@ -206,7 +208,7 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
 
 
 def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
-    """A term to be optimised, polynomial or not (quotients, roots, ``abs``, ``min``, ``max``).
+    """A term to be optimised, polynomial or not (quotients, roots, ``abs``, ``min``, ``max``, ``pi``).
 
     ``taken``: the names of the rest of the problem. Raises ``InputError`` for what is no term.
     """
@@ -233,5 +235,4 @@ def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
             graph = graph_of(value, given)
     except InputError as error:
         raise InputError(f"objective: a term expected: {error}") from None
-    refuse_numbers(graph.free)
     return Objective(graph, value, tuple(name for name in graph.free if name != value))

@@ -14,13 +14,17 @@ from qe.api.settings import Optimisation, with_settings
 from qe.convex import optimum as convex
 from qe.convex.optimum import NotConvex, Optimum
 from qe.errors import InputError
+from qe.formula.build import conj
 from qe.formula.doubts import numbers_as_names, products_as_names
+from qe.formula.numbers import bounds_of_numbers
 from qe.formula.syntax import Formula
+from qe.io.substitution import over_one_ring
 from qe.io.text import optimum_asked
 from qe.optimization.values import Goal, Objective
 from qe.options import Budget
 from qe.proof.answer import Guarantee
 from qe.services import SymPyForm
+from qe.spelling import NUMBERS
 
 if TYPE_CHECKING:
     from qe.optimization.global_optimum import GlobalOptimum
@@ -67,7 +71,7 @@ def minimize(
     with quantifiers in the constraints if need be, and get a ``GlobalOptimum`` with all minimisers. ``method``:
     "convex" or "elimination" takes that way only.
     ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``: value and points as
-    functions of them.
+    functions of them (``pi`` is always one).
     That there is no optimum is an answer too: ``status`` says ``UNBOUNDED`` or ``INFEASIBLE``, and ``value`` is None.
     With ``check`` its certificate is verified: ``guarantee`` is ``CHECKED``, or ``reason`` says why not; an elimination
     comes with its derivation (``answer``).
@@ -140,7 +144,7 @@ def _best(
         constraints = [constraints, more]
         parameters = sorted(names_typed([objective, more]) - {*variables}) or parameters
     read = read_under(limits, partial(read_posed_constraints, constraints, objective), constraints)
-    stated = under(*read, settings["assuming"], limits, others=names_typed([objective]))
+    stated = under(*read, settings["assuming"], limits, others=names_typed([objective]), numbers=True)
     conditions = stated.restricted
     given = arguments.names(parameters, "parameters")
     strangers = sorted({*(given or ())} - names_typed([objective, constraints, conditions]))
@@ -150,6 +154,9 @@ def _best(
     taken = (*(ring.names if ring is not None else ()), *(given or ()))
     term = read_under(limits, partial(read_objective, objective, taken), objective)
     note_doubts(constraints, conditions)
+    if numbers := [name for name in NUMBERS if name in {*term.names, *conditions.free}]:
+        conditions = conj(over_one_ring(conditions, bounds_of_numbers(term.graph, conditions)))
+        given = (*numbers, *(given or ()))
     if isinstance(objective, str):
         alone = [name for name in term.names if name not in conditions.free]
         names = (*term.names, *conditions.free)

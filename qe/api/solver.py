@@ -20,6 +20,7 @@ from qe.formula.build import conj, exists
 from qe.formula.syntax import Formula
 from qe.io import formats
 from qe.io.expressions import graph_of, substituted
+from qe.io.names import refuse_numbers
 from qe.io.substitution import over_one_ring
 from qe.optimization.global_optimum import GlobalOptimum
 from qe.optimization.values import new_name
@@ -143,7 +144,7 @@ class Solver:
         return self._wanted(term, False)
 
     def _wanted(self, term: AnyFormula, least: bool) -> Objective:
-        graph_of("value", term)  # so that what is no term is refused here
+        refuse_numbers(graph_of("value", term).free)  # what is no term is refused here, too
         self.answer = None
         self._objectives.append(Objective(term, least))
         return self._objectives[-1]

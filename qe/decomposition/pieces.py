@@ -32,7 +32,7 @@ class RootFunction:
     """The k-th real root (from 1) of ``poly`` in its main variable; its text is a term that can be read back.
 
     Distinct roots are counted, as in root atoms; those of a polynomial with a constant leading coefficient of degree 2
-    or of two terms, which are written with radicals, by their multiplicity. ``value`` is the number itself when the
+    or of two terms by their multiplicity: these are written with radicals. ``value`` is the number itself when the
     polynomial has one variable.
     """
 
@@ -53,14 +53,13 @@ class RootFunction:
     def __str__(self) -> str:
         if self.value is not None:
             return str(self.value)
-        c = self.poly.coefficients(self.poly.level)
-        if len(c) > 3 and c[-1].is_constant and not any(c[1:-1]):
-            for radical in radicals(c, self.k, 1 + len(c) % 2, c[-1].constant_value()):
+        written, c = self.written, self.poly.coefficients(self.poly.level)
+        if written is not None:
+            return quotient_text(*written, -1 if self.k == 1 else 1)
+        if not any(c[1:-1]):  # the leading coefficient is not zero where there is a root
+            for radical in radicals(c, self.k, 1 + len(c) % 2, 1):
                 return radical.text
-        written = self.written
-        if written is None:
-            return f"root({self.k}, {format_poly(self.poly)}, {quoted(self.poly.ring.names[self.poly.level])})"
-        return quotient_text(*written, -1 if self.k == 1 else 1)
+        return f"root({self.k}, {format_poly(self.poly)}, {quoted(self.poly.ring.names[self.poly.level])})"
 
     @property
     def written(self) -> tuple[Poly, Poly | None, Poly] | None:

@@ -33,7 +33,7 @@ def refuse_numbers(names: Iterable[str]) -> None:
     """Raises ``InputError`` where one of the names stands for a number that is not algebraic."""
     if found := [quoted(name) for name in names if name in NUMBERS]:
         hint = 'put a variable in its place, with bounds for it in assuming: "3.14159 < p < 3.1416"'
-        taking = "eliminate, decide, equivalent, simplify and solve take it in conditions"
+        taking = "eliminate, decide, equivalent, simplify, solve and the optima take it"
         raise InputError(f"{found[0]} is not algebraic: {taking}; elsewhere {hint}")
 
 

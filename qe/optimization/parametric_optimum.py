@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
@@ -33,7 +33,7 @@ from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
 from qe.services import SymPyForm
-from qe.spelling import quoted
+from qe.spelling import NUMBERS, quoted
 
 Place = tuple[Range, ...]
 
@@ -196,7 +196,7 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
             cases += _with_points(pieces, len(goal.parameters))
             cases.sort(key=lambda pair: pair[0])
     optimum = ParametricOptimum(
-        cases=tuple(case for _, case in cases),
+        cases=_for_numbers([case for _, case in cases], goal.parameters),
         parameters=goal.parameters,
         values=taken,
         variable=goal.value,
@@ -245,10 +245,25 @@ def _with_points(pieces: Iterable[Piece], size: int) -> Iterator[tuple[Number, C
         yield _place(places[0]), Case(ranges[:-1], ranges[-1].lower, True, points)
 
 
+def _for_numbers(cases: list[Case], parameters: Sequence[str]) -> tuple[Case, ...]:
+    """The cases without the bounds of numbers that are not algebraic, first among the parameters: they hold."""
+    size = _numbers(parameters)
+    if size and len({tuple(map(str, case.ranges[:size])) for case in cases}) == 1:
+        cases = [replace(case, ranges=case.ranges[size:]) for case in cases]
+    return tuple(cases)
+
+
+def _numbers(parameters: Iterable[str]) -> int:
+    """How many of the parameters are numbers that are not algebraic."""
+    return len({*NUMBERS}.intersection(parameters))
+
+
 def _place(piece: Piece) -> Number:
-    """The first coordinate of a sample of a piece."""
-    first = root_place(piece.table)
-    return child(piece.table, first, piece.path[0]).point.number(0) if piece.path else Fraction(0)
+    """The first coordinate of a sample of a piece that is no such number."""
+    depth, place = _numbers(piece.table.order), root_place(piece.table)
+    for k in piece.path[: depth + 1]:
+        place = child(piece.table, place, k)
+    return place.point.number(depth) if len(piece.path) > depth else Fraction(0)
 
 
 def _data(case: Case) -> dict[str, object]:

@@ -8,13 +8,13 @@ import mpmath
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.tables import each
 
 import qe
 from qe.formula.evaluate import holds_at
 from qe.formula.numbers import bounds_of_numbers
 from qe.io.text import read
 from qe.spelling import NUMBERS, PI
+from tests.tables import each
 
 DIGITS = "3.14159265358979323846264338327950288419716939937510"
 
@@ -68,6 +68,21 @@ def test_solutions_and_words() -> None:
         sp.Symbol("m") > sp.pi, sp.Symbol("m") < -sp.pi
     )
     assert qe.solve(sp.Eq(sp.Symbol("x"), sp.E)).to_sympy() == sp.Eq(sp.Symbol("x"), sp.E)
+
+
+@each(
+    ("2*pi*r^2 + 2*pi*r*h", "pi*r^2*h = 1 and r > 0 and h > 0", "cbrt(54*pi) at r = sqrt(value/(6*pi)), h = 2*r"),
+    ("x^2 - pi*x", "true", "-pi^2/4 at x = pi/2"),
+    ("x", "x^2 > pi and x > 1/2", "sqrt(pi) (not attained)"),
+    ("x", "x > pi and x < 3", "no point meets the constraints"),
+    (
+        "Minimize[{x^2 - a*x*Pi, x < 2}, {x}]",
+        "true",
+        "-pi^2*a^2/4 at x = pi*a/2 if a < 4/pi\n4 - 2*pi*a (not attained) if a >= 4/pi",
+    ),
+)
+def test_optima(objective: str, constraints: str, expected: str) -> None:
+    assert str(qe.minimize(objective, constraints)) == expected
 
 
 @settings(max_examples=20)
