@@ -11,7 +11,7 @@ from markupsafe import Markup
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES
 from bezier.compare.planar import plane_coordinates
-from bezier.motion.motion import pieces
+from bezier.motion.motion import in_time
 from bezier.motion.track import Track
 from bezier.pictures import plot, scene
 from bezier.pictures.mesh import Array
@@ -65,7 +65,7 @@ def first(comparison: Comparison) -> Markup:
     for method in shown:
         path = comparison.sides[method].plan.path
         assert path is not None
-        track = Track.of(pieces(path, None))
+        track = Track.of(in_time(path, None))
     data = scene.path_scene(base, track, timed=False, given=given)
     reach, curves = base.radius, [(TONES[m], curve) for m, picture in shown.items() for curve in picture.curves]
     data["curves"] = [scene.curve(curve, reach, tone) for tone, curve in curves]

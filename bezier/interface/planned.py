@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
 from bezier.interface.work import Work
-from bezier.motion.motion import Motion, Quality, motion_csv, pieces
+from bezier.motion.motion import Motion, Quality, in_time, motion_csv
 from bezier.obstacles.survey import Finding
 from bezier.paths.path import Path
 from bezier.planner import outputs, words
@@ -184,7 +184,7 @@ class Planned:
         with wanted():
             from bezier.motion.track import Track
 
-        return Track.of(pieces(self.path, self.motion))
+        return Track.of(in_time(self.path, self.motion))
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
         """The positions at these times from 0 to ``duration``: of shape (3,) for a number, (n, 3) for n of them."""
@@ -262,7 +262,7 @@ class Planned:
         with wanted():
             from bezier.motion.track import Track
 
-        return Track.of(pieces(self.path, None))
+        return Track.of(in_time(self.path, None))
 
     def save(self, target: str | FilePath, *, pictures: bool = True) -> list[FilePath]:
         """Write one file, by its ending, or the folder of ``bezier plan``, for a name without one; what was written.

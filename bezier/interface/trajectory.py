@@ -14,8 +14,7 @@ from bezier.chains.plan import ChainPlan
 from bezier.interface.function import given_table
 from bezier.interface.planned import Planned
 from bezier.interface.work import limited, unlimited
-from bezier.motion.motion import pieces
-from bezier.planner.least_time import joined
+from bezier.motion.motion import in_time, joined
 from bezier.trajectories.along import load_path
 from bezier.trajectories.command import Certified, limits_of
 from bezier.trajectories.limits import Limit
@@ -108,8 +107,7 @@ def path_of(given: Any, *, timed: bool = True) -> Trajectory:
     if isinstance(given, Trajectory):
         return given
     if isinstance(given, Planned):
-        motion = given.motion if timed else None
-        return joined("xyz", [(part.high - part.low, part.curve) for part in pieces(given.path, motion)])
+        return in_time(given.path, given.motion if timed else None)
     if isinstance(given, ChainPlan):
         if not given.feasible:
             raise InputError(f"path: expected a chain, found none: {given}")

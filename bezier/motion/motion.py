@@ -8,35 +8,47 @@ In a problem file::
     max_speed = 20              # mm/s, optional
     max_acceleration = 5        # mm/s^2, optional
 
-A path in time as one chain of Bézier curves: the form in which other programs take it.
-
 Without a motion the time is that of ``path.csv``: each curve takes its duration. With one it is in seconds, and the
-curves composed with the time law are polynomials again, between the breaks of the law and the passages from curve to
-curve. Coordinates and passages that are irrational are replaced by rational numbers next to them (``BITS``).
+curves composed with the time law are polynomials again: a trajectory, whose largest speed and acceleration are decided
+as by ``bezier certify``. Irrational coordinates are replaced by rational numbers next to them (``BITS``).
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
-from itertools import pairwise
+from itertools import accumulate
+from math import ceil
 from typing import Any
 
-from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
-from bezier.curves.enclosure import Enclosure, bounds, curvature_enclosure, length_enclosure
+from bezier.curves.enclosure import (
+    Enclosure,
+    bounds,
+    curvature_enclosure,
+    length_enclosure,
+    root_above,
+    root_enclosure,
+)
 from bezier.curves.scalar import Vector, add, decimal_text, described, is_zero, scale
 from bezier.input.toml_table import Table
-from bezier.motion.timelaw import Extremes, Law, TimeLaw, composed, extremes, least_duration, stretches
+from bezier.motion.timelaw import TICK, Law, TimeLaw
 from bezier.paths.path import Path
+from bezier.trajectories.exact import by_control_points, composed
+from bezier.trajectories.piecewise import Trajectory
+from qe.exact.rational_poly import RationalPoly
+from qe.extras import wanted
 
 REL = Fraction(1, 10**6)
 ROWS = 151
 """Rows of ``motion.csv``."""
-LIMITS = ("max_speed", "max_acceleration")
+BITS = 96
+"""How near a rational number is to an irrational one in its place."""
+ORDERS = {"max_speed": 1, "max_acceleration": 2}
+"""The limits, and of which derivative they are."""
 QUARTER = Fraction(1, 4)
 
 
@@ -66,7 +78,7 @@ def read_timing(table: Table) -> Timing | None:
         return None
     section = table.inner("timing")
     raw = section.values
-    section.only(("law", "ramp", "duration", *LIMITS))
+    section.only(("law", "ramp", "duration", *ORDERS))
     law = section.choice("law", Law, Law.QUINTIC)
     if "ramp" in raw and law is not Law.TRAPEZOID:
         raise section.error("ramp", 'this key with law = "trapezoid" only', f'law = "{law.value}"')
@@ -74,7 +86,7 @@ def read_timing(table: Table) -> Timing | None:
     if ramp > Fraction(1, 2):
         raise section.error("ramp", "at most 1/2", str(ramp))
     duration = section.positive("duration") if "duration" in raw else None
-    limits = {key: section.positive(key) for key in LIMITS if key in raw}
+    limits = {key: section.positive(key) for key in ORDERS if key in raw}
     if law is Law.LEAST and duration is not None:
         raise section.error("duration", 'no such key with law = "least"', str(duration))
     if law is Law.LEAST and "max_acceleration" not in limits:
@@ -86,12 +98,14 @@ def read_timing(table: Table) -> Timing | None:
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A path in time."""
+    """A path in time. ``rates``: the largest speed and acceleration, if it took one second; ``kept``: whether each
+    limit is kept at all times, exactly."""
 
     timing: Timing
     duration: Fraction
-    extremes: Extremes
-    """The largest speed (mm/s) and acceleration (mm/s^2) over the whole time."""
+    trajectory: Trajectory
+    rates: Mapping[str, Enclosure]
+    kept: Mapping[str, bool]
     law: TimeLaw
     at_least: Fraction | None = None
     """Seconds that no motion along the path can beat, with the law of least time; ``rests``: none that rests where the
@@ -102,29 +116,26 @@ class Motion:
         return f"Motion({float(self.duration):.6g} s, {'within' if self.keeps_limits else 'not within'} its limits)"
 
     @property
-    def kept(self) -> dict[str, bool | None]:
-        """Whether each limit is kept at all times: proved, refuted, or (None) closer than the enclosure."""
-        values = {"max_speed": self.extremes.speed, "max_acceleration": self.extremes.acceleration}
-        return {key: values[key].keeps(limit) for key, limit in self.timing.limits.items()}
+    def largest(self) -> dict[str, Enclosure]:
+        """The largest speed (mm/s) and acceleration (mm/s^2) over the whole time, by the names of their limits."""
+        return {key: rate.scaled(self.duration ** -ORDERS[key]) for key, rate in self.rates.items()}
 
     @property
     def keeps_limits(self) -> bool:
         """Whether every limit is proved to be kept at all times."""
-        return all(kept is True for kept in self.kept.values())
+        return all(self.kept.values())
 
     @property
     def enough(self) -> Fraction:
         """A duration with which the same motion is proved to keep all limits."""
-        t, result = self.duration, self.extremes
-        return least_duration(result.lasting(1 / t), self.timing.limits)
+        return least_duration(self.rates, self.timing.limits)
 
     @property
     def reason(self) -> str:
         """Which limits are not kept, in words; empty when all are."""
-        words = {False: "is EXCEEDED", None: "is closer than the enclosure can tell"}
         units = {"max_speed": "mm/s", "max_acceleration": "mm/s^2"}
-        broken = [(key, kept) for key, kept in self.kept.items() if kept is not True]
-        parts = [f"{key} = {self.timing.limits[key]} {units[key]} {words[kept]}" for key, kept in broken]
+        broken = [key for key, kept in self.kept.items() if not kept]
+        parts = [f"{key} = {self.timing.limits[key]} {units[key]} is EXCEEDED" for key in broken]
         return f"in {self.duration} s the motion does not keep its limits: {', '.join(parts)}" if parts else ""
 
     @property
@@ -183,11 +194,57 @@ def motion_of(path: Path, timing: Timing) -> Motion:
 
 
 def moving(path: Path, timing: Timing, law: TimeLaw, shortest: Fraction = Fraction(0)) -> Motion:
-    """The motion by a law in the time asked for, or in the least one, from ``shortest`` on, that keeps the limits."""
-    unit = extremes(path, law)
-    least = max(least_duration(unit, timing.limits), shortest)
+    """The motion by a law in the time asked for, or in the least one, from ``shortest`` on, that keeps the limits.
+
+    Taking one second it is decided; in another time, speed is divided by that, acceleration by its square.
+    """
+    with wanted():
+        from bezier.trajectories.limits import Limit, decided
+
+    places = in_time(path, None)
+    total = RationalPoly.of([places.breaks[-1]])
+    unit = composed(places, law.breaks, [total * share for share in law.shares])
+    outcomes = decided(unit, [Limit(order, None, Fraction(1)) for order in ORDERS.values()], Fraction(0)).outcomes
+    values = (root_enclosure(*(max(v, Fraction(0)) for v in o.peak.value)) for o in outcomes)
+    rates = dict(zip(ORDERS, values, strict=True))
+    least = max(least_duration(rates, timing.limits), shortest)
     duration = least if timing.duration is None else timing.duration
-    return Motion(timing, duration, unit.lasting(duration), law)
+    scaled = [Limit(ORDERS[key], None, limit * duration ** ORDERS[key]) for key, limit in timing.limits.items()]
+    kept = (outcome.is_kept for outcome in decided(unit, scaled, Fraction(0)).outcomes)
+    share = RationalPoly.of([0, 1 / duration])
+    rows = tuple(tuple(p.compose(share) for p in row) for row in unit.pieces)
+    moved = Trajectory(unit.names, tuple(duration * t for t in unit.breaks), rows)
+    return Motion(timing, duration, moved, rates, dict(zip(timing.limits, kept, strict=True)), law)
+
+
+def least_duration(rates: Mapping[str, Enclosure], limits: Mapping[str, Fraction]) -> Fraction:
+    """The least time in which the limits are kept, rounded up to a multiple of ``TICK``; ``rates``: for one second."""
+    times = [Fraction(0)]
+    for key, limit in limits.items():
+        ratio = rates[key].finite[1] / limit
+        times.append(ratio if ORDERS[key] == 1 else root_above(ratio, bits=64))
+    return ceil(max(times) / TICK) * TICK
+
+
+def in_time(path: Path, motion: Motion | None) -> Trajectory:
+    """The motion; without one each curve takes its duration."""
+    if motion is not None:
+        return motion.trajectory
+    return joined("xyz", [(path.duration(name), curve) for name, curve in path.curves.items()])
+
+
+def joined(names: str, parts: Sequence[tuple[Fraction, Bezier]]) -> Trajectory:
+    """Curves one after the other, each with its duration; irrational coordinates become numbers next to them."""
+    rows = [tuple(tuple(near(c) for c in point) for point in curve.points) for _, curve in parts]
+    breaks = tuple(accumulate((length for length, _ in parts), initial=Fraction(0)))
+    polys = [by_control_points(row, length) for row, (length, _) in zip(rows, parts, strict=True)]
+    return Trajectory(tuple(names), breaks, tuple(polys))
+
+
+def near(value: Any) -> Fraction:
+    """The number if it is rational, else a rational one next to it."""
+    low, high = bounds(value, BITS)
+    return (low + high) / 2
 
 
 # --- files and words ----------------------------------------------------------------------------------
@@ -235,10 +292,10 @@ def to_json(motion: Motion) -> dict[str, Any]:
     return {
         "law": motion.timing.law.value,
         "duration": described(motion.duration),
-        "largest_speed": motion.extremes.speed.to_json(),
-        "largest_acceleration": motion.extremes.acceleration.to_json(),
+        "largest_speed": motion.largest["max_speed"].to_json(),
+        "largest_acceleration": motion.largest["max_acceleration"].to_json(),
         "limits": {key: str(value) for key, value in motion.timing.limits.items()},
-        "kept": motion.kept,
+        "kept": dict(motion.kept),
         "units": {"time": "s", "length": "mm"},
         **bound,
     }
@@ -271,9 +328,9 @@ def summary_lines(quality: Quality | None) -> list[str]:
 
 
 def _motion_words(motion: Motion) -> str:
-    said = {True: "kept", False: "EXCEEDED", None: "not decided"}
+    said = {True: "kept", False: "EXCEEDED"}
     limits = "".join(f", {key.replace('_', ' ')} {said[kept]} at all times" for key, kept in motion.kept.items())
-    fastest, hardest = _short(motion.extremes.speed), _short(motion.extremes.acceleration)
+    fastest, hardest = map(_short, motion.largest.values())
     return (
         f"motion: {motion.timing.law.value}, {decimal_text(motion.duration, 8)} s, at most {fastest} mm/s and"
         f" {hardest} mm/s^2{limits}{motion.bound_in_words}"
@@ -301,55 +358,3 @@ def json_entries(quality: Quality | None) -> dict[str, Any]:
     if quality.motion is not None and not quality.motion.keeps_limits:
         data |= {"reason": quality.motion.reason, "suggestion": quality.motion.suggestion}
     return data
-
-
-BITS = 96
-
-
-@dataclass(frozen=True, slots=True)
-class TimedCurve:
-    """The part of a motion from ``low`` to ``high``: ``curve``, its parameter proportional to time, on ``name``."""
-
-    name: str
-    low: Fraction
-    high: Fraction
-    curve: Bezier
-
-
-def pieces(path: Path, motion: Motion | None) -> tuple[TimedCurve, ...]:
-    """The motion as pieces of one degree, in order, each beginning where and when the one before ends."""
-    curves = {name: Bezier(tuple(tuple(map(near, p)) for p in curve.points)) for name, curve in path.curves.items()}
-    result = tuple(_plain(path, curves) if motion is None else _timed(path, curves, motion))
-    degree = max(piece.curve.degree for piece in result)
-    return tuple(TimedCurve(p.name, p.low, p.high, p.curve.elevate(degree)) for p in result)
-
-
-def near(value: Any) -> Fraction:
-    """The number if it is rational, else a rational one next to it."""
-    low, high = bounds(value, BITS)
-    return (low + high) / 2
-
-
-def _plain(path: Path, curves: dict[str, Bezier]) -> Iterator[TimedCurve]:
-    begin = Fraction(0)
-    for name, curve in curves.items():
-        end = begin + path.duration(name)
-        yield TimedCurve(name, begin, end, curve)
-        begin = end
-
-
-def _timed(path: Path, curves: dict[str, Bezier], motion: Motion) -> Iterator[TimedCurve]:
-    certain = [stretch for stretch in stretches(path, motion.law) if stretch.certain]
-    middles = [(a.high + b.low) / 2 for a, b in pairwise(certain)]
-    ends = [Fraction(0), *middles, Fraction(1)]
-    for stretch, (low, high) in zip(certain, pairwise(ends), strict=True):
-        curve, inside = curves[stretch.curve], (low, high - low)
-        rows = [bs.to_power(curve.coordinate(i)) for i in range(curve.dimension)]
-        forms = [bs.from_power(composed(composed(row, stretch.parameter), inside)) for row in rows]
-        yield TimedCurve(stretch.curve, low * motion.duration, high * motion.duration, _curve(forms))
-
-
-def _curve(forms: list[bs.Coefficients]) -> Bezier:
-    """The curve with these coordinates, whose degrees may differ."""
-    degree = max(len(form) for form in forms) - 1
-    return Bezier(tuple(zip(*(bs.elevate(form, degree) for form in forms), strict=True)))

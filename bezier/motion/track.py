@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -10,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bezier.motion.motion import TimedCurve
+from bezier.trajectories.piecewise import Trajectory
 from qe.errors import InputError, Unable
 
 Array = NDArray[np.float64]
@@ -24,11 +23,13 @@ class Track:
     control: Array
 
     @staticmethod
-    def of(pieces: Sequence[TimedCurve]) -> Track:
+    def of(moved: Trajectory) -> Track:
         """Each number rounded once. Raises ``Unable`` where floating point cannot tell two times apart."""
+        curves = [moved.curve(i) for i in range(len(moved.pieces))]
+        degree = max(curve.degree for curve in curves)
         try:
-            breaks = [float(pieces[0].low), *(float(piece.high) for piece in pieces)]
-            control = [[[float(c) for c in p] for p in piece.curve.points] for piece in pieces]
+            breaks = list(map(float, moved.breaks))
+            control = [[[float(c) for c in p] for p in curve.elevate(degree).points] for curve in curves]
         except OverflowError:
             expected = "numbers within the range of floating point"
             raise InputError(f"the path: {expected} expected, larger ones found") from None

@@ -1,27 +1,23 @@
 """The least time along a planned path: ``law = "least"`` of [timing], with a bound from below; both proved.
 
-The motion is that of ``bezier.retiming`` along the path with rational control points: the bound is for these, where
-irrational ones are replaced by numbers next to them (``bezier.motion.motion.near``). That the limits hold is decided
-about the path itself, as for every law. The certificate of the plan has that of both sides.
+The motion is that of ``bezier.retiming`` along the path with rational control points; irrational ones are replaced by
+numbers next to them, as for every law (``bezier.motion.motion.near``). The certificate of the plan has that of both
+sides.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import accumulate
 
-from bezier.curves.curve import Bezier
-from bezier.motion.motion import Quality, Timing, moving, near, pieces
+from bezier.motion.motion import ORDERS, Quality, Timing, in_time, moving
 from bezier.motion.timelaw import TimeLaw
 from bezier.paths.path import Path
 from bezier.planner.derivations import listed
 from bezier.plans import Plan
 from bezier.retiming.least_time import LeastTime, checked, least_time
-from bezier.trajectories.exact import by_control_points
 from bezier.trajectories.limits import Limit
-from bezier.trajectories.piecewise import Trajectory
 from qe.certify.verify import verify
 from qe.errors import InputError, Unable
 from qe.exact.rational_poly import RationalPoly
@@ -32,20 +28,11 @@ PREFIX = "least time: "
 """How the labels of the members of a bundle begin."""
 
 
-def joined(names: str, parts: Sequence[tuple[Fraction, Bezier]]) -> Trajectory:
-    """Curves one after the other, each with its duration; irrational coordinates become numbers next to them."""
-    rows = [tuple(tuple(near(c) for c in point) for point in curve.points) for _, curve in parts]
-    breaks = tuple(accumulate((length for length, _ in parts), initial=Fraction(0)))
-    polys = [by_control_points(row, length) for row, (length, _) in zip(rows, parts, strict=True)]
-    return Trajectory(tuple(names), breaks, tuple(polys))
-
-
 def with_least_time(plan: Plan, quality: Quality, path: Path, timing: Timing, given: Certificate | None) -> Plan:
     """The plan with the motion of least time; ``given``: the certificate of its folder, which states it, in place of a
     search. Raises ``Unable``, and ``CertificateRejected`` for that certificate."""
-    places = joined("xyz", [(part.high - part.low, part.curve) for part in pieces(path, None)])
-    orders = {"max_speed": 1, "max_acceleration": 2}
-    limits = [Limit(orders[key], None, value) for key, value in timing.limits.items()]
+    places = in_time(path, None)
+    limits = [Limit(ORDERS[key], None, value) for key, value in timing.limits.items()]
     try:
         least = least_time(places, limits) if given is None else checked(places, limits, _members(given))
     except InputError as error:

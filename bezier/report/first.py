@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.scalar import brief, decimal_text
-from bezier.motion.motion import pieces
+from bezier.motion.motion import in_time
 from bezier.plans import Outcome, Plan
 from bezier.report import html
 from bezier.report.html import Card, Text
@@ -188,6 +188,6 @@ def _track(plan: Plan) -> Track | None:
     from bezier.motion.track import Track
 
     try:
-        return Track.of(pieces(plan.path, None if plan.quality is None else plan.quality.motion))
+        return Track.of(in_time(plan.path, None if plan.quality is None else plan.quality.motion))
     except Unable:
         return None

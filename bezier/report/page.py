@@ -178,16 +178,11 @@ def between(value: Enclosure) -> str:
 
 
 def _motion(motion: Motion) -> list[Text]:
-    largest = motion.extremes
-    values = {
-        "max_speed": ("speed", "mm/s", largest.speed),
-        "max_acceleration": ("acceleration", "mm/s²", largest.acceleration),
-    }
-    said = {True: "kept at all times", False: "EXCEEDED", None: "not decided"}
+    words = {"max_speed": ("speed", "mm/s"), "max_acceleration": ("acceleration", "mm/s²")}
     rows = []
-    for key, (what, unit, value) in values.items():
-        limit, kept = motion.timing.limits.get(key), motion.kept.get(key)
-        result = "no limit" if limit is None else toned(said[kept], kept is True)
+    for key, value in motion.largest.items():
+        (what, unit), limit, kept = words[key], motion.timing.limits.get(key), motion.kept.get(key, False)
+        result = "no limit" if limit is None else toned("kept at all times" if kept else "EXCEEDED", kept)
         rows.append(
             (
                 f"largest {what}",

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import accumulate
+from itertools import accumulate, pairwise
 
 from bezier.input.numbers import parse
 from bezier.motion.timelaw import Law, TimeLaw
@@ -72,14 +72,11 @@ def fastest(grid: Grid, speeds: Sequence[float]) -> tuple[Step, ...]:
 
 def usual(path: Trajectory, law: Law, duration: Fraction) -> tuple[Step, ...]:
     """One of the laws with a formula, for the whole path."""
-    shape = TimeLaw.of(law)
-    scale, inner = path.breaks[-1] - path.breaks[0], RationalPoly.of([0, 1 / duration])
-    steps = []
-    for low, high, powers in zip(shape.breaks, shape.breaks[1:], shape.polynomials, strict=False):
-        moved = RationalPoly.of(powers).compose(RationalPoly.of([low, 1])).compose(inner)
-        place = RationalPoly.of([path.breaks[0]]) + RationalPoly.of([scale]) * moved
-        steps.append(Step(place, (high - low) * duration))
-    return tuple(steps)
+    shape, start, scale = TimeLaw.of(law), path.breaks[0], path.breaks[-1] - path.breaks[0]
+    moved = (RationalPoly.of([start]) + RationalPoly.of([scale]) * share for share in shape.shares)
+    places = (place.compose(RationalPoly.of([0, 1 / duration])) for place in moved)
+    lengths = (duration * (high - low) for low, high in pairwise(shape.breaks))
+    return tuple(map(Step, places, lengths))
 
 
 def is_motion(path: Trajectory, stops: Mapping[int, Stop], steps: Sequence[Step]) -> bool:

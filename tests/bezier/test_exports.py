@@ -8,7 +8,6 @@ import math
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +20,7 @@ import qe
 from bezier.exports.formats import ppoly
 from bezier.exports.plane import polyline
 from bezier.interface.work import Work
-from bezier.motion.motion import pieces, state
+from bezier.motion.motion import in_time, state
 from bezier.motion.track import Track
 from tests.tables import each
 
@@ -55,12 +54,9 @@ def test_positions_are_those_of_the_exact_motion(timed: bezier.Planned) -> None:
 
 def test_pieces_meet_and_last_as_long_as_the_motion(timed: bezier.Planned, plain: bezier.Planned) -> None:
     for plan in (timed, plain):
-        chain = pieces(plan.path, plan.motion)
-        assert chain[0].low == 0 and chain[-1].high == plan.duration
-        assert all(a.high == b.low for a, b in pairwise(chain))
-        assert [p.name for p in chain if p.name == "Q"] and len({p.curve.degree for p in chain}) == 1
-        for a, b in pairwise(chain):
-            assert max(abs(x - y) for x, y in zip(a.curve.points[-1], b.curve.points[0])) < Fraction(1, 10**15)
+        chain = in_time(plan.path, plan.motion)
+        assert (chain.breaks[0], chain.breaks[-1]) == (0, plan.duration)
+        assert chain.jump(0) is None or chain.jump(0).size < Fraction(1, 10**15)
 
 
 def test_positions_without_a_motion(plain: bezier.Planned) -> None:

@@ -17,8 +17,8 @@ from bezier.curves.nonnegative import events_of
 from bezier.curves.scalar import dot, same
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.toml_table import Table
-from bezier.motion.motion import Timing, motion_csv, motion_of, quality_of, read_timing, state, summary_lines
-from bezier.motion.timelaw import PASSAGE_WIDTH, Law, TimeLaw, extremes, least_duration, stretches
+from bezier.motion.motion import Timing, in_time, motion_csv, motion_of, quality_of, read_timing, state, summary_lines
+from bezier.motion.timelaw import Law, TimeLaw
 from bezier.paths import heights
 from bezier.paths.path import Path, assemble, slowest
 from bezier.planner.planning import make_plan
@@ -60,53 +60,50 @@ def _derivative(polynomial, order, t):
 
 @each((Law.CUBIC, 1.5, 6.0), (Law.QUINTIC, 1.875, 10 / 3**0.5), (Law.TRAPEZOID, 4 / 3, 16 / 3))
 def test_extremes_on_a_straight_path_are_those_of_the_law(law, speed, acceleration):
-    found = extremes(LINE, TimeLaw.of(law))
-    for enclosure, value in ((found.speed, 4 * speed), (found.acceleration, 4 * acceleration)):
+    found = motion_of(LINE, Timing(law, QUARTER, Fraction(3))).largest
+    for enclosure, value in zip(found.values(), (4 * speed / 3, 4 * acceleration / 9), strict=True):
         assert float(enclosure.low) <= value * (1 + 1e-12) and value * (1 - 1e-12) <= float(enclosure.high)
-        assert enclosure.high - enclosure.low < Fraction(1, 10**4)
+        assert enclosure.high - enclosure.low < Fraction(1, 10**18)
 
 
 def test_passages_split_the_time_where_the_curves_meet():
-    found = list(stretches(LINE, TimeLaw.of(Law.QUINTIC)))
-    assert [(s.curve, s.low, s.high, s.certain) for s in found] == [("P", 0, HALF, True), ("Q", HALF, 1, True)]
+    assert motion_of(LINE, Timing(Law.QUINTIC, QUARTER, Fraction(3))).trajectory.breaks == (0, Fraction(3, 2), 3)
     three = path_of(*[[(k, 0, 0), (k + 1, 0, 0)] for k in range(3)], durations={"P": Fraction(2)})
-    found = list(stretches(three, TimeLaw.of(Law.TRAPEZOID)))
-    assert [s.curve for s in found if s.certain] == ["P", "P", "Q", "R", "R"]
-    assert all(s.high - s.low <= PASSAGE_WIDTH for s in found if not s.certain)
-    assert sum(s.high - s.low for s in found) >= 1
+    law, moved = TimeLaw.of(Law.TRAPEZOID), motion_of(three, Timing(Law.TRAPEZOID, QUARTER, Fraction(1))).trajectory
+    assert {Fraction(1, 4), HALF, Fraction(3, 4)} < {*moved.breaks} and len(moved.breaks) == 6
+    assert any(abs(law.derivatives(t)[0] - Fraction(3, 4)) < Fraction(1, 10**20) for t in moved.breaks)
+    assert in_time(three, None).breaks == (0, 2, 3, 4)
 
 
 @settings(max_examples=15, deadline=None)
 @given(control_points(3, 4), control_points(3, 4), st.sampled_from(LAWS[:3]))
 def test_no_sample_is_faster_than_the_extremes_say(first, second, law):
     path = path_of(first, [first[-1], *second[1:]])
-    found = extremes(path, law, Fraction(1, 1000))
     kinds = {3: Law.CUBIC, 5: Law.QUINTIC}
     timing = Timing(kinds.get(len(law.polynomials[0]) - 1, Law.TRAPEZOID), QUARTER, Fraction(1))
     motion = motion_of(path, timing)
+    speed, push = motion.largest.values()
     for k in range(21):
         _, _, (_, velocity, acceleration) = state(path, motion, Fraction(k, 20))
-        assert dot(velocity, velocity) <= found.speed.high**2
-        assert dot(acceleration, acceleration) <= found.acceleration.high**2
+        assert dot(velocity, velocity) <= speed.high**2
+        assert dot(acceleration, acceleration) <= push.high**2
 
 
 def test_the_least_duration_keeps_the_limits_and_no_shorter_one_does():
     limits = {"max_speed": Fraction(2), "max_acceleration": Fraction(1)}
-    unit = extremes(LINE, TimeLaw.of(Law.QUINTIC))
-    duration = least_duration(unit, limits)
+    duration = motion_of(LINE, Timing(Law.QUINTIC, QUARTER, None, limits)).duration
     assert abs(float(duration) - (40 / 3**0.5) ** 0.5) < 1e-5  # the acceleration limit decides
     for share, kept in ((Fraction(1), True), (Fraction(99, 100), False)):
         motion = motion_of(LINE, Timing(Law.QUINTIC, QUARTER, duration * share, limits))
         assert motion.kept["max_acceleration"] is kept and motion.kept["max_speed"]
 
 
-def test_a_limit_within_the_enclosure_is_not_decided():
-    exact = Fraction(6)  # the largest speed for T = 1 with the cubic law
-    motion = motion_of(LINE, Timing(Law.CUBIC, QUARTER, Fraction(1), {"max_speed": exact}))
-    assert motion.kept["max_speed"] in (None, True)
-    assert motion_of(LINE, Timing(Law.CUBIC, QUARTER, Fraction(1), {"max_speed": exact - QUARTER})).kept == {
-        "max_speed": False
-    }
+def test_a_limit_that_is_just_reached_is_kept_and_one_next_to_it_is_not():
+    for less, kept in ((Fraction(0), True), (Fraction(1, 10**30), False)):
+        limits = {"max_speed": 6 - less}  # the largest speed for T = 1 with the cubic law
+        motion = motion_of(LINE, Timing(Law.CUBIC, QUARTER, Fraction(1), limits))
+        assert motion.kept == {"max_speed": kept} and motion.keeps_limits is kept
+        assert ("EXCEEDED" in motion.reason) is not kept
 
 
 def test_velocity_is_continuous_where_the_joins_are():
