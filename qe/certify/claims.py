@@ -16,6 +16,7 @@ from qe.kernel.parts import true_where
 from qe.kernel.renaming import is_same
 from qe.proof.certificate import Certificate, Kind, Payload
 from qe.proof.entry import Entry, formula_from_json
+from qe.spelling import quoted
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +87,7 @@ def parts_of(certificate: Certificate, formula: Formula) -> tuple[Formula, Formu
 def _equivalence(question: Formula, answer: Formula) -> tuple[str, ...]:
     if isinstance(answer, Constant) and not question.free:
         return f"the sentence  {question}", f"is {answer}"
-    values = f", for all real values of {', '.join(question.free)}" if question.free else ""
+    values = f", for all real values of {', '.join(map(quoted, question.free))}" if question.free else ""
     return f"the formula  {question}", f"is equivalent to  {answer}{values}"
 
 

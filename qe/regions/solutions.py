@@ -16,6 +16,7 @@ from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.certificate import Certificate
 from qe.regions.region import Region
 from qe.services import SymPyForm
+from qe.spelling import quoted
 
 LONGEST_LINE = 400
 """Characters of a case in texts for people."""
@@ -94,7 +95,7 @@ class Solutions(SymPyForm):
 
     def __repr__(self) -> str:
         count = len(self.cases)
-        return f"Solutions({', '.join(self.order)}: {count} case{'s' if count != 1 else ''})"
+        return f"Solutions({', '.join(map(quoted, self.order))}: {count} case{'s' if count != 1 else ''})"
 
     def _repr_html_(self) -> str:
         lines = "".join(f"<li><code>{escape(line)}</code></li>" for line in self._brief)
