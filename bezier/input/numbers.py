@@ -87,6 +87,8 @@ def read_squared(raw: object) -> Fraction:
 def describe(raw: object) -> str:
     """What was found, in TOML's own terms."""
     match raw:
+        case None:
+            return "nothing"
         case bool():
             return str(raw).lower()
         case str():

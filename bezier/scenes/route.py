@@ -138,7 +138,7 @@ class Route:
         return any(len(curve) > 2 for curve in self.curves)
 
     def __str__(self) -> str:
-        kind = "curves" if self.is_curved else "segments"
+        kind = ("curve" if self.is_curved else "segment") + "s" * (len(self.curves) > 1)
         lines = [f"free: a path of {len(self.curves)} {kind}, clear of all obstacles"]
         if self.bound is None:
             lines.append(" ".join("(" + ", ".join(map(str, p)) + ")" for p in self.points))

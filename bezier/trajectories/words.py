@@ -41,7 +41,8 @@ def in_words(verdict: Verdict) -> list[str]:
     """A line for each limit, and what follows."""
     trajectory, names = verdict.trajectory, verdict.trajectory.names
     span = f"from t = {_decimal(trajectory.breaks[0])} to {_decimal(trajectory.breaks[-1])}"
-    lines = [f"{len(trajectory.pieces)} pieces, {len(names)} axes, {span}"]
+    count, axes = len(trajectory.pieces), "1 axis" if len(names) == 1 else f"{len(names)} axes"
+    lines = [f"{count} piece{'s' * (count > 1)}, {axes}, {span}"]
     for o in verdict.outcomes:
         state = "kept for all t, largest" if o.is_kept else "EXCEEDED, worst"
         lines.append(f"{o.limit.words(names)}: {state} {o.value:.10g} at t = {float(o.time(trajectory)):.10g}")

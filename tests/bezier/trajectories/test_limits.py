@@ -240,6 +240,7 @@ TWICE = [{"positions": [k, k], "time_from_start": k} for k in (0, 1)]
         ("a.csv", "", "names of columns"),
         ("a.json", '{"points": 3}', "joint_names"),
         ("a.json", json.dumps({"joint_names": ["a", "a"], "points": TWICE}), "names of axes, found a, a"),
+        ("a.json", json.dumps({"joint_names": ["a"], "points": [{"positions": [0]}] * 2}), "number, found nothing"),
         ("a.json", "[]", "expected points"),
         ("a.json", '{"basis": {"order": 2, "knots": [0, 1]}, "control_points": [[1, 2]]}', "knots"),
         ("a.yaml", "points: [", "expected YAML"),
