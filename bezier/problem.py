@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, same
-from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
+from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind
 from bezier.input.numbers import describe, shorten
 from bezier.input.task import SingleCurve, Via, read_single, stated_via
 from bezier.input.toml_table import LARGEST, POINT, Table, read_text
@@ -20,6 +20,7 @@ from bezier.obstacles.obstacle import Obstacle, PointInside, inside
 from bezier.obstacles.reader import read_obstacles, via_at_thirds, via_over
 from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
+from qe.exact.radicals import root_text
 
 
 class PlanMethod(Enum):

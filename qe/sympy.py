@@ -24,6 +24,7 @@ from qe.formula.build import conj, forall
 from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, to_sympy
+from qe.optimization.values import new_name
 from qe.processes.limits import Limits
 from qe.spelling import NUMBERS
 
@@ -128,9 +129,7 @@ def _values(function: Any, names: list[Any], parts: list[Any], timeout: float | 
     """The question which values are taken, and the variable for them."""
     import sympy
 
-    value = sympy.Dummy("value").name
-    while value in {symbol.name for symbol in function.free_symbols}:
-        value += "_"
+    value = new_name(symbol.name for symbol in function.free_symbols)
     equation = sympy.Eq(sympy.Symbol(value, real=True), function, evaluate=False)
     question = _Question.of([equation, *parts], timeout)
     return replace(question, formula=Exists(names, question.formula).formula()) if names else question, value

@@ -10,13 +10,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
-from math import isqrt
 from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, dot, sign, subtract
-from qe.exact.algebraic_text import format_root
+from qe.exact.radicals import root_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,11 +98,3 @@ class Workspace:
     def radius_text(self) -> str:
         """The radius in exact notation."""
         return root_text(self.radius_squared)
-
-
-def root_text(square: Fraction) -> str:
-    """The exact square root of a nonnegative rational number: ``3/2``, ``3*sqrt(3)``, ``sqrt(2)/3``."""
-    inside = square.numerator * square.denominator
-    if isqrt(inside) ** 2 == inside:
-        return str(Fraction(isqrt(inside), square.denominator))
-    return format_root((-square.numerator, 0, square.denominator), 1)

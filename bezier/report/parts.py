@@ -12,13 +12,14 @@ from markupsafe import Markup
 
 from bezier.curves.curve import Smoothness
 from bezier.curves.scalar import decimal_text, dot, rational
-from bezier.curves.workspace import Condition, HalfSpace, root_text
+from bezier.curves.workspace import Condition, HalfSpace
 from bezier.methods.control.system import Combination, OnPoint, System
 from bezier.methods.control.terms import named_multipliers
 from bezier.paths.path import Path
 from bezier.plans import Plan
 from bezier.report import html, mathml
 from bezier.report.html import Section, Text
+from qe.exact.radicals import root_text
 
 DIGITS = 8
 CONTRADICTION = (

@@ -139,7 +139,7 @@ def _best(
     limits = limits_of(settings)
     if isinstance(objective, str) and (command := optimum_asked(objective)) is not None:
         goal, objective, more, variables = command
-        if goal != sign:
+        if goal == -sign:
             raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
         constraints = [constraints, more]
         parameters = sorted(names_typed([objective, more]) - {*variables}) or parameters

@@ -7,6 +7,8 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
+from qe.exact.radicals import radical_text
+
 LONGEST = 200
 """Characters of an exact number in texts for people."""
 DIGITS = 10
@@ -17,7 +19,7 @@ def shown(value: object, unbounded: str = "") -> str:
     """An exact number, with a decimal next to it unless it is an integer."""
     if value is None:
         return unbounded
-    text = str(value)
+    text = radical_text(value)
     if len(text) > LONGEST:
         return f"about {decimal(value)} (the exact text has {len(text)} characters)"
     return text if text.lstrip("-").isdigit() else f"{text} (about {decimal(value)})"

@@ -7,8 +7,9 @@ import time
 from qe.cli.source import Source
 from qe.cli.work import Reply, Request, in_json, read_question
 from qe.errors import Unable
+from qe.exact.number import point_text
+from qe.exact.radicals import radical_text
 from qe.processes.channel import Channel
-from qe.spelling import quoted
 
 
 def find(channel: Channel, request: Request, n: int, seed: int) -> Reply:
@@ -21,7 +22,7 @@ def find(channel: Channel, request: Request, n: int, seed: int) -> Reply:
     formula, known = read_question(channel, request.source)
     points = api.find(formula, n, seed=seed, **request.keywords(channel, formula, known))
     listed = [{name: str(value) for name, value in point.items()} for point in points]
-    lines = [", ".join(f"{quoted(name)} = {value}" for name, value in p.items()) or "true" for p in listed]
+    lines = [point_text({name: radical_text(value) for name, value in p.items()}) or "true" for p in points]
     data = {"status": "solved", "points": listed, "seconds": round(time.perf_counter() - start, 6)}
     text = in_json(data) if request.json else "\n".join(lines) or "none"
     return Reply(text, verdict="checked" if request.check else "")  # or an error was raised

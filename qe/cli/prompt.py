@@ -236,13 +236,8 @@ def _written(value: object) -> str:
 def is_open(text: str) -> bool:
     """Whether more has to come before the text can mean something."""
     bare = re.sub(r"`(?:[^`\\]|\\.)*`|#.*", "", text)
-    if bare.lstrip().startswith(":") and not _bracketed(bare):
-        return False
-    return _bracketed(bare) or bool(_MORE.search(bare))
-
-
-def _bracketed(text: str) -> bool:
-    return text.count("(") > text.count(")") or text.count("[") > text.count("]")
+    is_command, opened = bare.lstrip().startswith(":"), any(bare.count(a) > bare.count(b) for a, b in ("()", "[]"))
+    return opened or (not is_command and bool(_MORE.search(bare)))
 
 
 def run(ask: Ask | None = None, put: Callable[[str], None] = print) -> int:

@@ -19,7 +19,7 @@ from qe.formula.assumed import claimed, restricted
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.features import is_small, length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, Constant, ForAll, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Constant, ForAll, Formula, Relation
 from qe.formula.traverse import atoms, has_root_atoms
 from qe.options import Budget, Method, Options, Stage
 from qe.proof.run_log import RunLog
@@ -110,7 +110,7 @@ def _shorter(question: Formula, known: Formula, options: Options, budget: Budget
     """The shorter one of the answers to the question with the assumptions and without them, both shortened."""
     start, best, refused = budget.used, None, Unable("no method ended")
     for joined in (True, False) if known != TRUE else (False,):
-        if best is not None and _is_shortest(best.formula):
+        if best is not None and length(best.formula) <= (1, 1):
             break
         part = budget if best is None else budget.part(PLAIN_WORK + 2 * (budget.used - start))
         log = RunLog()
@@ -132,10 +132,6 @@ def _shorter(question: Formula, known: Formula, options: Options, budget: Budget
     if best is None:
         raise refused
     return best
-
-
-def _is_shortest(formula: Formula) -> bool:
-    return isinstance(formula, Constant) or (isinstance(formula, Atom) and formula.poly.term_count() <= 1)
 
 
 def _joined(question: Formula, known: Formula, log: RunLog) -> Formula:

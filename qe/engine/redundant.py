@@ -69,6 +69,11 @@ class Part:
         return tuple(f if holds else nnf(f, negate=True) for f, holds in self.those)
 
     @property
+    def is_equation(self) -> bool:
+        """Whether it is an equation beside others, which is hardly redundant."""
+        return isinstance(self.formula, Atom) and self.formula.relation is Relation.EQ and self.of_conjunction
+
+    @property
     def sentence(self) -> Formula:
         """Whether there is a point where it matters."""
         body = conj(self.conditions)
@@ -83,7 +88,7 @@ def without_redundant_parts(
     The sentences are likely to be false, so that trials at points would be in vain; and there is too little work for
     better coordinates to pay.
     """
-    if context.decide is None:
+    if context.decide is None or not all(isinstance(a, Atom) for a in atoms(formula)) or formula != nnf(formula):
         return formula
     if not _is_suited(conj((known, formula))):
         return _without_excluded_parts(formula, context) if known == TRUE else formula
@@ -142,16 +147,6 @@ def _dropped(formula: Formula, part: Part, nested: Nested, context: Context, kno
     return context.log.step("simplification", shorter, simple, context=known)
 
 
-def is_worth_questions(formula: Formula, context: Context) -> bool:
-    """Whether cases are told apart, or there are more linear conditions side by side than variables."""
-    if not isinstance(formula, And | Or):
-        return False
-    if all(isinstance(arg, Atom) and arg.poly.total_degree == 1 for arg in formula.args):
-        return len(formula.args) > len(formula.free) + 1
-    cases = any(isinstance(arg, And | Or) for arg in formula.args)
-    return cases and all(isinstance(a, Atom) for a in atoms(formula)) and formula == nnf(formula)
-
-
 def _is_suited(formula: Formula) -> bool:
     """Whether the formula is small enough for sentences about it to be decided."""
     size, terms = length(formula)
@@ -181,7 +176,7 @@ def _unsettled(formula: Formula, points: Points, kept: set[Formula], known: Form
     for count in (FIRST, COARSE, COARSE + FINE):
         if not points.fill(count) and count < COARSE + FINE:
             continue
-        parts = [p for p in _by_size(formula, points, known) if _is_cheap(p)]
+        parts = [p for p in _by_size(formula, points, known) if not p.is_equation and is_cheap_sentence(p.sentence)]
         if not parts:
             return
     yield from (p for p in parts if p.sentence not in kept)
@@ -191,15 +186,6 @@ def _by_size(formula: Formula, points: Points, known: Formula = TRUE) -> list[Pa
     """The parts of which no point tells that they matter, largest first."""
     parts = _silent(formula, points, (), () if known == TRUE else ((known, True),), points.holding(known))
     return sorted(parts, key=lambda part: length(part.formula), reverse=True)
-
-
-def _is_cheap(part: Part) -> bool:
-    """Whether a part may well be redundant, and the sentence be decided with little work."""
-    if isinstance(part.formula, Atom) and part.formula.relation is Relation.EQ and part.of_conjunction:
-        return False
-    size = len({name for f, _ in part.those for name in f.free})
-    degrees = (a.poly.total_degree for f, _ in part.those for a in atoms(f))
-    return max(degrees, default=0) <= DEGREES.get(size, MANY_DEGREE)
 
 
 def _silent(

@@ -9,7 +9,7 @@ from qe.elimination.protocol import Context
 from qe.engine.constant import Start, constant
 from qe.engine.factor_signs import has_products, signs_of_factors
 from qe.engine.implied import affine_hull_first, is_linear_conjunction
-from qe.engine.redundant import is_worth_questions, without_redundant_parts
+from qe.engine.redundant import without_redundant_parts
 from qe.engine.strategy import allows
 from qe.engine.untangle import has_equations, untangled, untangled_negation
 from qe.errors import Unable
@@ -73,7 +73,7 @@ RULES: tuple[Rule, ...] = (
     Rule("equations of the negation", untangled_negation, stage=Stage.EQUATIONS),
     Rule("cells", read_off_cells, _has_few_cells),
     Rule("affine hull", affine_hull_first, is_linear_conjunction, Stage.REDUNDANT, last=True),
-    Rule("redundant parts", without_redundant_parts, is_worth_questions, Stage.REDUNDANT, last=True),
+    Rule("redundant parts", without_redundant_parts, stage=Stage.REDUNDANT, last=True),
     Rule("signs of factors", signs_of_factors, has_products, Stage.REDUNDANT, last=True),
     Rule("constant", constant, last=True),
 )

@@ -1,15 +1,15 @@
-"""Text of a real algebraic number: exact, as radicals where degree 2 or a biquadratic polynomial allows, or brief."""
+"""Text of a real algebraic number: exact, as radicals where degree 2, two terms or even powers allow, or brief."""
 
 from __future__ import annotations
 
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
-from math import gcd, isqrt
+from math import isqrt
 
 from flint import fmpq, fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
-from qe.exact.algebraic_text import square_part
+from qe.exact.algebraic_text import format_root
 
 
 def format_number(a: RealAlgebraic) -> str:
@@ -24,6 +24,18 @@ def format_number(a: RealAlgebraic) -> str:
         if text is not None:
             return text
     return str(a)
+
+
+def radical_text(a: object) -> str:
+    """The same, and an n-th root of a fraction where the polynomial has two terms; all else as it prints itself."""
+    if not isinstance(a, RealAlgebraic):
+        return str(a)
+    c = a.minimal_polynomial
+    if a.degree < 3 or any(c[1:-1]):
+        return format_number(a)
+    sign, radicand = "-" if a.sign() < 0 else "", Fraction(abs(c[0]), c[-1])
+    base = radicand if radicand.denominator == 1 else f"({radicand})"
+    return f"{sign}cbrt({radicand})" if a.degree == 3 else f"{sign}{base}^(1/{a.degree})"
 
 
 def _biquadratic(a: RealAlgebraic) -> str | None:
@@ -55,11 +67,8 @@ def _square_root_text(u: RealAlgebraic, positive: bool) -> str:
     root = _rational_root(norm)
     if root is not None:
         # sqrt(m ± sqrt(e)) = sqrt((m + n)/2) ± sqrt((m - n)/2) with n = sqrt(m^2 - e)
-        first, second = _root_text((middle + root) / 2), _root_text((middle - root) / 2)
-        plus = u.index == 1
-        if positive:
-            return f"{first} {'+' if plus else '-'} {second}"
-        return f"-{first} {'-' if plus else '+'} {second}"
+        first, second = root_text((middle + root) / 2), root_text((middle - root) / 2)
+        return f"{'' if positive else '-'}{first} {'+' if (u.index == 1) is positive else '-'} {second}"
     return f"{'' if positive else '-'}sqrt({u})"
 
 
@@ -70,27 +79,17 @@ def _rational_root(value: Fraction) -> Fraction | None:
     return Fraction(n, d) if n * n == value.numerator and d * d == value.denominator else None
 
 
-def _root_text(value: Fraction) -> str:
-    """sqrt of a positive rational, with square factors taken out."""
-    inside = value.numerator * value.denominator
-    outside = square_part(inside)
-    inside //= outside**2
-    common = gcd(outside, value.denominator)
-    outside, below = outside // common, value.denominator // common
-    if inside == 1:
-        return str(Fraction(outside, below))
-    text = f"sqrt({inside})" if outside == 1 else f"{outside}*sqrt({inside})"
-    return text if below == 1 else f"{text}/{below}"
+def root_text(square: Fraction) -> str:
+    """The exact square root of a nonnegative rational number: ``3/2``, ``3*sqrt(3)``, ``sqrt(2)/3``."""
+    root = _rational_root(square)
+    return format_root((-square.numerator, 0, square.denominator), 1) if root is None else str(root)
 
 
 def _combine(shift: Fraction, body: str, denominator: int) -> str:
     """shift + body/denominator, the body being ± one or two square roots."""
-    if denominator == 1:
-        if not shift:
-            return body
-        return f"{shift} - {body[1:]}" if body.startswith("-") else f"{shift} + {body}"
-    joined = f"{shift.numerator} - {body[1:]}" if body.startswith("-") else f"{shift.numerator} + {body}"
-    return f"({joined})/{denominator}"
+    sign, size = ("-", body[1:]) if body.startswith("-") else ("+", body)
+    joined = f"{shift.numerator} {sign} {size}" if shift else body
+    return joined if denominator == 1 else f"({joined})/{denominator}"
 
 
 def brief_algebraic(a: RealAlgebraic, longest: int) -> str:

@@ -80,7 +80,7 @@ _ESCAPED = re.compile(r"\\(?:([_#$%&{}])|(sim|char94|vert|backslash)\b ?)")
 _MEANT = {"sim": "~", "char94": "^", "vert": "|", "backslash": "\\"}
 _NUMBERED = re.compile(r"\\u\{([0-9a-f]{1,6})\}")
 _NOT = re.compile(r"\s*(=|<|>|\\[A-Za-z]+)")
-_MARK = re.compile(r"(?<!/)\\(?:[A-Za-z]|[{,;!|])|\$|[_^]\{")
+_MARK = re.compile(r"(?<!/)\\(?:[A-Za-z]|[},;!|])|\$|[_^]\{")
 _BACKQUOTED = re.compile(QUOTED)
 _GAP = r"(?:\s|\\[,;:! ]|\\q?quad\b)*"
 _NEXT = re.compile(
@@ -156,6 +156,9 @@ class _Source:
             yield from self.put("OPEN", "(", at)
         elif name in ("}", "rbrace") and self.sets and self.sets.pop():
             yield from self.put("CLOSE", ")", at)
+        elif name == "exists" and self.text.startswith("!", after):
+            yield from self.put("QUANTIFIER", "X 1", at)
+            after += 1
         elif name in _COMMANDS:
             if name in ("{", "lbrace"):
                 self.sets.append(False)
@@ -165,7 +168,7 @@ class _Source:
         elif name == "nexists":
             yield from self.put("NOT", "not", at)
             yield from self.put("QUANTIFIER", "ex", at)
-        elif name == "mid" and self.state.header:
+        elif name == "mid" and (self.state.header or self.sets):
             yield from self.put("DOT", ".", at)
         elif name in ("frac", "dfrac", "tfrac"):
             yield from self.put("OPEN", "(", at)

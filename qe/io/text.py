@@ -33,7 +33,8 @@ _ASKED = re.compile(
 )
 _WHERE = re.compile(r"(.*?)[,;]?\s+where\s+((?:[A-Z]\s*=[^=<>≤≥≠]+,\s*)*[A-Z]\s*=[^=<>≤≥≠]+)", re.DOTALL)
 _DEFINED = re.compile(r"([A-Z])\s*=\s*([^=]+?)\s*(?:,(?=\s*[A-Z]\s*=)|$)")
-_OPTIMUM = re.compile(r"\s*(Min|Max)imize\[(.*)\]\s*", re.DOTALL)
+_OPTIMUM = re.compile(r"\s*(N?M(?:in|ax)(?:imize|Value)|ArgM(?:in|ax))\[(.*)\]\s*", re.DOTALL)
+_SUBJECT = re.compile(r"(?is)\s*(?:(min|max)\w*:?\s+)?(.+?),?\s+(?:subject\s+to|s\.\s?t\.):?\s+(.+)")
 
 
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
@@ -122,7 +123,11 @@ def solved_for(text: str) -> tuple[str, ...] | None:
 
 
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
-    """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``."""
+    """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``, and of
+    ``minimize f subject to c`` (0 without its first word)."""
+    if (said := _SUBJECT.fullmatch(text)) is not None:
+        word = (said[1] or "").lower()
+        return (word == "min") - (word == "max"), said[2], said[3], (*re.findall(WORD, text),)
     command = _OPTIMUM.fullmatch(text)
     if command is None:
         return None
@@ -130,7 +135,7 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     variables = constraints.pop() if constraints else ""
     if objective.startswith("{"):
         objective, *constraints = _parts(objective[1:-1])
-    sign = 1 if command[1] == "Min" else -1
+    sign = 1 if "Min" in command[1] else -1
     return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
 
 

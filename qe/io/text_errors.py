@@ -60,6 +60,7 @@ def unknown_function(text: str, name: str, at: int) -> SyntaxFailure:
     applied = text[at:]
     name = applied.partition("[")[0].rstrip()
     is_function = len(name) > 2 and name[0].isupper()  # of Mathematica's, which we do not know
+    message = message.partition("; a product")[0] if is_function else message
     if "[" in applied.partition("(")[0] and "unknown function" in message and not is_function:
         hint = f"a variable with an index is written {name}1 or {name}_i, or `{name}[1]` between backquotes"
         return SyntaxFailure(f"{name}[…] is no function; {hint}", at)
@@ -86,6 +87,8 @@ def unexpected_token(text: str, kind: str, value: str, at: int, expected: Collec
     if not before and kind == "$END":
         return SyntaxFailure("the text is empty", 0, "a formula")
     if kind == "$END":
+        if "Root[" in before:
+            return SyntaxFailure("Root[#^3 - 2 &, 1] is written root(1, x^3 - 2)", before.rindex("Root["))
         opening = _unmatched_opening(text)
         if opening is not None and "CLOSE" in expected:
             return SyntaxFailure("unbalanced brackets: this '(' is never closed", opening)
@@ -109,8 +112,6 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
         return "'===' is not used here; an equation is written with one ="
     if value in ("|", "||") or (previous == "|" and kind != "$END"):
         return f"the bars near '{value}' are ambiguous; write abs(x) for an absolute value, or for 'or'"
-    if kind == "NOT" and value == "!" and previous in ("∃", "x", "s") and "NAME" in expected and "PLUS" not in expected:
-        return "there is no ∃!; write ex x. f and all y. … -> y = x"
     reversed_ends = kind == "RIGHT" and re.search(r"(∈|∉|\bin)$", before) is not None
     if reversed_ends or (kind == "LEFT" and {"CLOSE", "RIGHT"} <= {*expected}):
         return "an interval without its ends is written (0, 1), one without its upper end [0, 1)"
@@ -152,8 +153,8 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
 
 
 _COMMANDS = re.compile(
-    r"\s*(Minimize|Maximize|rlqe|rlsimpl|QuantifierElimination|solve|reduce|minimi[sz]e|maximi[sz]e|find|simplify|prove|show"
-    r"|assert|print|Assume|let)\b\s*[\[({]?"
+    r"\s*(N?M(?:in|ax)(?:imize|Value)|Arg(?:Min|Max)|Find\w+|rl[a-z]+|QuantifierElimination|N?[Ss]olve\w*|reduce\w*|minimi[sz]e"
+    r"|maximi[sz]e|find|simplify|prove|show|assert|print|Assum\w+|let)\b\s*[\[({]?"
 )
 _WORDS = {
     "xor": "write Xor(p, q)",
@@ -185,8 +186,10 @@ def _command_hint(command: str) -> str:
     """What to write in place of a command of another system."""
     if command == "let":
         return "definitions are not read; put the term in the place of its name, or write ex y. y = … and …"
-    if command.lower()[:5] in ("minim", "maxim"):
+    if re.match("n?m(in|ax)|argm|findm", command.lower()):
         return f"{command} is no part of a formula; an optimum is asked for with qe.minimize or qe minimize"
+    if command.startswith("rl"):
+        return f"{command} is a command of Redlog, which format redlog reads"
     return f"{command} is a command, not a part of a formula; give the formula alone"
 
 

@@ -67,7 +67,7 @@ INFINITY ∞ \[Infinity]
 RADICAL √ ∛
 UNION ∪
 COMMON ∩
-WITHOUT ∖
+WITHOUT ∖ \
 BAR |
 """)
 _CALLS = kinds("""
@@ -77,7 +77,8 @@ CHOICE If ITE ite
 ELEMENT Element
 PIECEWISE Piecewise
 """)
-COMMANDS = ("Resolve", "Reduce", "Solve", "FindInstance", "CylindricalDecomposition", "FullSimplify", "Simplify")
+SIMPLIFIERS = ("FullSimplify", "Simplify", "Refine")
+COMMANDS = ("Resolve", "Reduce", "Solve", "FindInstance", "CylindricalDecomposition", *SIMPLIFIERS)
 """Commands of Mathematica around a formula and, perhaps, variables and Reals."""
 NOT_REAL = frozenset(
     ("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Int", "int", "Nat", "Bool")
@@ -89,6 +90,7 @@ _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*)"
     rf"|(?P<QUANTITY>(?:{_THERE}\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{_LIST}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈|{_THAT})))"
     rf"|(?P<NONE>∄|{_THERE}\s+no\b)"
+    rf"|(?P<UNIQUE>(?:∃|\b[Ee]xists|\bex)\s*!(?!=)|(?:{_THERE}|[Ee]xists)\s+(?:an?\s+)?unique\b)"
     rf"|(?P<PREFIX>\(\s*{_PREFIXES}{_LIST}\s*(?:,\s*{_LIST}\s*)*\)(?=\s*[(\[]))"
     rf"|(?P<COMMAND>(?:{'|'.join(COMMANDS)})(?=\[))\b"
     r"|(?P<EVERY>[Ff]or\s+(?:all|every|each|any)\b)"
@@ -101,7 +103,7 @@ _TOKEN = re.compile(
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<RAISED>⁻?[⁰¹²³⁴-⁹]+)"
-    r"|(?P<OPERATOR>&(?:and|or)\b;?|<==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\*\*|\\\[\w+\]"
+    r"|(?P<OPERATOR>&(?:and|or)\b;?|<==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|\\(?=\s*\{)|&&|\*\*|\\\[\w+\]"
     r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
 _MULTIPLE = (
@@ -119,6 +121,8 @@ OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR",
 
 _SORT = re.compile(rf"\s+(?:reals?\s+)?(?:(?:numbers?|values?\s+of)\s+)?(?={_LIST})")
 """Words behind a quantifier that say what all variables are."""
+_MATHEMATICA = re.compile(r"\b[A-Z][A-Za-z]+\[")
+"""A text in which 2/3 a is a third of 2 a."""
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]")
 _NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST}|$)")
 _NEXT_BOUNDED = re.compile(
@@ -141,7 +145,7 @@ _ARGUMENT = re.compile(rf"\(\s*(?:{WORD}|[0-9.]+)?\s*[),]")
 _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
 _KINDS_OF_NUMBERS = {
-    **dict.fromkeys(("unique", "exactly"), "there is no ∃! here; write exactly 1 x. f"),
+    "exactly": "write exactly 1 x. f",
     **dict.fromkeys(
         ("positive", "negative", "nonzero", "nonnegative", "non"),
         "a condition stands behind the variable, as in exists x > 0",
@@ -162,7 +166,9 @@ def tokens(text: str) -> Iterator[Token]:
     if end and text[end - 1] == ".":
         end -= 1  # a full stop
     while at < end:
-        if state.last in _BEFORE_LINEAR and not state.header and (linear := _LINEAR.match(text, at, end)) is not None:
+        linear = _LINEAR.match(text, at, end) if state.last in _BEFORE_LINEAR and not state.header else None
+        names = re.findall(WORD, linear.group()) if linear is not None and state.bound else ()
+        if linear is not None and not any(state.is_product(name, at) for name in names):
             yield from state.put("LINEAR", linear.group(), at)
             at = state.end = linear.end()
             continue
@@ -197,7 +203,7 @@ def tokens(text: str) -> Iterator[Token]:
             yield from state.prefix(value, at)
         elif kind in ("EVERY", "SOME"):
             yield from state.put("QUANTIFIER", "forall" if kind == "EVERY" else "exists", at)
-        elif kind == "QUANTITY":
+        elif kind in ("QUANTITY", "UNIQUE"):
             yield from state.put("QUANTIFIER", _quantity(value), at)
         elif kind == "NONE":
             yield from state.put("NOT", "not", at)
@@ -222,7 +228,7 @@ def _quantity(value: str) -> str:
     words = value.split()
     if words[-1].isdecimal():
         return f"X {words[-1]}"
-    return {"many": "G" if "but" in words else "F", "all": "G", "connected": "C", "one": "X 1"}[words[-1]]
+    return {"many": "G" if "but" in words else "F", "all": "G", "connected": "C"}.get(words[-1], "X 1")
 
 
 def _number(value: str, state: State, text: str, at: int) -> str:
@@ -303,7 +309,7 @@ class State:
         elif self.header and kind in ("RELATION", "IN"):
             self.bounded = True
         if not (self.header or self.listing) and self.multiplies(kind, value, at):
-            if self.brackets[-1].divided:
+            if self.brackets[-1].divided and not _MATHEMATICA.search(self.text):
                 shown = f"{self.text[:at].split()[-1]}{' ' * (self.end < at)}{value}"
                 hint = "write 1/2*x or 1/(2*x)"
                 raise SyntaxFailure(f"{shown} is ambiguous: a product without * after a division; {hint}", at)
@@ -339,7 +345,8 @@ class State:
 
     def is_product(self, name: str, at: int) -> bool:
         """Whether a name has in it a variable of a quantifier that stands nowhere else, as ``ex x. ax^2 + bx + c = 0``
-        has, or stands behind a number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
+        has, or one beside which all its letters are names (``∃x, y: xy ≥ a``) where no sign of a product is written, or
+        stands behind a number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
 
         Behind a division it stays a name."""
         if len(name) == 1 or self.header or self.brackets[-1].divided:
@@ -349,7 +356,8 @@ class State:
             return False
         if self.words is None:
             self.words, self.alone = (Counter(re.findall(one, self.text)) for one in (WORD, rf"(?<!\w){WORD}"))
-        if behind_number and not self.alone[name] and all(self.words[letter] for letter in name):
+        is_meant = bound and "*" not in self.text and name not in self.bound
+        if (is_meant or (behind_number and not self.alone[name])) and all(self.words[letter] for letter in name):
             return True
         return any(self.words[letter] == 1 for letter in bound)
 

@@ -36,6 +36,10 @@ from qe.spelling import WORD
 
 _COMPARED = re.compile(rf"\{{\s*{WORD}(?:\s*,\s*{WORD})*\s*\}}(?=\s*(?:[<>=≤≥≠]|!=|/=))")
 """A list of variables that are compared, as Mathematica does."""
+_BUILT = re.compile(
+    rf"\\?\{{\s*(?:{WORD}|\(\s*{WORD}(?:\s*,\s*{WORD})*\s*\))\s*(?:(?:∈|\\?in\b)[^|<>=]*?)?(?:\|(?!\|)|\\mid\b|:(?!=))"
+)
+"""The beginning of ``{x ∈ [0, 1] | x^2 < a}``: the set of the points with what follows."""
 
 _MULTIPLES = re.compile(r"([-+]?[0-9]*)([A-Za-z][A-Za-z0-9_]*|)")
 _UNITS, _IDLE = {"": 1, "+": 1, "-": -1}, str.maketrans("", "", "()*")
@@ -117,10 +121,12 @@ class TextParser(QuantifiedParser):
 
     def command(self) -> s.Node:
         """``Reduce[f, {x, y}, Reals]``: the formula."""
-        self.advance()
+        name = self.advance().text
         self.take("LEFT")
         node: s.Node = self.expression(FORMULA, "COMMA", "RIGHT")
         if self.token.kind == "COMMA" and self.advance() and self.token.kind != "REALS":
+            if name in text_lexer.SIMPLIFIERS:
+                raise SyntaxFailure(f"what {name} assumes is given with assuming= or --assuming", self.token.at)
             self.names_or_name()
             if self.token.kind == "COMMA":
                 self.advance()
@@ -132,16 +138,28 @@ class TextParser(QuantifiedParser):
 
     # --- lists and cases -------------------------------------------------------------------------------------
     def listed(self) -> s.Name | None:
-        """Formulas that hold together, or variables with one comparison behind them."""
+        """Formulas that hold together, or variables with one comparison behind them, or all of a set."""
         if _COMPARED.match(self.text, self.token.at):  # {a, b} >= 0
             at = self.advance().at
             *others, last = [s.Name(name, at) for name in self.names()]
             self.take("END")
             self.stack.append(Waiting(NOT, FORMULA, FORMULA, lambda node: shared(others, node, None, at)))
             return last
-        kind = self.advance().kind
-        self.open(FORMULA, CLOSES[kind], lambda parts: s.Every(parts) if len(parts) > 1 else parts[0], many=True)
+        built, kind = _BUILT.match(self.text, self.token.at), self.advance().kind
+        known = self.members() if built else []
+        make = lambda parts: s.Every([*known, *parts]) if known or len(parts) > 1 else parts[0]  # noqa: E731
+        self.open(FORMULA, CLOSES[kind], make, many=True)
         return None
+
+    def members(self) -> list[s.Node]:
+        """What ``(x, y) ∈ ℝ²`` says in front of the conditions of a set."""
+        at, names, within = self.token.at, self.names_or_name(), None
+        if self.token.kind == "IN" and self.advance():
+            within = self.set()
+            if self.token.kind == "POWER" and self.advance() and self.take("NUMBER").text != str(len(names)):
+                raise SyntaxFailure(f"a point of {len(names)} coordinates lies in no set to this power", at)
+        self.take("BAR", "DOT")
+        return [within(s.Name(name, at), at) for name in names] if within else []
 
     def connective(self) -> None:
         token = self.advance()

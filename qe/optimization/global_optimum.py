@@ -14,6 +14,7 @@ from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import ExactPoint, Values, optimum_in_latex, point_text, simplest
 from qe.exact.polynomial_system import solve_system
+from qe.exact.radicals import radical_text
 from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, neg
@@ -77,20 +78,15 @@ class GlobalOptimum(SymPyForm):
     def __repr__(self) -> str:
         if not self.is_optimal:
             return f"GlobalOptimum({self.status.value})"
-        value = str(self.value)
+        value = radical_text(self.value)
         if self.value is not None and "root(" in value.replace("sqrt(", ""):
             value += f" ≈ {float(self.value):.6g}"
         if self.attained is False:
             return f"GlobalOptimum({value}, not attained)"
         shown = self.points if 0 < len(self.points) <= SHOWN else [self.point]
-        more = (
-            ", for example"
-            if not self.points
-            else ""
-            if shown is self.points
-            else f", {len(self.points)} points in all"
-        )
-        return f"GlobalOptimum({value} at {' or '.join(map(point_text, shown))}{more})"
+        more = f", {len(self.points)} points in all" if self.points else ", for example"
+        places = (point_text({name: radical_text(x) for name, x in point.items()}) for point in shown)
+        return f"GlobalOptimum({value} at {' or '.join(places)}{'' if shown is self.points else more})"
 
     def _repr_latex_(self) -> str:
         points = self.points if len(self.points) <= SHOWN else ()

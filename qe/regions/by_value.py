@@ -27,6 +27,7 @@ from qe.elimination.rootsigns.forms import minors
 from qe.elimination.rootsigns.theory import minors as signs_of_minors
 from qe.errors import Unable
 from qe.exact.algebraic import real_roots
+from qe.exact.radicals import radical_text
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.build import conj, convert
 from qe.formula.syntax import TRUE, Formula, Or
@@ -201,7 +202,7 @@ class _Said:
     def texts(self, end: RootFunction, count: int, place: Place, fixed: Mapping[int, Fraction]) -> Iterator[str]:
         """The terms that a section is as the ``k``-th of ``count`` different roots of a factor."""
         if end.value is not None:
-            yield str(end.value)
+            yield radical_text(end.value)
             return
         seen = [(i, value) for i, value in fixed.items() if i in end.poly.variables]
         inner = {i: value for i, value in seen if i >= self.parameters}
@@ -226,7 +227,7 @@ class _Said:
         if values and 0 < len(kept) < len(parts):
             known = form = reduce(mul, kept)
         if form.variables == (level,):
-            yield str(real_roots(form.to_univariate(level))[end.k - 1])
+            yield radical_text(real_roots(form.to_univariate(level))[end.k - 1])
             return
         signs = [self.sign(c, place) for c in known.coefficients(level)]
         degree = max((k for k, sign in enumerate(signs) if sign != 0), default=0)

@@ -64,7 +64,8 @@ LOOKS = 5
 def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext) -> Node:
     """A tree whose formula is equivalent to ``exists variables. body`` where the facts hold.
 
-    Every rule makes one step, and its pending leaves are reduced in turn; all steps are in the log.
+    Every rule makes one step, and its pending leaves are reduced in turn; all steps are in the log. None leads back to
+    what a step before it began with: an equation that was cancelled to a product is no smaller basis again.
     """
     context.budget.check("prepare")
     before = body
@@ -82,9 +83,12 @@ def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext)
         if place % LOOKS == 0:
             context.watch()
         found = None if candidate.kinds.isdisjoint(context.enabled) else candidate.apply(kept, body, context)
-        if found is not None:
+        if found is not None and not (isinstance(found.node, Pending) and found.node.body in context.path):
             context.step(found.kind.value, exists(kept, body), found.node.formula, found.detail, found.proof)
-            return _reduced(found.node, context)
+            context.path.append(body)
+            tree = _reduced(found.node, context)
+            context.path.pop()
+            return tree
     return Leaf(kept, body)
 
 

@@ -17,13 +17,12 @@ if TYPE_CHECKING:
     from qe.rules.tree import Node
 
 _SPLITS = 24  # case distinctions allowed within one block
-_BASES = 40  # Groebner bases computed within one block
 
 
 @dataclass(slots=True)
 class BlockContext:
-    """``splits``, ``bases``: case distinctions and Groebner bases still allowed; ``facts``: what holds outside, as the
-    formulas ``known`` say.
+    """``splits``: case distinctions still allowed; ``facts``: what holds outside, as the formulas ``known`` say;
+    ``path``: what the steps began with that led here.
     """
 
     budget: Budget
@@ -31,8 +30,8 @@ class BlockContext:
     facts: Facts = NOTHING
     known: tuple[Formula, ...] = ()
     splits: int = _SPLITS
-    bases: int = _BASES
     log: RunLog = field(default_factory=RunLog)
+    path: list[Formula] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.facts = self.facts.watched(self.watch)

@@ -16,15 +16,12 @@ _FACTORS = 6  # a product of more factors than this is not split
 
 def groebner_equations(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """Replace the equations by a better basis of their ideal, and reduce the other atoms by it."""
-    if context.bases <= 0:
-        return None
     equations, others = eq.split_equations(conjuncts(body))
     if not equations or (not others and len(equations) == 1):
         return None
     basis = eq.ideal_basis(eq.squarefree(equations), eq.variable_order(body, variables))
     if basis is None:
         return None
-    context.bases -= 1
     if basis.is_unit:
         return Found(StepKind.GROEBNER, f"{eq.describe(equations)}: no common zero", NEVER)
     chosen = eq.better_equations(equations, basis, variables) if len(equations) > 1 else tuple(equations)

@@ -9,12 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier.curves.workspace import WorkspaceKind, root_text
+from bezier.curves.workspace import WorkspaceKind
 from bezier.input import toml_table
 from bezier.input.numbers import NotANumber, describe, parse, read_squared
 from bezier.input.toml_table import Table
 from bezier.problem import PlanMethod, load_problem, read_problem
 from qe.errors import InputError
+from qe.exact.radicals import root_text
 from tests.tables import each
 
 BASE = {

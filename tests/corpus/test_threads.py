@@ -1,7 +1,7 @@
 """Questions of people in public threads, typed as they were asked there: the answers are those the threads agree on.
 
 Each line of threads.jsonl names its thread; the scripts were run by z3, too. What other words alone would mend is not
-here: ``mx`` for ``m*x`` is noted, not read.
+here: ``kx`` for ``k*x`` is noted, not read, where k stands nowhere alone.
 """
 
 from __future__ import annotations

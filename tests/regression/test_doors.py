@@ -107,11 +107,25 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
     ("ex x. ax + 2x = 0", "ex x. `ax` + 2*x = 0"),
     ("for all a, b with a > b, b > 0: a > c", "all a, b. a > b and b > 0 -> a > c"),
     ("ex x. A*x^2 + B < 0, where A = a + 1, B = 2*c", "ex x. (a + 1)*x^2 + 2*c < 0"),
+    ("for all x: mx² + (m-1)x < 0", "for all x: m*x² + (m-1)*x < 0"),  # no sign of a product, all letters are names
+    ("for all a, b, c > 0: ab + bc + ca <= abc", "for all a, b, c > 0: a*b + b*c + c*a <= a*b*c"),
+    ("ex x, y. xy = x*y and xy > 1", "ex x, y. `xy` = x*y and `xy` > 1"),
+    ("ex x, y, xy. xy > x + y", "ex x, y, `xy`. `xy` > x + y"),
+    ("{ x ∈ ℝ | x² < a }", "x^2 < a"),
+    ("{x ∈ {1, 2} | |x| > a}", "x ∈ {1, 2} and |x| > a"),
+    ("{(x, y) ∈ ℝ² : x < y, y < 1}", "x < y and y < 1"),
+    (r"\{ x \in [0, 1] \mid x^2 < a \}", "x ∈ [0, 1] and x^2 < a"),
+    ("{x > 1 | x < a}", "x > 1 or x < a"),
+    ("{x in {1, 2} || x > a}", "x in {1, 2} or x > a"),
+    ("Reduce[2/3 a + 1/2 b > 0]", "4*a + 3*b > 0"),
+    ("∃!x: x^2 = a", "exactly 1 x. x^2 = a"),
+    (r"\exists! x: x^2 = a", "exactly 1 x. x^2 = a"),
+    (r"x ∈ ℝ\{0}", "x /= 0"),
     ("D > 0 and d > 0\nwhere D = b^2 - 4*a*c", "b^2 - 4*a*c > 0 and d > 0"),
     ("And(forall a > 0, b > 0, c > 0)", "(forall a > 0: b > 0) and c > 0"),  # commas of the call
 )
 def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: str, meant: str) -> None:
-    """Products with a bound variable that stands nowhere alone; bounds that a comma ends; ``&and``."""
+    """Products with a bound variable; bounds that a comma ends; ``&and``; sets of points, whose bar was read as or."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         assert text.read(typed) == text.read(meant)
@@ -123,6 +137,9 @@ def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: st
     "x^2 + b*x + c = 0 has two distinct real roots",
     "x >= 0 if a > 0 else x <= 0",
     "x > 1 where x > 0",
+    "Simplify[x > 1, x > 0]",
+    "2/3 a > 1",
+    "{(x, y) ∈ ℝ³ : x < y}",
     "x > 1 where x = a",  # a definition, or one more condition
 )
 def test_what_may_mean_two_things_is_refused_in_one_line(typed: str) -> None:
@@ -137,6 +154,17 @@ def test_terms_of_sympy_in_a_list_are_zero() -> None:
     for odd in (x, sp.Integer(3), [x, y > 0]):
         with pytest.raises(qe.InputError, match="Boolean combination"):
             qe.eliminate(odd)
+
+
+@each(
+    (qe.minimize, "minimize x^2 + y^2 s.t. x + y = 1, x >= 0", "1/2"),
+    (qe.maximize, "x*y subject to x + y <= 1, x, y >= 0", "1/4"),
+    (qe.maximize, "MaxValue[{x, x^3 <= 2}, x]", "cbrt(2)"),
+)
+def test_an_optimum_is_asked_for_in_words(door, asked: str, value: str) -> None:
+    assert f"({value} at " in repr(door(asked))
+    with pytest.raises(qe.InputError, match="greatest"):
+        qe.maximize("Minimise x subject to x > 1")
 
 
 def test_terms_of_z3_are_minimised() -> None:
@@ -333,7 +361,7 @@ def test_certificates_of_former_versions_are_refused_in_one_line(version: object
 def test_letters_side_by_side_are_told_to_be_one_name() -> None:
     noted = pytest.warns(qe.DoubtfulInput, match=r"abc is one name; a product is written a\*b\*c")
     with noted, pytest.raises(qe.InputError, match=r"free: abc \(all abc"):
-        qe.decide("all a, b, c > 0. abc = 1 -> a + b + c >= 3")
+        qe.decide("all a, b > 0. abc = 1 -> a + b >= 2")
     with pytest.raises(qe.InputError, match=r"free: area "):
         qe.decide("all a, r. area = a*r")
 

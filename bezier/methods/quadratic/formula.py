@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from bezier.curves.scalar import dot, subtract
-from bezier.curves.workspace import Condition, Workspace, WorkspaceKind, root_text
+from bezier.curves.workspace import Condition, Workspace, WorkspaceKind
 from bezier.methods.control import statements as st
 from bezier.methods.control.system import OnPoint, Shape, System, combination, coordinates
 from bezier.problem import Problem
+from qe.exact.radicals import root_text
 
 SHAPE = Shape(
     free=("Q1",),

@@ -10,7 +10,6 @@ from markupsafe import Markup
 
 from bezier.curves.containment import Leaves
 from bezier.curves.scalar import decimal_text, exact_text, with_decimal
-from bezier.curves.workspace import root_text
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic import plan as quadratic_plan
 from bezier.methods.quadratic.plan import FORMULA, QuadraticPlan, above_label
@@ -20,6 +19,7 @@ from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
 from bezier.report.html import Section, Text, toned
 from bezier.report.parts import norm, shown
+from qe.exact.radicals import root_text
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:

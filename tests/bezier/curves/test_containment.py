@@ -20,8 +20,9 @@ from bezier.curves.nonnegative import Negative, Nonnegative, decide, isolate, re
 from bezier.curves.scalar import sign
 from bezier.curves.sentences import UNIT as UNIT_INTERVAL
 from bezier.curves.sentences import CurveSentence
-from bezier.curves.workspace import Ball, HalfSpace, Workspace, WorkspaceKind, root_text
+from bezier.curves.workspace import Ball, HalfSpace, Workspace, WorkspaceKind
 from qe.exact.field import NumberField
+from qe.exact.radicals import root_text
 from qe.formula.syntax import Relation
 from tests.bezier.made import Root2, control_points, small, surds
 from tests.tables import each

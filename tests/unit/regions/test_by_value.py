@@ -56,6 +56,8 @@ EXPECTED = (
     ("x^3 = a*x", "x", "x = 0 or a >= 0 and (x = -sqrt(a) or x = sqrt(a))"),
     ("x^2 = a^2", "x", "x = -a or x = a"),
     ("x^4 - 5*x^2 + 4 = 0", None, "x = -2 or x = -1 or x = 1 or x = 2"),
+    ("x^4 - 4*x^2 + 2 < 0 and x > 0", None, "sqrt(2 - sqrt(2)) < x < sqrt(2 + sqrt(2))"),
+    ("x^3 = -2/3 or x^6 = 5 and x > 0", None, "x = -cbrt(2/3) or x = 5^(1/6)"),
     ("x^2 + y^2 = r^2 and y = m*x", "x, y", "x = -r/sqrt(m^2 + 1) and y = m*x or x = r/sqrt(m^2 + 1) and y = m*x"),
     ("y = x^2 and y = c", "x, y", "c >= 0 and (x = -sqrt(c) and y = c or x = sqrt(c) and y = c)"),
     ("x^2 + y^2 <= 1", None, "-1 <= x <= 1 and -sqrt(1 - x^2) <= y <= sqrt(1 - x^2)"),

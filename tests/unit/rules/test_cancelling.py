@@ -111,3 +111,11 @@ def test_exactly_three_roots_of_an_even_quartic() -> None:
     assert answer.formula is not None
     assert qe.decide(f"all a, b. ({answer.formula}) <-> (b = 1 and 2*a > 1)")
     assert "multiple of an equation subtracted" in [step.rule for step in answer.derivation.steps]
+
+
+def test_no_basis_brings_back_what_was_cancelled() -> None:
+    """Two rules undid each other forty times: a cubic through three points took 97 steps."""
+    answer = qe.eliminate("exactly 3 x. 2*x^3 + (1 - 2*q)*x - p = 0")
+    assert str(answer) == "16*q^3 - 24*q^2 - 27*p^2 + 12*q - 2 > 0"
+    befores = [step.before for step in answer.derivation.steps]
+    assert len(befores) < 30 and len({*befores}) == len(befores)
