@@ -216,10 +216,6 @@ class Points:
     known: dict[Formula, tuple[int, int]] = field(default_factory=dict)
     chosen: random.Random = field(default_factory=lambda: random.Random(1))
 
-    @property
-    def everywhere(self) -> int:
-        return (1 << len(self.listed)) - 1
-
     def fill(self, count: int) -> bool:
         """So many points at least, beside those on the axes; whether there were fewer."""
         axes, before = 2 * len(self.names), len(self.listed)
@@ -243,14 +239,14 @@ class Points:
 
     def holding(self, formula: Formula) -> int:
         """Where the formula holds."""
-        seen, mask = self.known.get(formula, (0, 0))
+        everywhere, (seen, mask) = (1 << len(self.listed)) - 1, self.known.get(formula, (0, 0))
         if seen == len(self.listed):
             return mask
         match formula:
             case Constant():
-                mask = self.everywhere if formula == TRUE else 0
+                mask = everywhere if formula == TRUE else 0
             case And(args):
-                mask = self.everywhere
+                mask = everywhere
                 for arg in args:
                     mask &= self.holding(arg)
             case Or(args):

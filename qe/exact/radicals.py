@@ -73,9 +73,7 @@ def _square_root_text(u: RealAlgebraic, positive: bool) -> str:
 
 
 def _rational_root(value: Fraction) -> Fraction | None:
-    if value < 0:
-        return None
-    n, d = isqrt(value.numerator), isqrt(value.denominator)
+    n, d = isqrt(max(value.numerator, 0)), isqrt(value.denominator)
     return Fraction(n, d) if n * n == value.numerator and d * d == value.denominator else None
 
 

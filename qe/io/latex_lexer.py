@@ -10,7 +10,7 @@ import re
 from collections.abc import Generator, Iterator
 
 from qe.io.surface import FUNCTIONS
-from qe.io.text_errors import SyntaxFailure, way_out
+from qe.io.text_errors import SyntaxFailure, unknown_function, way_out
 from qe.io.text_lexer import OPERAND_ENDS, State
 from qe.io.tokens import SIGNS, Token
 from qe.spelling import NUMERALS, PI, QUOTED, WORDS_FOR_PI, visible
@@ -85,7 +85,7 @@ _BACKQUOTED = re.compile(QUOTED)
 _GAP = r"(?:\s|\\[,;:! ]|\\q?quad\b)*"
 _NEXT = re.compile(
     rf"{_GAP}(?:[A-Za-z]|\\(?:{_LETTERS.pattern})\b)(?:_(?:\{{(?:\w+|\\mathrm\{{\d+\}})\}}|\w))?'*{_GAP}"
-    r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\colon))"
+    r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\(?:[;: ]|colon\b|q?quad\b)))"
 )
 """Another variable of a quantifier behind a comma, not the body."""
 _NEXT_HERE = re.compile(rf"{_GAP}([A-Za-z]){_GAP}(?:[<>]|\\(?:le|ge)\w*)\s*[-\w./]+{_GAP},")
@@ -115,7 +115,12 @@ class _Source:
                 kind = "DOT"
         if kind == "NAME" and self.state.header:
             self.state.bound.add(value)
+        if (kind, self.state.last, self.state.word) == ("NAME", "NUMBER", "0"):
+            raise SyntaxFailure(f"a product with zero is written 0 \\cdot {value}", at)
+        if kind == "OPEN" and self.state.last == "NAME" and self.state.is_function(at):
+            raise unknown_function(self.text, self.state.word, at - 1)
         self.state.note(kind)
+        self.state.word = value
         yield Token(kind, value, at)
 
     def between(self, at: int, end: int) -> Iterator[Token]:
@@ -145,11 +150,9 @@ class _Source:
     def command(self, name: str, at: int, after: int) -> Generator[Token, None, int]:
         """The tokens of a command; returns the offset behind it."""
         if name in _SPACES:
-            if (
-                self.state.header
-                and self.state.last == "NAME"
-                and not re.match(r"\s*(,|\\in\b|\\(exists|forall))", self.text[after:])
-            ):
+            wide = self.state.last in OPERAND_ENDS and name not in (",", "!", "thinspace")
+            goes_on = re.match(r"\s*(,|\\(in|cup|cap|setminus|exists|forall)\b)", self.text[after:])
+            if self.state.header and (wide or self.state.last == "NAME") and not goes_on:
                 yield from self.put("DOT", ".", at)
         elif name in ("{", "lbrace") and (self.state.last == "FUNCTION" or any(self.sets[-1:])):
             self.sets.append(True)

@@ -37,7 +37,7 @@ _TOKEN = re.compile(
     r"|(?P<NUMBER>[0-9]+)"
     r"|(?P<OPERATOR><==>|==>|<==|<=|>=|/=|/\\|\\/|[-+*/^()=<>~\[\]])"
 )
-_QUANTIFIER = re.compile(r"\s*\(\s*(?P<kind>[EAFGC]|X\s*[0-9]+)\s+(?P<name>[A-Za-z][A-Za-z0-9_]*'*)\s*\)")
+_QUANTIFIER = re.compile(r"\s*\(\s*(?P<kind>[EAFGC]|X\s*[0-9]+)(?:\s+|(?=[a-z]))(?P<name>[A-Za-z][A-Za-z0-9_]*'*)\s*\)")
 _KINDS = SIGNS | kinds(r"""
 RELATION = /= < <= > >=
 BEGIN [

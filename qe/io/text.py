@@ -128,8 +128,7 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     if (said := _SUBJECT.fullmatch(text)) is not None:
         word = (said[1] or "").lower()
         return (word == "min") - (word == "max"), said[2], said[3], (*re.findall(WORD, text),)
-    command = _OPTIMUM.fullmatch(text)
-    if command is None:
+    if (command := _OPTIMUM.fullmatch(text)) is None:
         return None
     objective, *constraints = [part for part in _parts(command[2]) if part != "Reals"]
     variables = constraints.pop() if constraints else ""

@@ -119,8 +119,6 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
         return "a quantifier stands in front of its formula: all x. x^2 >= 0"
     if kind == "NOT" and value == "!":
         return "'!' stands before the formula that it negates; it is no factorial"
-    if value == ">" and previous == "=":
-        return "'=>' is not used here; write >= for a comparison or -> for an implication"
     if value == "=" and previous in "<>" and previous:
         return f"write {previous}= without a space"
     if value == "." and before[-1:].isalnum() and text[at + 1 : at + 2].isalpha():
@@ -188,9 +186,8 @@ def _command_hint(command: str) -> str:
         return "definitions are not read; put the term in the place of its name, or write ex y. y = … and …"
     if re.match("n?m(in|ax)|argm|findm", command.lower()):
         return f"{command} is no part of a formula; an optimum is asked for with qe.minimize or qe minimize"
-    if command.startswith("rl"):
-        return f"{command} is a command of Redlog, which format redlog reads"
-    return f"{command} is a command, not a part of a formula; give the formula alone"
+    instead = "rlqe(…) is read with format redlog" if command.startswith("rl") else "give the formula alone"
+    return f"{command} is a command, not a part of a formula; {instead}"
 
 
 _TRANSCENDENTAL = re.compile(r"a?(?:sin|cos|tan|cot|sec|csc|arc\w+)h?|exp|log|ln|log10|log2|erf|gamma", re.IGNORECASE)

@@ -121,8 +121,7 @@ OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR",
 
 _SORT = re.compile(rf"\s+(?:reals?\s+)?(?:(?:numbers?|values?\s+of)\s+)?(?={_LIST})")
 """Words behind a quantifier that say what all variables are."""
-_MATHEMATICA = re.compile(r"\b[A-Z][A-Za-z]+\[")
-"""A text in which 2/3 a is a third of 2 a."""
+_MATHEMATICA = re.compile(r"\b[A-Z][A-Za-z]+\[")  # where 2/3 a is two thirds of a
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]")
 _NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST}|$)")
 _NEXT_BOUNDED = re.compile(
@@ -328,8 +327,7 @@ class State:
         if kind not in ("NAME", "OPEN", "RADICAL") or "\n" in self.text[self.end : at]:
             return False
         if self.last == "NAME" and kind == "OPEN":
-            is_letter = _LETTER.fullmatch(self.word) is not None and self.word not in _FUNCTIONS
-            return is_letter and not _ARGUMENT.match(self.text, at)
+            return _LETTER.fullmatch(self.word) is not None and not self.is_function(at)
         factor = kind != "NAME" or self.is_factor(value) or value.lower() in FUNCTIONS
         if self.last == "NUMBER":
             return (factor and self.word != "0") or self.end == at
@@ -342,6 +340,10 @@ class State:
         if self.variables is None:
             self.variables = {*_VARIABLE.findall(self.text)}
         return bool(_LETTER.fullmatch(name)) or name in self.variables or name in CONSTANTS
+
+    def is_function(self, at: int) -> bool:
+        """Whether the name in front of a bracket may be a function."""
+        return self.word in _FUNCTIONS or _ARGUMENT.match(self.text, at) is not None
 
     def is_product(self, name: str, at: int) -> bool:
         """Whether a name has in it a variable of a quantifier that stands nowhere else, as ``ex x. ax^2 + bx + c = 0``

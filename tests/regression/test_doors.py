@@ -121,6 +121,8 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
     ("∃!x: x^2 = a", "exactly 1 x. x^2 = a"),
     (r"\exists! x: x^2 = a", "exactly 1 x. x^2 = a"),
     (r"x ∈ ℝ\{0}", "x /= 0"),
+    (r"\forall a,b,c \geq 0 \;\; a+b+c \geq d", "all a, b, c. a >= 0 and b >= 0 and c >= 0 -> a + b + c >= d"),
+    (r"\forall x\in[0,1]\quad x>a", "all x in [0, 1]: x > a"),
     ("D > 0 and d > 0\nwhere D = b^2 - 4*a*c", "b^2 - 4*a*c > 0 and d > 0"),
     ("And(forall a > 0, b > 0, c > 0)", "(forall a > 0: b > 0) and c > 0"),  # commas of the call
 )
@@ -138,6 +140,8 @@ def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: st
     "x >= 0 if a > 0 else x <= 0",
     "x > 1 where x > 0",
     "Simplify[x > 1, x > 0]",
+    r"1 \le 0 \; a + b",
+    r"f(x) \ge 0",
     "2/3 a > 1",
     "{(x, y) ∈ ℝ³ : x < y}",
     "x > 1 where x = a",  # a definition, or one more condition

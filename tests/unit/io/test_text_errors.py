@@ -37,7 +37,7 @@ from tests.tables import each
     ("x = 1,000", 5, "a decimal number is written with a point", ""),
     ("x = 1_000", 4, "without _ between its digits", ""),
     ("exists exactly x. x^2 = a", 7, "write exactly 1 x. f", ""),
-    ("rlcad ex(x, x**2 = a);", 6, "format redlog", ""),
+    ("rlcad ex(x, x**2 = a);", 6, "rlqe(…) is read with format redlog", ""),
     ("solveset(x**2 <= a, x)", 14, "solveset is a command", ""),
     ("MinValue[{x, x > 0}, x]", 9, "qe.minimize", ""),
     ("x < Root[#^3 - 2 &, 1]", 4, "is written root(1, x^3 - 2)", ""),
