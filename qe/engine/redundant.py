@@ -69,11 +69,6 @@ class Part:
         return tuple(f if holds else nnf(f, negate=True) for f, holds in self.those)
 
     @property
-    def is_equation(self) -> bool:
-        """Whether it is an equation beside others, which is hardly redundant."""
-        return isinstance(self.formula, Atom) and self.formula.relation is Relation.EQ and self.of_conjunction
-
-    @property
     def sentence(self) -> Formula:
         """Whether there is a point where it matters."""
         body = conj(self.conditions)
@@ -173,10 +168,12 @@ def is_cheap_sentence(sentence: Formula) -> bool:
 
 def _unsettled(formula: Formula, points: Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:
     """The parts worth a question of which no known point says that they matter, largest first."""
+    equations = {a for a in atoms(formula) if isinstance(a, Atom) and a.relation is Relation.EQ}
     for count in (FIRST, COARSE, COARSE + FINE):
         if not points.fill(count) and count < COARSE + FINE:
             continue
-        parts = [p for p in _by_size(formula, points, known) if not p.is_equation and is_cheap_sentence(p.sentence)]
+        parts = [p for p in _by_size(formula, points, known) if is_cheap_sentence(p.sentence)]
+        parts = [p for p in parts if not (p.of_conjunction and p.formula in equations)]  # these are hardly redundant
         if not parts:
             return
     yield from (p for p in parts if p.sentence not in kept)

@@ -45,7 +45,7 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
     words = {*_WORD.findall(typed)} if letters else ()
     split = {word for word in words if len(word) > 1 and {*word} <= letters and word not in names}
     notes += [f"{word} is read as the product {'*'.join(word)}" for word in sorted(split - KEYWORDS)]
-    read = [name for name in names if len(name) == 1 and re.search(rf"(?<![\w`]){name}\(", typed)]
+    read = [name for name in names if len(name) == 1 and re.search(rf"(?<![\w`∃∀]){name}\(", typed)]
     notes += [f"{name}(…) is the product {name}*(…)" for name in read]
     if typed and not _RELATED.search(typed):
         notes.append("a term alone is taken as an equation with 0")

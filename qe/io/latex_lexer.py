@@ -85,7 +85,7 @@ _BACKQUOTED = re.compile(QUOTED)
 _GAP = r"(?:\s|\\[,;:! ]|\\q?quad\b)*"
 _NEXT = re.compile(
     rf"{_GAP}(?:[A-Za-z]|\\(?:{_LETTERS.pattern})\b)(?:_(?:\{{(?:\w+|\\mathrm\{{\d+\}})\}}|\w))?'*{_GAP}"
-    r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\(?:[;: ]|colon\b|q?quad\b)))"
+    r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\(?:[;: ]|colon|q?quad))|$)"
 )
 """Another variable of a quantifier behind a comma, not the body."""
 _NEXT_HERE = re.compile(rf"{_GAP}([A-Za-z]){_GAP}(?:[<>]|\\(?:le|ge)\w*)\s*[-\w./]+{_GAP},")

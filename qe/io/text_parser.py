@@ -156,8 +156,8 @@ class TextParser(QuantifiedParser):
         at, names, within = self.token.at, self.names_or_name(), None
         if self.token.kind == "IN" and self.advance():
             within = self.set()
-            if self.token.kind == "POWER" and self.advance() and self.take("NUMBER").text != str(len(names)):
-                raise SyntaxFailure(f"a point of {len(names)} coordinates lies in no set to this power", at)
+        if self.token.kind == "POWER" and self.advance() and self.take("NUMBER").text != str(len(names)):
+            raise SyntaxFailure(f"a point of {len(names)} coordinates lies in no set to this power", at)
         self.take("BAR", "DOT")
         return [within(s.Name(name, at), at) for name in names] if within else []
 

@@ -123,6 +123,7 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
     (r"x ∈ ℝ\{0}", "x /= 0"),
     (r"\forall a,b,c \geq 0 \;\; a+b+c \geq d", "all a, b, c. a >= 0 and b >= 0 and c >= 0 -> a + b + c >= d"),
     (r"\forall x\in[0,1]\quad x>a", "all x in [0, 1]: x > a"),
+    (r"a + b + c \ge d \quad \forall a,b,c", "all a, b, c. a + b + c >= d"),
     ("D > 0 and d > 0\nwhere D = b^2 - 4*a*c", "b^2 - 4*a*c > 0 and d > 0"),
     ("And(forall a > 0, b > 0, c > 0)", "(forall a > 0: b > 0) and c > 0"),  # commas of the call
 )

@@ -219,7 +219,7 @@ def test_long_polynomials_stand_in_lines() -> None:
 
 @each(
     ("(E x)[ a x^2 + b x + c = 0 /\\ ~[x < 0] ]", "ex x. a*x^2 + b*x + c = 0 and x >= 0"),
-    ("(Ex)(Ay)[ a x > y ]", "ex x. all y. a*x > y"),
+    ("(Ex)(Ay)[ a x > y ]", "ex x. all y. y < a*x"),
     ("(A x)(E y)[ x < y ].", "all x. ex y. x < y"),
     ("[2 (x+1)(y-1) /= 0]", "(x + 1)*(y - 1) /= 0"),
     ("[1/2 x^2 y >= 3]", "x^2*y >= 6"),
