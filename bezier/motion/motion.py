@@ -209,12 +209,17 @@ def moving(path: Path, timing: Timing, law: TimeLaw, shortest: Fraction = Fracti
     rates = dict(zip(ORDERS, values, strict=True))
     least = max(least_duration(rates, timing.limits), shortest)
     duration = least if timing.duration is None else timing.duration
-    scaled = [Limit(ORDERS[key], None, limit * duration ** ORDERS[key]) for key, limit in timing.limits.items()]
-    kept = (outcome.is_kept for outcome in decided(unit, scaled, Fraction(0)).outcomes)
+    kept = dict[str, bool]()
+    for key, limit in timing.limits.items():
+        most = limit * duration ** ORDERS[key]
+        known = rates[key].keeps(most)
+        if known is None:  # it is reached, or nearly
+            known = decided(unit, [Limit(ORDERS[key], None, most)], Fraction(0)).outcomes[0].is_kept
+        kept[key] = known
     share = RationalPoly.of([0, 1 / duration])
     rows = tuple(tuple(p.compose(share) for p in row) for row in unit.pieces)
     moved = Trajectory(unit.names, tuple(duration * t for t in unit.breaks), rows)
-    return Motion(timing, duration, moved, rates, dict(zip(timing.limits, kept, strict=True)), law)
+    return Motion(timing, duration, moved, rates, kept, law)
 
 
 def least_duration(rates: Mapping[str, Enclosure], limits: Mapping[str, Fraction]) -> Fraction:
