@@ -28,11 +28,15 @@ def add(terms: Coefficients, part: Term, scale: int = 1, most: int = SHORT) -> b
         name = (part.name,)
         terms[name] = terms[name] + scale if name in terms else scale
     elif isinstance(part, Polynomial) and len(part.terms) <= most:
+        if not terms and scale == 1:
+            terms.update(part.terms)
+            return True
         for names, value in part.terms.items():
             value = value if scale == 1 else scale * value
             terms[names] = terms[names] + value if names in terms else value
     elif isinstance(part, Number) and _is_small(part.value):
-        terms[()] = terms.get((), 0) + scale * part.value
+        value = part.value.numerator if part.value.denominator == 1 else part.value  # whole numbers stay integers
+        terms[()] = terms.get((), 0) + scale * value
     else:
         return False
     return True

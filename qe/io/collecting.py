@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Container
 
 from qe.io.sharing import inside
@@ -63,8 +64,9 @@ class Names:
             case Name(name, at):
                 self.name(name, at, scope)
             case Polynomial(terms):
-                for name in dict.fromkeys(name for names in terms for name in names):
-                    self.name(name, -1, scope)
+                for name in dict.fromkeys(itertools.chain.from_iterable(terms)):
+                    if name not in scope:
+                        self.name(name, -1, scope)
             case Product() | Quotient():
                 first, links = chain(part)
                 self.special += sum(isinstance(x, Quotient) and not isinstance(x.right, Number) for x in links)

@@ -22,10 +22,11 @@ from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children
 from qe.io.names import Renaming, names_in
-from qe.io.smtlib_parser import Expression, parse, without_collections
+from qe.io.smtlib_parser import Expression, parse
 from qe.io.smtlib_script import Script
 from qe.io.surface import MAX_DEPTH
 from qe.io.text_errors import Failing
+from qe.io.tokens import without_collections
 
 _SIMPLE = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
 _RESERVED = re.compile(

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import gc
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -20,8 +18,6 @@ _WORD = (
 _TOKEN = re.compile(rf"(?P<SPACE>\s+|;[^\n]*)|(?P<OPEN>\()|(?P<CLOSE>\))|(?P<WORD>{_WORD})")
 _WORDS = re.compile(rf"[()]|{_WORD}|;[^\n]*|\S[\s\S]*")
 """Words, brackets and comments; as the last, all that follows where none of them begins."""
-LONG = 100_000
-"""Characters of a text from which on the collector waits until it is read."""
 _QUOTING, _BRACKET = re.compile(r'[;|"]'), re.compile(r"[()]")
 _INSIDE = re.compile(r'[^()|";]+')  # what opens and closes nothing
 
@@ -50,25 +46,6 @@ Expression: TypeAlias = "str | list[Expression]"
 def place(expression: Expression) -> int:
     """The offset of an expression that is a ``Word`` or ``Listing``; -1 of any other."""
     return getattr(expression, "at", -1)
-
-
-@contextmanager
-def without_collections(text: str) -> Iterator[None]:
-    """While a large tree grows, looking for circles in it takes most of the time, and there are none.
-
-    What is left of a long text is old at once: whatever is frozen and not frozen any more is in the oldest generation.
-    """
-    if len(text) < LONG or not gc.isenabled():
-        yield
-        return
-    gc.disable()
-    try:
-        yield
-    finally:
-        if not gc.get_freeze_count():  # else somebody wants it so
-            gc.freeze()
-            gc.unfreeze()
-        gc.enable()
 
 
 def parse(text: str, fail: Fail, *, placed: bool = True) -> list[Expression]:

@@ -24,6 +24,7 @@ from qe.io.surface import Comparison, Every, Meet, Name, Node, Number, Quantific
 from qe.io.text_errors import Failing, SyntaxFailure
 from qe.io.text_lexer import COMMANDS
 from qe.io.text_parser import is_latex, parser_of
+from qe.io.tokens import without_collections
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
 from qe.spelling import QUOTED, WORD, WORDS_FOR_PI
@@ -49,7 +50,8 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = (), total
     text = _quoting(text, known)
     fail = Failing(text, source)
     total = Total() if total_division else None
-    formula = lower(_node(text, fail), fail, meet=_no_constants(fail, known), total=total)
+    with without_collections(text):
+        formula = lower(_node(text, fail), fail, meet=_no_constants(fail, known), total=total)
     return formula if total is None else total.checked(formula)
 
 

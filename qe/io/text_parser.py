@@ -218,12 +218,14 @@ class TextParser(QuantifiedParser):
         """A sum of multiples of names: wide systems have a million of them, so their tokens are not read alone."""
         _, text, at = self.advance()
         bare = "".join(text.split()).translate(_IDLE).replace("+-", "-").replace("--", "+")
-        parts = [(_UNITS.get(number) or int(number), name) for number, name in _MULTIPLES.findall(bare)[:-1]]
-        terms: Coefficients = {(name,) if name else (): number for number, name in parts}
-        if len(terms) == len(parts) and all(terms.values()):
+        parts = _MULTIPLES.split(bare)[1:-3]
+        names, written = parts[1::3], parts[::3]
+        numbers = [*map(int, map(_UNITS.get, written, written))]
+        terms: Coefficients = dict(zip([(name,) if name else () for name in names], numbers))
+        if len(terms) == len(numbers) and all(numbers):
             return s.Polynomial(terms)
         # a name that cancels is a name all the same
-        return s.Sum([s.Product(s.Number(c), s.Name(name, at), at) if name else s.Number(c) for c, name in parts])
+        return s.Sum([s.Product(s.Number(c), s.Name(x, at), at) if x else s.Number(c) for c, x in zip(numbers, names)])
 
     def infinity(self) -> s.Term:
         return s.Infinity(self.advance().at)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import re
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import NamedTuple
 
 from qe.io.text_errors import unknown_character
@@ -19,6 +21,10 @@ def kinds(table: str) -> dict[str, str]:
 
 SIGNS = kinds("PLUS +\nMINUS -\nTIMES *\nOVER /\nPOWER ^\nOPEN (\nCLOSE )\nCOMMA ,")
 """The kinds of the signs that terms have in every format."""
+
+
+LONG = 100_000
+"""Characters of a text from which on the collector waits until it is read."""
 
 
 class Token(NamedTuple):
@@ -41,3 +47,22 @@ def matches(pattern: re.Pattern[str], text: str, at: int = 0) -> Iterator[tuple[
         if match.lastgroup != "SPACE":
             yield str(match.lastgroup), match.group(), at
         at = match.end()
+
+
+@contextmanager
+def without_collections(text: str) -> Iterator[None]:
+    """While a large tree grows, looking for circles in it takes most of the time, and there are none.
+
+    What is left of a long text is old at once: whatever is frozen and not frozen any more is in the oldest generation.
+    """
+    waits = len(text) >= LONG and gc.isenabled()
+    if waits:
+        gc.disable()
+    try:
+        yield
+    finally:
+        if waits:
+            if not gc.get_freeze_count():  # else somebody wants it so
+                gc.freeze()
+                gc.unfreeze()
+            gc.enable()
