@@ -2,12 +2,12 @@
 
 Applegate, Cook, Dash, Espinoza 2007 (QSopt_ex). First all inequalities get a common slack t: where it can be positive,
 a rounded point will do; where it is negative, the multipliers contradict; where it is 0, only strict ones get a slack.
-In sparse systems these come first: vertices cost little there.
+In sparse systems these come first, where there are none no slack: vertices cost little there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import isfinite, lcm
@@ -46,8 +46,9 @@ def decided(
     inequalities = [i for i, row in enumerate(system.rows) if not row.is_equation]
     strict = [i for i in inequalities if system.rows[i].is_strict]
     orders = [inequalities, strict] if 0 < len(strict) < len(inequalities) else [inequalities]
-    for slack in reversed(orders) if system.is_sparse else orders:
-        problem: Slackened | None = _slackened(system, slack)
+    for slack in (strict, inequalities) if system.is_sparse else orders:
+        scales = [max(map(abs, row.terms.values())) if i in slack else 0 for i, row in enumerate(system.rows)]
+        problem: Slackened | None = Slackened(system, scales)
         while problem is not None:
             proposal = propose(problem, seconds())
             if proposal is None:
@@ -69,13 +70,6 @@ def _closer(problem: Slackened, vertex: tuple[Fraction, ...] | None) -> Slackene
         return None
     closer = replace(problem, centre=vertex, zoom=problem.zoom << 20)
     return None if closer.is_solved else closer
-
-
-def _slackened(system: LinearRows, slack: Iterable[int]) -> Slackened:
-    scales = [0] * len(system.rows)
-    for i in slack:
-        scales[i] = max(map(abs, system.rows[i].terms.values()))
-    return Slackened(system, scales)
 
 
 def _rounded(problem: Slackened, proposal: Proposal) -> tuple[Fraction, ...] | None:
@@ -100,8 +94,9 @@ def _refutation(problem: Slackened, proposal: Proposal) -> Refutation | None:
     """The multipliers of the rows, from those that are not zero in floats."""
     rows = problem.system.rows
     weights = proportions({i: w for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY})
-    if weights and problem.system.refuted_by(weights):
-        return Refutation(weights)
+    for kept in (weights, {i: -w for i, w in weights.items()}):  # the multipliers of a greatest t are negative
+        if kept and problem.system.refuted_by(kept):
+            return Refutation(kept)
     if not proposal.ray and proposal.point[problem.size] > _TINY and not problem.centre:
         return None
     support = [i for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY]

@@ -9,12 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from importlib.util import find_spec
 from itertools import accumulate
 from math import inf
 from typing import Any
 
 from qe.convex.linear_rows import LinearRows
+
+_DUAL: Mapping[str, object] = {"presolve": "off", "solver": "simplex", "simplex_strategy": 1}
+_MOST_STEPS = 5_000
+"""Steps of the simplex method to a contradiction, at most."""
 
 _NEAR = 1e-7
 """How far from a bound a row is taken to keep it."""
@@ -88,29 +91,35 @@ def highs(problem: Slackened, seconds: float | None) -> Proposal | None:
     dense: Mapping[str, object] = {"presolve": "off", "simplex_strategy": 4, "simplex_scale_strategy": 0}  # scaled rows
     solver = _solver(seconds, {"solver": "ipm"} if sparse else dense)
     try:
-        solver.passModel(_model(problem))
+        model = _Model(problem)
+        solver.passModel(model.program)
     except OverflowError:
         return None
     solver.run()
     if solver.getModelStatus() == highspy.HighsModelStatus.kInfeasible:
-        return _contradiction(solver, problem)
+        return _contradiction(solver, model)
     basis, solution = solver.getBasis(), solver.getSolution()
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal or not basis.valid:
         return None
-    basic = highspy.HighsBasisStatus.kBasic
-    columns = [j for j, status in enumerate(basis.col_status) if status == basic]
-    rows = [i for i, status in enumerate(basis.row_status) if status != basic]
-    return Proposal(columns, rows, list(solution.col_value), list(solution.row_dual))
+    status = highspy.HighsBasisStatus
+    columns = [j for j, state in enumerate(basis.col_status) if state == status.kBasic]
+    rows = [i for i, state in zip(model.numbers, basis.row_status) if state != status.kBasic]
+    for side, bounds in ((status.kLower, model.least), (status.kUpper, model.most)):
+        on_bounds = [j for j, state in enumerate(basis.col_status) if state == side and bounds.get(j, (0, -1))[1] >= 0]
+        columns += on_bounds
+        rows += [bounds[j][1] for j in on_bounds]
+    return Proposal(columns, rows, list(solution.col_value), model.multipliers(solution.row_dual, cost=True))
 
 
-def _contradiction(solver: Any, problem: Slackened) -> Proposal | None:
-    """What the simplex method without presolving says of equations that cannot hold together."""
-    for name, value in (("presolve", "off"), ("solver", "simplex"), ("simplex_strategy", 1)):
+def _contradiction(solver: Any, model: _Model) -> Proposal | None:
+    """What the simplex method without presolving says of conditions that cannot hold together."""
+    for name, value in _DUAL.items():
         solver.setOptionValue(name, value)
+    solver.setOptionValue("simplex_iteration_limit", _MOST_STEPS)
     solver.clearSolver()
     solver.run()
     _, known, ray = solver.getDualRay()
-    return Proposal((), (), (), list(ray), ray=True) if known else None
+    return Proposal((), (), (), model.multipliers(ray), ray=True) if known else None
 
 
 def _solver(seconds: float | None, options: Mapping[str, object]) -> Any:
@@ -124,17 +133,50 @@ def _solver(seconds: float | None, options: Mapping[str, object]) -> Any:
     return solver
 
 
-def _model(problem: Slackened) -> Any:
-    """The linear program, each row divided by a power of two so that floats hold it."""
-    rows, size = problem.system.rows, problem.size
-    terms, upper, lower = list[Mapping[int, float]](), list[float](), list[float]()
-    for i, row in enumerate(rows):
-        given = problem.terms(i)
-        unit = 1 << max(0, max(map(abs, given.values())).bit_length() - 20)
-        terms.append(given if unit == 1 else {j: c / unit for j, c in given.items()})
-        upper.append(float(problem.right(i) / unit))
-        lower.append(upper[-1] if row.is_equation else -inf)
-    return _program(size + 1, terms, lower, upper, last=float(problem.highest))
+class _Model:
+    """The linear program, each row divided by a power of two so that floats hold it. Inequalities in one variable are
+    its bounds: by column ``least`` and ``most``, each with its row; ``numbers`` and ``units`` belong to the others."""
+
+    def __init__(self, problem: Slackened) -> None:
+        self.problem = problem
+        self.numbers, self.units, self.terms = list[int](), list[int](), list[Mapping[int, float]]()
+        self.least, self.most = dict[int, tuple[float, int]](), {problem.size: (float(problem.highest), -1)}
+        upper, lower = list[float](), list[float]()
+        for i, row in enumerate(problem.system.rows):
+            given, right = problem.terms(i), problem.right(i)
+            unit = 1 << max(0, max(map(abs, given.values())).bit_length() - 20)
+            if len(given) == 1 and not row.is_equation:
+                ((j, c),) = given.items()
+                bounds, number = (self.most if c > 0 else self.least), float(Fraction(right) / c)
+                if j not in bounds or (number - bounds[j][0]) * c < 0:
+                    bounds[j] = number, i
+                continue
+            self.numbers.append(i)
+            self.units.append(unit)
+            self.terms.append(given if unit == 1 else {j: c / unit for j, c in given.items()})
+            upper.append(float(right / unit))
+            lower.append(upper[-1] if row.is_equation else -inf)
+        self.program = _program(problem.size + 1, self.terms, lower, upper, last=self.most[problem.size][0])
+        for name, bounds in (("col_lower_", self.least), ("col_upper_", self.most)):
+            numbers = list(getattr(self.program, name))
+            for j, (number, _) in bounds.items():
+                numbers[j] = number
+            setattr(self.program, name, numbers)
+
+    def multipliers(self, duals: Sequence[float], *, cost: bool = False) -> list[float]:
+        """Those of all rows from those of the rows of the program: those of bounds are what the others leave of each
+        column, but for what t is worth (``cost``)."""
+        worth, rests = [0.0] * len(self.problem.system.rows), {self.problem.size: float(cost)}
+        for i, w, unit, row in zip(self.numbers, duals, self.units, self.terms):
+            if w:
+                worth[i] = w / unit
+                for j, c in row.items():
+                    rests[j] = rests.get(j, 0.0) + w * c
+        for j, rest in rests.items():
+            _, i = (self.most if rest > 0 else self.least).get(j, (0.0, -1))
+            if rest and i >= 0:
+                worth[i] = -rest / self.problem.system.rows[i].terms[j]
+        return worth
 
 
 def _program(
@@ -161,11 +203,6 @@ class FloatRows:
     """Rows in floats whose bounds, ``lower`` and ``upper``, come and go: each question starts where the last one ended.
     ``values`` of the rows at a ``point`` that kept all bounds when it was looked for."""
 
-    @staticmethod
-    def are_available() -> bool:
-        """Whether HiGHS is installed."""
-        return find_spec("highspy") is not None
-
     def __init__(self, size: int, rows: Sequence[Mapping[int, float]], seconds: float | None) -> None:
         import numpy as np
 
@@ -173,7 +210,7 @@ class FloatRows:
         self.values: Any = np.zeros(len(rows))
         self.point: Sequence[float] = [0.0] * size
         self._known = self.lower.copy(), self.upper.copy()
-        self._solver = _solver(seconds, {"presolve": "off", "solver": "simplex", "simplex_strategy": 1})
+        self._solver = _solver(seconds, _DUAL)
         self._solver.passModel(_program(size, rows, self.lower.tolist(), self.upper.tolist()))
 
     def contradiction(self) -> dict[int, float] | None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain
 from math import lcm
 
+from qe.exact.ring import Poly
+from qe.exact.wide import LinearPoly
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.proof.multipliers import FormRelation
@@ -53,9 +56,9 @@ class LinearRows:
     @staticmethod
     def of(atoms: Iterable[Atom]) -> LinearRows:
         """The rows of linear atoms other than inequations, in their order; the variables as they first occur."""
-        columns: dict[str, int] = {}
-        rows = tuple(_row(given, columns) for given in atoms)
-        return LinearRows(tuple(columns), rows)
+        listed = [(a.relation, *_linear(a.poly)) for a in atoms]
+        columns = {name: k for k, name in enumerate(dict.fromkeys(chain.from_iterable(parts[1] for parts in listed)))}
+        return LinearRows(tuple(columns), tuple(_row(*parts, columns.__getitem__) for parts in listed))
 
     @property
     def is_sparse(self) -> bool:
@@ -90,14 +93,18 @@ class LinearRows:
         return total > 0 or (total == 0 and any(w and self.rows[i].is_strict for i, w in weights.items()))
 
 
-def _row(given: Atom, columns: dict[str, int]) -> Row:
-    names, constant, relation = given.poly.ring.names, 0, given.relation
-    sign = -1 if relation in (Relation.GT, Relation.GE) else 1
-    terms: dict[int, int] = {}
-    for powers, c in given.poly.sparse_terms():
-        if powers:
-            terms[columns.setdefault(names[powers[0][0]], len(columns))] = sign * c
-        else:
-            constant = sign * c
-    kind = FormRelation.LT if relation.is_strict else FormRelation.LE
-    return Row(terms, constant, FormRelation.EQ if relation is Relation.EQ else kind, sign)
+def _linear(poly: Poly) -> tuple[Iterable[str], Sequence[int], int]:
+    """Variables, their coefficients and the constant."""
+    names = poly.ring.names
+    if isinstance(poly, LinearPoly):
+        return [names[i] for i in poly.variables], poly.numbers, poly.rest
+    terms = {names[powers[0][0]] if powers else "": c for powers, c in poly.sparse_terms()}
+    rest = terms.pop("", 0)
+    return list(terms), list(terms.values()), rest
+
+
+def _row(given: Relation, names: Iterable[str], numbers: Sequence[int], rest: int, column: Callable[[str], int]) -> Row:
+    sign = -1 if given in (Relation.GT, Relation.GE) else 1
+    terms = dict(zip(map(column, names), numbers if sign > 0 else [-c for c in numbers]))
+    kind = FormRelation.LT if given.is_strict else FormRelation.LE
+    return Row(terms, sign * rest, FormRelation.EQ if given is Relation.EQ else kind, sign)

@@ -11,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 
 from qe.convex.frame import centred_frame, lies_far, plain_frame
 from qe.convex.kkt import Kkt, kkt_point, sign
-from qe.convex.linear import LinearConflict, LinearFall, linear_optimum
 from qe.convex.near_optimum import bracket
+from qe.convex.simplex import Endless, Least, linear_optimum
 from qe.convex.system import ConvexSystem
 from qe.convex.violation import height, proposed, violation_forms
 from qe.errors import BudgetExceeded, InternalError, Unable
@@ -158,17 +159,16 @@ def _linear(
 ) -> OptimumEvidence:
     """The exact answer to a linear problem for which floats proposed nothing that could be proved."""
     flat, keys, rationals = state.flat, list(forms), NumberField.rationals()
-    outcome = linear_optimum(objective, list(forms.values()), check=lambda: budget.check("optimum: simplex"))
-    if isinstance(outcome, LinearFall):
-        direction = flat.direction(outcome.direction)
-        point = flat.lift(outcome.point)
+    check = partial(budget.check, "optimum: simplex")
+    outcome, falls = linear_optimum(objective, list(forms.values()), check=check)
+    point = flat.lift(outcome.dual) if isinstance(outcome, Least) else flat.origin
+    if falls is not None:
+        way = flat.direction(falls)
         return evidence_about(
-            system, status=OptimumStatus.UNBOUNDED, field=rationals, faces=state.faces, point=point, direction=direction
+            system, status=OptimumStatus.UNBOUNDED, field=rationals, faces=state.faces, point=point, direction=way
         )
-    conflict = isinstance(outcome, LinearConflict)
-    point = flat.origin if isinstance(outcome, LinearConflict) else flat.lift(outcome.point)
     weights: dict[int, Number] = {keys[k]: w for k, w in outcome.weights.items()}
-    return _close(system, state, rationals, point, weights, infeasible=conflict)
+    return _close(system, state, rationals, point, weights, infeasible=isinstance(outcome, Endless))
 
 
 def _without_multipliers(

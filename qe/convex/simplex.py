@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.convex.kkt import sign
-from qe.exact.quadratic_form import Number, Vector
+from qe.exact.quadratic_form import Number, Quadratic, Vector
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
 
@@ -58,6 +58,21 @@ def least_cost(
             return Endless(work.ray(entering))
         work.pivot(row, entering)
     return Least(work.weights(), work.dual(_ZERO))
+
+
+def linear_optimum(
+    objective: Quadratic, forms: Sequence[Quadratic], *, check: Callable[[], object]
+) -> tuple[Least | Endless, tuple[Number, ...] | None]:
+    """Minimise a linear polynomial subject to linear polynomials <= 0, by the dual problem in standard form: the
+    greatest sum w_i forms_i(0) for weights w >= 0 with sum w_i grad forms_i = -grad objective. Its ``dual`` is the
+    point; where it is endless, the weights contradict. Second: a direction in which the objective falls forever."""
+    columns, cost = [form.gradient for form in forms], [-form.constant for form in forms]
+    least = least_cost(columns, [-b for b in objective.gradient], cost, check=check)
+    if not isinstance(least, Nowhere):
+        return least, None
+    anywhere = least_cost(columns, [_ZERO] * objective.size, cost, check=check)
+    assert not isinstance(anywhere, Nowhere)  # no weights at all will do
+    return anywhere, least.dual if isinstance(anywhere, Least) else None
 
 
 class _Tableau:

@@ -16,9 +16,9 @@ from fractions import Fraction
 
 from qe.convex.alternative import Balance, alternative
 from qe.convex.kkt import sign
-from qe.convex.minimise import evidence_about, with_equations
-from qe.convex.system import ConvexSystem
-from qe.errors import InternalError
+from qe.convex.minimise import evidence_about, solve, with_equations
+from qe.convex.system import ConvexSystem, constant
+from qe.errors import InternalError, Unable
 from qe.exact.kkt_system import Point
 from qe.exact.quadratic_form import Number, Quadratic, Vector, dot, solve_linear
 from qe.options import Budget
@@ -148,3 +148,29 @@ def _moved(system: ConvexSystem, x: Point, step: Sequence[Number], budget: Budge
 def _holds(form: Quadratic, relation: FormRelation, point: Point) -> bool:
     value_sign = sign(form.value(point))
     return value_sign < 0 or (value_sign == 0 and relation is not FormRelation.LT)
+
+
+def proved(system: ConvexSystem, *, budget: Budget, near: bool = False) -> OptimumEvidence:
+    """Evidence about the least value of the objective, strict conditions included; ``near`` as in ``solve``.
+
+    Raises ``Unable`` without a proof, also where the floating-point numbers that propose one are beyond their range."""
+    try:
+        return settle_strict(system, solve(system, budget=budget, near=near), budget=budget)
+    except Unable:
+        raise
+    except OverflowError:
+        raise Unable("the numbers are beyond the range of floats, which propose the solution") from None
+
+
+def feasible(forms: Sequence[Quadratic], relations: Sequence[FormRelation], *, budget: Budget) -> bool:
+    """Whether some point satisfies forms[i] relations[i] 0 for all i: convex inequalities and linear equations.
+
+    Minimises nothing over the set: the evidence is a feasible point or a contradiction. Raises ``Unable`` when
+    neither could be proved.
+    """
+    size = forms[0].size
+    names = tuple(f"y{k}" for k in range(size))
+    optimum = proved(ConvexSystem(names, constant(size, 0), tuple(forms), tuple(relations)), budget=budget)
+    if optimum.status is OptimumStatus.UNBOUNDED:
+        raise Unable("a constant objective was found unbounded")
+    return optimum.status is OptimumStatus.OPTIMAL

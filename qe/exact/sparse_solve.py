@@ -114,7 +114,7 @@ class _Elimination:
         changed = sorted(self.using[j])
         for other in changed:
             row = self.rows[other]
-            common = gcd(lead, row[j])
+            common = gcd(lead, row[j]) * (1 if lead > 0 else -1)  # rows that need no multiple stay as they are
             scale, factor = lead // common, row[j] // common
             if scale != 1:
                 row = {k: scale * c for k, c in row.items()}

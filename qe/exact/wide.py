@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, reduce
-from itertools import chain
 from math import gcd, lcm
 from operator import mul
 
@@ -51,9 +50,8 @@ class WideRing(Ring, more_than=WIDE):
 
     def combination(self, coefficients: Mapping[tuple[str, ...], int]) -> Poly:
         if max(map(len, coefficients), default=0) < 2:
-            terms = dict(coefficients)
-            rest = terms.pop((), 0)
-            return self.linear(dict(zip(map(self.index.__getitem__, chain.from_iterable(terms)), terms.values())), rest)
+            terms = {self.index[names[0]]: c for names, c in coefficients.items() if names}
+            return self.linear(terms, coefficients.get((), 0))
         return super().combination(coefficients)
 
     def hash_of(self, p: Poly) -> int:

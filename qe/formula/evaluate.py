@@ -28,7 +28,7 @@ def holds_at(formula: Formula, point: Mapping[str, Fraction | int]) -> bool:
     missing = [name for name in formula.free if name not in point]
     if missing:
         raise InputError(f"no value for {', '.join(missing)}")
-    values = [Fraction(point.get(name, 0)) for name in ring.names] if ring is not None else []
+    values = tuple([Fraction(point.get(name, 0)) for name in ring.names] if ring is not None else ())
 
     truth = truth_under(formula, lambda poly: poly.sign_at(values), lambda atom: _root_holds(atom, values))
     if truth is None:

@@ -97,7 +97,8 @@ class _Renaming:
 
     def _plan(self, formula: Formula, chosen: list[str]) -> None:
         if isinstance(formula, Exists | ForAll):
-            chosen += [self._choose(name) if name in formula.body.free else "" for name in formula.variables]
+            free = frozenset(formula.body.free)
+            chosen += [self._choose(name) if name in free else "" for name in formula.variables]
         for child in children(formula):
             self._plan(child, chosen)
 

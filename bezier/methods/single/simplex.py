@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.convex.evidence import optimum_certificate
-from qe.convex.linear import LinearConflict, LinearFall, linear_optimum
 from qe.convex.minimise import evidence_about
+from qe.convex.simplex import Endless, linear_optimum
 from qe.convex.system import ConvexSystem
 from qe.errors import InternalError, Unable
 from qe.exact.quadratic_form import Quadratic, combine, independent_rows
@@ -103,15 +103,15 @@ def solve(program: LinearProgram, objectives: Sequence[Sequence[Fraction]], *, c
     for objective in objectives:
         if first is not None and len(independent_rows([forms[k].gradient for k in zero])) == len(program.names):
             break  # one point is left
-        optimum = linear_optimum(_linear(tuple(objective), Fraction(0)), forms, check=check)
-        if isinstance(optimum, LinearFall):
+        optimum, falls = linear_optimum(_linear(tuple(objective), Fraction(0)), forms, check=check)
+        if falls is not None:
             raise Unable("a linear objective falls without bound")
         first = first or _multipliers(program, equal, optimum.weights)
-        if isinstance(optimum, LinearConflict):
+        if isinstance(optimum, Endless):
             return Contradiction(first)
         forms += _negated(forms, optimum.weights)
         zero |= optimum.weights.keys()
-        point = optimum.point
+        point = optimum.dual
     if first is None:
         raise InternalError("a linear program without an objective")
     value = sum((c * x for c, x in zip(objectives[0], point, strict=True)), Fraction(0))

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from math import inf, lcm
 
-from qe.convex.feasible import feasible
+from qe.convex.strict import feasible
 from qe.convex.system import is_convex
 from qe.convex.violation import proposed
 from qe.decomposition.over_point import over_point

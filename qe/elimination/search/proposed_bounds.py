@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from fractions import Fraction
+from importlib.util import find_spec
 from math import inf
 from typing import SupportsInt
 
@@ -139,4 +140,4 @@ def _float(p: SupportsInt, q: SupportsInt) -> float:
 
 def suits(directions: Iterable[Direction]) -> bool:
     """Whether floats hold the numbers in these forms, and HiGHS is there."""
-    return all(abs(c) < 1 << 40 for direction in directions for _, c in direction) and FloatRows.are_available()
+    return all(abs(c) < 1 << 40 for direction in directions for _, c in direction) and find_spec("highspy") is not None

@@ -111,3 +111,20 @@ def test_weights_of_the_wrong_sign_refute_nothing():
     assert not system.refuted_by({0: 1, 1: 1})
     assert not system.refuted_by({0: -1, 1: -1})
     assert system.holds((Fraction(1, 2),)) and not system.holds((Fraction(2),))
+
+
+@pytest.mark.parametrize("least", [12, 40])
+def test_bounds_of_variables_lead_to_exact_points_and_contradictions(monkeypatch, least):
+    """Shares x_ij >= 0 of which each row and each column has 1, at a cost of i + j each: 30 in all."""
+    pytest.importorskip("highspy")
+    monkeypatch.setattr(linear_rows, "_MANY", -1)
+    monkeypatch.setattr(linear_rows, "_SPARSE", 2)
+    places = range(6)
+    parts = [f"x{i}{j} >= 0 and x{i}{j} <= 1" for i in places for j in places]
+    for i in places:
+        parts += [" + ".join(f"x{i}{j}" for j in places) + " = 1", " + ".join(f"x{j}{i}" for j in places) + " = 1"]
+    cost = " + ".join(f"{i + j}*x{i}{j}" for i in places for j in places if i + j)
+    conditions = read(" and ".join([*parts, f"{cost} >= {least}"]))
+    outcome = decided(LinearRows.of(atoms_of(conditions)), lambda: None, highs)
+    check(conditions, outcome)
+    assert outcome is not None and isinstance(outcome, Refutation) is (least > 30)

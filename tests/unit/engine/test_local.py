@@ -124,3 +124,11 @@ def test_no_values_where_the_sentence_has_none() -> None:
     assert found is not None
     assert found.values(Outcome(FALSE), lambda inner: outcome_for(inner, Options(), Budget(60))) is None
     assert found.values(Outcome(TRUE), lambda inner: outcome_for(inner, Options(), Budget(60))) is None
+
+
+def test_a_long_chain_of_diamonds_is_not_searched_before_its_local_variables_are_gone() -> None:
+    """30 of them have 2^30 paths."""
+    diamonds = [f"((x{i} < y{i} and y{i} < x{i + 1}) or (x{i} < u{i} and u{i} < x{i + 1}))" for i in range(30)]
+    names = [f"x{i}" for i in range(31)] + [f"{letter}{i}" for letter in "yu" for i in range(30)]
+    answer = qe.eliminate(f"ex {', '.join(names)}. {' and '.join(diamonds)} and x30 < x0", process=False, timeout=10)
+    assert answer.truth is False
