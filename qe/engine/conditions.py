@@ -101,7 +101,7 @@ def hopeless_cases(problem: Block, options: Options) -> str | None:
 
 
 def many_linear_cases(problem: Block, options: Options) -> str | None:
-    """A linear sentence with ``CASES_FROM`` disjunctions or more: simplifying takes longer (automata 4.4 s → 1.7 s)."""
+    """A linear sentence with ``CASES_FROM`` disjunctions or more: simplifying takes longer (twice, for automata)."""
     cases = 0 if problem.curved or options.method is not Method.AUTO else case_count(problem)
     return f"a linear sentence with {cases} case distinctions" if cases >= CASES_FROM else None
 
