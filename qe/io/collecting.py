@@ -24,7 +24,7 @@ from qe.io.surface import (
     Root,
     Term,
 )
-from qe.spelling import PI
+from qe.spelling import PI, WORDS_FOR_PI
 
 
 def chain(term: Term, known: Container[int] = ()) -> tuple[Term, list[Product | Quotient]]:
@@ -53,6 +53,8 @@ class Names:
 
     def all(self) -> list[str]:
         """The names, each once: free ones in order of appearance, then bound ones in order of quantification."""
+        if PI in self.bound or (PI in self.free and not self.bound.keys().isdisjoint(WORDS_FOR_PI)):
+            raise self.fail("pi is a number here; a variable of this name is written `pi`", -1)
         return [*self.free, *(name for name in self.bound if name not in self.free)]
 
     def part(self, part: Part, scope: frozenset[str] = frozenset(), depth: int = 0) -> None:
@@ -74,8 +76,6 @@ class Names:
             case Power(_, exponent, _):
                 self.special += not isinstance(exponent, Number) or exponent.value.denominator > 1
             case Quantification(_, names, _):
-                if PI in names:
-                    raise self.fail("pi is a number here; a variable of this name is written `pi`", -1)
                 self.bound.update(dict.fromkeys(names))
                 scope = scope.union(names)
             case Quantity(_, count, name, _):

@@ -13,7 +13,7 @@ from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_function, way_out
 from qe.io.text_lexer import OPERAND_ENDS, State
 from qe.io.tokens import SIGNS, Token
-from qe.spelling import NUMERALS, PI, QUOTED, WORDS_FOR_PI, visible
+from qe.spelling import NUMERALS, PI, QUOTED, visible
 
 _COMMANDS = {
     **dict.fromkeys(("land", "wedge"), ("AND", "and")),
@@ -285,7 +285,7 @@ class _Source:
             after = index.end()
         while self.text.startswith("'", after):
             name, after = name + "'", after + 1
-        is_pi = name in WORDS_FOR_PI and re.match(r"\\pi\b|π", self.text[at:])
+        is_pi = self.state.means_pi(name) and re.match(r"\\pi\b|π", self.text[at:])
         yield from self.put("NAME", PI if is_pi else name, at)
         return after
 

@@ -181,7 +181,7 @@ def tokens(text: str) -> Iterator[Token]:
                     yield from state.put("TIMES", "*", place)
                 yield from state.put("NAME", letter, place)
         elif kind == "NAME":
-            yield from state.put(KEYWORDS.get(value, "NAME"), PI if value in WORDS_FOR_PI else value, at)
+            yield from state.put(KEYWORDS.get(value, "NAME"), PI if state.means_pi(value) else value, at)
         elif kind == "OPERATOR":
             typed = value == ":" and state.header and _TYPE.match(text, at + 1)
             yield from state.put("IN" if typed else _operator(value, at), value, at)
@@ -344,6 +344,10 @@ class State:
     def is_function(self, at: int) -> bool:
         """Whether the name in front of a bracket may be a function."""
         return self.word in _FUNCTIONS or _ARGUMENT.match(self.text, at) is not None
+
+    def means_pi(self, name: str) -> bool:
+        """Whether a name is a word for pi, and no quantifier binds it."""
+        return name in WORDS_FOR_PI and not self.header and name not in self.bound
 
     def is_product(self, name: str, at: int) -> bool:
         """Whether a name has in it a variable of a quantifier that stands nowhere else, as ``ex x. ax^2 + bx + c = 0``

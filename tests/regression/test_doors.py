@@ -31,8 +31,11 @@ NO_DOT = "the condition of a quantifier ends with a dot"
 
 
 @each(
-    *((text, NO_NUMBER) for text in ("x > nan", r"x \leq e")),
-    *((text, "pi is a number") for text in ("ex pi. pi > 0", "(all π. π > 0) or π = 1")),
+    *((text, NO_NUMBER) for text in ("x > nan", r"x \leq e", "(all π. π > 0) or π = 1")),
+    *(
+        (text, "pi is a number")
+        for text in ("ForAll[{Pi}, Pi > 0]", "π = 1 or (all pi. pi > 0)", "pi^2 >= 0 for all pi")
+    ),
     # root(3, x) > 2 was false: the polynomial x has no third root
     *((text, RADICAL) for text in ("root(3, x) > 2", "Root[2, x] < y", "root(x, 3) > 2", "root(x - 1, 3) > 2")),
     *((text, NO_DOT) for text in ("∀t>0 a*t^2 > -1", "∀t>0a*t^2 > -1", "exists t >= 1/2 2*t = a", "all t>0 not a>t")),

@@ -57,7 +57,7 @@ from tests.tables import each
     ("`pi` > 3", "`pi` > 3"),
     ("ex e. e > 0 and x < e", "ex e. e > 0 and x < e"),
     ("ex e. e > 0 and x < e or i = 0", "ex e. e > 0 and x < e or i = 0"),
-    ("`pi` = 0 or (ex `pi`. `pi` > x)", "`pi` = 0 or ex `pi`. `pi` > x"),
+    ("`pi` = 0 or (ex pi. pi > x)", "`pi` = 0 or ex `pi`. `pi` > x"),
     ("x > Pi and π < y and `pi` < 2 ", "x > pi and y > pi and `pi` < 2"),
     ("x + E > I", "x + E > I"),
     ("∃x. x·y ≥ 1 ∧ ¬(x ≠ y)", "ex x. y*x >= 1 and y = x"),
