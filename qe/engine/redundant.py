@@ -37,9 +37,9 @@ MANY_DEGREE = 3
 MOST_ATOMS, MOST_VARIABLES, MOST_TERMS = 60, 8, 400
 """A larger answer is left as it is."""
 
-MOST_CURVED = 6
+MOST_CURVED = 2
 """So many conditions side by side, with curved ones among them, are asked about: with more that takes longer than the
-elimination did (formula (7) with 12 of them: 0.5 s for 0.2 s)."""
+elimination did (formula (7) with 12 of them: 0.5 s for 0.2 s; (8) with three: half as much again)."""
 
 MOST_ATOMS_ALONE, MOST_TERMS_ALONE = 40, 10_000
 """So many atoms of a larger answer are looked at as conditions on signs alone, with so many terms of conditions."""
@@ -87,12 +87,11 @@ def without_redundant_parts(
     The sentences are likely to be false, so that trials at points would be in vain; and there is too little work for
     better coordinates to pay.
     """
-    plain = [a for a in formula.args if isinstance(a, Atom)] if isinstance(formula, And | Or) else []
-    if len(plain) == length(formula)[0] > MOST_CURVED and any(a.poly.total_degree > 1 for a in plain):
-        return formula
     if context.decide is None or not all(isinstance(a, Atom) for a in atoms(formula)) or formula != nnf(formula):
         return formula
-    if not _is_suited(conj((known, formula))):
+    plain = [a for a in formula.args if isinstance(a, Atom)] if isinstance(formula, And | Or) else []
+    is_long = len(plain) == length(formula)[0] > MOST_CURVED and any(a.poly.total_degree > 1 for a in plain)
+    if is_long or not _is_suited(conj((known, formula))):
         return _without_excluded_parts(formula, context) if known == TRUE else formula
     points = Points(conj((known, formula)).free, context.budget.check)
     options = context.options.with_(without=context.options.without | {Stage.SAMPLES, Stage.POSITION})
