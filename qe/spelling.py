@@ -26,9 +26,9 @@ KEYWORDS = frozenset(
 )
 """Words that mean something else in the text syntax."""
 
-NUMBERS = PI, *_ = ("ℼ", "ℯ", "ℽ", "𝐺")
+PI, WORDS_FOR_PI = "ℼ", ("pi", "Pi", "π")
+NUMBERS = (PI, "ℯ", "ℽ", "𝐺")
 """Variables that stand for pi, e, Euler's and Catalan's constant (``qe.formula.numbers``)."""
-WORDS_FOR_PI = ("pi", "Pi", "π")
 CONSTANTS = frozenset((*WORDS_FOR_PI, "nan", "NaN"))
 """Words that mathematics reads as numbers: in text they are variables only between backquotes."""
 

@@ -21,12 +21,12 @@ from qe import arguments
 from qe.api.limits import read_under
 from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall
+from qe.formula.numbers import unknowns
 from qe.formula.syntax import Formula
 from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, to_sympy
 from qe.optimization.values import new_name
 from qe.processes.limits import Limits
-from qe.spelling import NUMBERS
 
 if TYPE_CHECKING:
     import sympy
@@ -108,8 +108,7 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
     parts = question.parts
     whole = parts[0] if len(parts) == 1 else sympy.And(*parts, evaluate=False)
     formula = ForAll(list(symbols.values()), whole).formula() if symbols else question.formula
-    inner = [name for name in formula.free if name not in NUMBERS]
-    return api_decide.decide(forall(inner, formula), timeout=timeout)
+    return api_decide.decide(forall(unknowns(formula.free), formula), timeout=timeout)
 
 
 def _posed(function: Any, symbols: Any, condition: Condition) -> tuple[Any, list[Any], list[Any]]:
@@ -191,7 +190,7 @@ class _Question:
     @property
     def free(self) -> list[str]:
         """The free variables."""
-        return [name for name in self.formula.free if name not in NUMBERS]
+        return unknowns(self.formula.free)
 
     def solved(self, wanted: list[str], timeout: float | None) -> Any:
         """The cases, solved for these variables; None where SymPy has no term for an end."""

@@ -19,12 +19,11 @@ from qe.formula.assumed import Posed
 from qe.formula.build import conj, convert, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
-from qe.formula.numbers import bounds_of_numbers
+from qe.formula.numbers import bounds_of_numbers, unknowns
 from qe.formula.syntax import TRUE, Formula
 from qe.io.substitution import over_one_ring
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer
-from qe.spelling import NUMBERS
 
 
 @with_settings(Decision)
@@ -100,8 +99,8 @@ def compared(first: AnyFormula, second: AnyFormula, given: Mapping[str, Any]) ->
     one, other = (posed(formula, plain, limits, numbers=True) for formula in (first, second))
     f, g, *inner = over_one_ring(one.formula, other.formula, one.known, other.known)
     stated = under(iff(f, g), conj(inner), settings["assuming"], limits, others=(*f.free, *g.free), numbers=True)
-    names = dict.fromkeys((*f.free, *g.free, *stated.known.free))
-    claim = forall((name for name in names if name not in NUMBERS), implies(stated.known, stated.formula))
+    names = unknowns(dict.fromkeys((*f.free, *g.free, *stated.known.free)))
+    claim = forall(names, implies(stated.known, stated.formula))
     return _decided(claim, [first, second], settings, limits)
 
 
@@ -111,7 +110,7 @@ def _decided(sentence: Formula, given: AnyFormula, settings: Search, limits: Lim
     Numbers that are not algebraic are free in it: what holds for some values between their bounds only is not decided.
     """
     known = bounds_of_numbers(sentence)
-    if free := [name for name in sentence.free if name not in NUMBERS]:
+    if free := unknowns(sentence.free):
         names = ", ".join(free)
         raise InputError(f"a sentence expected; free: {names} (all {names}. … or ex {names}. … says what is meant)")
     sentence, known = over_one_ring(sentence, known)

@@ -18,9 +18,12 @@ from qe.errors import InputError, InternalError, Unable
 from qe.exact.number import point_text
 from qe.formula.assumed import Aim, Posed, claimed
 from qe.formula.block import Block
+from qe.formula.build import conj
 from qe.formula.evaluate import holds_at
+from qe.formula.numbers import bounds_of_numbers, is_settled
 from qe.formula.syntax import FALSE, Formula
 from qe.io.sharing import refuse_shared
+from qe.io.substitution import over_one_ring
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
@@ -92,6 +95,9 @@ def answered_under(
         raise InputError("race: cannot go with method, workers, cluster or process=False")
     whole = limits.shared(WHOLE_SHARE) if anytime else limits
     answer = _limited(problem, options, whole, check, helpers, methods)
+    if answer.formula is not None and not is_settled(answer.formula):  # numbers came closer than the question showed
+        formula, *known = over_one_ring(problem.formula, problem.known, bounds_of_numbers(answer.formula))
+        answer = _limited(replace(problem, formula=formula, known=conj(known)), options, whole, check, helpers, methods)
     if anytime and answer.formula is None:
         answer = replace(answer, partial=_partial(problem.formula, options, limits))
     if settings["explain"]:

@@ -138,9 +138,8 @@ def read_block(given: AnyFormula, format: str = "text", total_division: bool = F
 def names_typed(given: AnyFormula) -> set[str]:
     """The names in what a caller gave, also those that reading simplifies away: ``0 < 0 and (ex x. x > a)`` has two."""
     if isinstance(given, str):
-        return set(re.findall(WORD, given)).difference(KEYWORDS, WORDS_FOR_PI) | {
-            unquoted(name) for name in re.findall(QUOTED, given)
-        }
+        words = set(re.findall(WORD, given)).difference(KEYWORDS, WORDS_FOR_PI)
+        return words | {unquoted(name) for name in re.findall(QUOTED, given)}
     if isinstance(given, Formula):
         return set(names_in(given))
     if isinstance(given, Mapping):

@@ -12,8 +12,8 @@ from enum import Enum
 
 from qe.formula.build import conj, convert, disj, forall, implies
 from qe.formula.normal import nnf
+from qe.formula.numbers import unknowns
 from qe.formula.syntax import TRUE, ForAll, Formula
-from qe.spelling import NUMBERS
 
 
 class Aim(Enum):
@@ -39,8 +39,7 @@ class Posed:
 
     def closed(self, formula: Formula) -> Formula:
         """A formula wherever the assumptions hold; the values of the variables of which they speak are any."""
-        names = [name for name in self.known.free if name not in NUMBERS]
-        return formula if self.known == TRUE else forall(names, implies(self.known, formula))
+        return formula if self.known == TRUE else forall(unknowns(self.known.free), implies(self.known, formula))
 
 
 def claimed(known: Formula, question: Formula, formula: Formula) -> Formula:

@@ -6,6 +6,8 @@ polynomial over Q vanishes, so some bounds are narrow enough for every condition
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from qe.exact.ring import Ring
 from qe.exact.transcendental import floor_of
 from qe.formula.build import atom, conj
@@ -15,6 +17,16 @@ from qe.spelling import NUMBERS
 
 SPARE_BITS = 64
 """Bits of a bound beyond those that a polynomial of the formula needs so that hardly a sign depends on the rest."""
+
+
+def unknowns(names: Iterable[str]) -> list[str]:
+    """Those of the names that stand for no number."""
+    return [name for name in names if name not in NUMBERS]
+
+
+def is_settled(formula: Formula) -> bool:
+    """Whether no condition speaks of numbers alone: closer bounds would say whether it holds."""
+    return {*NUMBERS}.isdisjoint(formula.free) or all(unknowns(a.free) for a in atoms(formula))
 
 
 def bounds_of_numbers(*formulas: Formula) -> Formula:

@@ -45,6 +45,19 @@ def test_sentences(text: str, truth: bool) -> None:
     assert qe.eliminate(text, check=True).truth is truth
 
 
+def test_a_chain_of_small_numbers_comes_closer_to_pi_than_its_coefficients_show() -> None:
+    """The sentence was not decided: the first bounds have about 28 digits, the last convergents share more with pi."""
+    quotients = [3, 7, 15, 1, 292, *map(int, "1112131"), 14, *map(int, "211222")]
+    quotients += [2, 1, 84, 2, 1, 1, 15, 3, 13, 1, 4, 2, 6, 6, 99, 1, 2, 2, 6, 3, 5, 1, 1, 6, 8, 1, 7, 1, 2, 3, 7, 1, 2]
+    for size in (len(quotients) - 1, len(quotients)):
+        last = size - 1
+        chain = " and ".join(f"x{i}*x{i + 1} = {q}*x{i + 1} + 1" for i, q in enumerate(quotients[:last]))
+        names = ", ".join(f"x{i}" for i in range(size))
+        sentence = f"ex {names}. {chain} and x{last} = {quotients[last]} and pi < x0"
+        assert qe.decide(sentence) is (size % 2 == 0)
+        assert qe.eliminate(sentence).truth is (size % 2 == 0)
+
+
 @each(
     ("ex r. r > 0 and pi*r^2 = a and r < 2", "a > 0 and a < 4*pi"),
     ("x > 3 and x > pi", "x > pi"),
