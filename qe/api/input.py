@@ -175,6 +175,18 @@ def read_posed_constraints(given: AnyFormula, objective: AnyFormula) -> Read:
     return formula, conj(over_one_ring(known, *assumed_of(objective)))
 
 
+def with_products_written(*given: AnyFormula) -> tuple[AnyFormula, ...]:
+    """Texts of a problem whose variables are all its names, with the signs of products (``qe.io.text.with_products``)
+    and a note on each; what else was given as it is."""
+    if not all(isinstance(part, str) for part in given):
+        return given
+    from qe.io.text import with_products
+
+    texts, products = with_products(given)
+    warned([f"{word} is read as the product {'*'.join(word)}" for word in products])
+    return tuple(texts)
+
+
 def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:
     """The given term as a polynomial p and a rational s: it is s*p. Both may be given as they are, as a pair.
 

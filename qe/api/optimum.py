@@ -8,7 +8,15 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, Unpack, overload
 
 from qe import arguments
-from qe.api.input import AnyFormula, names_typed, note_doubts, read_objective, read_posed_constraints, warned
+from qe.api.input import (
+    AnyFormula,
+    names_typed,
+    note_doubts,
+    read_objective,
+    read_posed_constraints,
+    warned,
+    with_products_written,
+)
 from qe.api.limits import limits_of, performed, read_under, under
 from qe.api.settings import Optimisation, with_settings
 from qe.convex import optimum as convex
@@ -143,6 +151,8 @@ def _best(
             raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
         constraints = [constraints, more]
         parameters = sorted(names_typed([objective, more]) - {*variables}) or parameters
+    listed = constraints if isinstance(constraints, list | tuple) else [constraints]
+    objective, *constraints = with_products_written(objective, *listed)
     read = read_under(limits, partial(read_posed_constraints, constraints, objective), constraints)
     stated = under(*read, settings["assuming"], limits, others=names_typed([objective]), numbers=True)
     conditions = stated.restricted

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import decided, region_of
-from qe.api.input import AnyFormula, read_block
+from qe.api.input import AnyFormula, read_block, with_products_written
 from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
 from qe.decomposition.extended_tarski import true_everywhere
@@ -50,6 +50,8 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     asked = solved_for(formula) if variables is None and isinstance(formula, str) else variables
+    if variables is None:
+        (formula,) = with_products_written(formula)
     limits, wanted = limits_of(settings), arguments.names(asked, "variables")
     whole = replace(limits, start=None)
     stated = posed(formula, settings, limits, solved=wanted or (), numbers=True)
@@ -120,7 +122,8 @@ def find(formula: AnyFormula, n: int = 1, *, seed: int = 0, **settings: Unpack[P
     """
     count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
     limits = limits_of(settings)
-    given = posed(formula, settings, limits).restricted
+    (asked,) = with_products_written(formula)
+    given = posed(asked, settings, limits).restricted
     work = partial(_found, given, count, start, settings["check"], replace(limits, start=None, process=False))
     return performed(work, given, limits)
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from qe.cli.numbers import exact_and_decimal, shown
-from qe.cli.work import Reply, Request, in_json, read_question
+from qe.cli.work import Reply, Request, in_json, read_question, with_products
 from qe.exact.number import point_text
 from qe.processes.channel import Channel
 from qe.proof.multipliers import OptimumStatus
@@ -33,6 +33,8 @@ class Goal:
 def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     """``qe minimize``, ``qe maximize``: the exact value, the point, and what is active there; with parameters, the
     cases. ``qe optimum``: both, the least value first."""
+    source, objective = with_products(request.source, goal.objective)
+    request, goal = replace(request, source=source), replace(goal, objective=objective)
     if goal.maximize is not None:
         return _best(channel, request, goal)
     low, high = (_best(channel, request, replace(goal, maximize=way)) for way in (False, True))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from qe.cli.source import Source
-from qe.cli.work import Reply, Request, in_json, read_question
+from qe.cli.work import Reply, Request, in_json, read_question, with_products
 from qe.errors import Unable
 from qe.exact.number import point_text
 from qe.exact.radicals import radical_text
@@ -19,7 +19,7 @@ def find(channel: Channel, request: Request, n: int, seed: int) -> Reply:
     if request.certificate:
         raise Unable("points have no certificate of their own; --check proves them")
     start = time.perf_counter()
-    formula, known = read_question(channel, request.source)
+    formula, known = read_question(channel, *with_products(request.source))
     points = api.find(formula, n, seed=seed, **request.keywords(channel, formula, known))
     listed = [{name: str(value) for name, value in point.items()} for point in points]
     lines = [point_text({name: radical_text(value) for name, value in p.items()}) or "true" for p in points]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from qe.cli.numbers import shown
-from qe.cli.work import Reply, Request, read_question
+from qe.cli.work import Reply, Request, read_question, with_products
 from qe.errors import InputError
 from qe.processes.channel import Channel
 from qe.spelling import quoted
@@ -43,7 +43,8 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
 
     start = time.perf_counter()
     variables = variables or solved_for(request.source.text)
-    formula, known = read_question(channel, request.source, solved=variables or ())
+    (source,) = (request.source,) if variables else with_products(request.source)
+    formula, known = read_question(channel, source, solved=variables or ())
     solutions = api_solve.solve(formula, variables, **request.keywords(channel, formula, known))
     names, seconds = list(solutions.order), round(time.perf_counter() - start, 6)
     data = {"status": "solved", "variables": names, "cases": list(solutions.lines), "seconds": seconds}

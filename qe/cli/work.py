@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from qe.cli.source import Source
@@ -102,6 +102,16 @@ def read_question(channel: Channel, source: Source, *, solved: Sequence[str] = (
         f"{len(size.bound)} of them quantified",
     )
     return formula, known
+
+
+def with_products(source: Source, *terms: str) -> tuple[Any, ...]:
+    """A source all of whose names are variables, with the signs of products if it is a text, and terms beside it."""
+    if source.format is not Format.TEXT:
+        return source, *terms
+    from qe.api.input import with_products_written
+
+    text, *written = with_products_written(source.text, *terms)
+    return replace(source, text=text), *written
 
 
 def eliminate(channel: Channel, request: Request, output: Format, *, shorter: bool = False) -> Reply:

@@ -5,6 +5,7 @@ This is the only list of formats: a format is one line of ``Format`` and the mod
 
 from __future__ import annotations
 
+import re
 from enum import Enum
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -42,6 +43,11 @@ class Format(Enum):
         return member
 
 
+_BEGINNINGS = {
+    Format.REDLOG: re.compile(r"\s*rl(?:qe|cad|gqe|hqe|qea|simpl|decide)\b"),
+    Format.SMTLIB: re.compile(r"\s*\((?:set-(?:logic|info|option)|declare-|define-|assert\s*\()"),
+}
+"""What no text begins with."""
 READABLE = tuple(f.value for f in Format if f.readable)
 WRITABLE = tuple(f.value for f in Format)
 BY_ENDING = {ending: f for f in Format for ending in f.endings}
@@ -73,6 +79,8 @@ def read_posed(
         raise arguments.wrong("text", "a text", text)
     if not chosen.readable:
         raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
+    if chosen is Format.TEXT:
+        chosen = next((other for other, begins in _BEGINNINGS.items() if begins.match(text)), chosen)
     module, total = _module(chosen), arguments.flag(total_division, "total_division")
     if hasattr(module, "read_posed"):
         both: tuple[Formula, Formula] = module.read_posed(text, source=source)

@@ -151,7 +151,7 @@ class _Source:
         """The tokens of a command; returns the offset behind it."""
         if name in _SPACES:
             wide = self.state.last in OPERAND_ENDS and name not in (",", "!", "thinspace")
-            goes_on = re.match(r"\s*(,|\\(in|cup|cap|setminus|exists|forall)\b)", self.text[after:])
+            goes_on = re.match(r"\s*([,.:]|\\(in|cup|cap|setminus|exists|forall)\b)", self.text[after:])
             if self.state.header and (wide or self.state.last == "NAME") and not goes_on:
                 yield from self.put("DOT", ".", at)
         elif name in ("{", "lbrace") and (self.state.last == "FUNCTION" or any(self.sets[-1:])):

@@ -17,7 +17,7 @@ from itertools import pairwise
 
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall, iff, implies, neg, root_atom
-from qe.formula.quantity import almost_all, connected, exactly, infinitely_many
+from qe.formula.quantity import almost_all, at_least, connected, exactly, infinitely_many
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import has_root_atoms
 from qe.io import terms
@@ -183,6 +183,8 @@ class Lowering:
             return infinitely_many(name, holds, spare)
         if kind == "G":
             return almost_all(name, holds, spare)
+        if kind == "L":
+            return at_least(count, name, holds, spare)
         return connected(name, holds, denied, spare) if kind == "C" else exactly(count, name, holds, denied, spare)
 
     def equivalence(self, left: Node, right: Node, place: Place) -> Formula:

@@ -188,7 +188,7 @@ class Quantity(NamedTuple):
     at: int
 
 
-QUANTITIES = {"F": "infinitely many", "G": "all but finitely many", "C": "connected", "X": "exactly"}
+QUANTITIES = {"F": "infinitely many", "G": "all but finitely many", "C": "connected", "X": "exactly", "L": "at least"}
 
 
 Term: TypeAlias = (

@@ -11,7 +11,7 @@ x. A name is a word, possibly with primes, or anything between backquotes: `` `m
 from __future__ import annotations
 
 import re
-from collections.abc import Container
+from collections.abc import Container, Sequence
 from fractions import Fraction
 from typing import cast
 
@@ -20,9 +20,9 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, Relation
 from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
-from qe.io.surface import Comparison, Every, Meet, Name, Node, Number, Quantification, Term
+from qe.io.surface import FUNCTIONS, Comparison, Every, Meet, Name, Node, Number, Quantification, Term
 from qe.io.text_errors import Failing, SyntaxFailure
-from qe.io.text_lexer import COMMANDS
+from qe.io.text_lexer import COMMANDS, KEYWORDS
 from qe.io.text_parser import is_latex, parser_of
 from qe.io.tokens import without_collections
 from qe.io.total import Total
@@ -35,7 +35,10 @@ _ASKED = re.compile(
 _WHERE = re.compile(r"(.*?)[,;]?\s+where\s+((?:[A-Z]\s*=[^=<>≤≥≠]+,\s*)*[A-Z]\s*=[^=<>≤≥≠]+)", re.DOTALL)
 _DEFINED = re.compile(r"([A-Z])\s*=\s*([^=]+?)\s*(?:,(?=\s*[A-Z]\s*=)|$)")
 _OPTIMUM = re.compile(r"\s*(N?M(?:in|ax)(?:imize|Value)|ArgM(?:in|ax))\[(.*)\]\s*", re.DOTALL)
-_SUBJECT = re.compile(r"(?is)\s*(?:(min|max)\w*:?\s+)?(.+?),?\s+(?:subject\s+to|s\.\s?t\.):?\s+(.+)")
+_GOAL = re.compile(
+    r"(?i)\s*(?:find\s+)?(?:the\s+)?(min|max)(?:imum|imi[sz]e|imal|(?=:?\s+[-\w|]))(?:\s+value)?(?:\s+of)?:?\s+"
+)
+_SUBJECT = re.compile(r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with):?\s+(.+)")
 
 
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
@@ -127,9 +130,12 @@ def solved_for(text: str) -> tuple[str, ...] | None:
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``, and of
     ``minimize f subject to c`` (0 without its first word)."""
-    if (said := _SUBJECT.fullmatch(text)) is not None:
-        word = (said[1] or "").lower()
-        return (word == "min") - (word == "max"), said[2], said[3], (*re.findall(WORD, text),)
+    goal = _GOAL.match(text)
+    said = _SUBJECT.fullmatch(text, goal.end() if goal else 0)
+    if goal or said:
+        word, objective = goal[1].lower() if goal else "", text[goal.end() :] if goal else text
+        objective, conditions = (said[1], said[2]) if said else (objective, "true")
+        return (word == "min") - (word == "max"), objective, conditions, (*re.findall(WORD, text),)
     if (command := _OPTIMUM.fullmatch(text)) is None:
         return None
     objective, *constraints = [part for part in _parts(command[2]) if part != "Reals"]
@@ -138,6 +144,19 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
         objective, *constraints = _parts(objective[1:-1])
     sign = 1 if "Min" in command[1] else -1
     return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
+
+
+def with_products(texts: Sequence[str]) -> tuple[list[str], list[str]]:
+    """The texts of one problem whose variables are all its names, with the signs of products of letters that stand
+    alone somewhere, ``xy`` beside x and y; and these products. Where somebody wrote a sign, they are names."""
+    whole, made = "\n".join(texts), dict[str, str]()
+    if not {"*", "\\"}.isdisjoint(whole):
+        return [*texts], []
+    words = {*re.findall(WORD, whole)} - {*KEYWORDS, *FUNCTIONS}
+    letters = {word for word in words if len(word) == 1}
+    made = {word: "*".join(word) for word in words if word.isalpha() and len(word) > 1 and {*word} <= letters}
+    written = re.compile(rf"{QUOTED}|/\s*{WORD}|{WORD}")  # behind a division they stay names
+    return [written.sub(lambda word: made.get(word[0], word[0]), text) for text in texts], [*made]
 
 
 def _parts(text: str) -> list[str]:

@@ -11,7 +11,6 @@ from qe.spelling import QUOTED
 
 _CHARACTERS = {
     "`": "a name between backquotes needs both of them, on one line, and is not empty",
-    ";": "several conditions are joined by and, or stand in braces {…, …}",
     **dict.fromkeys("\"'", "a formula is written without quotes"),
     "%": "a comment starts with #",
     "?": "a choice is written if c then a else b",
@@ -92,8 +91,6 @@ def unexpected_token(text: str, kind: str, value: str, at: int, expected: Collec
         opening = _unmatched_opening(text)
         if opening is not None and "CLOSE" in expected:
             return SyntaxFailure("unbalanced brackets: this '(' is never closed", opening)
-        if re.search(r"\bthen\b(?!.*\belse\b)", before, re.DOTALL) and {"AND", "ELSE"} & {*expected}:
-            return SyntaxFailure("if … then … needs else …; an implication is written p -> q", len(before))
         return SyntaxFailure("the text ends too early", len(before), wanted)
     if kind == "CLOSE" and "CLOSE" not in expected and _unmatched_opening(text[:at]) is None:
         return SyntaxFailure("unbalanced brackets: this ')' has no partner", at)
@@ -186,8 +183,7 @@ def _command_hint(command: str) -> str:
         return "definitions are not read; put the term in the place of its name, or write ex y. y = … and …"
     if re.match("n?m(in|ax)|argm|findm", command.lower()):
         return f"{command} is no part of a formula; an optimum is asked for with qe.minimize or qe minimize"
-    instead = "rlqe(…) is read with format redlog" if command.startswith("rl") else "give the formula alone"
-    return f"{command} is a command, not a part of a formula; {instead}"
+    return f"{command} is a command, not a part of a formula; give the formula alone"
 
 
 _TRANSCENDENTAL = re.compile(r"a?(?:sin|cos|tan|cot|sec|csc|arc\w+)h?|exp|log|ln|log10|log2|erf|gamma", re.IGNORECASE)

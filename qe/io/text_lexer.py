@@ -15,13 +15,10 @@ from qe.errors import InputError
 from qe.io.names import check_name
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.io.text_words import BEHIND, LISTED, NO_VARIABLES, QUANTITY, SIGNED, SORT, SPOKEN, THAT, THERE, quantity
 from qe.io.tokens import Token, kinds
 from qe.spelling import CONSTANTS, PI, QUOTED, WORD, WORDS_FOR_PI, unquoted
 
-_LIST = rf"(?:{WORD}|{QUOTED})"
-QUANTITY = r"infinitely\s+many|all\s+but\s+finitely\s+many|almost\s+all|exactly\s+(?:[0-9]+|one)|connected"
-_THERE = r"[Tt]here\s+(?:is|are|exists?)"
-_THAT = r"(?:such\s+that\b|s\.\s?t\.|with\b)"
 _PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
 KEYWORDS = kinds("""
 QUANTIFIER ex exists Ex Exists EXISTS all forall All ForAll Forall FORALL
@@ -35,8 +32,8 @@ IMPLIES implies
 IFF iff
 IN in
 REALS Reals ℝ
-IF if
-THEN then
+IF if If
+THEN then Then
 ELSE else
 """)
 _OPERATORS = kinds(r"""
@@ -53,7 +50,7 @@ LEFT [
 RIGHT ]
 BEGIN {
 END }
-COMMA ,
+COMMA , ;
 DOT . :
 AND /\ ∧ & && \[And] &and &and;
 OR \/ ∨ \[Or] &or;
@@ -88,23 +85,23 @@ ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
 _TYPE = re.compile(rf"\s*(?:{'|'.join((*NOT_REAL, *ALSO_REALS))}|Reals|ℝ)\s*[.,]")
 _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*)"
-    rf"|(?P<QUANTITY>(?:{_THERE}\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{_LIST}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈|{_THAT})))"
-    rf"|(?P<NONE>∄|{_THERE}\s+no\b)"
-    rf"|(?P<UNIQUE>(?:∃|\b[Ee]xists|\bex)\s*!(?!=)|(?:{_THERE}|[Ee]xists)\s+(?:an?\s+)?unique\b)"
-    rf"|(?P<PREFIX>\(\s*{_PREFIXES}{_LIST}\s*(?:,\s*{_LIST}\s*)*\)(?=\s*[(\[]))"
+    rf"|(?P<QUANTITY>(?:{THERE}\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{LISTED}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈|{THAT})))"
+    rf"|(?P<NONE>∄|{THERE}\s+no\b)"
+    rf"|(?P<UNIQUE>(?:∃|\b[Ee]xists|\bex)\s*!(?!=)|(?:{THERE}|[Ee]xists)\s+(?:an?\s+)?unique\b)"
+    rf"|(?P<PREFIX>\(\s*{_PREFIXES}{LISTED}\s*(?:,\s*{LISTED}\s*)*\)(?=\s*[(\[]))"
     rf"|(?P<COMMAND>(?:{'|'.join(COMMANDS)})(?=\[))\b"
-    r"|(?P<EVERY>[Ff]or\s+(?:all|every|each|any)\b)"
-    rf"|(?P<SOME>[Ff]or\s+some\b|{_THERE}\b(?:\s+an?\b(?!\s+(?:in\b|{_THAT}))(?=\s+{_LIST}))?)"
-    rf"|(?P<THAT>{_THAT})"
+    r"|(?P<EVERY>(?:[Ff]or\s+(?:all|every|each|any|arbitrary)|[Gg]iven\s+any)\b)"
+    rf"|(?P<SOME>[Ff]or\s+some\b|{THERE}\b(?:\s+an?\b(?!\s+(?:in\b|{THAT}))(?=\s+{LISTED}))?)"
+    rf"|(?P<THAT>{THAT})"
     r"|(?P<NOTIN>not\s+in\b|∉)"
-    rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*[.:]))\b"
+    rf"|(?P<QUANTIFIER>[EA](?=\s+{LISTED}\s*(?:,\s*{LISTED}\s*)*[.:]))\b"
     rf"|(?P<CALL>(?:{'|'.join(_CALLS)})(?=\s*[(\[]))\b"
     rf"|(?P<NAME>{WORD})"
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<RAISED>⁻?[⁰¹²³⁴-⁹]+)"
     r"|(?P<OPERATOR>&(?:and|or)\b;?|<==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|\\(?=\s*\{)|&&|\*\*|\\\[\w+\]"
-    r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
+    r"|[-+*/^()=<>~,;.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
 _MULTIPLE = (
     r"(?:(?:[0-9]{1,18}|\(-?[0-9]{1,18}\))\s*\*\s*)?"
@@ -119,17 +116,15 @@ _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR", "INFINITY", "REALS", "TRUE", "FALSE"))
 """Tokens after which a term or a formula may be complete."""
 
-_SORT = re.compile(rf"\s+(?:reals?\s+)?(?:(?:numbers?|values?\s+of)\s+)?(?={_LIST})")
-"""Words behind a quantifier that say what all variables are."""
 _MATHEMATICA = re.compile(r"\b[A-Z][A-Za-z]+\[")  # where 2/3 a is two thirds of a
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]")
-_NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST}|$)")
+_NEXT_NAME = re.compile(rf"\s*({LISTED})\s*(?=[,.:()\[∈∃∀]|{LISTED}|$)")
 _NEXT_BOUNDED = re.compile(
-    rf"\s*(?:{_LIST})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠∈]|in\b)[^:;∃∀&|∧∨→⇒]*?(?<!,)(?::(?!=)|\.(?=\s)|\bsuch\s+that\b|\bs\.t\.)"
+    rf"\s*(?:{LISTED})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠∈]|in\b)[^:;∃∀&|∧∨→⇒]*?(?<!,)(?::(?!=)|\.(?=\s)|\bsuch\s+that\b|\bs\.t\.)"
 )
-_NEXT_BOUNDED_HERE = re.compile(rf"\s*({_LIST})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠])\s*[-\w./*^]+\s*,(?=\s*\S)")
+_NEXT_BOUNDED_HERE = re.compile(rf"\s*({LISTED})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠])\s*[-\w./*^]+\s*,(?=\s*\S)")
 _ENDS_A_NAME = re.compile(r"\s*[,.:]")
-_ANOTHER = re.compile(rf"\s+{_LIST}")
+_ANOTHER = re.compile(rf"\s+{LISTED}")
 _LETTER = re.compile(r"[^\W\d_](?:_?[0-9]+|_[^\W\d_])?'*")
 _VARIABLE = re.compile(
     rf"(?:^|[-+*/^(\[{{<>=≤≥≠,.:&|]|\b(?:and|or|not)\b)\s*({WORD})(?=\s*(?:[\^*≤≥≠]|/(?!\\)|=(?!>)|<(?!-|=>)|>))"
@@ -141,21 +136,9 @@ _FORMULAS = frozenset(kinds("_ RELATION IN AND OR NOT IMPLIES IFF QUANTIFIER TRU
 _FUNCTIONS = frozenset("fghpqFGHPQ")
 """Letters in front of a bracket that are no factor."""
 _ARGUMENT = re.compile(rf"\(\s*(?:{WORD}|[0-9.]+)?\s*[),]")
+_OR_COMMA = OPERAND_ENDS | {"COMMA"}
 _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
-_KINDS_OF_NUMBERS = {
-    "exactly": "write exactly 1 x. f",
-    **dict.fromkeys(
-        ("positive", "negative", "nonzero", "nonnegative", "non"),
-        "a condition stands behind the variable, as in exists x > 0",
-    ),
-    **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),
-    **dict.fromkeys(
-        ("an", "the", "no", "at", "one", "two", "only", "some", "given", "many", "infinitely", "real", "number", "st"),
-        "names of variables alone stand behind a quantifier, with commas between them: exists x, y: …",
-    ),
-}
-"""Words in front of the variables of a quantifier that would otherwise be taken for a variable."""
 
 
 def tokens(text: str) -> Iterator[Token]:
@@ -203,7 +186,7 @@ def tokens(text: str) -> Iterator[Token]:
         elif kind in ("EVERY", "SOME"):
             yield from state.put("QUANTIFIER", "forall" if kind == "EVERY" else "exists", at)
         elif kind in ("QUANTITY", "UNIQUE"):
-            yield from state.put("QUANTIFIER", _quantity(value), at)
+            yield from state.put("QUANTIFIER", quantity(value), at)
         elif kind == "NONE":
             yield from state.put("NOT", "not", at)
             yield from state.put("QUANTIFIER", "∃", at)
@@ -218,16 +201,9 @@ def tokens(text: str) -> Iterator[Token]:
         at += len(value) if kind == "NUMBER" else len(token.group())
         if kind != "SPACE":
             state.end = at
-        if state.last == "QUANTIFIER" and (sort := _SORT.match(text, at, end)) is not None:
-            at = sort.end()
-
-
-def _quantity(value: str) -> str:
-    """The letter of QEPCAD for words that say how many, with the number."""
-    words = value.split()
-    if words[-1].isdecimal():
-        return f"X {words[-1]}"
-    return {"many": "G" if "but" in words else "F", "all": "G", "connected": "C"}.get(words[-1], "X 1")
+        if state.last == "QUANTIFIER" and (sort := SORT.match(text, at, end)) is not None:
+            at, state.signed = sort.end(), SIGNED.get(sort[1], "")
+    yield from state.signs(end)
 
 
 def _number(value: str, state: State, text: str, at: int) -> str:
@@ -275,36 +251,49 @@ class State:
 
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
     condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
-    variables lie in. ``brackets``: of those that are open, from outside; ``closed``: whether the last one that ended
+    variables lie in; ``behind`` its formula; ``signed``: a comparison with zero that holds of them.
+    ``brackets``: of those that are open, from outside; ``closed``: whether the last one that ended
     held a term.
     """
 
     def __init__(self, text: str) -> None:
         self.text, self.end = text, 0
         self.last = ""
-        self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
+        self.header, self.spoken, self.bounded, self.quantifier, self.signed = False, False, False, "", ""
+        self.behind = False
         self.level, self.within = 1, 0
         self.brackets = [_Bracket()]
         self.called, self.listing, self.word, self.closed = False, False, "", False
         self.variables: set[str] | None = None
-        self.bound: set[str] = set()
+        behind = BEHIND.search(text)
+        self.bound: set[str] = {*re.findall(LISTED, behind[1])} if behind else set()
         self.words: Counter[str] | None = None
         self.alone: Counter[str] = Counter()
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
-        if kind == "NAME" and self.header and value in _KINDS_OF_NUMBERS and _ANOTHER.match(self.text, at + len(value)):
-            raise SyntaxFailure(_KINDS_OF_NUMBERS[value], at)
+        if kind == "NAME" and self.header and value in NO_VARIABLES and _ANOTHER.match(self.text, at + len(value)):
+            raise SyntaxFailure(NO_VARIABLES[value], at)
+        if kind == "AND" and self.spoken and self.header:  # for all x and y
+            behind = at + len(value)
+            kind = "COMMA" if self.goes_on(behind) or self.bounds_another(behind) else kind
         if kind == "COMMA" and self.header:
-            more = self.goes_on(at + 1)
-            if self.bounded and (more or self.bounds_another(at + 1)):  # ∃ x > 0, y > 0: …
+            at += len(value)
+            more = (self.behind and self.bound.isdisjoint(re.findall(WORD, self.text[at:]))) or self.goes_on(at)
+            if self.bounded and (more or self.bounds_another(at)):  # ∃ x > 0, y > 0: …
                 kind, value = "QUANTIFIER", self.quantifier
-            elif self.spoken and not (more or self.bounds_another(at + 1)):
+            elif self.spoken and not (more or self.bounds_another(at)):
                 kind = "DOT"
+        if self.signed and self.header and kind not in ("NAME", "COMMA"):
+            yield from self.signs(at)
         if kind == "QUANTIFIER":
+            self.behind = self.behind if self.header else self.last in _OR_COMMA
             self.spoken, self.quantifier, self.bounded = value not in _SHORT, value, False
         elif kind == "NAME" and self.header:
-            self.bound.add(value)
+            if self.last == "NAME" and self.begins_body(value, at):
+                yield from self.put("DOT", ".", at)
+            else:
+                self.bound.add(value)
         elif self.header and kind in ("RELATION", "IN"):
             self.bounded = True
         if not (self.header or self.listing) and self.multiplies(kind, value, at):
@@ -321,6 +310,13 @@ class State:
         self.note(kind)
         self.word = value
         yield Token(kind, value, at)
+
+    def signs(self, at: int) -> Iterator[Token]:
+        """What ``for all positive x, y`` says of its variables."""
+        if self.signed:
+            sign, self.signed = self.signed, ""
+            yield from self.put("RELATION", sign, at)
+            yield from self.put("NUMBER", "0", at)
 
     def multiplies(self, kind: str, value: str, at: int) -> bool:
         """Whether a product without a sign ends in front of this token."""
@@ -375,7 +371,7 @@ class State:
         if head[0] in "EA" and len(head) > 1:
             head = head[0]
         yield from self.put("QUANTIFIER", head, at)
-        for part in re.compile(rf"({_LIST})|,").finditer(value, value.index(head) + len(head)):
+        for part in re.compile(rf"({LISTED})|,").finditer(value, value.index(head) + len(head)):
             name = part[1]
             shown = "," if name is None else quoted_name(name, at) if name[0] == "`" else name
             self.note("NAME" if name else "COMMA")
@@ -383,7 +379,7 @@ class State:
 
     def goes_on(self, at: int) -> bool:
         """Whether another variable of the quantifier comes here, not its body."""
-        following = _NEXT_NAME.match(self.text, at)
+        following = None if SPOKEN.match(self.text, at) else _NEXT_NAME.match(self.text, at)
         return following is not None and following[1] not in KEYWORDS and following[1].lower() not in FUNCTIONS
 
     def bounds_another(self, at: int) -> bool:
@@ -391,6 +387,11 @@ class State:
         comma behind it, which outside of brackets could end nothing else."""
         here = _NEXT_BOUNDED_HERE.match(self.text, at) if self.spoken and self.level == 1 else None
         return (here is not None and here[1] not in self.bound) or _NEXT_BOUNDED.match(self.text, at) is not None
+
+    def begins_body(self, name: str, at: int) -> bool:
+        """Whether a name behind another one is no variable of the quantifier any more: ``∀x ∃y y > x``."""
+        here = name in self.bound or self.quantifier in ("∀", "∃")
+        return here and not (self.goes_on(at) or self.bounds_another(at))
 
     def raised(self, digits: str, at: int) -> Iterator[Token]:
         """A raised number is an exponent."""
@@ -415,6 +416,7 @@ class State:
             self.brackets.append(_Bracket())
         elif kind in _CLOSING:
             self.level -= 1
+            self.header = False
             self.closed = not self.brackets[-1].is_formula
             if len(self.brackets) > 1:
                 self.brackets.pop()

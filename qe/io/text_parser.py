@@ -176,6 +176,9 @@ class TextParser(QuantifiedParser):
         last, at = self.stack[-1], self.advance().at
         condition = self.expression(FORMULA, "THEN")
         self.advance()
+        if last.wants & FORMULA and not re.search(r"\belse\b", self.text[self.token.at :]):
+            self.stack.append(Waiting(BODY, FORMULA, FORMULA, lambda body: s.Implication(condition, body)))
+            return
         then = self.expression(EITHER if last.wants & FORMULA else TERM, "ELSE")
         self.advance()
         if isinstance(then, s.Node):

@@ -11,9 +11,10 @@ from qe.io import surface as s
 from qe.io import text_lexer
 from qe.io.conditions import together
 from qe.io.functions import RELATIONS
-from qe.io.parser import BODY, CLOSES, FORMULA, TERM, Parser, Waiting, counted
+from qe.io.parser import BODY, CLOSES, FORMULA, NOT, TERM, Parser, Waiting, counted
 from qe.io.text_errors import SyntaxFailure
 from qe.io.tokens import END, Token
+from qe.spelling import WORD
 
 _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
 
@@ -36,6 +37,7 @@ class QuantifiedParser(Parser):
         if self.token.kind in ("OPEN", "LEFT"):
             self.quantified_call(token)
             return None
+        is_first = self.stack[-1].closing == ("CLOSE",) and self.text[: token.at].rstrip()[-1:] == "("
         headers = [(token, *self.bound())]
         while self.token.kind == "QUANTIFIER":
             headers.append((self.advance(), *self.bound()))
@@ -46,6 +48,10 @@ class QuantifiedParser(Parser):
                 body = _quantified(*header, body)
             return body
 
+        conditions: list[s.Node] = []
+        if self.token.kind == "CLOSE" and is_first:
+            self.in_front(make)
+            return None
         kind, text, _ = self.advance()
         conditions = self.condition(headers[-1][0]) if kind == "DOT" and text not in ".:," else []
         if kind == END or (conditions and self.token.kind == END):
@@ -58,6 +64,15 @@ class QuantifiedParser(Parser):
         else:
             self.open(FORMULA, CLOSES[kind], lambda parts: make(parts[0]))
         return None
+
+    def in_front(self, make: Callable[[s.Node], s.Node]) -> None:
+        """``(∀x ∈ ℝ)``: its formula is what comes next, in brackets, or else all to the end."""
+        self.advance()
+        self.stack.pop()
+        level = NOT if self.token.kind in CLOSES else BODY
+        if self.token.kind == "DOT":
+            self.advance()
+        self.stack.append(Waiting(level, FORMULA, FORMULA, make))
 
     def condition(self, quantifier: Token) -> list[s.Node]:
         """What has to hold of the variables of ``for all x, y with x < y: f``, also behind its formula."""
@@ -73,7 +88,16 @@ class QuantifiedParser(Parser):
 
     def bound(self) -> tuple[list[str], Within | None]:
         """The variables of a quantifier and what they range over, up to the token that has to follow them."""
-        ends = ("DOT", "QUANTIFIER", "OPEN", "LEFT", *([END] if self.conditions and len(self.stack) == 1 else []))
+        ends = [
+            "DOT",
+            "QUANTIFIER",
+            "OPEN",
+            "LEFT",
+            "CLOSE",
+            *([END] if self.conditions and len(self.stack) == 1 else []),
+        ]
+        if self.token.kind in ("NUMBER", "MINUS"):
+            return self.between(ends)
         names, within = self.names(), None
         if self.token.kind == "IN":
             self.advance()
@@ -85,6 +109,15 @@ class QuantifiedParser(Parser):
         if self.token.kind not in ends:
             raise self.unexpected(ends if within else {*ends, "COMMA", "NAME", "IN", "RELATION"})
         return names, within
+
+    def between(self, ends: list[str]) -> tuple[list[str], Within]:
+        """The variable of ``for all 0 < x < 1``, and that."""
+        start = self.token.at
+        condition = self.expression(FORMULA, *ends)
+        names = [*dict.fromkeys(re.findall(WORD, self.text[start : self.token.at]))]
+        if len(names) != 1:
+            raise SyntaxFailure("variables come before what they range over: for all x, y with 0 < x < y: …", start)
+        return names, lambda term, at: condition
 
     def names(self) -> list[str]:
         """Names with commas or nothing between them."""
@@ -194,7 +227,7 @@ class QuantifiedParser(Parser):
 
 def _quantified(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
     """A quantifier over names, which may be bounded by a set."""
-    if quantifier.text.partition(" ")[0] in s.QUANTITIES:
+    if quantifier.text.partition(" ")[0] in (*s.QUANTITIES, "M"):
         return _quantity(quantifier, names, within, body)
     universal = quantifier.text in _UNIVERSAL
     if within is None:
@@ -206,6 +239,9 @@ def _quantified(quantifier: Token, names: list[str], within: Within | None, body
 def _quantity(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
     """How many values of one variable, which may be bounded by a set."""
     kind, _, number = quantifier.text.partition(" ")
+    if kind == "M":
+        more = quantifier._replace(text=f"L {counted(number, quantifier.at) + 1}")
+        return s.Negation(_quantity(more, names, within, body))
     if len(names) != 1:
         raise SyntaxFailure(f"{s.QUANTITIES[kind]}: one variable expected, {', '.join(names)} found", quantifier.at)
     conditions = [] if within is None else [within(s.Name(names[0], quantifier.at), quantifier.at)]

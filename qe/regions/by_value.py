@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, partial, reduce
 from itertools import groupby, product
+from math import prod
 from operator import mul
 
 from qe.decomposition.formulas import Undistinguished, formula_of_cells
@@ -26,9 +27,10 @@ from qe.decomposition.sign_table import Columns, placed_signs
 from qe.elimination.rootsigns.forms import minors
 from qe.elimination.rootsigns.theory import minors as signs_of_minors
 from qe.errors import Unable
-from qe.exact.algebraic import real_roots
+from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.radicals import radical_text
 from qe.exact.ring import Poly, Ring, format_poly
+from qe.exact.sample import FibreRoot
 from qe.formula.build import conj, convert
 from qe.formula.syntax import TRUE, Formula, Or
 from qe.formula.traverse import conjuncts, polynomials
@@ -39,6 +41,9 @@ from qe.spelling import quoted
 
 MOST_CELLS = 2_000
 """Cells of the parameters; more are described as pieces. (Two linear equations with six parameters have 700.)"""
+
+MOST_CONJUGATES = 16
+"""Coordinates of a point of at most so many conjugates are written as numbers."""
 
 Factors = Sequence[Sequence[Poly]]
 Columned = dict[Poly, dict[tuple[int, ...], str]]
@@ -180,7 +185,7 @@ class _Said:
         values = [{t for end in c for t in self.texts(end, counts[end.poly], place, fixed)} for c in ends]
         for start, stop in _runs(stack.cells):
             first = child(self.table, place, start)
-            equal = values[start // 2] if start % 2 and start == stop else set()
+            equal = values[start // 2] | self.numbers(first) if start % 2 and start == stop else set()
             if not equal or _is_all(first.cell):
                 low, high = (values[k] if k in range(len(values)) else {""} for k in ((start - 1) // 2, stop // 2))
                 between = [(a, b) for a, b in product(low, high) if a != b]
@@ -198,6 +203,15 @@ class _Said:
             self.needs.update(equations)
             for end, terms in self.over(first, inner):
                 yield end, {(text, *rest) for text in equations for rest in terms}
+
+    def numbers(self, place: Place) -> set[str]:
+        """The last coordinate of a single point as a number or in radicals, where that is little work."""
+        if not all(k % 2 for k in place.path):
+            return set()
+        if prod(_degree(place.point.coordinate(i)) for i in range(place.depth)) > MOST_CONJUGATES:
+            return set()
+        text = radical_text(place.point.number(place.depth - 1))
+        return set() if "root(" in text else {text}
 
     def texts(self, end: RootFunction, count: int, place: Place, fixed: Mapping[int, Fraction]) -> Iterator[str]:
         """The terms that a section is as the ``k``-th of ``count`` different roots of a factor."""
@@ -232,7 +246,8 @@ class _Said:
         signs = [self.sign(c, place) for c in known.coefficients(level)]
         degree = max((k for k, sign in enumerate(signs) if sign != 0), default=0)
         if lead := signs[degree]:
-            for radical in radicals(form.coefficients(level)[: degree + 1], end.k, count, lead):
+            make = lambda: [*radicals(form.coefficients(level)[: degree + 1], end.k, count, lead)]  # noqa: E731
+            for radical in form.ring.remembered(("radicals", form, level, degree, end.k, count, lead), make):
                 self.needs.setdefault(radical.text, [*radical.needs])
                 yield radical.text
 
@@ -288,6 +303,13 @@ class _Said:
                 return None
             result *= SIGN_OF[character] ** exponent
         return result
+
+
+def _degree(value: object) -> int:
+    """The degree of the equation that tells a coordinate of a point from those before it."""
+    if isinstance(value, FibreRoot):
+        return len(value.fibre.coefficients) - 1
+    return value.degree if isinstance(value, RealAlgebraic) else 1
 
 
 def _runs(cells: Sequence[Cell]) -> Iterator[tuple[int, int]]:

@@ -32,10 +32,7 @@ NO_DOT = "the condition of a quantifier ends with a dot"
 
 @each(
     *((text, NO_NUMBER) for text in ("x > nan", r"x \leq e", "(all π. π > 0) or π = 1")),
-    *(
-        (text, "pi is a number")
-        for text in ("ForAll[{Pi}, Pi > 0]", "π = 1 or (all pi. pi > 0)", "pi^2 >= 0 for all pi")
-    ),
+    *((text, "pi is a number") for text in ("ForAll[{Pi}, Pi > 0]", "π = 1 or (all pi. pi > 0)")),
     # root(3, x) > 2 was false: the polynomial x has no third root
     *((text, RADICAL) for text in ("root(3, x) > 2", "Root[2, x] < y", "root(x, 3) > 2", "root(x - 1, 3) > 2")),
     *((text, NO_DOT) for text in ("∀t>0 a*t^2 > -1", "∀t>0a*t^2 > -1", "exists t >= 1/2 2*t = a", "all t>0 not a>t")),
@@ -128,6 +125,32 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
     (r"\forall x\in[0,1]\quad x>a", "all x in [0, 1]: x > a"),
     (r"a + b + c \ge d \quad \forall a,b,c", "all a, b, c. a + b + c >= d"),
     ("D > 0 and d > 0\nwhere D = b^2 - 4*a*c", "b^2 - 4*a*c > 0 and d > 0"),
+    ("forall positive a, b: a + b > c", "forall a, b > 0: a + b > c"),
+    ("a*b > c for all nonnegative real numbers a and b", "all a, b. a >= 0 and b >= 0 -> a*b > c"),
+    ("all negative x. ex nonzero y. x*y = a", "all x. x < 0 -> (ex y. y /= 0 and x*y = a)"),
+    ("there is a positive x with x^2 = a", "ex x. x > 0 and x^2 = a"),
+    ("ex positive. positive > a", "ex positive. a < positive"),
+    ("for any real numbers x and y, x^2 + a >= axy", "all x, y. x^2 + a >= a*x*y"),
+    ("for all x > 0 and y > 0, x + y > a", "all x. x > 0 -> (all y. y > 0 -> x + y > a)"),
+    ("ex x. x > 0 and x < a", "ex x. (x > 0 and x < a)"),
+    ("(a + b)^2 >= 4ab + c for all real a, b", "all a, b. (a + b)^2 >= 4*a*b + c"),
+    ("x + y > a for all x, y > 0", "all x, y. x > 0 and y > 0 -> x + y > a"),
+    ("x + y > a, for all x > 0, y > 0", "all x. x > 0 -> (all y. y > 0 -> x + y > a)"),
+    ("a > 0, for all x, x^2 > b", "a > 0 and (all x. x^2 > b)"),
+    ("exists 0 < x < 1 with x^2 = a", "ex x. 0 < x < 1 and x^2 = a"),
+    ("for all -1 <= x <= 1: x^2 <= a", "all x. -1 <= x <= 1 -> x^2 <= a"),
+    ("if x > 0 then x^2 > a", "x > 0 -> x^2 > a"),
+    ("all x. (If x > 2 then x^2 > a) and x^2 >= 0", "all x. (x > 2 -> x^2 > a) and x^2 >= 0"),
+    ("x^2 = a; x > 0;", "x^2 = a and x > 0"),
+    ("∀x∃y y^2 > a*x", "all x. ex y. y^2 > a*x"),
+    ("ex x y x*y = a", "ex x, y. x*y = a"),
+    ("given any x, there is some y with y^2 = x + a", "all x. ex y. y^2 = x + a"),
+    ("(∀x∈R)(∃y∈[0, 1]) y > a*x", "all x. ex y in [0, 1]. y > a*x"),
+    ("(∀x > 0)(x > a) -> a > 1", "(all x. x > 0 -> x > a) -> a > 1"),
+    ("not (∃x ∈ R)[x^2 = a] and a < 5", "not (ex x. x^2 = a) and a < 5"),
+    (r"(\forall x \in \mathbb{R})(\exists y > 0)\; y > x + a", "all x. ex y. y > 0 and y > x + a"),
+    (r"\exists x \, . \, x^2 = a", "ex x. x^2 = a"),
+    ("pi^2 >= a for all pi", "all pi. pi^2 >= a"),
     ("And(forall a > 0, b > 0, c > 0)", "(forall a > 0: b > 0) and c > 0"),  # commas of the call
 )
 def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: str, meant: str) -> None:
@@ -164,10 +187,27 @@ def test_terms_of_sympy_in_a_list_are_zero() -> None:
             qe.eliminate(odd)
 
 
+@each("rlqe ex(x, x**2 = a);", "(declare-const a Real)(assert (exists ((x Real)) (= (* x x) a)))")
+def test_commands_of_other_systems_are_read_as_such(typed: str) -> None:
+    assert qe.equivalent(typed, "a >= 0")
+
+
+@each(("x + y = 3, xy = 2", "x = 1 and y = 2 or\nx = 2 and y = 1"), ("xy = x*y and x = 1", "x = 1 and y = xy"))
+def test_a_product_of_variables_that_are_solved_for_needs_no_sign(typed: str, said: str) -> None:
+    assert str(qe.solve(typed)) == said
+    assert qe.find("x + y = 3, xy = 2 and x < y") == [{"x": 1, "y": 2}]
+
+
 @each(
     (qe.minimize, "minimize x^2 + y^2 s.t. x + y = 1, x >= 0", "1/2"),
     (qe.maximize, "x*y subject to x + y <= 1, x, y >= 0", "1/4"),
     (qe.maximize, "MaxValue[{x, x^3 <= 2}, x]", "cbrt(2)"),
+    (qe.minimize, "x + 1/x for x > 0", "2"),
+    (qe.minimize, "find the minimum of x^2 + 2/x where x > 0", "3"),
+    (qe.minimize, "minimum value of x^2 + 1", "1"),
+    (qe.minimize, "min -x for x in [1, 2]", "-2"),
+    (qe.maximize, "min(x, 1 - x)", "1/2"),
+    (qe.maximize, "max(x, y) such that x^2 + y^2 = 1", "1"),
 )
 def test_an_optimum_is_asked_for_in_words(door, asked: str, value: str) -> None:
     assert f"({value} at " in repr(door(asked))
@@ -193,11 +233,13 @@ def test_nothing_is_noted_where_all_occur(given: str) -> None:
     assert noted_in(given) == []
 
 
-@each(("a + b - ab", "a > 0 and b > 0"), ("a + b", "a > 0 and b > 0 and ab = 1"))
-def test_a_product_without_a_sign_is_noted_where_a_term_is_optimised(term: str, conditions: str) -> None:
-    """The least value of ``a + b - ab`` was "unbounded", that of ``a + b`` under ``ab = 1`` was 0, without a word."""
-    with pytest.warns(qe.DoubtfulInput, match=r"ab is one name; a product is written a\*b"):
-        qe.minimize(term, conditions)
+@each(("a + b", "a > 0 and b > 0 and ab = 1", 2), ("a^2 + b^2 - ab", ["a >= 1", "b >= 1"], 1))
+def test_a_product_without_a_sign_is_read_where_a_term_is_optimised(
+    term: str, given: str | list[str], value: int
+) -> None:
+    """The least value of ``a + b`` under ``ab = 1`` was 0."""
+    with pytest.warns(qe.DoubtfulInput, match=r"ab is read as the product a\*b"):
+        assert qe.minimize(term, given).value == value
 
 
 def test_a_comma_in_an_order_is_no_variable() -> None:

@@ -34,6 +34,15 @@ from tests.tables import each
     ("exactly 2 x. infinitely many y. (x^2 - a)*y = 0", "a > 0"),
     ("ex y. infinitely many x. x < y and x^2 < a", "a > 0"),
     ("not (exactly 1 x. x^2 = a)", "a /= 0"),
+    ("at least two x: x^2 + a*x + 1 = 0", "a^2 > 4"),
+    ("there are at least 2 x in [0, 1] such that x^2 + a*x + 1/8 = 0", "a^2 > 1/2 and -9/8 <= a <= 0"),
+    ("at least 2 x. x^2 <= a", "a > 0"),
+    ("at least 3 x. 0*x = a", "a = 0"),
+    ("at most one x: x^2 = a", "a <= 0"),
+    ("at most 2 x. a*x^2 + b*x + c = 0", "a /= 0 or b /= 0 or c /= 0"),
+    ("at most 0 x. x^2 = a", "a < 0"),
+    ("at least 0 x. x^2 = a", "true"),
+    ("not (at most 1 x. sqrt(x) = a)", "false"),
 )
 def test_what_they_mean(text: str, said: str) -> None:
     assert qe.equivalent(qe.eliminate(text), said)
@@ -68,6 +77,7 @@ def test_the_interior_form_says_what_an_interval_says(seed: int) -> None:
     pair = f"(ex x, y. x < y and ({given}) and ({other}))"
     assert qe.equivalent(f"exactly 0 x. {given}", f"all x. not ({given})")
     assert qe.equivalent(f"exactly 1 x. {given}", f"(ex x. {given}) and not {pair}")
+    assert qe.equivalent(f"at least 2 x. {given}", pair) and qe.equivalent(f"at most 1 x. {given}", f"not {pair}")
     assert qe.equivalent(f"(exactly 0 x. {given}) or (exactly 1 x. {given}) -> (connected x. {given})", "true")
 
 
@@ -81,6 +91,7 @@ def test_a_body_with_quantifiers_is_said_with_an_interval() -> None:
 @each(
     ("infinitely many x, y. x > y", "one variable expected"),
     ("exactly 30 x. x > 0", "at most 20"),
+    ("at most 30 x. x > 0", "at most 20"),
     ("∃! x, y. x > y", "one variable expected"),
     ("exactly 2 x. ex x. x > 0", "bound once more"),
     ("connected x. x > root(1, x^3 - a, x)", "root"),

@@ -49,6 +49,9 @@ EXPECTED = (
     ),
     ("x^2 + y^2 = 1", None, "-1 <= x <= 1 and (y = -sqrt(1 - x^2) or y = sqrt(1 - x^2))"),
     ("x^2 + y^2 = 1 and x = y", None, "x = -sqrt(2)/2 and y = x or x = sqrt(2)/2 and y = x"),
+    # root(1, x^4 + 2*x^3*y + …, y)
+    ("x^2 + y^2 + z^2 = 1 and x + y + z = sqrt(3)", None, "x = sqrt(3)/3 and y = sqrt(3)/3 and z = sqrt(3)/3"),
+    ("x^3 = 2 and y^2 = x", None, "x = cbrt(2) and (y = -2^(1/6) or y = 2^(1/6))"),
     ("x^2 - (a + b)*x + a*b = 0", "x", "x = a or x = b"),
     ("|x - a| = b", "x", "b >= 0 and (x = a - b or x = a + b)"),
     ("a*x^2 = a", "x", "a = 0 or x = -1 or x = 1"),
