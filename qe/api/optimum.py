@@ -151,8 +151,10 @@ def _best(
             raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
         constraints = [constraints, more]
         parameters = sorted(names_typed([objective, more]) - {*variables}) or parameters
-    listed = constraints if isinstance(constraints, list | tuple) else [constraints]
-    objective, *constraints = with_products_written(objective, *listed)
+    if isinstance(constraints, str):
+        objective, constraints = with_products_written(objective, constraints)
+    elif isinstance(constraints, list | tuple):
+        objective, *constraints = with_products_written(objective, *constraints)
     read = read_under(limits, partial(read_posed_constraints, constraints, objective), constraints)
     stated = under(*read, settings["assuming"], limits, others=names_typed([objective]), numbers=True)
     conditions = stated.restricted

@@ -122,8 +122,8 @@ def find(formula: AnyFormula, n: int = 1, *, seed: int = 0, **settings: Unpack[P
     """
     count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
     limits = limits_of(settings)
-    (asked,) = with_products_written(formula)
-    given = posed(asked, settings, limits).restricted
+    (typed,) = with_products_written(formula)
+    given = posed(typed, settings, limits).restricted
     work = partial(_found, given, count, start, settings["check"], replace(limits, start=None, process=False))
     return performed(work, given, limits)
 

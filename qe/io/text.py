@@ -149,10 +149,11 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
 def with_products(texts: Sequence[str]) -> tuple[list[str], list[str]]:
     """The texts of one problem whose variables are all its names, with the signs of products of letters that stand
     alone somewhere, ``xy`` beside x and y; and these products. Where somebody wrote a sign, they are names."""
-    whole, made = "\n".join(texts), dict[str, str]()
-    if not {"*", "\\"}.isdisjoint(whole):
-        return [*texts], []
-    words = {*re.findall(WORD, whole)} - {*KEYWORDS, *FUNCTIONS}
+    whole = "\n".join(texts)
+    words = {*re.findall(WORD, whole)}
+    if not {"*", "\\", "∃", "∀"}.isdisjoint(whole) or any(KEYWORDS.get(word) == "QUANTIFIER" for word in words):
+        return [*texts], []  # quantifiers: the lexer knows more
+    words -= {*KEYWORDS, *FUNCTIONS}
     letters = {word for word in words if len(word) == 1}
     made = {word: "*".join(word) for word in words if word.isalpha() and len(word) > 1 and {*word} <= letters}
     written = re.compile(rf"{QUOTED}|/\s*{WORD}|{WORD}")  # behind a division they stay names

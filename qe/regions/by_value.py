@@ -11,19 +11,17 @@ Cells over which the same is said are put together, and the condition that it ho
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, partial, reduce
 from itertools import groupby, product
 from math import prod
 from operator import mul
 
-from qe.decomposition.formulas import Undistinguished, formula_of_cells
-from qe.decomposition.pieces import RootFunction, Sections, merge, range_text
+from qe.decomposition.pieces import RootFunction, Sections, range_text
 from qe.decomposition.radicals import radicals
 from qe.decomposition.sampled_cells import Place, any_true, child, leaves
-from qe.decomposition.sign_table import Columns, placed_signs
 from qe.elimination.rootsigns.forms import minors
 from qe.elimination.rootsigns.theory import minors as signs_of_minors
 from qe.errors import Unable
@@ -32,11 +30,11 @@ from qe.exact.radicals import radical_text
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.exact.sample import FibreRoot
 from qe.formula.build import conj, convert
-from qe.formula.syntax import TRUE, Formula, Or
-from qe.formula.traverse import conjuncts, polynomials
+from qe.formula.syntax import TRUE, Formula
+from qe.formula.traverse import conjuncts
 from qe.options import Budget
-from qe.proof.cells import CHARACTER_OF, SIGN_OF, Cell, CellTable, FreeCell
-from qe.simplifier.simplify import simplify
+from qe.proof.cells import CHARACTER_OF, SIGN_OF, Cell, CellTable
+from qe.regions.parameter_conditions import Columned, Terms, both, cells_outside, columns_of, condition, only, parts_of
 from qe.spelling import quoted
 
 MOST_CELLS = 2_000
@@ -44,12 +42,6 @@ MOST_CELLS = 2_000
 
 MOST_CONJUGATES = 16
 """Coordinates of a point of at most so many conjugates are written as numbers."""
-
-Factors = Sequence[Sequence[Poly]]
-Columned = dict[Poly, dict[tuple[int, ...], str]]
-Signs = Callable[[Place], Iterable[str]]
-Terms = tuple[str, ...]
-"""What each of the last variables is."""
 
 
 def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: Formula = TRUE) -> list[str] | None:
@@ -68,25 +60,14 @@ def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: For
             return None
         last = depth == len(table.order) - 1
         determined = {i for i, base in enumerate(bases) if last or _is_determined(base.cell, len(table.order) - depth)}
-        outside = _outside(table, bases, given)
+        outside = cells_outside(table, bases, given)
         lines += _lines(table, depth, bases, determined, everything, outside, depth > parameters, budget)
         rest = frozenset(base.path for i, base in enumerate(bases) if i not in determined)
         if not rest:
             return lines
         everything |= {base.path for base in bases if _is_all(base.cell)}
-        table = _only(table, rest | everything)
+        table = only(table, rest | everything)
     return None
-
-
-def _outside(table: CellTable, bases: list[Place], known: Formula) -> frozenset[int]:
-    """Those cells of the parameters on which an assumption does not hold."""
-    depth = max((base.depth for base in bases), default=0)
-    cells = [FreeCell(base.path, tuple(map(placed_signs, base.used, base.signs)), True) for base in bases]
-    listed = {factor for level in table.factors[:depth] for factor in level}
-    if not all(factor in listed for poly in polynomials(known) for factor, _ in poly.factors()[1]):
-        return frozenset()
-    false = Columns(cells, table.factors[:depth]).where(known)[1]
-    return frozenset(i for i in range(len(bases)) if false >> i & 1)
 
 
 def _lines(
@@ -116,28 +97,12 @@ def _lines(
     if new:
         holding[new, free - new] = [()]
     ordered = sorted(holding.items(), key=lambda pair: min(pair[0][0]))
-    columns = partial(_columns, table.factors[:depth], cache(partial(said.counted, bases)), bases)
+    columns = partial(columns_of, table.factors[:depth], cache(partial(said.counted, bases)), bases)
     return [
         line
         for (cells, open_), terms in ordered
-        for line in _cases(_condition(table, bases, cells, (open_ | outside) - cells, columns, solved, budget), terms)
+        for line in _cases(condition(table, bases, cells, (open_ | outside) - cells, columns, solved, budget), terms)
     ]
-
-
-def _only(table: CellTable, kept: frozenset[tuple[int, ...]], truth: bool | None = None) -> CellTable:
-    """The table with what is over these cells alone; with ``truth`` they are cut off there and have that."""
-
-    ways = {path[:k] for path in kept for k in range(len(path))}
-
-    def cut(cell: Cell, path: tuple[int, ...]) -> Cell:
-        if path in kept:
-            return cell if truth is None else Cell(cell.signs, truth)
-        if cell.stack is None or path not in ways:
-            return Cell(cell.signs, False)
-        below = tuple(cut(inner, (*path, k)) for k, inner in enumerate(cell.stack.cells))
-        return replace(cell, stack=replace(cell.stack, cells=below))
-
-    return replace(table, root=cut(table.root, ()))
 
 
 def _is_all(cell: Cell) -> bool:
@@ -340,141 +305,9 @@ def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Term
     )
 
 
-def _condition(
-    table: CellTable,
-    bases: list[Place],
-    chosen: frozenset[int],
-    open_: frozenset[int],
-    columns: Callable[[], Iterator[tuple[Factors, Signs]]],
-    solved: bool,
-    budget: Budget,
-) -> tuple[str, bool]:
-    """The condition on the parameters that says which cells: the ``chosen`` ones, and perhaps some of those that are
-    open; and whether it is a disjunction. It is a formula in the signs of the first ``columns`` that tell them, or what
-    pieces say whose ends are numbers and polynomials, if that is shorter, or not much longer and gives values of
-    variables that are to be ``solved`` for."""
-    places = [(base, i in chosen) for i, base in enumerate(bases) if i not in open_]
-    said = None
-    for factors, signs in columns():
-        cells = [FreeCell(base.path, tuple(signs(base)), true) for base, true in places]
-        try:
-            formula = simplify(formula_of_cells(factors, cells))
-        except Undistinguished:
-            continue
-        if formula == TRUE:
-            return "", False
-        said = str(formula), isinstance(formula, Or)
-        break
-    pieces = merge(_only(table, frozenset(bases[i].path for i in chosen), True), budget=budget)
-    ends = [end for piece in pieces for r in piece.ranges for end in (r.lower, r.upper) if end and end.value is None]
-    parts = _parts([tuple(str(r) for r in piece.ranges if r.is_bounded) for piece in pieces])
-    shown = " or ".join(parts), len(parts) > 1
-    if said is None:
-        over = _over_cells(table, bases, chosen, open_, budget)
-        return over if len(over[0]) < len(shown[0]) else shown
-    if all(end.written and end.written[1] is None and end.written[2].is_constant for end in ends):
-        has_values = solved and any(r.is_point for piece in pieces for r in piece.ranges)
-        if len(shown[0]) < len(said[0]) * (3 if has_values else 1):
-            return shown
-    return said
-
-
-def _over_cells(
-    table: CellTable, bases: list[Place], chosen: frozenset[int], open_: frozenset[int], budget: Budget
-) -> tuple[str, bool]:
-    """As ``_condition``, where signs do not tell: what has to hold of the last parameter is said over each cell of the
-    others, by signs if they tell there, and once for all cells over which the same is said."""
-    depth = max(base.depth for base in bases)
-    before = list(leaves(table, depth=depth - 1))
-    over: list[list[int]] = [[] for _ in before]
-    position = {base.path: k for k, base in enumerate(before)}
-    for i, base in enumerate(bases):
-        over[position[base.path[: depth - 1]]].append(i)
-    said: dict[tuple[str, bool], set[int]] = {}
-    for k, inner in enumerate(over):
-        if not chosen.isdisjoint(inner):
-            said.setdefault(_over_cell(table, [(bases[i], i in chosen) for i in inner if i not in open_]), set()).add(k)
-    undecided = frozenset(k for k, inner in enumerate(over) if open_.issuperset(inner))
-    parts = []
-    columns = partial(_columns, table.factors[: depth - 1], dict, before)
-    for what, cells in said.items():
-        where = _condition(table, before, frozenset(cells), undecided, columns, False, budget)
-        parts.append(_both(where, what))
-    return " or ".join(parts), len(parts) > 1
-
-
-def _over_cell(table: CellTable, places: list[tuple[Place, bool]]) -> tuple[str, bool]:
-    """What has to hold of the last parameter over a cell of those before it; "" where nothing has to."""
-    level = max(place.depth for place, _ in places) - 1
-    if all(true for _, true in places):
-        return "", False
-    cells = [FreeCell(p.path, (placed_signs(p.used[level], p.signs[level]),), true) for p, true in places]
-    try:
-        formula = simplify(formula_of_cells(table.factors[level : level + 1], cells))
-    except Undistinguished:
-        pieces = merge(_only(table, frozenset(place.path for place, true in places if true), True))
-        return " or ".join(str(piece.ranges[level]) for piece in pieces), len(pieces) > 1
-    return str(formula), isinstance(formula, Or)
-
-
-def _columns(
-    factors: Factors, counted: Callable[[], Columned], bases: Sequence[Place]
-) -> Iterator[tuple[Factors, Signs]]:
-    """Polynomials by levels, with their signs on cells: the factors, then what is ``counted``, then derivatives."""
-    more = Columned()
-    for listed in (dict, counted, partial(_derivatives, factors, bases)):
-        new = {poly: signs for poly, signs in listed().items() if poly not in more and poly not in factors[poly.level]}
-        if not (new or listed is dict):
-            continue
-        more |= new
-        levels = [[poly for poly in more if poly.level == level] for level in range(len(factors))]
-
-        def signs(base: Place, levels: Factors = levels, more: Columned = more) -> Iterator[str]:
-            for polys, used, known, added in zip(factors, base.used, base.signs, levels, strict=False):
-                yield placed_signs(used, known).ljust(len(polys), "?") + "".join(
-                    more[poly].get(base.path, "?") for poly in added
-                )
-
-        yield [[*polys, *added] for polys, added in zip(factors, levels, strict=True)], signs
-
-
-def _derivatives(factors: Factors, bases: Sequence[Place]) -> Columned:
-    """Derivatives of the factors, each in its variable. Over a cell a root of a factor has one multiplicity: where it
-    vanishes, so do its derivatives below that, and the next one has the same sign everywhere."""
-    listed: Columned = {}
-    for base in bases:
-        for polys, used, signs in zip(factors, base.used, base.signs, strict=False):  # of fewer levels, perhaps
-            for poly, character in zip(polys, placed_signs(used, signs)):
-                for _ in range(1, poly.degree(poly.level)):
-                    poly = poly.derivative(poly.level)
-                    known = listed.setdefault(poly, {})
-                    if character == "0":
-                        known[base.path] = character = CHARACTER_OF[base.point.sign(poly)]
-    return listed
-
-
 def _cases(given: tuple[str, bool], said: list[Terms]) -> list[str]:
     """A condition, perhaps a disjunction, and what holds under it; what is said of the first variable is said once."""
-    (condition, is_or), parts = given, _parts(said)
+    (condition, is_or), parts = given, parts_of(said)
     if not (condition and parts):
         return parts or [condition or "true"]
-    return [_both((condition, is_or), (" or ".join(parts), len(parts) > 1))]
-
-
-def _both(*parts: tuple[str, bool]) -> str:
-    """What both texts say, each perhaps a disjunction; one that is empty says nothing."""
-    said = [part for part in parts if part[0]]
-    return " and ".join(f"({text})" if is_or and len(said) > 1 else text for text, is_or in said)
-
-
-def _parts(said: list[Terms]) -> list[str]:
-    firsts: dict[str, list[Terms]] = {}
-    for terms in said:
-        if terms:
-            firsts.setdefault(terms[0], []).append(terms[1:])
-    parts = []
-    for first, rest in firsts.items():
-        inner = _parts(rest)
-        then = f"({' or '.join(inner)})" if len(inner) > 1 else "".join(inner)
-        parts.append(f"{first} and {then}" if then else first)
-    return parts
+    return [both((condition, is_or), (" or ".join(parts), len(parts) > 1))]

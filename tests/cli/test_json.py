@@ -56,7 +56,7 @@ BAD = {
     "eliminate": "x <",
     "decide": "x > 0",
     "region": "x +",
-    "solve": "ex x x = 0",
+    "solve": "ex x x =",
     "minimize": "x > 0",
     "check": "no-such-file",
 }
