@@ -19,7 +19,7 @@ from typing import Any
 from bezier.curves import bernstein as bs
 from bezier.curves.bernstein import Numbers, halves
 from bezier.curves.curve import Bezier, curvature_squared
-from bezier.curves.nonnegative import isolate, refine
+from bezier.curves.nonnegative import events_of
 from bezier.curves.scalar import is_zero, rational, sign
 from qe.errors import InputError, Unable
 from qe.exact.quadrature import root_integral
@@ -203,7 +203,7 @@ def length_enclosure(curve: Bezier, rel: Fraction = REL) -> Enclosure:
     if all(map(is_zero, squared)):
         return Enclosure(Fraction(0), Fraction(0))
     factor, radicand, stopping = _square_split(squared)
-    stops = [refine(stopping, stop, STOP_WIDTH) for stop in isolate(stopping)]
+    stops = [event.t for event in events_of((stopping,), STOP_WIDTH)[1:-1]]
     fastest = root_above(max(bounds(c)[1] for c in squared))
     total = Enclosure(Fraction(0), sum((fastest * (high - low) for low, high in stops), Fraction(0)))
     f, q = ([bounds(c) for c in bs.to_power(part)] for part in (factor, radicand))
@@ -254,7 +254,7 @@ def is_regular(curve: Bezier) -> bool:
 
 def _has_root(b: bs.Coefficients) -> bool:
     """Whether a polynomial other than 0 has a root in [0, 1]."""
-    return is_zero(b[0]) or is_zero(b[-1]) or (bs.sign_changes(b) > 0 and bool(isolate(b)))
+    return is_zero(b[0]) or is_zero(b[-1]) or (bs.sign_changes(b) > 0 and len(events_of((b,))) > 2)
 
 
 def _reduced(*quotient: bs.Coefficients) -> list[bs.Coefficients]:

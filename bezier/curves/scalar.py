@@ -71,6 +71,22 @@ def exactly(value: Any) -> Fraction:
     return Fraction(value)
 
 
+def generator_of(values: Iterable[Any]) -> Any:
+    """The generator of the field of these values; None over Q."""
+    return next((value.field.theta for value in values if rational(value) is None), None)
+
+
+def coefficients_of(value: Any) -> list[Fraction]:
+    """A coordinate as a polynomial in the generator of its field."""
+    number = rational(value)
+    if number is not None:
+        return [number]
+    coefficients = list(value.coefficients)
+    while len(coefficients) > 1 and not coefficients[-1]:
+        coefficients.pop()
+    return coefficients
+
+
 def exact_text(value: Any) -> str:
     """Exact text: ``-3/4`` for a rational number, the field's own notation otherwise."""
     number = rational(value)

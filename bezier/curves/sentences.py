@@ -27,7 +27,7 @@ from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import Terms, rational
+from bezier.curves.scalar import Terms, coefficients_of, generator_of
 from qe.certify.claims import is_about
 from qe.certify.registry import RULES
 from qe.certify.verify import verify
@@ -69,8 +69,7 @@ class CurveSentence:
     @cached_property
     def theta(self) -> Any:
         """The generator of the field of the curve; None over Q."""
-        values: Iterator[Any] = (c for p in self.curve.points for c in p)
-        return next((v.field.theta for v in values if rational(v) is None), None)
+        return generator_of(c for p in self.curve.points for c in p)
 
     @cached_property
     def ring(self) -> Ring:
@@ -287,17 +286,6 @@ def _divided(poly: Poly, p: Poly, i: int) -> tuple[int, Poly, Poly]:
         factor = rest.leading(i) * x ** (rest.degree(i) - degree)
         scale, quotient, rest = scale * lead, quotient * lead + factor, rest * lead - factor * p
     return scale, quotient, rest
-
-
-def coefficients_of(value: Any) -> list[Fraction]:
-    """A coordinate as a polynomial in the generator of its field."""
-    number = rational(value)
-    if number is not None:
-        return [number]
-    coefficients = list(value.coefficients)
-    while len(coefficients) > 1 and not coefficients[-1]:
-        coefficients.pop()
-    return coefficients
 
 
 def dyadic_interval(theta: Any, bits: int) -> tuple[Fraction, Fraction]:

@@ -28,7 +28,7 @@ from bezier.curves import bernstein as bs
 from bezier.curves.bernstein import Numbers, halves
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds
-from bezier.curves.nonnegative import UNIT, WIDTH, Interval, events_of, located
+from bezier.curves.nonnegative import Interval, events_of
 from bezier.curves.scalar import Vector, sign
 from bezier.obstacles.obstacle import Box, Constraint, Exponents, Obstacle, Piece
 from qe.errors import InputError
@@ -246,8 +246,8 @@ def _crosses_up(form: Numbers) -> bool:
 
 def _crossing(part: _Part, *, attained: bool) -> Hit:
     """The contact where the only open constraint crosses zero once."""
-    form = part.open[0][1]
-    return _on_curve(part, located(0, UNIT, [form], [form], WIDTH).t, attained)
+    _, crossing, _ = events_of((part.open[0][1],))
+    return _on_curve(part, crossing.t, attained)
 
 
 def _halved(part: _Part) -> list[_Part]:

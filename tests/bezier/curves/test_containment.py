@@ -16,7 +16,7 @@ import qe
 from bezier.curves import bernstein as bs
 from bezier.curves.containment import Argument, Inside, Leaves, containment, examine, examine_closely
 from bezier.curves.curve import Bezier
-from bezier.curves.nonnegative import Negative, Nonnegative, decide, isolate, refine
+from bezier.curves.nonnegative import Negative, Nonnegative, decide, events_of
 from bezier.curves.scalar import sign
 from bezier.curves.sentences import UNIT as UNIT_INTERVAL
 from bezier.curves.sentences import CurveSentence
@@ -24,7 +24,7 @@ from bezier.curves.workspace import Ball, HalfSpace, Workspace, WorkspaceKind
 from qe.exact.field import NumberField
 from qe.exact.radicals import root_text
 from qe.formula.syntax import Relation
-from tests.bezier.made import Root2, control_points, small, surds
+from tests.bezier.made import control_points, root2, small, surds
 from tests.tables import each
 
 ORIGIN = (Fraction(0),) * 3
@@ -71,40 +71,27 @@ def test_isolation_finds_the_roots_inside(roots):
     for root in roots:
         power = bs.power_multiply(power, (-root, Fraction(1)))
     expected = sorted({r for r in roots if 0 < r < 1})
-    found = isolate(bs.from_power(power))
+    found = [event.t for event in events_of((bs.from_power(power),))[1:-1]]
     assert len(found) == len(expected)
     for (low, high), root in zip(found, expected, strict=True):
         assert low == root == high or low < root < high
 
 
-def test_refine():
-    b = bs.from_power((Fraction(-1), Fraction(0), Fraction(2)))  # 2 t^2 - 1
-    low, high = refine(b, isolate(b)[0], Fraction(1, 10**12))
-    assert low**2 < Fraction(1, 2) < high**2 and high - low <= Fraction(1, 10**12)
-
-
-def bisected(b, interval, width):
-    """By values of the polynomial alone."""
-    low, high = interval
-    below = sign(bs.value(b, low))
-    while high - low > width:
-        middle = (low + high) / 2
-        here = sign(bs.value(b, middle))
-        if here == 0:
-            return middle, middle
-        low, high = (middle, high) if here == below else (low, middle)
-    return low, high
-
-
 @given(
-    st.lists(st.fractions(-9, 9, max_denominator=7), min_size=2, max_size=7).filter(any),
-    st.sampled_from([Fraction(1, 2**50), Fraction(1, 3), Fraction(1, 1000), Fraction(5, 4)]),
+    st.lists(st.integers(0, 255), min_size=1, max_size=4, unique=True),
+    st.sampled_from([(Fraction(1), Fraction(0)), (Fraction(-1, 2), Fraction(0), Fraction(1))]),
 )
-def test_integers_bisect_to_the_same_interval(numbers, width):
-    b = tuple(numbers)
-    for interval in isolate(b):
-        if interval[0] < interval[1]:
-            assert refine(b, interval, width) == bisected(b, interval, width)
+def test_roots_are_between_neighbouring_multiples_of_the_width(places, other):
+    power = other
+    for k in places:
+        power = bs.power_multiply(power, (-Fraction(2 * k + 1, 512), Fraction(1)))
+    b, width = bs.from_power(power), Fraction(1, 256)
+    found = [event.t for event in events_of((b,), width)[1:-1]]
+    exact = {(Fraction(2 * k + 1, 512),) * 2 for k in places}
+    assert exact <= {*found}
+    irrational = [t for t in found if t not in exact]
+    assert all(low < high and sign(bs.value(b, low)) * sign(bs.value(b, high)) < 0 for low, high in irrational)
+    assert len(found) == len(places) + (len(other) == 3)
 
 
 @given(control_points(1, 4, dimension=2), st.fractions(min_value=1, max_value=20, max_denominator=4))
@@ -159,9 +146,9 @@ def test_tangency_at_a_parameter_that_is_not_dyadic():
 
 def test_tangency_at_an_irrational_parameter():
     # (t - (sqrt2 - 1))^2 over Q(sqrt 2)
-    a = Root2(Fraction(-1), Fraction(1))
-    heights = bs.from_power((a * a, -2 * a, Root2.of(1)))
-    curve = Bezier.of([(Root2.of(k), Root2.of(0), z) for k, z in enumerate(heights)])
+    a = root2(Fraction(-1), Fraction(1))
+    heights = bs.from_power((a * a, -2 * a, root2(Fraction(1))))
+    curve = Bezier.of([(root2(Fraction(k)), root2(Fraction(0)), z) for k, z in enumerate(heights)])
     outcome = examine(curve, HalfSpace((Fraction(0), Fraction(0), Fraction(1)), Fraction(0)))
     assert isinstance(outcome, Inside) and outcome.test is Argument.ROOTS
     assert [(low + 1) ** 2 <= 2 <= (high + 1) ** 2 for low, high in outcome.touches] == [True]
