@@ -19,8 +19,9 @@ class Conic:
     def __init__(self, *tolerances: float) -> None:
         self._tolerances, self.multipliers = tolerances, list[float]()
         self._width = self._height = 0
-        self._rows: list[tuple[Any, Any, Any]] = []
-        self._right: list[Any] = []
+        none = np.zeros(0)
+        self._rows: list[tuple[Any, Any, Any]] = [(none.astype(int), none.astype(int), none)]
+        self._right: list[Any] = [none]
         self._cones: list[tuple[str, int]] = []
         self._costs: list[tuple[Any, Any]] = []
         self._squares: list[Terms] = []

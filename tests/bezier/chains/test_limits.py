@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -75,6 +76,26 @@ def test_a_bound_that_the_witness_breaks_is_refused() -> None:
     stretched = members[0].label.replace("with chords ", "with chords 1")
     with pytest.raises(CertificateRejected):
         checked(made.chain, Certificate.bundle([(stretched, members[0].certificate)]))
+
+
+def test_bounds_hold_without_a_ball_or_half_spaces() -> None:
+    for given in ({"max_length": 14}, {"max_curvature": 1}, {"max_length": 14, "degree": 5}):
+        made = bezier.chain(start=[0, 0], via=[[4, 3], [6, 1]], goal=[8, 0], **given)
+        assert made.feasible and checked(made.chain, made.proof)
+        assert not limits.keeps_limits(made.chain, made.curves)
+    assert not bezier.chain(start=[0, 0], via=[[4, 3], [6, 1]], goal=[8, 0], max_length=9).feasible
+
+
+def test_a_witness_that_is_none_is_refused_where_a_bound_has_to_be_kept() -> None:
+    made = chain(max_length=14)
+    (below, above) = made.proof.payload
+    step = dict(above.certificate.payload)
+    step["steps"] = [{**step["steps"][0], "rule": "signs"}]
+    other = Certificate.bundle(
+        [(below.label, below.certificate), (above.label, replace(above.certificate, payload=step))]
+    )
+    with pytest.raises(CertificateRejected, match="expected a witness"):
+        checked(made.chain, other)
 
 
 def test_a_broken_proposer_breaks_no_bound(monkeypatch: pytest.MonkeyPatch) -> None:
