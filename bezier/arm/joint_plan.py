@@ -175,7 +175,7 @@ def animation(plan: JointPlan) -> str:
         {
             "names": [joint.name for joint in arm.joints],
             "turns": [joint.motion is JointKind.REVOLUTE for joint in arm.joints],
-            "moving": [row.joint is not None for row in arm.rows],
+            "moving": [arm.rows[k - 1].joint is not None for k in arm.ends[1:]],
             "path": trace,
             "duration": float(plan.duration),
             "frames": [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from math import pi
@@ -128,23 +129,14 @@ def jacobians(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
 
 
 def skeleton(arm: Arm, q: Sequence[float]) -> list[list[float]]:
-    """The points of the base and of every frame (mm) for one joint position (rad or mm), for pictures."""
-    import numpy as np
-
-    motions = iter(_motions(arm, np.atleast_2d(np.asarray(q, dtype=float))))
-    whole, result = np.eye(4), [[0.0, 0.0, 0.0]]
-    for row, (before, after) in zip(arm.rows, _row_constants(arm), strict=True):
-        whole = whole @ before
-        if row.joint is not None:
-            whole = whole @ next(motions)[0]
-        whole = whole @ after
-        result.append([float(v) for v in whole[:3, 3]])
-    return result
+    """The ends of the links (mm), from the base on, for one joint position (rad or mm), for pictures."""
+    parts = ((part, [q[: len(part.joints)]]) for part in _parts(arm))
+    return [[0.0, 0.0, 0.0], *(positions(part, values)[0].tolist() for part, values in parts)]
 
 
 @lru_cache(maxsize=64)
-def _row_constants(arm: Arm) -> tuple[tuple[Floats, Floats], ...]:
-    return tuple((_floats(before), _floats(after)) for before, after in map(arm.parts, arm.rows))
+def _parts(arm: Arm) -> tuple[Arm, ...]:
+    return tuple(replace(arm, rows=arm.rows[:k]) for k in arm.ends[1:])
 
 
 def wrapped(angle: float) -> float:

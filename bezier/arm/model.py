@@ -203,6 +203,11 @@ class Arm:
         return tuple(row.joint for row in self.rows if row.joint is not None)
 
     @property
+    def ends(self) -> tuple[int, ...]:
+        """Behind how many rows the frames are that are ends of links, the base first."""
+        return (0, *(k for k, row in enumerate(self.rows, start=1) if not row.is_within))
+
+    @property
     def has_limits(self) -> bool:
         """Whether a joint has limits."""
         return any(joint.limits is not None for joint in self.joints)

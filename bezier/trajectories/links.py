@@ -82,8 +82,7 @@ class Links:
     @staticmethod
     def of(arm: Arm, joints: Trajectory, bodies: Sequence[tuple[str, Body]]) -> Links:
         """Everything decided. Raises ``Unable``."""
-        ends = [0, *(k for k, row in enumerate(arm.rows, start=1) if not row.is_within)]
-        starts = {k: start for start, k in pairwise(ends) if _moves(arm, start, k)}
+        starts = {k: start for start, k in pairwise(arm.ends) if _moves(arm, start, k)}
         used = sorted({*starts, *starts.values()})
         frames = dict(zip(used, frames_of(arm, joints, NEAR, used), strict=True))
         spans, touches = dict[Pair, tuple[Span, ...]](), dict[Pair, Touch]()

@@ -96,6 +96,8 @@ def test_a_shift_along_two_axes_is_one_straight_link_where_it_is_one(is_within: 
     rows = [Row(a, Angle(), F(0), Angle(turn), moving) for a, turn, moving in lengths]
     rows[1] = replace(rows[1], is_within=is_within)
     arm = Robot(Arm("L", Convention.MODIFIED, tuple(rows), "test"))
+    corner = [] if is_within else [[100, 0, 0]]
+    assert np.allclose(skeleton(arm.arm, [0]), [[0, 0, 0], [0, 0, 0], *corner, [100, 100, 0]])  # as pages draw it
     moved = CubicSpline([0, 1, 2], [[0], [0.1], [0.2]])
     for centre, is_straight in (([80, 10, 0], False), ([50, 50, 0], True)):
         found = bezier.certify(moved, robot=arm, obstacles=[{**BALL, "centre": centre}])
