@@ -86,8 +86,8 @@ def best_within(
         raise Unable(f"no chain was seen to keep the bounds: {broken or 'conditions are broken'}")
     varying = [row for row in outer if not row.form.is_constant]
     proposal = proposals.least_value(chain, solved.size, varying, objective_form(chain, solved))
-    none = (_ZERO,) * len(varying)
-    for weights in (*rational_weights(proposal.weights), none) if proposal is not None else ():
+    nothing = (_ZERO,) * len(varying)
+    for weights in (*rational_weights(proposal.weights), nothing) if proposal is not None else ():
         named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
         try:
             return bounded(chain, solved, outer, point, named, _ONE)
