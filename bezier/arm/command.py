@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import degrees
@@ -36,38 +35,34 @@ def inverse(
     point: Sequence[Any],
     quaternion: Sequence[Any] | None = None,
     *,
-    as_json: bool,
     certified: bool = False,
-) -> tuple[str, str]:
-    """``bezier ik``: at a point, or at a pose. What to print, and the certificate as text where one is asked for.
+) -> tuple[dict[str, Any], list[str], str]:
+    """``bezier ik``: at a point, or at a pose. What to print, as data and as lines, and the certificate as text where
+    one is asked for.
 
     Raises ``Unable`` where there is no certificate."""
     if quaternion is None and len(arm.joints) > MOST_FOR_A_POINT:
         raise InputError(f"{arm.name} has {len(arm.joints)} joints: --quaternion W X Y Z expected, the orientation")
     result = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
     certificate = inverse_certificate(result).to_json() if certified else ""
-    if as_json:
-        data = {"status": "solved", **to_json(result), **({"certified": True} if certified else {})}
-        return json.dumps(data, indent=1, ensure_ascii=False), certificate
-    return "\n".join([*in_words(result), *(["certificate: accepted"] if certified else [])]), certificate
+    data = {"status": "solved", **to_json(result), **({"certified": True} if certified else {})}
+    return data, [*in_words(result), *(["certificate: accepted"] if certified else [])], certificate
 
 
 def certify(
-    channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, as_json: bool, certified: bool = False
-) -> tuple[str, str, bool]:
-    """``bezier certify-path``: what to print, the certificates of the continuous joint motions as text, and whether
-    there are any where they are asked for."""
+    channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, certified: bool = False
+) -> tuple[dict[str, Any], list[str], str, bool]:
+    """``bezier certify-path``: what to print, as data and as lines, the certificates of the continuous joint motions as
+    text, and whether there are any where they are asked for."""
     result = joint_path(arm, curves)
     listed = certificates(result)
     bundle = Certificate.bundle(listed)
     verdict = verify(bundle)
     proof, has_proof = bundle.to_json() if listed else "", bool(listed) or not certified
-    if as_json:
-        data = {"status": "solved", **path_report.to_json(result), "certified": verdict.accepted}
-        data["without_certificate"] = without_certificate(result, listed)
-        return json.dumps(data, indent=1, ensure_ascii=False), proof, has_proof
+    data = {"status": "solved", **path_report.to_json(result), "certified": verdict.accepted}
+    data["without_certificate"] = without_certificate(result, listed)
     lines = [*path_report.in_words(result), *evidence.in_words(result, listed, verdict)]
-    return "\n".join(lines), proof, has_proof
+    return data, lines, proof, has_proof
 
 
 def to_json(answer: Inverse) -> dict[str, Any]:

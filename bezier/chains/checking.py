@@ -112,10 +112,10 @@ def _keeps_limits(chain: Chain, member: Labelled) -> None:
     solved = chain.solved
     if chain.max_length is None and chain.max_curvature is None:
         return
-    found = member.certificate.evidence_for("instance") if solved.size else {"values": ()}
-    if found is None:
+    witness = member.certificate.evidence_for("instance") if solved.size else {"values": ()}
+    if witness is None:
         raise CertificateRejected(member.label, "expected a witness")
-    flat, d = [Fraction(text) for text in found["values"]], chain.dimension
+    flat, d = [Fraction(text) for text in witness["values"]], chain.dimension
     points = [tuple(flat[i : i + d]) for i in range(0, len(flat), d)]
     if broken := keeps_limits(chain, solved.curves(points)):
         raise CertificateRejected(member.label, broken)

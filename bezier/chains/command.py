@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
+from typing import Any
 
 from bezier.chains.checking import checked
 from bezier.chains.plan import bundled, planned
@@ -14,15 +14,10 @@ from qe.processes.channel import Channel
 
 
 def run(
-    channel: Channel,
-    file: Path,
-    *,
-    evidence: bool = False,
-    page: bool = False,
-    region: str | None = None,
-    as_json: bool = False,
-) -> tuple[str, str, str, bool]:
-    """What to print, the texts of certificate and page where they are wanted, and whether there is a chain."""
+    channel: Channel, file: Path, *, evidence: bool = False, page: bool = False, region: str | None = None
+) -> tuple[dict[str, Any], list[str], str, str, bool]:
+    """What to print, as data and as lines, the texts of certificate and page where they are wanted, and whether there
+    is a chain."""
     made = planned(load_chain(file)).with_repairs()
     data, lines = made.to_json(), made.lines
     shown = None if region is None else made.region(region)
@@ -33,13 +28,10 @@ def run(
             data["region"]["may move by"] = [described(radius.low), described(radius.high)]
             lines.append(str(radius))
     proof = made.proof if shown is None or made.searched else bundled([made.proof, shown.certificate])
-    text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
-    return text, proof.to_json() if evidence else "", made.page(file.name, shown) if page else "", made.feasible
+    return data, lines, proof.to_json() if evidence else "", made.page(file.name, shown) if page else "", made.feasible
 
 
-def check(channel: Channel, file: Path, against: Path, *, as_json: bool = False) -> str:
+def check(channel: Channel, file: Path, against: Path) -> tuple[dict[str, Any], list[str]]:
     """What a certificate proves about the chain of the file. Raises ``CertificateRejected``."""
     lines = checked(load_chain(file), stored.certificate(against))
-    if as_json:
-        return json.dumps({"status": "accepted", "checked": lines}, indent=1, ensure_ascii=False)
-    return "\n".join([*lines, "accepted"])
+    return {"status": "accepted", "checked": lines}, [*lines, "accepted"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path as FilePath
 from typing import Any
@@ -33,11 +32,10 @@ def clearance(
     other: FilePath | None = None,
     *,
     evidence: bool = False,
-    as_json: bool = False,
     timeout: float | None = None,
-) -> tuple[str, str]:
-    """What to print, and the certificates where ``evidence`` is wanted. Raises ``InputError`` for bad input, ``Unable``
-    when a problem has no path to examine.
+) -> tuple[dict[str, Any], list[str], str]:
+    """What to print, as data and as lines, and the certificates where ``evidence`` is wanted. Raises ``InputError`` for
+    bad input, ``Unable`` when a problem has no path to examine.
 
     ``source``: a folder of ``bezier plan``, a problem, or a file with ``[[curve]]`` and ``[[obstacle]]`` tables;
     ``other``: a file whose obstacles are taken instead.
@@ -57,8 +55,7 @@ def clearance(
             members += derivations.members(derived)
         certificate = qe.Certificate.bundle(members)
         verdict = qe.verify(certificate) if members else None
-    text = _as_json(findings, verdict) if as_json else _in_words(findings, verdict)
-    return text, certificate.to_json() if evidence else ""
+    return _as_json(findings, verdict), _in_words(findings, verdict), certificate.to_json() if evidence else ""
 
 
 def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], Mapping[str, Any]]:
@@ -77,18 +74,17 @@ def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], M
     return plan.path.curves, problem.obstacles, plan.eliminations
 
 
-def _as_json(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
-    data: dict[str, Any] = {
+def _as_json(findings: Sequence[Finding], verdict: qe.Verdict | None) -> dict[str, Any]:
+    return {
         "status": "solved",
         "clear": not survey.contacts(findings),
         "findings": [survey.to_json(finding) for finding in findings],
         "certificates": "none" if verdict is None else "accepted" if verdict.accepted else "rejected",
     }
-    return json.dumps(data, indent=1, ensure_ascii=False)
 
 
-def _in_words(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
+def _in_words(findings: Sequence[Finding], verdict: qe.Verdict | None) -> list[str]:
     contacts = survey.contacts(findings)
     last = f"{len(contacts)} of {len(findings)} pairs meet" if contacts else f"all {len(findings)} pairs are clear"
     accepted = "none" if verdict is None else "accepted" if verdict.accepted else "REJECTED"
-    return "\n".join([*map(survey.in_words, findings), f"{last}; certificates: {accepted}"])
+    return [*map(survey.in_words, findings), f"{last}; certificates: {accepted}"]

@@ -43,11 +43,10 @@ ROUNDING = Fraction(1, 10**6)
 """Times are rounded to microseconds."""
 
 
-def run(channel: Channel, folder: FilePath, *, as_json: bool = False) -> str:
-    """``bezier check``: what to print."""
+def run(channel: Channel, folder: FilePath) -> tuple[dict[str, Any], list[str]]:
+    """``bezier check``: what to print, as data and as lines."""
     lines = recheck(channel, folder)
-    data = {"status": "accepted", "checked": lines}
-    return json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
+    return {"status": "accepted", "checked": lines}, lines
 
 
 def recheck(channel: Channel, folder: FilePath) -> list[str]:

@@ -6,6 +6,7 @@ line on stderr.
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
@@ -65,12 +66,13 @@ Said = tuple[str, bool]
 
 
 def answered(work: Callable[..., Any], common: Mapping[str, Any], *files: Path | None, lines: bool = False) -> Said:
-    """What the work says in a worker, under the limits; its other results go into ``files``, those that are wanted and
-    not empty, whole; one that is true or false at last says whether it found what was asked for."""
+    """What the work says in a worker, under the limits: JSON data and lines, of which one is wanted; its other results
+    go into ``files``, those that are wanted and not empty, whole; one that is true or false at last says whether it
+    found what was asked for."""
     check_writable(*files)
     limits = {"timeout": common["timeout"], "memory": common["memory"], "plain": common["json"], "lines": lines}
-    said = limited(partial(work, as_json=common["json"]), **limits)
-    text, *rest = said if isinstance(said, tuple) else (said,)
+    data, listed, *rest = limited(work, **limits)
+    text = json.dumps(data, indent=1, ensure_ascii=False) if common["json"] else "\n".join(listed)
     is_success = rest.pop() if rest and isinstance(rest[-1], bool) else True
     for name, content in zip(files, rest, strict=True):
         if name is not None and content:

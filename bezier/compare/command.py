@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path as FilePath
 from time import perf_counter
+from typing import Any
 
 from markupsafe import Markup
 
@@ -144,17 +145,17 @@ def run(
     target: FilePath | None = None,
     *,
     plots: bool = True,
-    as_json: bool = False,
     timeout: float | None = None,
-) -> str:
-    """The comparison, with its files in ``folder`` (whose place will be ``target``) if there is one; what to print."""
+) -> tuple[dict[str, Any], list[str]]:
+    """The comparison, with its files in ``folder`` (whose place will be ``target``) if there is one; what to print, as
+    data and as lines."""
     clock = Clock(limit=timeout, listener=channel.event, note=channel.fact)
     result = compare(problem, clock, proofs=folder is not None)
-    files, last = [], ""
+    files, last = list[str](), list[str]()
     if folder is not None and target is not None:
         files = _write(result, folder, target, plots=plots)
-        last = f"\n{len(files)} files in {target}: open {target / PAGE}"
-    return json.dumps(to_json(result, files), indent=1, ensure_ascii=False) if as_json else table(result) + last
+        last = [f"{len(files)} files in {target}: open {target / PAGE}"]
+    return to_json(result, files), [table(result), *last]
 
 
 def _write(comparison: Comparison, folder: FilePath, target: FilePath, *, plots: bool) -> list[str]:

@@ -16,14 +16,11 @@ from itertools import pairwise
 from math import lcm
 from typing import Any
 
-from flint import fmpq
-
 from bezier.curves import bernstein as bs
 from bezier.curves.scalar import coefficients_of, generator_of, is_zero, sign
 from qe.errors import Unable
-from qe.exact.balls import ends
 from qe.exact.fibre_stack import isolate_over
-from qe.exact.nearby import rational_between
+from qe.exact.nearby import multiples_around, rational_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 
@@ -112,8 +109,6 @@ def _end_touches(b: bs.Coefficients, boxes: Sequence[Interval]) -> tuple[Interva
 
 WIDTH = Fraction(1, 2**80)
 """To what width a root is refined before a common root is suspected; also the width of what is returned."""
-MAX_DENOMINATOR = 10**6
-"""Rational roots up to this denominator are recognised as such."""
 ZERO, ONE = Fraction(0), Fraction(1)
 
 
@@ -137,12 +132,12 @@ def events_of(forms: Sequence[bs.Coefficients], width: Fraction = WIDTH) -> tupl
     stack = isolate_over(Point.of(ring, () if theta is None else (theta,)), tuple(dict.fromkeys(polys)))
     first, last = (2 * below + is_root for below, is_root in map(stack.place_of, (ZERO, ONE)))
     inner = range(first // 2 + first % 2, last // 2)
-    values = [fmpq(0), *(stack.sections[k].value for k in inner), fmpq(1)]
-    placed, units = list(map(_around, values, [width] * len(values))), [width] * len(values)
+    values = [ZERO, *(stack.sections[k].value for k in inner), ONE]
+    placed, units = [multiples_around(v, width) for v in values], [width] * len(values)
     while clashes := {j for k in range(len(placed) - 1) if placed[k][1] >= placed[k + 1][0] for j in (k, k + 1)}:
         for k in clashes:
             units[k] /= 2
-            placed[k] = _around(values[k], units[k])
+            placed[k] = multiples_around(values[k], units[k])
     known = map(stack.signs_at, (first, *(2 * k + 1 for k in inner), last))
     return tuple(Event(t, tuple(signs[p] for p in polys)) for t, signs in zip(placed, known, strict=True))
 
@@ -154,18 +149,3 @@ def _poly(ring: Ring, form: bs.Coefficients) -> Poly:
     named = ring.names[0] == "root"
     listed = ((((j, k) if named else (k,)), int(c * below)) for k, row in enumerate(rows) for j, c in enumerate(row))
     return ring.from_terms({powers: c for powers, c in listed if c})
-
-
-def _around(value: Any, unit: Fraction) -> Interval:
-    """The neighbouring multiples of ``unit`` around a root, which is told exactly where it is one of them, or a
-    fraction that is short next to them."""
-    if isinstance(value, fmpq):
-        exact = Fraction(int(value.p), int(value.q))
-        return exact, exact
-    low, high = ends(value.ball(unit.denominator.bit_length() + 4))
-    middle = Fraction((low + high) / 2)
-    for guess in (middle.limit_denominator(MAX_DENOMINATOR), round(middle / unit) * unit):
-        side = value.compare_rational(fmpq(guess.numerator, guess.denominator))
-        if side == 0:
-            return guess, guess
-    return (guess, guess + unit) if side > 0 else (guess - unit, guess)

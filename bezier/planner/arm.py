@@ -188,18 +188,15 @@ def joints(
     file: str,
     folder: Path,
     target: Path,
-    as_json: bool = False,
-) -> tuple[str, bool]:
+) -> tuple[dict[str, Any], list[str], bool]:
     """Plan the joints along the curves of ``file``, write the files into ``folder``, whose place will be ``target``;
-    what to print, and whether the arm follows."""
+    what to print, as data and as lines, and whether the arm follows."""
     plan = plans.joint_plan(arm, curves, law, duration, samples)
     written = _Written.of(plan, lambda accepted: {"certified": accepted})
     for name, text in {**written.texts, PAGE: render(plan, file)}.items():
         (folder / name).write_text(text, encoding="utf-8")
-    if as_json:
-        return json.dumps(written.data, indent=1, ensure_ascii=False), plan.is_followed
     lines = [*plans.in_words(plan), *evidence.in_words(plan.path, written.listed, written.verdict)]
-    return "\n".join([*lines, f"open {target / PAGE}"]), plan.is_followed
+    return written.data, [*lines, f"open {target / PAGE}"], plan.is_followed
 
 
 def render(plan: JointPlan, file: str) -> str:

@@ -67,16 +67,12 @@ def plan(
     target: FilePath,
     *,
     plots: bool = True,
-    as_json: bool = False,
     timeout: float | None = None,
-) -> tuple[str, bool]:
-    """``bezier plan``: all files into ``folder``, whose place will be ``target``; what to print, and whether
-    there is a path to use."""
+) -> tuple[dict[str, Any], list[str], bool]:
+    """``bezier plan``: all files into ``folder``, whose place will be ``target``; what to print, as data and as lines,
+    and whether there is a path to use."""
     clock = Clock(limit=timeout, listener=channel.event, note=channel.fact)
     made = make_plan(problem, clock, proofs=True)
     files, facts = write_folder(made, folder, target, clock, plots=plots)
-    good = made.outcome.is_success
-    if as_json:
-        return json.dumps(facts, indent=1, ensure_ascii=False), good
     last = f"{len(files)} files in {target} ({facts['seconds']['total']:.2f} s): open {target / REPORT}"
-    return "\n".join([*lines(made), last]), good
+    return facts, [*lines(made), last], made.outcome.is_success

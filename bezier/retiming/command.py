@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from bezier.input import stored
 from bezier.input.toml_table import Table
@@ -25,9 +25,9 @@ def run(
     evidence: bool = False,
     against: Path | None = None,
     page: bool = False,
-    as_json: bool = False,
-) -> tuple[str, str, str, str]:
-    """What to print, the motion as CSV, the certificate's text and the page where they are wanted.
+) -> tuple[dict[str, Any], list[str], str, str, str]:
+    """What to print, as data and as lines, the motion as CSV, the certificate's text and the page where they are
+    wanted.
 
     ``against``: a certificate that is checked about this path, in place of a search. Raises ``InputError``, ``Unable``,
     and ``CertificateRejected`` for that certificate.
@@ -42,6 +42,5 @@ def run(
     if against is not None:
         data["checked"] = True
         lines.append("accepted")
-    text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
     proof = result.certificate.to_json() if evidence else ""
-    return text, result.to_csv(), proof, result.page(file.name) if page else ""
+    return data, lines, result.to_csv(), proof, result.page(file.name) if page else ""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 from bezier.input import stored
@@ -21,10 +20,9 @@ def run(
     picture: str = "",
     page: bool = False,
     wish: Wish | None = None,
-    as_json: bool = False,
-) -> tuple[str, str, bytes, str, bool]:
-    """What to print, the certificate, a ``picture`` of this kind (svg, png, pdf) and a ``page`` where they are wanted,
-    and whether there is a way.
+) -> tuple[dict[str, object], list[str], str, bytes, str, bool]:
+    """What to print, as data and as lines, the certificate, a ``picture`` of this kind (svg, png, pdf) and a ``page``
+    where they are wanted, and whether there is a way.
 
     ``against``: the file of a certificate that is checked about this scene, in place of a search. Raises
     ``CertificateRejected`` where it is not about it.
@@ -48,6 +46,5 @@ def run(
             from bezier.report import html, route
 
             shown = html.document(route.page(known, lines, file.name))
-    text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
     proof = "" if known.certificate is None else known.certificate.to_json()
-    return text, proof, drawn, shown, not known.blocked
+    return data, lines, proof, drawn, shown, not known.blocked

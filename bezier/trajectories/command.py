@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -109,9 +108,9 @@ def certify(
     evidence: bool = False,
     against: Path | None = None,
     page: bool = False,
-    as_json: bool = False,
-) -> tuple[str, str, str]:
-    """What to print, the certificate's text where ``evidence`` is wanted, and the page with a chart of each quantity.
+) -> tuple[dict[str, Any], list[str], str, str]:
+    """What to print, as data and as lines, the certificate's text where ``evidence`` is wanted, and the page with a
+    chart of each quantity.
 
     ``against``: a certificate that is checked. Raises ``InputError``, ``Unable``, and ``CertificateRejected`` for that
     certificate.
@@ -129,8 +128,7 @@ def certify(
         judged.check(stored.certificate(against))
         lines.append("the certificate proves it: accepted")
     proof = judged.certificate.to_json() if evidence else ""
-    text = json.dumps(data, indent=1, ensure_ascii=False) if as_json else "\n".join(lines)
-    return text, proof, judged.page(file.name) if page else ""
+    return data, lines, proof, judged.page(file.name) if page else ""
 
 
 @dataclass(frozen=True)

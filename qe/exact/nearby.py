@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from math import lcm
+from typing import Any
 
 from flint import arb, fmpq
 
@@ -18,6 +19,7 @@ from qe.exact.sample import Point
 _FIRST_BITS = 64
 _MOST_BITS = 8192
 _CLOSE = 30
+_SHORT = 10**6
 Balls = list[arb]
 
 
@@ -25,6 +27,20 @@ def rational_values(point: Point) -> tuple[Fraction, ...]:
     """The coordinates of a point all of whose coordinates are rational."""
     values = (point.number(i) for i in range(point.depth))
     return tuple(value for value in values if isinstance(value, Fraction))
+
+
+def multiples_around(value: Any, unit: Fraction) -> tuple[Fraction, Fraction]:
+    """The neighbouring multiples of ``unit``, a power of 1/2, around a number, which is told exactly (both are equal
+    then) where it is rational and known as such, one of them, or a fraction with a short denominator."""
+    if isinstance(value, Fraction | fmpq):
+        return Fraction(str(value)), Fraction(str(value))
+    low, high = ends(value.ball(unit.denominator.bit_length() + 4))
+    middle = Fraction((low + high) / 2)
+    for guess in (middle.limit_denominator(_SHORT), round(middle / unit) * unit):
+        side = value.compare_rational(fmpq(guess.numerator, guess.denominator))
+        if side == 0:
+            return guess, guess
+    return (guess, guess + unit) if side > 0 else (guess - unit, guess)
 
 
 def rational_between(lower: Fraction | RealAlgebraic | None, upper: Fraction | RealAlgebraic | None) -> Fraction:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from fractions import Fraction
 from math import cos, hypot, isclose, pi, sin
 
@@ -305,14 +304,14 @@ def test_a_family_outside_the_limits() -> None:
 
 
 def test_as_json_and_in_words() -> None:
-    said = json.loads(command.inverse(None, load_arm("shoulder-3r"), (0, 0, 150), as_json=True)[0])  # type: ignore[arg-type]
+    said = command.inverse(None, load_arm("shoulder-3r"), (0, 0, 150))[0]  # type: ignore[arg-type]
     assert said["count"] is None and said["free"] == ["theta1"]
     (choice,) = said["solutions"][0]["choices"]
     assert choice["joint"] == "theta1" and choice["possible"] == "all"
     assert choice["values"] == [{"low": {"value": -3.0, "limit": "-3"}, "high": {"value": 3.0, "limit": "3"}}]
     told = command.in_words(solve(load_arm("shoulder-3r"), (0, 0, 150)))
     assert any("theta1 free from -3.000000000 to 3.000000000 rad (its limits)" in line for line in told)
-    said = json.loads(command.inverse(None, PLANAR, (10, 20, 0), as_json=True)[0])  # type: ignore[arg-type]
+    said = command.inverse(None, PLANAR, (10, 20, 0))[0]  # type: ignore[arg-type]
     assert said["solutions"][0]["follow"] == ["theta1", "theta2"]
     (_, positive) = said["solutions"][0]["choices"][0]["possible"]
     low, high = (Fraction(v) for v in positive["low"]["box"]["cos"])

@@ -58,7 +58,7 @@ def test_a_path_outside_all_limits_is_not_reachable() -> None:
     """ "every point can be reached" was said of it, with two motions and their certificates."""
     found = path(CYLINDER, (900, 0, 100), (900, 100, 900))
     assert not found.is_reachable and not found.whole_runs and of_motions(found) == [] and found.allowed_count == 0
-    text, *_ = certify(None, CYLINDER, dict(found.curves), as_json=False)  # type: ignore[arg-type]
+    text, *_ = certify(None, CYLINDER, dict(found.curves))  # type: ignore[arg-type]
     assert "NOT reachable within the limits of the joints from s = 0 on" in text
     assert "reach > 300, its limit, for curve s in (0, 1)" in text and "none of them within the limits" in text
     assert "accepted (none of motions held by boxes, within the limits; one of the number of all motions" in text
@@ -282,12 +282,12 @@ def test_a_side_of_the_axis_is_allowed_or_forbidden(limits: Limits, kept: int) -
 def test_limits_were_left_aside_through_the_axis() -> None:
     """All 4 motions were counted, and no word said of those that θ1 forbids."""
     arm, curves = limited(load_arm(E), (-1, 1)), curves_of(THROUGH)
-    text, *_ = certify(Channel(print), arm, curves, as_json=False)
+    text, *_ = certify(Channel(print), arm, curves)
     assert "4 continuous joint motions from start to goal (proved" in text
     assert "2 of them within the limits of the joints for all s (decided exactly)" in text
     assert "one of the number of all motions, limits left aside" in text
     assert text.count("that it keeps the limits is decided, and not certified") == 2
-    data = json.loads(certify(Channel(print), arm, curves, as_json=True)[0])
+    data = certify(Channel(print), arm, curves)[0]
     assert (data["motions"]["count"], data["motions"]["count_within_limits"]) == (4, 2)
     beyond = {str(m["number"]) for m in data["motions"]["listed"] if m["beyond_limits"]}
     assert len(beyond) == 2 and {*data["without_certificate"]} == {"1", "2", "3", "4"} - beyond
@@ -339,7 +339,7 @@ def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path
     assert (
         found.allowed_count and missing and set(missing.values()) == {"a joint comes closer to a limit than boxes tell"}
     )
-    data = json.loads(certify(Channel(print), arm, curves, as_json=True)[0])
+    data = certify(Channel(print), arm, curves)[0]
     assert data["without_certificate"] == missing
     law = TimeLaw.of(Law.QUINTIC)
     places = {"file": "path.toml", "folder": tmp_path, "target": tmp_path}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from fractions import Fraction
 from math import pi, sqrt
@@ -252,8 +251,8 @@ def test_no_quaternion(quaternion: tuple) -> None:
 
 
 def test_the_command() -> None:
-    said = json.loads(command.inverse(None, SIX, (120, 90, 200), (2, 1, -1, 1), as_json=True)[0])  # type: ignore[arg-type]
+    said = command.inverse(None, SIX, (120, 90, 200), (2, 1, -1, 1))[0]  # type: ignore[arg-type]
     assert said["count"] == len(said["solutions"]) > 0
     assert Robot(SIX).inverse_at_pose((120, 90, 200), (2, 1, -1, 1)).count == said["count"]
     with pytest.raises(InputError, match="--quaternion"):
-        command.inverse(None, SIX, (120, 90, 200), as_json=True)  # type: ignore[arg-type]
+        command.inverse(None, SIX, (120, 90, 200))  # type: ignore[arg-type]
