@@ -67,7 +67,7 @@ def chain(
         given["half_space"] = [
             dict(zip(("normal", "offset"), p, strict=False)) if isinstance(p, list | tuple) else p for p in listed
         ]
-    return limited(partial(unlimited, partial(planned, chain_from(given))), timeout, memory, progress, at_once=True)
+    return limited(partial(unlimited, partial(planned, chain_from(given))), timeout, memory, progress)
 
 
 def chain_from(given: Mapping[str, object]) -> Chain:

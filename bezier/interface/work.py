@@ -22,13 +22,11 @@ from qe.processes.limits import Limits
 T = TypeVar("T")
 
 
-def limited(
-    work: Callable[[Budget], T], timeout: object, memory: object, progress: object, *, at_once: bool = False
-) -> T:
-    """The work under the limits of a caller, in a process that can be killed where it takes longer, or ``at_once``
-    where there are any limits. Raises ``InputError`` for what are none."""
+def limited(work: Callable[[Budget], T], timeout: object, memory: object, progress: object) -> T:
+    """The work under the limits of a caller, in a process that can be killed: at once where there are any limits, as
+    solvers take long without a look at them. Raises ``InputError`` for what are none."""
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    return perform(work, bounds, at_once=at_once and (bounds.timeout is not None or bounds.memory is not None))
+    return perform(work, bounds, at_once=bounds.timeout is not None)
 
 
 def unlimited(work: Callable[[], T], budget: Budget) -> T:

@@ -149,25 +149,17 @@ def least_time(
     *,
     law: Law = Law.LEAST,
     accuracy: Fraction = ACCURACY,
-    tolerance: Fraction = Fraction(1, 10**9),
 ) -> LeastTime:
     """The fastest motion along a path from rest to rest, at most ``accuracy`` above the bound where that is within
     reach. ``law``: one with a formula, in its own least time; the quintic one where jerk is limited, which the bound
     leaves aside. Raises ``InputError`` and ``Unable``."""
     try:
-        return _least_time(path, limits, law, accuracy, tolerance, budget or Budget())
+        return _least_time(path, limits, law, accuracy, budget or Budget())
     except OverflowError:
         raise InputError("path: expected quantities of usual size, found one beyond 10^308") from None
 
 
-def _least_time(
-    path: Trajectory,
-    limits: Sequence[Limit],
-    law: Law,
-    accuracy: Fraction,
-    tolerance: Fraction,
-    budget: Budget,
-) -> LeastTime:
+def _least_time(path: Trajectory, limits: Sequence[Limit], law: Law, accuracy: Fraction, budget: Budget) -> LeastTime:
     bounds = Bounds.of(limits, len(path.names))
     if any(limit.order > 2 for limit in limits):
         if law not in (Law.LEAST, Law.QUINTIC):
@@ -184,7 +176,7 @@ def _least_time(
     def motion(slower: Fraction) -> tuple[Step, ...]:
         return fastest(grid, speeds / float(slower)) if law is Law.LEAST else usual(path, law, seconds * slower)
 
-    steps, verdict = _keeping(grid, limits, tolerance, motion, 1 + MARGIN if law is Law.LEAST else Fraction(1))
+    steps, verdict = _keeping(grid, limits, motion, 1 + MARGIN if law is Law.LEAST else Fraction(1))
     return LeastTime(path, steps, verdict, proved, seconds)
 
 
@@ -223,11 +215,7 @@ def _parts(gaps: Any, goal: float) -> list[int]:
 
 
 def _keeping(
-    grid: Grid,
-    limits: Sequence[Limit],
-    tolerance: Fraction,
-    motion: Callable[[Fraction], tuple[Step, ...]],
-    slower: Fraction,
+    grid: Grid, limits: Sequence[Limit], motion: Callable[[Fraction], tuple[Step, ...]], slower: Fraction
 ) -> tuple[tuple[Step, ...], Verdict]:
     """The motion, slower by as little as is enough. Raises ``Unable`` where it is none or never keeps the limits, and
     ``InputError`` where the path itself breaks one."""
@@ -235,7 +223,7 @@ def _keeping(
         steps = motion(slower)
         if not is_motion(grid.path, grid.stops, steps):
             raise Unable("the path has corners, where this law does not stop")
-        verdict = decided(timed(grid.path, steps), limits, tolerance)
+        verdict = decided(timed(grid.path, steps), limits, _tolerance(grid.path))
         if verdict.is_kept:
             return steps, verdict
         if verdict.factor is None:
@@ -246,6 +234,13 @@ def _keeping(
             raise InputError(f"path: no motion along it keeps the limits: {what}")
         slower *= verdict.factor + MARGIN
     raise Unable("no motion along the path that keeps its limits was found")
+
+
+def _tolerance(path: Trajectory) -> Fraction:
+    """Floats join with small differences: what counts as continuous, by how far the path leads."""
+    places = zip(*([p(Fraction(0)) for p in row] for row in path.pieces), strict=True)
+    span: Fraction = max(max(axis) - min(axis) for axis in places)
+    return max(span, Fraction(1)) / 10**9
 
 
 # --- certificates ----------------------------------------------------------------------------------------------
@@ -284,7 +279,7 @@ def checked(path: Trajectory, limits: Sequence[Limit], certificate: Certificate)
         if not is_motion(path, stops, steps):
             raise ValueError("steps that are no motion along this path")
         seconds = bound(path, stops, Bounds.of(limits, len(path.names)), proved)
-        verdict = decided(timed(path, steps), limits, Fraction(1, 10**9))
+        verdict = decided(timed(path, steps), limits, _tolerance(path))
     except (ValueError, LookupError, ZeroDivisionError) as error:
         raise CertificateRejected("bundle", str(error)) from None
     if verdict.breaking or seconds <= 0:

@@ -55,6 +55,15 @@ def kept(motion: bezier.LeastTime, limits: dict[str, float]) -> None:
             assert np.linalg.norm(rows, axis=0).max() <= limits.get(f"{name}_norm", np.inf) * (1 + 1e-12)
 
 
+@each(1e-9, 1.0, 1e6, 1e9)
+def test_the_unit_of_a_path_of_floats_does_not_matter(unit: float) -> None:
+    """Its pieces join up to rounding errors, which are as large as the numbers are."""
+    places = np.array([[0, 0], [1, 2.3], [3.7, 1], [5, 4.1]]) * unit
+    found = bezier.retime(CubicSpline([0, 1.1, 2, 3.3], places), velocity=3 * unit, acceleration=4 * unit)
+    assert found.verdict.is_kept and abs(float(found.duration) - 4.8596) < 1e-3
+    found.check(found.certificate)
+
+
 @each(
     {
         "speeds up, stays, slows down": (path([[0, 10]]), {"velocity": 2, "acceleration": 4}, 5.5),
