@@ -117,7 +117,8 @@ def test_limits_in_degrees_are_refused() -> None:
 def test_a_path_without_any_motion_is_certified_to_have_none() -> None:
     """It was called rejected, later it had no certificate."""
     away = {"line": Bezier.of([(500, 500, 500), (600, 600, 600)])}
-    text, evidence, _ = command.certify(None, EV3.arm, away)  # type: ignore[arg-type]
+    _, lines, evidence, _ = command.certify(None, EV3.arm, away)  # type: ignore[arg-type]
+    text = "\n".join(lines)
     assert verify_json(evidence).accepted and "REJECTED" not in text and "NOT reachable" in text
 
 

@@ -58,7 +58,7 @@ def test_a_path_outside_all_limits_is_not_reachable() -> None:
     """ "every point can be reached" was said of it, with two motions and their certificates."""
     found = path(CYLINDER, (900, 0, 100), (900, 100, 900))
     assert not found.is_reachable and not found.whole_runs and of_motions(found) == [] and found.allowed_count == 0
-    text, *_ = certify(None, CYLINDER, dict(found.curves))  # type: ignore[arg-type]
+    text = "\n".join(certify(None, CYLINDER, dict(found.curves))[1])  # type: ignore[arg-type]
     assert "NOT reachable within the limits of the joints from s = 0 on" in text
     assert "reach > 300, its limit, for curve s in (0, 1)" in text and "none of them within the limits" in text
     assert "accepted (none of motions held by boxes, within the limits; one of the number of all motions" in text
@@ -234,10 +234,10 @@ def test_the_files_of_a_path_beyond_its_limits(tmp_path: Path) -> None:
     curves = path(CYLINDER, (20, -300, 100), (20, -200, 700), (20, -300, 100)).curves
     wanted = {"law": TimeLaw.of(Law.QUINTIC), "duration": Fraction(50), "samples": 4}
     places = {"file": "path.toml", "folder": tmp_path, "target": tmp_path}
-    text, is_followed = joints(None, CYLINDER, curves, **wanted, **places)  # type: ignore[arg-type]
+    _, lines, is_followed = joints(None, CYLINDER, curves, **wanted, **places)  # type: ignore[arg-type]
     assert (
         not is_followed
-        and "(none of motions held by boxes" in text
+        and "(none of motions held by boxes" in "\n".join(lines)
         and "lift &gt; 250" in (tmp_path / "joints.html").read_text()
     )
 
@@ -282,12 +282,12 @@ def test_a_side_of_the_axis_is_allowed_or_forbidden(limits: Limits, kept: int) -
 def test_limits_were_left_aside_through_the_axis() -> None:
     """All 4 motions were counted, and no word said of those that θ1 forbids."""
     arm, curves = limited(load_arm(E), (-1, 1)), curves_of(THROUGH)
-    text, *_ = certify(Channel(print), arm, curves)
+    data, lines, *_ = certify(Channel(print), arm, curves)
+    text = "\n".join(lines)
     assert "4 continuous joint motions from start to goal (proved" in text
     assert "2 of them within the limits of the joints for all s (decided exactly)" in text
     assert "one of the number of all motions, limits left aside" in text
     assert text.count("that it keeps the limits is decided, and not certified") == 2
-    data = certify(Channel(print), arm, curves)[0]
     assert (data["motions"]["count"], data["motions"]["count_within_limits"]) == (4, 2)
     beyond = {str(m["number"]) for m in data["motions"]["listed"] if m["beyond_limits"]}
     assert len(beyond) == 2 and {*data["without_certificate"]} == {"1", "2", "3", "4"} - beyond
@@ -343,7 +343,8 @@ def test_closeness_that_boxes_do_not_tell_is_said_in_data_and_by_joints(tmp_path
     assert data["without_certificate"] == missing
     law = TimeLaw.of(Law.QUINTIC)
     places = {"file": "path.toml", "folder": tmp_path, "target": tmp_path}
-    text, is_followed = joints(Channel(print), arm, curves, law=law, duration=F(50), samples=4, **places)
+    _, lines, is_followed = joints(Channel(print), arm, curves, law=law, duration=F(50), samples=4, **places)
+    text = "\n".join(lines)
     assert is_followed and all(f"none of motion {n}: a joint comes closer" in text for n in missing)
     assert json.loads((tmp_path / "joints.json").read_text())["without_certificate"] == missing
 
