@@ -1,4 +1,4 @@
-"""When a method is worth trying: pure functions of a problem, each with its reason and what it was measured on."""
+"""When a method is worth trying: pure functions of a problem, each with its reason (figures: docs/algorithms.md)."""
 
 from __future__ import annotations
 
@@ -22,13 +22,11 @@ CAD_FIRST_VARIABLES = 4
 """Up to this many variables decomposition goes first where substitution would square degrees."""
 
 CRITICAL_PARAMETERS = 2
-"""Up to this many parameters critical values go first for convex conditions (measured on four to six discs: half a
-second to three seconds, where neither decomposition nor substitution ends in a minute)."""
+"""Up to this many parameters critical values go first for convex conditions."""
 
 CONVEX_FROM, CONVEX_CURVED = 4, 4
 """Existential sentences in so many variables are first tried as convex problems; in one variable less where so many
-polynomials are not linear (measured on balls in space: 3 take 0.2 s either way, 10 take 0.3 s and not 15 s); with
-fewer, the others are faster."""
+polynomials are not linear; with fewer, the others are faster."""
 
 
 EQUATIONS_FROM, FEW_SOLUTIONS, MANY_SOLUTIONS = 4, 16, 130
@@ -41,12 +39,10 @@ what has to be decided again and again is then too large."""
 
 HOPELESS_CASES, LINEAR_VARIABLES = 150, 4
 """So many cases, or any cases of linear conditions in so many variables, are for the SAT solver alone: whatever else
-there is would go through them one by one (measured on 34 kinds of linear sentences in 4 to 12 variables with 1 to 11
-cases: the median of each is 2.5 to 65 times shorter, the longest 0.03 s and not 1.5 s)."""
+there is would go through them one by one."""
 
 MANY = 24
-"""The same for so many alternatives of linear conditions in fewer variables (measured: two variables, each in one of 80
-intervals, 0.4 s for 0.1 s)."""
+"""The same for so many alternatives of linear conditions in fewer variables."""
 
 LINEAR_TERMS = 1000
 """Coefficients from which on a conjunction of linear conditions is decided as it stands."""
@@ -162,8 +158,7 @@ def closed_in_many_variables(problem: Block, options: Options) -> str | None:
 
 
 def polyhedron(problem: Block, options: Options) -> str | None:
-    """Linear conditions on variables and parameters, all but one at most (measured: 60 small ones, one or two
-    variables, in 0.46 s, in 2.0 s by substitution and shortening, with 7 answers longer and none shorter)."""
+    """Linear conditions on variables and parameters, all but one at most."""
     if not problem.free or not problem.is_flat:
         return None
     curved = [p for p in problem.conditions if not isinstance(p, Atom) or p.poly.total_degree > 1]
@@ -190,11 +185,8 @@ def _falls_apart(problem: Block) -> bool:
 
 
 def equations_bind_a_sentence(problem: Block, options: Options) -> str | None:
-    """A conjunction with as many equations as variables, four or more, and neither few nor many complex solutions.
-
-    Preparation would solve the equations one by one and make them longer. Measured: the cyclic 5-roots with a > b, 70
-    complex solutions, are decided with a verified witness in a second; decomposition does not end in 12.
-    """
+    """A conjunction with as many equations as variables, four or more, and neither few nor many complex solutions:
+    preparation would solve the equations one by one and make them longer."""
     if not problem.is_flat or problem.free or len(problem.variables) < EQUATIONS_FROM:
         return None
     parts = problem.conditions
@@ -215,19 +207,12 @@ def curved_in_the_block(problem: Block, options: Options) -> str | None:
 
 
 def curved_with_parameters(problem: Block, options: Options) -> str | None:
-    """The same, of one variable: an inner block whose outer one has other variables than the parameters it looks at.
-
-    Measured: best approximations of cubics on [-1, 1] by lines took 10 s and more, with the inner block first 0.7 s.
-    """
+    """The same, of one variable: an inner block whose outer one has other variables than the parameters it looks at."""
     return curved_in_the_block(problem, options) if len(problem.variables) == 1 and problem.free else None
 
 
 def as_many_equations_as_variables(problem: Block, options: Options) -> str | None:
-    """A small curved block that takes finitely many values, as where roots are counted.
-
-    Measured: decomposition of all blocks of a claim about three roots of a cubic at once did not end in 60 s, one after
-    the other they take 500 cells each.
-    """
+    """A small curved block that takes finitely many values, as where roots are counted."""
     equations = [a for a in problem.conditions if isinstance(a, Atom) and a.relation is Relation.EQ]
     is_small = problem.total <= CAD_FIRST_VARIABLES + 2 and len(equations) == len(problem.variables)
     if not is_small or not problem.free or not problem.curved or options.root_atoms:  # which what is around cannot read
@@ -279,11 +264,8 @@ def cubic_and_many_parameters(problem: Block, options: Options) -> str | None:
 
 
 def curved_and_many_parameters(problem: Block, options: Options) -> str | None:
-    """One variable, of degree 3 or more, and as many parameters.
-
-    The roots of a cubic under a condition are left to substitution: its answers are a third as long (measured on monic
-    and general cubics with linear and quadratic conditions: 382 characters for 573, 605 for 2093, 770 for 2720).
-    """
+    """One variable, of degree 3 or more, and as many parameters; the roots of a cubic under a condition are left to
+    substitution, whose answers are a third as long."""
     total = problem.total
     if len(problem.variables) > 1 or total <= CAD_VARIABLES or problem.degree < 3:
         return None
@@ -317,12 +299,7 @@ def worth_a_short_try(problem: Block, options: Options) -> str | None:
 
 
 def quadratic_and_few_parameters(problem: Block, options: Options) -> str | None:
-    """One variable of degree 2 and a parameter or two: decomposition is quick, substitution is ten times as quick.
-
-    Measured on 450 questions: it takes 0.7 to 2.5 ms, decomposition 1 to 30; of two quadratics and of Boolean
-    combinations a half has an answer of one atom or none, the same by both; of two quadratics of which one may be
-    linear, 2 of 50.
-    """
+    """One variable of degree 2 and a parameter or two: decomposition is quick, substitution is ten times as quick."""
     if len(problem.variables) > 1 or not problem.free or problem.degree > 2 or problem.total > CAD_VARIABLES:
         return None
     squares = [lead for degree, lead in _leads(problem) if degree == 2]

@@ -38,8 +38,7 @@ MOST_ATOMS, MOST_VARIABLES, MOST_TERMS = 60, 8, 400
 """A larger answer is left as it is."""
 
 MOST_CURVED = 2
-"""So many conditions side by side, with curved ones among them, are asked about: with more that takes longer than the
-elimination did (formula (7) with 12 of them: 0.5 s for 0.2 s; (8) with three: half as much again)."""
+"""So many conditions side by side, with curved ones among them, are asked about: with more that takes too long."""
 
 MOST_ATOMS_ALONE, MOST_TERMS_ALONE = 40, 10_000
 """So many atoms of a larger answer are looked at as conditions on signs alone, with so many terms of conditions."""

@@ -29,9 +29,8 @@ SHORTEN_DEGREE = {**SMALL_DEGREE, 3: 6}
 """A shorter form is looked for up to these total degrees: there may well be one, and giving up costs little work."""
 
 SHORTEN_TERMS = 120
-"""In three variables or more, an answer of more terms is left as it is: its projection alone is too much (measured on
-1,000 small eliminations: all that became shorter had 98 terms at most, and those with 130 or more took a quarter
-of the time of their family in vain)."""
+"""In three variables or more, an answer of more terms is left as it is: its projection alone is too much (of 1,000
+small eliminations all that became shorter had 98 terms at most)."""
 
 
 @dataclass(frozen=True, slots=True)

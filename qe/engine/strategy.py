@@ -140,8 +140,7 @@ def complete_and_small_or_alone(outcome: Outcome, problem: Block) -> bool:
 
 
 ALONE_FROM = 6
-"""In so many variables decomposition does not end where roots of cubics give a long answer (measured: two cubics with
-six parameters 0.3 s, and no answer in 15 s where decomposition looked for a shorter one first)."""
+"""In so many variables decomposition does not end where roots of cubics give a long answer."""
 
 SMALL_ATOMS = 30
 """An answer of a short try of substitution with more atoms is worse than what decomposition would give."""

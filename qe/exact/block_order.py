@@ -76,7 +76,6 @@ def parametric_basis(polys: Sequence[Poly], block: BlockOrder, limits: Limits = 
     if block.order is not MonomialOrder.DEGREVLEX:
         if (brief := _weighted_basis(given, block, BRIEF)) is not None:
             return brief.polys
-        # measured on the arm of three joints: from a graded basis a second, from the generators more than a minute
         given = list(parametric_basis(given, replace(block, order=MonomialOrder.DEGREVLEX), limits))
     basis = _weighted_basis(given, block, limits)
     if basis is None:

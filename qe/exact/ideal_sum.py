@@ -6,8 +6,7 @@ p in <F> + <E> whose part -q in <E> is known modulo <F>. What is free of t lies 
 smaller, but no further pairs; pairs inside either ideal, whose bases are known, are needless. So this is Buchberger's
 algorithm for <F> + <E> alone, and it ends as soon as all members that are asked about have been reduced (the idea of
 Kapur, Sun and Wang 2013, with each pair as one polynomial). Critical pairs are taken by sugar, the degree that they
-would have if everything had been homogeneous (Giovini, Mora, Niesi, Robbiano, Traverso, ISSAC 1991): a segment of the
-arm of three joints that took more than half a minute by the degree of the least common multiple takes 0.6 s.
+would have if everything had been homogeneous (Giovini, Mora, Niesi, Robbiano, Traverso, ISSAC 1991).
 """
 
 from __future__ import annotations

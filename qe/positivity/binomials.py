@@ -18,8 +18,8 @@ from qe.exact.linear_bounds import LinearBounds
 from qe.exact.ring import Poly
 from qe.positivity.identity import Positive, Powers, sum_of
 
-MOST_POINTS, MOST_TERMS = 24, 40
-"""Monomials of the squares, and terms of the polynomial, at most."""
+MOST_POINTS, FEW_TERMS, MOST_TERMS = 24, 40, 400
+"""Monomials of squares that are added, terms up to which that is done, and terms at most."""
 
 Exponents = tuple[int, ...]
 
@@ -51,7 +51,7 @@ def _is_even(exponents: Exponents) -> bool:
 def _points(squares: Iterable[Exponents]) -> list[Exponents]:
     """Half the exponents of squares, and points halfway between them, while they are few."""
     found = dict.fromkeys(tuple(e // 2 for e in s) for s in squares)
-    for _ in range(2):
+    for _ in range(2 if len(found) <= MOST_POINTS else 0):
         between = (tuple(a + b for a, b in zip(*pair, strict=True)) for pair in combinations(list(found), 2))
         for point in dict.fromkeys(tuple(e // 2 for e in s) for s in between if _is_even(s)):
             if len(found) < MOST_POINTS:
@@ -100,7 +100,7 @@ class _Problem:
         for m, n in combinations(self.points, 2):
             mixed = _sum(m, n)
             coefficient = self.terms.get(mixed, 0)
-            if not coefficient and not _is_even(mixed):
+            if coefficient >= 0 and (len(self.terms) > FEW_TERMS or (not coefficient and not _is_even(mixed))):
                 continue  # also where it is odd in y: the polynomial is even
             sign = 1 if coefficient > 0 and not _is_even(mixed) else -1
             entries = [(_sum(m, m), 1), (_sum(n, n), 1), (mixed, 2 * sign)]

@@ -2,9 +2,9 @@
 
 THEOREM. Let g_0, …, g_n be affine forms in x_1, …, x_n (the number 1 may be one of them), linearly independent, so that
 every x_k and 1 are linear combinations of them. A polynomial of degree d, made homogeneous by the combination that is
-1, is a form of degree d in the g_k, in one way. Where all its coefficients are >= 0, the polynomial is >= 0 wherever
-all g_k are; it is > 0 where the forms in one of its terms are. On a simplex with the faces g_k = 0 these are the
-Bernstein coefficients; x_n, x_(n-1) - x_n, …, 1 - x_1 belong to the chain 1 >= x_1 >= … >= x_n >= 0.
+1, is a form of degree d in the g_k, in one way. Where that is >= 0 for all g_k >= 0, as it is where no coefficient is
+negative, the polynomial is >= 0 wherever all g_k are; it is > 0 where the g_k in a positive term are. On a simplex with
+the faces g_k = 0 these are Bernstein coefficients; x_n, x_(n-1) - x_n, …, 1 - x_1 say 1 >= x_1 >= … >= x_n >= 0.
 """
 
 from __future__ import annotations
@@ -13,13 +13,15 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import accumulate, combinations, islice, repeat
-from math import comb, lcm, prod
+from math import comb, lcm
 from operator import mul
 
-from qe.exact.quadratic_form import solve_linear
+from qe.exact.quadratic_form import echelon
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.positivity.identity import Positive, sum_of
+from qe.positivity.identity import Positive, monomials
+from qe.positivity.ordered import ordered_differences
+from qe.positivity.samples import may_be_positive
 
 MOST_VARIABLES, MOST_COEFFICIENTS, MOST_CHOICES = 5, 1_500, 12
 
@@ -45,9 +47,9 @@ def positive_on_cone(poly: Poly, bounds: tuple[Bound, ...]) -> Positive | None:
     one: Bound = (poly.ring.constant(1), 1, True)
     forms = [*(b for b in bounds if set(b[0].variables) <= set(used)), one]
     for chosen in islice(combinations(forms, len(used) + 1), MOST_CHOICES):
-        found = _in_forms(poly, chosen)
-        if found is not None:
-            return found
+        proof = _in_forms(poly, chosen)
+        if proof is not None:
+            return proof
     return None
 
 
@@ -56,7 +58,7 @@ def _in_forms(poly: Poly, chosen: Sequence[Bound]) -> Positive | None:
     combined = _combined(poly.variables, chosen)
     if combined is None:
         return None
-    scaled, scale = combined
+    scaled = combined
     degree, one = poly.total_degree, scaled[0].ring.constant(1)
     powers = [list(accumulate(repeat(base, degree), mul, initial=one)) for base in scaled]
     total = one.ring.constant(0)
@@ -66,36 +68,28 @@ def _in_forms(poly: Poly, chosen: Sequence[Bound]) -> Positive | None:
             if exponents[i]:
                 term = term * powers[k][exponents[i]]
         total = total + term
-    if any(c < 0 for _, c in total.terms()):
+    every = frozenset(range(total.ring.size))
+    proof = monomials(total)
+    if proof is None and may_be_positive(total, every):
+        proof = ordered_differences(total, every)
+    if proof is None:
         return None
-    parts, strict = [], False
-    for exponents, c in total.terms():
-        own = [(form, sign, never, e) for (form, sign, never), e in zip(chosen, exponents, strict=True) if e]
-        turned = prod(sign**e for _, sign, _, e in own)
-        parts.append((Fraction(c * turned, scale**degree), tuple((f, e) for f, _, _, e in own if not f.is_constant)))
-        strict = strict or all(never for _, _, never, _ in own)
-    return Positive((sum_of(poly, parts),), strict)
+    never = {total.ring.gen(k) for k, bound in enumerate(chosen) if bound[2]}
+    strict = any(all(base in never for base, _ in powers) for _, powers in proof.identities[0].terms[1:])
+    forms = Ring.of((*total.ring.names, *poly.ring.names))
+    places = {k: form.convert(forms) * sign for k, (form, sign, _) in enumerate(chosen)}
+    said = proof.at(lambda base: base.convert(forms).compose(places).convert(poly.ring))
+    return Positive(said, strict and len(said) == 1)
 
 
-def _combined(variables: Sequence[int], chosen: Sequence[Bound]) -> tuple[list[Poly], int] | None:
+def _combined(variables: Sequence[int], chosen: Sequence[Bound]) -> list[Poly] | None:
     """The variables and, last, 1, all times the same positive number, in new variables that stand for the forms."""
-    size = len(chosen)
-    rows = [_row(form * sign, variables) for form, sign, _ in chosen]
-    columns = [[row[j] for row in rows] for j in range(size)]
-    inverse = []
-    for k in range(size):
-        solved = solve_linear(columns, [Fraction(j == k) for j in range(size)], size)
-        if solved is None or solved.kernel:
-            return None
-        inverse.append([Fraction(e) for e in solved.particular])
-    scale = lcm(*(entry.denominator for row in inverse for entry in row))
-    ring = Ring.of(f"g{k}" for k in range(size))
-    zero = ring.constant(0)
-    return [sum((ring.gen(k) * int(e * scale) for k, e in enumerate(row)), zero) for row in inverse], scale
-
-
-def _row(form: Poly, variables: Sequence[int]) -> list[Fraction]:
-    """The coefficients of these variables, and the constant."""
-    terms = dict(form.terms())
-    units = [tuple(int(j == i) for j in range(form.ring.size)) for i in variables]
-    return [Fraction(terms.get(exponents, 0)) for exponents in (*units, (0,) * form.ring.size)]
+    size, count = len(chosen), chosen[0][0].ring.size
+    units = [tuple(int(j == i) for j in range(count)) for i in (*variables, count)]
+    rows = [[Fraction(dict(form.terms()).get(unit, 0) * sign) for unit in units] for form, sign, _ in chosen]
+    reduced, pivots = echelon([[*row, *(Fraction(j == k) for j in range(size))] for k, row in enumerate(rows)])
+    if [*pivots] != [*range(size)]:
+        return None
+    inverse = [[Fraction(entry) for entry in row[size:]] for row in reduced]
+    ring, scale = Ring.of(f"g{k}" for k in range(size)), lcm(*(entry.denominator for row in inverse for entry in row))
+    return [sum((ring.gen(k) * int(e * scale) for k, e in enumerate(row)), ring.constant(0)) for row in inverse]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
@@ -28,9 +28,24 @@ class Positive:
     identities: tuple[Identity, ...]
     strict: bool
 
+    def at(self, change: Callable[[Poly], Poly]) -> tuple[Identity, ...]:
+        """The identities with other polynomials for variables."""
+        return tuple(
+            Identity(tuple((c, tuple((change(base), e) for base, e in powers)) for c, powers in each.terms))
+            for each in self.identities
+        )
+
 
 def sum_of(poly: Poly, parts: Iterable[tuple[Fraction, Powers]]) -> Identity:
     """poly = sum of c * product, for rational c."""
     listed = [(Fraction(c), powers) for c, powers in parts if c]
     scale = lcm(*(c.denominator for c, _ in listed)) if listed else 1
     return Identity(((-scale, ((poly, 1),)), *((int(c * scale), powers) for c, powers in listed)))
+
+
+def monomials(poly: Poly) -> Positive | None:
+    """That a polynomial without negative coefficients is nowhere negative where its variables are not."""
+    if any(c < 0 for _, c in poly.terms()):
+        return None
+    parts = [(Fraction(c), tuple((poly.ring.gen(i), e) for i, e in powers)) for powers, c in poly.sparse_terms()]
+    return Positive((sum_of(poly, parts),), strict=any(not powers for _, powers in parts))

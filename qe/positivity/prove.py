@@ -11,7 +11,7 @@ from qe.positivity.identity import Positive
 from qe.positivity.ordered import ordered_differences
 from qe.positivity.samples import may_be_positive
 
-MOST_VARIABLES, MOST_DEGREE, MOST_TERMS = 6, 12, 60
+MOST_VARIABLES, MOST_DEGREE, MOST_TERMS = 6, 16, 60
 FEWEST_VARIABLES = 4
 """Below this, decomposition decides sooner than the libraries of a semidefinite program are loaded."""
 

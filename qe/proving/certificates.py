@@ -12,7 +12,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
 from qe.formula.build import convert
 from qe.formula.normal import without_clashes
-from qe.formula.syntax import And, Atom, Exists, Formula, Relation
+from qe.formula.syntax import And, Atom, Exists, Formula
 from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED
@@ -21,6 +21,7 @@ from qe.proof.derivation import put_together
 from qe.proof.entry import formula_to_json
 from qe.proof.run_log import RunLog
 from qe.proving.primitive_names import PROJECTION
+from qe.rules.linear import linear_in, put_in
 
 Result = TypeVar("Result")
 
@@ -98,29 +99,18 @@ def substitution_certificate(block: Formula, answer: Formula) -> Certificate | N
     solved: list[tuple[str, Poly]] = []
     left = list(block.variables)
     while left:
-        found = _solvable(body, ring, left)
-        if found is None:
+        parts = conjuncts(body)
+        plain = ((k, i) for k, i, _, lead in linear_in(parts, left) if lead.is_constant)
+        found = next(((ring.names[i], part.poly) for k, i in plain if isinstance(part := parts[k], Atom)), None)
+        image = None if found is None else put_in(body, ring.index[found[0]], found[1])
+        if found is None or image is None:
             return None
-        from qe.proving.linear import put_in
-
-        name, equation = found
-        body = put_in(body, ring.index[name], equation)
+        body = image
         solved.append(found)
-        left.remove(name)
+        left.remove(found[0])
     if {*conjuncts(body)} != {*conjuncts(convert(answer, ring))}:
         return None
     return Certificate.substitution(matrix, ring.names, solved, body)
-
-
-def _solvable(body: Formula, ring: Ring, names: list[str]) -> tuple[str, Poly] | None:
-    """A variable and an equation among the conjuncts that is linear in it with a constant coefficient."""
-    for conjunct in conjuncts(body):
-        if isinstance(conjunct, Atom) and conjunct.relation is Relation.EQ:
-            for name in names:
-                i = ring.index[name]
-                if conjunct.poly.degree(i) == 1 and conjunct.poly.leading(i).is_constant:
-                    return name, conjunct.poly
-    return None
 
 
 def derived_or_decomposed(

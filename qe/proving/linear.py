@@ -6,10 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, exists
-from qe.formula.syntax import Atom, Atomic, Formula, Relation
-from qe.formula.traverse import conjuncts, map_atoms
+from qe.formula.syntax import Formula, Relation
 from qe.kernel.linear_equation import Pivot, pivot_of, substituted
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.proof.entry import Entry, Json, poly_to_text, polynomial_from_json
@@ -47,17 +45,3 @@ def term(entry: Entry, names: Sequence[str], others: Formula, claim: Claim) -> P
         raise solved.fail("expected an equation that is linear in the variable, with a number as its coefficient")
     rest, lead = equation.coefficients(x)
     return Pivot(x, name, lead, rest, 1 if lead.constant_value() > 0 else -1, others)
-
-
-def put_in(body: Formula, i: int, equation: Poly) -> Formula:
-    """The other conjuncts with the value that a linear equation, whose coefficient is a number, gives a variable."""
-    rest, lead = equation.coefficients(i)
-    top, bottom = (-rest, lead) if lead.constant_value() > 0 else (rest, -lead)
-
-    def change(given: Atomic) -> Formula:
-        if not isinstance(given, Atom) or not given.poly.degree(i):
-            return given
-        return atom(given.poly.at_quotient(i, top, bottom), given.relation)
-
-    used = Atom(equation, Relation.EQ)
-    return conj(map_atoms(c, change) for c in conjuncts(body) if c != used)

@@ -31,7 +31,8 @@ def mirrored(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     names, one, two = block.variables, ring.constant(1), ring.constant(2)
     here = {name: image for name, image in images.items() if name in names and image != ring.var(name)}
     centre = {name: (ring.var(name) + image, two) for name, image in here.items()}
-    gone = [name for k, name in enumerate(here) if not _is_later(name, here, list(here)[:k])]
+    earlier = {name: [here[other] for other in list(here)[:k]] for k, name in enumerate(here)}  # of two exchanged
+    gone = [name for name in here if not any(image.degree(ring.index[name]) for image in earlier[name])]
     fixed = {name: (here[name] if here[name] != -ring.var(name) else ring.constant(0), one) for name in gone}
     for part in conjuncts(block.body):
         if isinstance(part, ForAll) and {*part.free} & here.keys():
@@ -43,11 +44,6 @@ def mirrored(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     _follow(made, inner, middle, plain, here, centre)
     made.terms(middle, wanted, fixed, {name: centre[name] for name in here if name not in gone})
     return made.finished(after)
-
-
-def _is_later(name: str, here: Images, before: list[str]) -> bool:
-    """Whether it is the second of two that are exchanged."""
-    return any(here[name].ring.index[name] in here[other].variables for other in before)
 
 
 def _gathered(formula: Formula, images: Images) -> Formula:

@@ -27,10 +27,10 @@ from qe.kernel.virtual_substitution import TestPoint
 from qe.proof.entry import Json
 from qe.proving.elimination_points import point_entry
 from qe.proving.lemma_list import Term, identities
-from qe.proving.linear import put_in
 from qe.proving.made import Made, quantified, solved
 from qe.proving.primitive_names import SIGNS
 from qe.proving.vertices import by_vertices, some_best
+from qe.rules.linear import put_in
 
 MOST_PAIRS, MOST_POINTS = 1000, 30
 """Pairs of bounds, and bounds of one kind among which the largest is looked for, at most: such a step of a certificate
@@ -81,6 +81,7 @@ class _Shadow:
         given = equation.condition(self.names, ring, Relation.EQ)
         assert isinstance(block, Exists) and isinstance(given, Atom)
         image = put_in(block.body, ring.index[name], given.poly)
+        assert image is not None  # the terms of linear conditions are few
         after = quantified([v for v in block.variables if v != name], image)
         self.made.step("linear equation solved", block, after, solved(given, name))
         return None if image == FALSE else self.reduced(polyhedron.substituted(equation, j))

@@ -24,8 +24,6 @@ from qe.simplifier.facts import factor_list
 _LARGE = 300  # terms: equations with more in all are not given to the Groebner engine
 _LIMITS = Limits(elements=60, terms=250, bits=600)
 _CERTAIN, _GUARDED = 3, 1  # what a variable that can be solved for is worth: without a case distinction, with one
-# Measured on the own corpus and 150 public problems: with half as much room the answers of substitution are half as
-# long again in all; with twice as much one of them changes, and gets longer.
 _GROWTH = {_CERTAIN: (6, 60), _GUARDED: (2, 20)}  # (factor, terms) by which a system may grow for a gain of so much
 
 

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Poly
-from qe.formula.build import atom, map_children
+from qe.formula.build import atom, conj, map_children
 from qe.formula.syntax import Atom, Atomic, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import atoms
+from qe.formula.traverse import atoms, conjuncts
 from qe.simplifier.facts import Facts
 
 _TERMS = 3000  # a substitution whose result has more terms than this is not done
@@ -171,6 +171,13 @@ def substitute(formula: Formula, pivot: Pivot) -> Formula | None:
         return walk(formula)
     except _NotPossible:
         return None
+
+
+def put_in(body: Formula, i: int, equation: Poly) -> Formula | None:
+    """The other conjuncts with the value that a linear equation, whose coefficient is a number, gives a variable."""
+    rest, lead = equation.coefficients(i)
+    others = conj(part for part in conjuncts(body) if part != Atom(equation, Relation.EQ))
+    return substitute(others, Pivot(0, i, lead, rest, 1 if lead.constant_value() > 0 else -1, alone=False))
 
 
 class _NotPossible(Exception):

@@ -32,8 +32,8 @@ Terms = dict[Key, Fraction]
 Pair = tuple[int, int]
 Skew = Terms[Pair]
 """A skew-symmetric matrix by its entries above the diagonal."""
-Image = Terms[tuple[Pair, ...]]
-"""The terms of a polynomial: pairs of a variable and its exponent, with the coefficient."""
+Image = Terms[tuple[int, ...]]
+"""The terms of a polynomial: exponents with the coefficient."""
 
 _TERMS = 1200  # terms in all polynomials together up to which rotations are looked for
 _PAIRS = 400  # pairs of variables up to which they are looked for
@@ -180,15 +180,9 @@ def rotations(polys: Sequence[Poly], pairs: Sequence[Pair], watch: Callable[[], 
 
 def _turned(p: Poly, pair: Pair) -> Image:
     """The terms of (x_i * d/dx_j - x_j * d/dx_i) p."""
-    total: Image = {}
-    for powers, c in p.sparse_terms():
-        inside = dict(powers)
-        for (i, j), sign in ((pair, 1), (pair[::-1], -1)):
-            if j in inside:
-                moved = inside | {j: inside[j] - 1, i: inside.get(i, 0) + 1}
-                key = tuple(sorted((k, power) for k, power in moved.items() if power))
-                total[key] = total.get(key, Fraction(0)) + sign * inside[j] * c
-    return total
+    (i, j), ring = pair, p.ring
+    turned = ring.gen(i) * p.derivative(j) - ring.gen(j) * p.derivative(i)
+    return {exponents: Fraction(c) for exponents, c in turned.terms()}
 
 
 def _relations(parts: Sequence[Image]) -> list[Terms[int]]:

@@ -19,7 +19,7 @@ from qe.rules.tree import Leaf, Node, Pending
 from qe.simplifier.facts import generator
 
 if TYPE_CHECKING:
-    from qe.positivity.identity import Identity, Positive
+    from qe.positivity.identity import Identity
 
 MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
 """Polynomials of one block that are looked at, and variables of each: with fewer, other methods are as quick."""
@@ -32,13 +32,15 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     polys = [p for p in polynomials(body) if len(p.variables) >= FEWEST_VARIABLES and p.total_degree > 1]
     if not polys or len(polys) > MOST_POLYNOMIALS:
         return None
-    from qe.positivity.cone import bounds_of, positive_on_cone  # what finds identities is seldom needed
+    from qe.positivity.conditions import conditions_of, positive_under  # what finds identities is seldom needed
+    from qe.positivity.cone import bounds_of, positive_on_cone
     from qe.positivity.prove import nowhere_negative
 
     facts = context.facts.extended([p for p in conjuncts(body) if isinstance(p, Atom) and p.poly.total_degree == 1])
     ring = polys[0].ring
     orthant = frozenset(i for i in range(ring.size) if -1 not in facts.signs(generator(ring, i)))
-    bounds = bounds_of((*conjuncts(body), *context.known))
+    stated = (*conjuncts(body), *context.known)
+    bounds, forms = bounds_of(stated), [*conditions_of(stated)]
     signs: dict[Poly, frozenset[int]] = {}
     proofs: list[Identity] = []
 
@@ -54,7 +56,8 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     for poly in polys:
         for sign in (1, -1):
             context.watch()
-            proof: Positive | None = nowhere_negative(poly * sign, orthant) or positive_on_cone(poly * sign, bounds)
+            p = poly * sign
+            proof = nowhere_negative(p, orthant) or positive_on_cone(p, bounds) or positive_under(p, forms, orthant)
             if proof is None:
                 continue
             signs[poly] = frozenset((sign,)) if proof.strict else frozenset((0, sign))

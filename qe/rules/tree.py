@@ -40,11 +40,10 @@ class Pending(Leaf):
     given: tuple[Formula, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Lifted:
-    """The child's formula; the ``rules``, last one first, give their variables values from the child's assignment."""
+class _Above:
+    """What says what its child says."""
 
-    rules: tuple[Lift, ...]
+    __slots__ = ()
     child: Node
 
     @property
@@ -53,6 +52,14 @@ class Lifted:
 
     def satisfied(self, at: Assignment) -> bool:
         return self.child.satisfied(at)
+
+
+@dataclass(frozen=True, slots=True)
+class Lifted(_Above):
+    """The ``rules``, last one first, give their variables values from the child's assignment."""
+
+    rules: tuple[Lift, ...]
+    child: Node
 
     def lift(self, at: Assignment) -> dict[str, Value]:
         known = self.child.lift(at)
@@ -62,19 +69,12 @@ class Lifted:
 
 
 @dataclass(frozen=True, slots=True)
-class Perturbed:
-    """The child's formula, which left out inequations of ``body``; its solution is moved a little where they fail."""
+class Perturbed(_Above):
+    """The child's formula left out inequations of ``body``; its solution is moved a little where they fail."""
 
     variables: tuple[str, ...]
     body: Formula
     child: Node
-
-    @property
-    def formula(self) -> Formula:
-        return self.child.formula
-
-    def satisfied(self, at: Assignment) -> bool:
-        return self.child.satisfied(at)
 
     def lift(self, at: Assignment) -> dict[str, Value]:
         return perturb(self.variables, self.body, self.child.lift(at))

@@ -21,7 +21,7 @@ from qe.simplifier.minima import minimum
 from qe.simplifier.ranges import EVERYTHING, Range, add, compare, make, meet, multiply, power, scale
 
 _ENCLOSED_TERMS = 24  # term count up to which ranges of the variables are propagated through a polynomial
-_FACTORED_TERMS = 400  # above this many terms a polynomial is taken as one factor
+_FACTORED_TERMS = 2000  # above this many terms a polynomial is taken as one factor
 
 
 @lru_cache(maxsize=5_000)

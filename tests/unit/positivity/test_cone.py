@@ -49,19 +49,19 @@ def test_sums_of_products_are_found_and_proved(where: str, seed: int) -> None:
     found = positive_on_cone(poly, bounds(where))
     assert found is not None
     (identity,) = found.identities
-    signs = {form: (sign, strict) for form, sign, strict in bounds(where)}
+    signs = {form * sign: strict for form, sign, strict in bounds(where)}
     total, certain = RING.constant(0), False
     for c, powers in identity.terms:
         term = RING.constant(c)
         for base, exponent in powers:
             term = term * base**exponent
         total = total + term
-        if powers != ((poly, 1),):
-            turned = c
-            for base, exponent in powers:
-                turned *= signs[base][0] ** exponent
-            assert turned > 0
-            certain = certain or all(signs[base][1] for base, _ in powers)
+        if powers is identity.terms[0][1]:
+            ((base, exponent),) = powers
+            assert exponent == 1 and base.normal()[1] == poly.normal()[1]
+        else:
+            assert c > 0
+            certain = certain or all(signs[base] for base, _ in powers if not base.is_constant)
     assert not total and identity.terms[0][0] < 0 and found.strict is certain
 
 

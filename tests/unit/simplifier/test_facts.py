@@ -16,6 +16,7 @@ from qe.io.text import read
 from qe.simplifier.absorb import absorb
 from qe.simplifier.factors import atom_under, reduce_atom
 from qe.simplifier.facts import NOTHING, Facts, factor_list, generator
+from qe.simplifier.simplify import simplify
 from tests.strategies import points
 from tests.tables import each
 
@@ -211,3 +212,10 @@ def test_the_truth_stays(parts: list[list[Formula]], conjunctive: bool, point: d
     found = absorb(members, conjunctive, level)
     assert holds_at(outer(found), point) is holds_at(outer(members), point)  # type: ignore[arg-type]
     assert len(found) <= len(members)
+
+
+@each("p^3 <= 0", "p*(p^2 + 1) <= 0")
+def test_powers_of_products_of_many_terms_are_seen_as_products(text: str) -> None:
+    """Expanded they have more than 1,000 terms (x10y2 of Redlog's test set, with what does not change its meaning)."""
+    product = "*".join(f"(a{k}*x^10 - b{k}*y^2)" for k in range(1, 6))
+    assert simplify(read(text.replace("p", f"({product})"))) == simplify(read(f"{product} <= 0"))

@@ -1,0 +1,75 @@
+"""Polynomials made homogeneous by a condition, as in problem 3 of the International Mathematical Olympiad 2005."""
+
+import random
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.exact.ring import Poly, Ring
+from qe.formula.traverse import conjuncts
+from qe.io.text import read, read_polynomial
+from qe.positivity import conditions
+from qe.positivity.conditions import conditions_of, positive_under
+from qe.positivity.identity import Positive
+from tests.certificates.test_steps_by_hand import accepted
+from tests.tables import each
+from tests.unit.positivity.test_cone import steps_of
+
+RING = Ring.of(("x", "y", "z"))
+EVERY = frozenset(range(3))
+IMO_2005_3 = " + ".join(f"({a}^5 - {a}^2)/({a}^5 + {b}^2 + {c}^2)" for a, b, c in ("xyz", "yzx", "zxy"))
+
+
+def under(poly: Poly, where: str) -> Positive | None:
+    return positive_under(poly, [(f.convert(RING), c, e) for f, c, e in conditions_of(conjuncts(read(where)))], EVERY)
+
+
+@each(
+    (IMO_2005_3, "x*y*z >= 1", "0"),
+    ("x*y + y*z + z*x", "x*y*z = 1", "3"),
+    ("x^4*y^2 + y^4*z^2 + z^4*x^2 - 2 - x*y*z", "x*y*z >= 1", "0"),
+)
+def test_sentences(left: str, where: str, right: str) -> None:
+    text = f"all x, y, z. x > 0 and y > 0 and z > 0 and {where} -> {left} >= {right}"
+    found = qe.eliminate(text, check=True, timeout=60)
+    assert (found.truth, found.guarantee) == (True, qe.Guarantee.CHECKED)
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(st.integers(0, 10**9), st.sampled_from(("x*y*z >= 2", "x*y*z = 2", "x^2 + y^2 + z^2 >= 3", "x*y + z^2 = 1")))
+def test_the_identities_hold_and_say_so_at_random_points(seed: int, where: str) -> None:
+    rng = random.Random(seed)
+    ((form, least, equal),) = conditions_of(conjuncts(read(where)))
+    form = form.convert(RING)
+    poly = RING.constant(0)
+    for j in range(3):
+        degree = 4 + j * form.total_degree
+        for _ in range(3):
+            a, b = sorted(rng.randint(0, degree) for _ in range(2))
+            poly = poly + RING.from_terms({(a, b - a, degree - b): rng.choice((-1, 1, 2, 3))})
+    found = under(poly, where) if poly else None
+    point = [Fraction(rng.randint(0, 9), rng.randint(1, 5)) for _ in range(3)]
+    for identity in found.identities if found is not None else ():
+        total = Fraction(0)
+        for c, powers in identity.terms:
+            term = Fraction(c)
+            for base, exponent in powers:
+                term *= base.evaluate(point) ** exponent
+            total += term
+        assert total == 0
+    if found is not None and not equal and form.evaluate(point) >= least:
+        assert poly.evaluate(point) >= 0
+
+
+def test_a_broken_producer_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A form that is negative somewhere is said not to be: the kernel does not accept the step."""
+    poly, where = read_polynomial("x^4*y^2 + y^4*z^2 + z^4*x^2 - 4")[0].convert(RING), "x*y*z >= 1"
+    assert under(poly, where) is None
+    text = f"ex x, y, z. x > 0 and y > 0 and z > 0 and {where} and x^4*y^2 + y^4*z^2 + z^4*x^2 < 4"
+    found = steps_of(text)
+    monkeypatch.setattr(conditions, "nowhere_negative", lambda poly, orthant: Positive((), False))
+    (step,) = [step for step in steps_of(text) if step not in found]
+    assert not accepted(step)
