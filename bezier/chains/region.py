@@ -19,7 +19,7 @@ from typing import Any
 from bezier.chains import proposals
 from bezier.chains.chain import Chain, freed, requirements
 from bezier.chains.form import Affine, Form, Point, Requirement, Solved, linear_form, weighted_sum
-from bezier.chains.hull import Facet, grown, simplex
+from bezier.chains.hull import Facet, Hull
 from bezier.chains.proof import Contradiction, decided, lower_bound, near_optimum, rational_weights, refuted, witness
 from bezier.curves.enclosure import root_above, root_below
 from bezier.curves.scalar import described, dot
@@ -191,12 +191,17 @@ def beyond_label(name: str, support: Support) -> str:
 
 @dataclass(frozen=True)
 class _Sandwich:
-    """Supports so far; the facets of the hull of their corners, and the supports in the direction of facets."""
+    """Supports so far; the hull of their corners, and the supports in the direction of facets."""
 
-    supports: tuple[Support, ...]
-    facets: tuple[Facet, ...]
+    supports: list[Support]
+    hull: Hull
     known: dict[Facet, Support]
     centre: Point
+
+    @property
+    def corners(self) -> tuple[Support, ...]:
+        """One for each corner of the hull."""
+        return tuple({(s := self.supports[i]).corner: s for i in self.hull.corners}.values())
 
 
 def _begun(places: Places) -> _Sandwich:
@@ -204,25 +209,23 @@ def _begun(places: Places) -> _Sandwich:
     d = places.chain.dimension
     axes = [tuple(Fraction(s if i == k else 0) for i in range(d)) for k in range(d) for s in (1, -1)]
     supports = [places.support(axis) for axis in axes]
-    corners = [s.corner for s in supports]
-    begun = simplex(corners)
-    if begun is None:
+    corners, hull = [s.corner for s in supports], Hull(d)
+    for corner in corners:
+        hull.add(corner)
+    if not hull.facets:
         raise Unable("the places have no interior, or hardly any")
-    facets, inside = begun
-    for i in range(len(corners)):
-        facets = grown(facets, corners, i, inside)
     centre = tuple(sum(c, _ZERO) / len(corners) for c in zip(*corners, strict=True))
-    return _Sandwich(tuple(supports), tuple(facets), {}, centre)
+    return _Sandwich(supports, hull, {}, centre)
 
 
-def _looked(places: Places, state: _Sandwich, side: Facet, enough: Callable[[Support], bool]) -> _Sandwich:
-    """With the support in the direction of a facet, whose corner joins the hull unless it is near ``enough``."""
+def _look(places: Places, state: _Sandwich, side: Facet, enough: Callable[[Support], bool]) -> None:
+    """The support in the direction of a facet, whose corner joins the hull unless it is near ``enough``."""
     support = places.support(side.normal)
     if enough(support) or side.beyond(support.corner) <= 0:
-        return replace(state, known={**state.known, side: support})
-    supports = (*state.supports, support)
-    facets = grown(state.facets, [s.corner for s in supports], len(supports) - 1, state.centre)
-    return _Sandwich(supports, tuple(facets), state.known, state.centre)
+        state.known[side] = support
+    else:
+        state.supports.append(support)
+        state.hull.add(support.corner)
 
 
 def region(chain: Chain, name: str, accuracy: Fraction | None = None) -> PointRegion:
@@ -236,17 +239,16 @@ def region(chain: Chain, name: str, accuracy: Fraction | None = None) -> PointRe
         return (support.offset - side.offset) / -side.beyond(state.centre)
 
     for _ in range(MOST):
-        side = next((f for f in state.facets if f not in state.known), None)
+        side = next((f for f in state.hull.facets if f not in state.known), None)
         if side is None:
             break
-        state = _looked(places, state, side, partial(lambda f, s: gap(f, s) <= target, side))
+        _look(places, state, side, partial(lambda f, s: gap(f, s) <= target, side))
     else:
         raise Unable(f"the gap was not reached in {MOST} directions")
-    used = sorted({i for f in state.facets for i in f.corners})
-    corners, sides = [state.supports[i] for i in used], [state.known[f] for f in state.facets]
-    largest = max(gap(f, state.known[f]) for f in state.facets)
+    corners, sides = state.corners, tuple(state.known[f] for f in state.hull.facets)
+    largest = max(gap(f, state.known[f]) for f in state.hull.facets)
     outer = tuple((s.normal, s.offset) for s in sides)
-    return PointRegion(name, tuple(s.corner for s in corners), outer, largest, places, tuple(corners), tuple(sides))
+    return PointRegion(name, tuple(s.corner for s in corners), outer, largest, places, corners, sides)
 
 
 def validity(chain: Chain, name: str) -> Validity:
@@ -257,7 +259,7 @@ def validity(chain: Chain, name: str) -> Validity:
     places, here = Places.of(chain, name), chain.points[chain.point_names.index(name)]
     state = _begun(places)
     for _ in range(MOST_NEAR):
-        low = min(state.facets, key=lambda f: -_away(f.normal, f.offset, here))
+        low = min(state.hull.facets, key=lambda f: -_away(f.normal, f.offset, here))
         ways = [*state.supports, *state.known.values()]
         high = min(ways, key=lambda s: -_away(s.normal, s.offset, here))
         if _away(high.normal, high.offset, here) > 0:
@@ -266,13 +268,12 @@ def validity(chain: Chain, name: str) -> Validity:
             break
         if low in state.known:
             break
-        state = _looked(places, state, low, lambda _: False)
-    corners = [state.supports[i] for i in sorted({i for f in state.facets for i in f.corners})]
-    least = min(root_below(f.beyond(here) ** 2 / dot(f.normal, f.normal)) for f in state.facets)
+        _look(places, state, low, lambda _: False)
+    least = min(root_below(f.beyond(here) ** 2 / dot(f.normal, f.normal)) for f in state.hull.facets)
     most = root_above((high.offset - Fraction(dot(high.normal, here))) ** 2 / dot(high.normal, high.normal))
-    if any(f.beyond(here) > 0 for f in state.facets):
+    if any(f.beyond(here) > 0 for f in state.hull.facets):
         raise Unable(f"there may be no chain with {name} where it is")
-    proofs = [(at_label(name, s.corner), places.witness(s.corner, s.at)) for s in corners]
+    proofs = [(at_label(name, s.corner), places.witness(s.corner, s.at)) for s in state.corners]
     proofs.append((beyond_label(name, high), places.proof(high)))
     return Validity(name, least, most, high.normal, Certificate.bundle(proofs))
 

@@ -81,7 +81,7 @@ def from_half_spaces(half_spaces: Sequence[tuple[Point, Fraction]]) -> Polytope:
     Raises ``InputError`` when it is empty, in a plane or unbounded.
     """
     cone = Cone(4)
-    for normal in ((0, 0, 0, -1), *(_whole((*n, -c)) for n, c in half_spaces)):
+    for normal in ((0, 0, 0, -1), *(whole((*n, -c)) for n, c in half_spaces)):
         cone.cut(normal)
     corners = [tuple(Fraction(c, v[3]) for c in v[:3]) for v in cone.rays if v[3]]
     if cone.lines or len(corners) < len(cone.rays):
@@ -97,12 +97,12 @@ def from_corners(points: Sequence[Point]) -> Polytope:
     The half-spaces that hold all points are a cone, and its rays are those of the facets.
     """
     distinct, cone = sorted(set(points)), Cone(4)
-    whole = [_whole((*p, 1)) for p in distinct]
-    for p in whole:
+    rows = [whole((*p, 1)) for p in distinct]
+    for p in rows:
         cone.cut(p)
     if cone.lines:
         raise InputError("a set of corners in one plane")
-    on = {side: tuple(i for i, p in enumerate(whole) if not dot(side, p)) for side in cone.rays}
+    on = {side: tuple(i for i, p in enumerate(rows) if not dot(side, p)) for side in cone.rays}
     ordered = sorted(on.items(), key=lambda item: item[1])
     return _with_edges(distinct, {(n := _primitive(side[:3]), dot(n, distinct[i[0]])): i for side, i in ordered})
 
@@ -206,11 +206,11 @@ def cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
 
 def _primitive(direction: Sequence[Fraction | int]) -> Point:
     """The positive multiple with coprime integer entries."""
-    whole = _whole(direction)
-    return tuple(Fraction(x, gcd(*whole)) for x in whole)
+    entries = whole(direction)
+    return tuple(Fraction(x, gcd(*entries)) for x in entries)
 
 
-def _whole(numbers: Sequence[Fraction | int]) -> tuple[int, ...]:
+def whole(numbers: Sequence[Fraction | int]) -> tuple[int, ...]:
     """A positive multiple with integer entries."""
     common = lcm(*(x.denominator for x in numbers))
     return tuple(int(x * common) for x in numbers)

@@ -12,10 +12,12 @@ class Cone:
     """All sums of multiples of ``lines`` and nonnegative multiples of ``rays``; at first the whole space.
 
     Motzkin, Raiffa, Thompson, Thrall 1953 (double description); two rays span a face iff no third one lies on all
-    bounding hyperplanes that both lie on (Fukuda, Prodon 1996).
+    bounding hyperplanes that both lie on (Fukuda, Prodon 1996), which are at least as many as the face leaves
+    dimensions.
     """
 
     def __init__(self, size: int) -> None:
+        self.size = size
         self.lines: list[Vector] = [tuple(int(i == j) for j in range(size)) for i in range(size)]
         self.rays: dict[Vector, int] = {}  # with the bounding hyperplanes that they lie on, as bits
         self.count = 0
@@ -48,11 +50,11 @@ class Cone:
         inside = [(v, self.rays[v]) for v, value in values.items() if value < 0]
         outside = [(v, self.rays[v]) for v, value in values.items() if value > 0]
         kept = {v: bits if values[v] else bits | bit for v, bits in self.rays.items() if values[v] <= 0}
-        masks = list(self.rays.values())
+        masks, least = list(self.rays.values()), self.size - len(self.lines) - 2
         for u, at_u in outside:
             for v, at_v in inside:
                 common = at_u & at_v
-                if sum(bits & common == common for bits in masks) == 2:
+                if common.bit_count() >= least and sum(bits & common == common for bits in masks) == 2:
                     kept[combination(-values[v], u, values[u], v)] = common | bit
         self.rays = kept
 

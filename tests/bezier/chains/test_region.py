@@ -16,7 +16,7 @@ from scipy.spatial import ConvexHull
 import bezier
 import qe
 from bezier.chains import proposals
-from bezier.chains.hull import grown, simplex
+from bezier.chains.hull import Hull
 from bezier.cli.app import main
 from qe.errors import InputError, Unable
 from tests.tables import each
@@ -154,15 +154,16 @@ def test_a_broken_proposer_gives_no_wrong_region(monkeypatch: pytest.MonkeyPatch
 def test_hulls_are_those_of_qhull(dimension: int) -> None:
     chance = random.Random(dimension)
     points = [tuple(Fraction(chance.randint(-999, 999)) for _ in range(dimension)) for _ in range(40)]
-    begun = simplex(points)
-    assert begun is not None
-    facets, inside = begun
-    for i in range(len(points)):
-        facets = grown(facets, points, i, inside)
-    assert all(f.beyond(p) <= 0 for f in facets for p in points)
+    made = Hull(dimension)
+    for p in points:
+        made.add(p)
+    assert all(f.beyond(p) <= 0 for f in made.facets for p in points)
     other = ConvexHull(np.array([[float(c) for c in p] for p in points]))
-    assert {i for f in facets for i in f.corners} == set(other.vertices.tolist())
-    assert simplex([(Fraction(k),) * dimension for k in range(6)]) is None
+    assert set(made.corners) == set(other.vertices.tolist()) and len(made.facets) == len(other.equations)
+    flat = Hull(dimension)
+    for k in range(6):
+        flat.add((Fraction(k),) * dimension)
+    assert not flat.facets
 
 
 def test_the_command_says_where(capsys: pytest.CaptureFixture[str], tmp_path: Any) -> None:
