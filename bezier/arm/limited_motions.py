@@ -6,12 +6,6 @@ also where solutions meet and on the axis. THEOREM. Intervals [L, U] + 2πk are 
 angle that always lies in one of them, k any integer, always lies in the same one. For limits further apart the
 parameters hold those at which the angle is a multiple of a quarter turn. So it stays on one of these or strictly
 between two neighbours, and the closures of what it takes before and after a parameter meet: that counts full turns.
-
-Whether a continuous joint motion keeps the limits of the joints, exactly, and where it does not.
-
-Between neighbouring ``places`` of a curve (``bezier.arm.study``) no solution passes a limit: so one rational
-parameter decides for all. Where a motion keeps a limit on both sides of a place it keeps it there, as limits are
-closed. An angle counts with its full turns: all of a motion may be some turns away from its branches.
 """
 
 from __future__ import annotations

@@ -23,6 +23,7 @@ from bezier.chains.hull import Facet, Hull
 from bezier.chains.proof import Contradiction, decided, lower_bound, near_optimum, rational_weights, refuted, witness
 from bezier.curves.enclosure import root_above, root_below
 from bezier.curves.scalar import described, dot
+from qe.convex.simplex import Least, linear_optimum
 from qe.errors import InputError, Unable
 from qe.proof.certificate import Certificate
 
@@ -93,8 +94,9 @@ class Places:
 
     def support(self, normal: Point) -> Support:
         """The farthest places in a direction, from both sides. Raises ``Unable``."""
-        size = self.solved.size
-        objective = linear_form(tuple(-c for c in normal), self.place)
+        size, objective = self.solved.size, linear_form(tuple(-c for c in normal), self.place)
+        if not any(row.squares for row in self.rows):
+            return self._vertex(normal, objective)
         proposal = proposals.least_value(self.chain, size, self.rows, objective)
         if proposal is None:
             raise Unable("no farthest place was proposed")
@@ -103,6 +105,18 @@ class Places:
         points = [*near_optimum(self.chain, proposal, self.inside, self.rows, objective), self.inside]
         at = min(points, key=objective.value)
         return Support(normal, -value, tuple(weights), stationary, at, self.place.at(at))
+
+    def _vertex(self, normal: Point, objective: Form) -> Support:
+        """The same where half-spaces are all conditions: both sides agree."""
+        size, d = self.solved.size, self.chain.dimension
+        forms = [row.form.quadratic(size, d) for row in self.rows]
+        least, falls = linear_optimum(objective.quadratic(size, d), forms, check=lambda: None)
+        if falls is not None or not isinstance(least, Least):
+            raise Unable("it is unbounded")
+        flat = tuple(map(Fraction, least.dual))
+        at = tuple(flat[i : i + d] for i in range(0, len(flat), d))
+        weights = tuple(Fraction(least.weights.get(i, _ZERO)) for i in range(len(forms)))
+        return Support(normal, -objective.value(at), weights, at, at, self.place.at(at))
 
     def proof(self, support: Support) -> Certificate:
         """That no chain has the place beyond this half-space."""

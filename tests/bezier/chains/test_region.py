@@ -188,3 +188,15 @@ def test_wrong_names_and_accuracies_are_refused() -> None:
             made.region(name, accuracy)
     with pytest.raises(InputError, match="bounds"):
         chain(PLANE[:3], radius=8, max_length=20).region("via[0]")
+
+
+def test_regions_within_half_spaces_alone_were_called_unbounded() -> None:
+    """Rounded multipliers cannot prove a linear bound without a ball; the simplex method gives vertices exactly."""
+    box = [((1, 0), -15), ((-1, 0), -15), ((0, 1), -12), ((0, -1), -12)]
+    made = bezier.chain(start=(0, 0), via=[(3, 2), (6, 2)], goal=(10, 0), half_spaces=box)
+    found = made.region("via[0]")
+    assert sorted(found.inner) == [(-15, -12), (-15, 12), (15, -12), (15, 12)] and found.gap == 0
+    assert len(found.outer) == 4 and qe.verify(found.certificate).accepted
+    assert str(made.validity("via[0]")).startswith("via[0] may move by 10 in every direction")
+    with pytest.raises(Unable, match="unbounded"):
+        bezier.chain(start=(0, 0), via=[(3, 2)], goal=(10, 0), half_spaces=box[:3]).region("via[0]")
