@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import partial
 
 from qe.convex.linear_point import LinearContradiction, linear_point
 from qe.convex.optimum import Decision, decide
 from qe.convex.system import NotConvex
-from qe.elimination.protocol import Context, Outcome, witness_of
+from qe.elimination.protocol import Context, Outcome, certified_by, point_evidence
 from qe.exact.number import Number
 from qe.formula.block import Block
-from qe.formula.syntax import FALSE, TRUE, Exists
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 
@@ -31,9 +32,9 @@ class ConvexOptimisation:
         point = linear_point(dual.body, budget=context.budget)
         if isinstance(point, LinearContradiction):
             answer = problem.asked(FALSE)
-            proof = Certificate.step("signs", problem.variables, problem.formula, answer, point.evidence())
-            context.log.step("convex", problem.formula, answer, evidence={"proof": {"certificate": proof}})
-            return Outcome(answer, certificate=proof)
+            make = partial(_by_farkas, problem, answer, point)
+            context.log.step("convex", problem.formula, answer, evidence=certified_by(make))
+            return Outcome(answer, make=make)
         known: Mapping[str, Number] | None = point
         if known is None:
             found = decide_convex(Exists(dual.variables, dual.body), budget=context.budget)
@@ -45,9 +46,13 @@ class ConvexOptimisation:
                 context.log.step("convex", problem.formula, answer, evidence=evidence)
                 return Outcome(answer, certificate=found.certificate)
         values = {name: known.get(name, Fraction(0)) for name in dual.variables}
-        evidence = {"proof": {"certificate": witness_of(dual, values)}}
-        answer = context.log.step("convex", problem.formula, problem.asked(TRUE), evidence=evidence)
+        answer = problem.asked(TRUE)
+        context.log.step("convex", problem.formula, answer, evidence=point_evidence(dual, values))
         return Outcome(answer, values)
+
+
+def _by_farkas(problem: Block, answer: Formula, point: LinearContradiction) -> Certificate:
+    return Certificate.step("signs", problem.variables, problem.formula, answer, point.evidence())
 
 
 def decide_convex(sentence: Exists, *, budget: Budget) -> Decision | None:

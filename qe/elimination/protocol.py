@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Protocol
 
 from qe.exact.number import Values
@@ -13,8 +14,23 @@ from qe.formula.build import convert
 from qe.formula.syntax import TRUE, Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Root
+from qe.proof.on_demand import Evidence, OnDemand
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested
+
+
+def point_evidence(block: Block, values: Values) -> dict[str, object]:
+    """The evidence that a block holds, or not, by these values of its variables, made where somebody asks for it."""
+    return certified_by(partial(witness_of, block, values))
+
+
+def certified_by(make: Callable[[], Certificate]) -> dict[str, object]:
+    """The evidence of a step of which this makes the certificate."""
+    return {"proof": OnDemand(partial(_made, make))}
+
+
+def _made(make: Callable[[], Certificate], budget: Budget) -> Evidence:
+    return {"certificate": make()}
 
 
 def witness_of(block: Block, values: Values) -> Certificate:
@@ -29,7 +45,7 @@ class Outcome:
 
     ``witness``: exact values for the block's variables that make a true existential sentence true, or a false universal
     one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one;
-    ``make``: what makes it where one is asked for, since tables are large.
+    ``make``: what makes it where it is read, of a ``large`` one only where it is asked for.
     ``order``: that of the free variables in which the formula was read off, where that matters to who goes on.
     ``back``: where a method reduces the problem to another question, which is ``formula`` then: the outcome for the
     problem from the one for that question. ``shortest``: no part of the formula can be left out.
@@ -49,6 +65,7 @@ class Outcome:
     back: Callable[[Outcome], Outcome] | None = None
     shortest: bool = False
     make: Callable[[], Certificate] | None = None
+    large: bool = False
 
     def nested(self, question: Formula) -> Nested:
         """How the answer to the question was derived, as evidence of a step to another."""

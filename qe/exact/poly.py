@@ -39,7 +39,6 @@ class Ring:
 
     kinds: ClassVar[tuple[tuple[int, type[Ring]], ...]] = ()
     is_wide = False
-    __slots__ = ("__weakref__", "_gens", "_hash_point", "_products", "cache", "ctx", "index", "names", "qctx", "size")
 
     def __init_subclass__(cls, *, more_than: int) -> None:
         Ring.kinds += ((more_than, cls),)
@@ -53,7 +52,6 @@ class Ring:
         flint_names = tuple(f"v{i}" for i in range(max(1, self.size)))
         self.ctx: fmpz_mpoly_ctx = fmpz_mpoly_ctx.get(flint_names, "lex")
         self.qctx: fmpq_mpoly_ctx = fmpq_mpoly_ctx.get(flint_names, "lex")
-        self._gens = self.ctx.gens()
         self._hash_point = tuple(fmpz(_PRIMES[i % 16] + 64 * (i // 16)) for i in range(max(1, self.size)))
         self._products: dict[tuple[str, ...], fmpz_mpoly] = {}
         self.cache: dict[object, object] = {}
@@ -62,6 +60,11 @@ class Ring:
     def of(names: Iterable[str]) -> Ring:
         """The ring with these variable names, lowest first; equal names give the same ring."""
         return _intern(tuple(names))
+
+    @cached_property
+    def _gens(self) -> Any:
+        """The variables in FLINT, made at their first use: 30,000 take a gigabyte."""
+        return self.ctx.gens()
 
     def slot(self, i: int) -> int:
         """The FLINT index of variable ``i``."""
@@ -107,8 +110,7 @@ class Ring:
 
     def _product(self, names: tuple[str, ...]) -> fmpz_mpoly:
         """The product of the variables with these names."""
-        product = self._products.get(names)
-        if product is None:
+        if (product := self._products.get(names)) is None:
             product = self.ctx.constant(1)
             if names:
                 product = self._product(names[:-1]) * self._gens[self.slot(self.index[names[-1]])]
@@ -314,8 +316,6 @@ class Poly:
     def resultant(self, other: Poly, i: int) -> Poly:
         """The resultant with respect to variable ``i``; both need not contain it."""
         m, n = self.degree(i), other.degree(i)
-        if m == 0 and n == 0:
-            return self.ring.constant(1)
         if m == 0:
             return self**n
         if n == 0:
@@ -377,8 +377,7 @@ class Poly:
         return reduce(lambda f, i: f.at_rational(i, values[i]), values, self)
 
     def _clear(self, rational: fmpq_mpoly, scale: int) -> fmpz_mpoly:
-        context = self.ring.ctx
-        return context.from_dict({m: int((c * scale).p) for m, c in rational.terms()})
+        return self.ring.ctx.from_dict({m: int((c * scale).p) for m, c in rational.terms()})
 
     def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
         """The value at a rational point (one value per ring variable)."""

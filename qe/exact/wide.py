@@ -26,7 +26,6 @@ class WideRing(Ring, more_than=WIDE):
     """A ring of many variables."""
 
     is_wide = True
-    __slots__ = ()
 
     def element(self, p: fmpz_mpoly, support: Iterable[int] | None = None) -> Poly:
         """The polynomial with this value in FLINT; ``support``, where known, has all variables that occur."""

@@ -48,7 +48,7 @@ def certificate_of(
     ``asked``: the formula of the caller; ``question``: the same with its root atoms counted and its variables renamed.
     """
     problem, made = Block.of(question), outcome.certificate
-    if options.certify and outcome.make is not None:
+    if outcome.make is not None and (options.certify or not outcome.large):
         made = outcome.make()
     if made is None and outcome.witness is not None and problem is not None and problem.is_flat and not problem.free:
         made = witness_of(problem, outcome.witness)
