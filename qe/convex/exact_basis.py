@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import isfinite, lcm
+from math import frexp, isfinite, lcm
 
 from qe.convex.highs import Proposal, Proposer, Slackened, highs
 from qe.convex.linear_rows import LinearRows
@@ -22,8 +22,8 @@ _ROUNDED = (0, 3, 10, 20, 40)
 _CLOSEST = 1 << 100
 """How much larger differences from a vertex are asked for, at most."""
 
-_TINY = 1e-9
-"""Multipliers that count as zero."""
+_TINY, _DIGITS = 1e-9, 30
+"""What counts as zero: a slack; a multiple of a row, so many binary digits shorter than the longest."""
 
 _PARTS, _NEARLY = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12), 1e-5
 """Parts of the least of some numbers that all may be multiples of, and how nearly."""
@@ -46,11 +46,14 @@ def decided(
     inequalities = [i for i, row in enumerate(system.rows) if not row.is_equation]
     strict = [i for i in inequalities if system.rows[i].is_strict]
     orders = [inequalities, strict] if 0 < len(strict) < len(inequalities) else [inequalities]
-    for slack in (strict, inequalities) if system.is_sparse else orders:
+    for slack in map(frozenset, (strict, inequalities) if system.is_sparse else orders):
         scales = [max(map(abs, row.terms.values())) if i in slack else 0 for i, row in enumerate(system.rows)]
         problem: Slackened | None = Slackened(system, scales)
         while problem is not None:
-            proposal = propose(problem, seconds())
+            try:
+                proposal = propose(problem, seconds())
+            except OverflowError:
+                return None
             if proposal is None:
                 break
             seconds()
@@ -93,13 +96,16 @@ def _rounded(problem: Slackened, proposal: Proposal) -> tuple[Fraction, ...] | N
 def _refutation(problem: Slackened, proposal: Proposal) -> Refutation | None:
     """The multipliers of the rows, from those that are not zero in floats."""
     rows = problem.system.rows
-    weights = proportions({i: w for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY})
+    given = {i: w for i, w in enumerate(proposal.multipliers) if w}
+    sizes = {i: frexp(w)[1] + max(map(abs, rows[i].terms.values())).bit_length() for i, w in given.items()}
+    longest = max(sizes.values(), default=0)
+    support = [i for i, size in sizes.items() if size > longest - _DIGITS]
+    weights = proportions({i: proposal.multipliers[i] for i in support})
     for kept in (weights, {i: -w for i, w in weights.items()}):  # the multipliers of a greatest t are negative
         if kept and problem.system.refuted_by(kept):
             return Refutation(kept)
     if not proposal.ray and proposal.point[problem.size] > _TINY and not problem.centre:
         return None
-    support = [i for i, w in enumerate(proposal.multipliers) if abs(w) > _TINY]
     equations: dict[int, dict[int, int]] = {}
     for k, i in enumerate(support):
         for j, c in (rows[i].terms if proposal.ray else problem.terms(i)).items():

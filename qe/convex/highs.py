@@ -13,11 +13,11 @@ from itertools import accumulate
 from math import inf
 from typing import Any
 
-from qe.convex.linear_rows import LinearRows
+from qe.convex.linear_rows import LinearRows, Row
 
 _DUAL: Mapping[str, object] = {"presolve": "off", "solver": "simplex", "simplex_strategy": 1}
 _MOST_STEPS = 5_000
-"""Steps of the simplex method to a contradiction, at most."""
+"""Steps of the simplex method to a contradiction beyond one for each variable, at most."""
 
 _NEAR = 1e-7
 """How far from a bound a row is taken to keep it."""
@@ -82,7 +82,7 @@ Proposer = Callable[[Slackened, float | None], Proposal | None]
 
 
 def highs(problem: Slackened, seconds: float | None) -> Proposal | None:
-    """What HiGHS proposes; None where it is not installed, fails, or the numbers are beyond floats."""
+    """What HiGHS proposes; None where it is not installed or fails. Raises ``OverflowError`` beyond floats."""
     try:
         import highspy
     except ImportError:
@@ -90,11 +90,8 @@ def highs(problem: Slackened, seconds: float | None) -> Proposal | None:
     sparse = problem.system.is_sparse
     dense: Mapping[str, object] = {"presolve": "off", "simplex_strategy": 4, "simplex_scale_strategy": 0}  # scaled rows
     solver = _solver(seconds, {"solver": "ipm"} if sparse else dense)
-    try:
-        model = _Model(problem)
-        solver.passModel(model.program)
-    except OverflowError:
-        return None
+    model = _Model(problem)
+    solver.passModel(model.program)
     solver.run()
     if solver.getModelStatus() == highspy.HighsModelStatus.kInfeasible:
         return _contradiction(solver, model)
@@ -115,7 +112,7 @@ def _contradiction(solver: Any, model: _Model) -> Proposal | None:
     """What the simplex method without presolving says of conditions that cannot hold together."""
     for name, value in _DUAL.items():
         solver.setOptionValue(name, value)
-    solver.setOptionValue("simplex_iteration_limit", _MOST_STEPS)
+    solver.setOptionValue("simplex_iteration_limit", _MOST_STEPS + model.problem.size)
     solver.clearSolver()
     solver.run()
     _, known, ray = solver.getDualRay()
@@ -142,9 +139,10 @@ class _Model:
         self.numbers, self.units, self.terms = list[int](), list[int](), list[Mapping[int, float]]()
         self.least, self.most = dict[int, tuple[float, int]](), {problem.size: (float(problem.highest), -1)}
         upper, lower = list[float](), list[float]()
+        self.base = min(map(_unit, problem.system.rows), default=1)
         for i, row in enumerate(problem.system.rows):
             given, right = problem.terms(i), problem.right(i)
-            unit = 1 << max(0, max(map(abs, given.values())).bit_length() - 20)
+            unit = _unit(row)
             if len(given) == 1 and not row.is_equation:
                 ((j, c),) = given.items()
                 bounds, number = (self.most if c > 0 else self.least), float(Fraction(right) / c)
@@ -164,19 +162,23 @@ class _Model:
             setattr(self.program, name, numbers)
 
     def multipliers(self, duals: Sequence[float], *, cost: bool = False) -> list[float]:
-        """Those of all rows from those of the rows of the program: those of bounds are what the others leave of each
-        column, but for what t is worth (``cost``)."""
+        """Those of all rows, as multiples of one number, from those of the rows of the program: those of bounds are
+        what the others leave of each column, but for what t is worth (``cost``)."""
         worth, rests = [0.0] * len(self.problem.system.rows), {self.problem.size: float(cost)}
         for i, w, unit, row in zip(self.numbers, duals, self.units, self.terms):
             if w:
-                worth[i] = w / unit
+                worth[i] = w / (unit // self.base)
                 for j, c in row.items():
                     rests[j] = rests.get(j, 0.0) + w * c
         for j, rest in rests.items():
             _, i = (self.most if rest > 0 else self.least).get(j, (0.0, -1))
             if rest and i >= 0:
-                worth[i] = -rest / self.problem.system.rows[i].terms[j]
+                worth[i] = -rest / (self.problem.system.rows[i].terms[j] / self.base)
         return worth
+
+
+def _unit(row: Row) -> int:
+    return 1 << max(0, max(map(abs, row.terms.values())).bit_length() - 20)
 
 
 def _program(

@@ -25,11 +25,11 @@ def sum_text(terms: Iterable[tuple[int, list[str]]], times: str = "*") -> str:
     """The sum of products, each of an integer and texts."""
     pieces: list[str] = []
     for coefficient, factors in terms:
-        magnitude = abs(coefficient)
-        body = times.join(([digits(magnitude)] if magnitude != 1 or not factors else []) + factors)
-        sign = ("-" if coefficient < 0 else "") if not pieces else ("- " if coefficient < 0 else "+ ")
-        pieces.append(sign + body)
-    return " ".join(pieces) or "0"
+        if coefficient not in (1, -1) or not factors:
+            factors = [digits(abs(coefficient)), *factors]
+        pieces += "-" if coefficient < 0 else "+", times.join(factors)
+    start = "-" if pieces[:1] == ["-"] else ""
+    return start + " ".join(pieces[1:]) or "0"
 
 
 def in_order(terms: Iterable[SparseTerm]) -> list[SparseTerm]:
@@ -37,7 +37,8 @@ def in_order(terms: Iterable[SparseTerm]) -> list[SparseTerm]:
     the first one has no powers, the early variables first, as in a*d - b*c."""
     terms = list(terms)
     if all(len(used) < 2 and (not used or used[0][1] == 1) for used, _ in terms):
-        return sorted(terms, key=lambda term: (not term[0], term[0]))
+        terms.sort()
+        return terms if not terms or terms[0][0] else [*terms[1:], terms[0]]
     late_last = sorted(terms, key=lambda term: (_degree(term), [(-i, -k) for i, k in reversed(term[0])]), reverse=True)
     if late_last and any(k > 1 for _, k in late_last[0][0]):
         return late_last

@@ -231,10 +231,10 @@ class LinearPoly(WidePoly):
         terms = {tuple([self.ring.names[i] for i, _ in powers]): c for powers, c in self._terms}
         return Ring.combination(self.ring, terms).p
 
-    @cached_property
+    @property
     def _terms(self) -> tuple[SparseTerm, ...]:
-        terms = tuple((((i, 1),), c) for i, c in zip(self.variables, self.numbers))
-        return (*terms, ((), self.rest)) if self.rest else terms
+        terms: list[SparseTerm] = [(((i, 1),), c) for i, c in zip(self.variables, self.numbers)]
+        return (*terms, ((), self.rest)) if self.rest else tuple(terms)
 
     @cached_property
     def _normal(self) -> tuple[int, Poly]:
@@ -291,7 +291,7 @@ class LinearPoly(WidePoly):
         whole = lcm(*(v.denominator for v in values.values()))
         terms, rest = dict(zip(self.variables, self.numbers)), self.rest * whole
         for i in values.keys() & terms.keys():
-            rest += terms.pop(i) * int(values[i] * whole)
+            rest += terms.pop(i) * values[i].numerator * (whole // values[i].denominator)
         return self.ring.linear(terms if whole == 1 else {i: c * whole for i, c in terms.items()}, rest)
 
     def _at(self, values: Iterable[Fraction | int]) -> fmpq | fmpz | int:

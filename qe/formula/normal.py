@@ -125,7 +125,7 @@ class _Renaming:
             case Exists(variables, body) | ForAll(variables, body):
                 bound = [(name, names.pop()) for name in variables]
                 quantify = exists if isinstance(formula, Exists) else forall
-                inner = self.apply(body, names, {**scope, **{old: new for old, new in bound if new}})
+                inner = self.apply(body, names, {**scope, **{old: new for old, new in bound if new not in ("", old)}})
                 return quantify([new for _, new in bound if new], inner)
             case And() | Or() | Not() | Constant():
                 parts = [self.apply(part, names, scope) for part in children(formula)][::-1]  # each takes its names
@@ -134,9 +134,9 @@ class _Renaming:
                 assert_never(formula)
 
     def _poly(self, poly: Poly, scope: Mapping[str, str]) -> Poly:
-        present = tuple(scope.get(self.ring.names[i], self.ring.names[i]) for i in poly.variables)
-        if self.target is self.ring and all(self.ring.names[i] == n for i, n in zip(poly.variables, present)):
+        if not scope and self.target is self.ring:
             return poly
+        present = tuple(scope.get(self.ring.names[i], self.ring.names[i]) for i in poly.variables)
         key = (poly, present)
         stored = self.polys.get(key)
         if stored is None:

@@ -149,7 +149,7 @@ def tokens(text: str) -> Iterator[Token]:
         end -= 1  # a full stop
     while at < end:
         linear = _LINEAR.match(text, at, end) if state.last in _BEFORE_LINEAR and not state.header else None
-        names = re.findall(WORD, linear.group()) if linear is not None and state.bound else ()
+        names = re.findall(WORD, linear.group()) if linear is not None and state.letters else ()
         if linear is not None and not any(state.is_product(name, at) for name in names):
             yield from state.put("LINEAR", linear.group(), at)
             at = state.end = linear.end()
@@ -267,6 +267,7 @@ class State:
         self.variables: set[str] | None = None
         behind = BEHIND.search(text)
         self.bound: set[str] = {*re.findall(LISTED, behind[1])} if behind else set()
+        self.letters = {name for name in self.bound if len(name) == 1}
         self.words: Counter[str] | None = None
         self.alone: Counter[str] = Counter()
 
@@ -294,6 +295,7 @@ class State:
                 yield from self.put("DOT", ".", at)
             else:
                 self.bound.add(value)
+                self.letters.update(value if len(value) == 1 else ())
         elif self.header and kind in ("RELATION", "IN"):
             self.bounded = True
         if not (self.header or self.listing) and self.multiplies(kind, value, at):
@@ -353,7 +355,7 @@ class State:
         Behind a division it stays a name."""
         if len(name) == 1 or self.header or self.brackets[-1].divided:
             return False
-        behind_number, bound = self.last == "NUMBER" and self.end == at, self.bound.intersection(name)
+        behind_number, bound = self.last == "NUMBER" and self.end == at, self.letters.intersection(name)
         if not (behind_number or bound) or not name.isalpha() or name.lower() in (*KEYWORDS, *FUNCTIONS):
             return False
         if self.words is None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from qe.arguments import whole as whole_number
 from qe.arguments import wrong
-from qe.errors import CertificateRejected, InputError
+from qe.errors import CertificateRejected, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, exists, forall
@@ -297,7 +297,10 @@ def digest(whole: dict[str, Json]) -> str:
 
 def _value_to_json(value: Root | Fraction, name: str) -> Json:
     if isinstance(value, Fraction):
-        return str(value)
+        try:
+            return str(value)
+        except ValueError:
+            raise Unable(f"the value of {name} is too long for a certificate") from None
     ring = Ring.of((name,))
     poly = ring.from_terms({(k,): c for k, c in enumerate(value.coefficients) if c})
     return {"polynomial": poly_to_text(poly.normal()[1]), "interval": [str(value.low), str(value.high)]}

@@ -51,7 +51,10 @@ def certificate_of(
     if outcome.make is not None and (options.certify or not outcome.large):
         made = outcome.make()
     if made is None and outcome.witness is not None and problem is not None and problem.is_flat and not problem.free:
-        made = witness_of(problem, outcome.witness)
+        try:
+            made = witness_of(problem, outcome.witness)
+        except Unable as error:
+            return Proof(None, reason=str(error))
     if made is not None and _says_just(made, question, outcome.formula):
         return Proof(made)
     if made is not None and _is_known_to_say(made, question, outcome.formula):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import random
 from fractions import Fraction
 from fractions import Fraction as F
 from itertools import pairwise
@@ -213,6 +214,26 @@ def test_numbers_that_no_float_holds_are_printed(size: str, capsys: pytest.Captu
         assert main(command) == 0
         told = capsys.readouterr()
         assert told.err == "" and "about 0 " not in told.out
+
+
+@each(290, 400)
+def test_dense_linear_conditions_with_numbers_that_no_float_holds(digits: int) -> None:
+    """Multipliers of rows and the powers of two that these are divided by overflowed; the values of a solution with
+    more than 4300 digits cannot be written in a certificate, and were no answer therefore."""
+    rng, size = random.Random(5), 40
+    names = [f"x{k}" for k in range(size)]
+
+    def row(numbers: list[int], relation: str) -> str:
+        return " + ".join(f"({c})*{x}" for c, x in zip(numbers, names, strict=True)) + relation
+
+    rows = [[rng.randint(-9, 9) * 10**digits + rng.randint(-5, 5) for _ in names] for _ in names]
+    bounds, weights = [rng.randint(-9, 9) for _ in rows], [rng.randint(1, 9) for _ in rows]
+    total = [sum(w * c for w, c in zip(weights, column, strict=True)) for column in zip(*rows, strict=True)]
+    limit = sum(w * b for w, b in zip(weights, bounds, strict=True))
+    known = [row(numbers, f" <= {b}") for numbers, b in zip(rows, bounds, strict=True)]
+    for relation, truth in ((">", False), (">=", True)):
+        sentence = f"ex {', '.join(names)}. {' and '.join([*known, row(total, f' {relation} {limit}')])}"
+        assert qe.eliminate(sentence, timeout=60).truth is truth
 
 
 def test_a_picture_beyond_floating_point_is_refused() -> None:

@@ -63,6 +63,17 @@ def test_random_systems_against_the_exact_simplex_method(monkeypatch, sparse):
     assert decided_ones > 100
 
 
+def test_multipliers_of_very_different_size_are_no_zeros():
+    """That of a long row is small: it was taken for zero, and 640 conditions took 16 s."""
+    system = system_of(read("x + y >= 1 and x <= 0 and 10000000000*x + 20000000000*y <= 9999999999"))
+
+    def proposed(problem, seconds):
+        return Proposal((), (), (0.0, 0.0, 0.0), (2.0, 1.0, 1e-10), ray=True)
+
+    outcome = decided(system, lambda: None, proposed)
+    assert isinstance(outcome, Refutation) and len(outcome.weights) == 3
+
+
 def test_random_proposals_never_give_a_wrong_outcome():
     rng = random.Random(4)
 
