@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import frexp, isfinite, lcm
+from math import frexp, isfinite
 
 from qe.convex.highs import Proposal, Proposer, Slackened, highs
 from qe.convex.linear_rows import LinearRows
-from qe.exact.sparse_solve import solve_sparse
+from qe.exact.sparse_solve import solve_sparse, whole_multiples
 
 _ROUNDED = (0, 3, 10, 20, 40)
 """Binary digits after the point that are tried for a point with room to spare."""
@@ -25,8 +25,8 @@ _CLOSEST = 1 << 100
 _TINY, _DIGITS = 1e-9, 30
 """What counts as zero: a slack; a multiple of a row, so many binary digits shorter than the longest."""
 
-_PARTS, _NEARLY = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12), 1e-5
-"""Parts of the least of some numbers that all may be multiples of, and how nearly."""
+_PART, _WHOLE, _NEARLY, _NOISE = 5_000, 10_000_000, 1e-5, 1e-10
+"""A number may be whole times a small part of the least, all times a larger one; how nearly, and in proportion."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,20 +117,22 @@ def _refutation(problem: Slackened, proposal: Proposal) -> Refutation | None:
     solved = solve_sparse(equations.values(), [int(j == problem.size) for j in equations])
     if solved is None:
         return None
-    whole = lcm(*(w.denominator for w in solved.values()))
-    weights = {support[k]: int(w * whole) for k, w in solved.items() if w}
+    weights = {support[k]: w for k, w in whole_multiples(solved).items() if w}
     return Refutation(weights) if problem.system.refuted_by(weights) else None
 
 
 def proportions(numbers: Mapping[int, float]) -> dict[int, int]:
-    """Integers in these proportions, as far as floats tell; none where the least number is not a small part of some."""
-    least = min(map(abs, numbers.values()), default=0.0)
-    if least and all(map(isfinite, numbers.values())):
-        for part in _PARTS:
-            unit = least / part
-            if all(abs(w / unit - round(w / unit)) < _NEARLY for w in numbers.values()):
-                return {i: round(w / unit) for i, w in numbers.items()}
-    return {}
+    """Integers in these proportions, as far as floats tell; none where they are not small parts of each other."""
+    least, whole = min(map(abs, numbers.values()), default=0.0), 1
+    if not least or not all(isfinite(w / least * _WHOLE * _PART) for w in numbers.values()):
+        return {}
+    for w in numbers.values():
+        ratio = w / least * whole
+        if abs(ratio - round(ratio)) > _NEARLY + _NOISE * abs(ratio):
+            whole *= Fraction(ratio).limit_denominator(_PART).denominator
+        if whole > _WHOLE:
+            return {}
+    return {i: round(w / least * whole) for i, w in numbers.items()}
 
 
 def _vertex(problem: Slackened, proposal: Proposal) -> tuple[Fraction, ...] | None:

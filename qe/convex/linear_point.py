@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from math import lcm
 
 from qe.convex.exact_basis import Refutation, decided
 from qe.convex.highs import Proposer, highs
 from qe.convex.linear_rows import LinearRows, linear_atoms
 from qe.exact.linear_bounds import LinearBounds, TooMuch
 from qe.exact.ring import Poly
+from qe.exact.sparse_solve import whole_multiples
 from qe.formula.syntax import Formula
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
@@ -83,9 +83,7 @@ def _pivoted(system: LinearRows, budget: Budget, work: int | None = None) -> tup
     factors: list[Fraction] = []
 
     def refutation(parts: Iterable[tuple[Hashable, Fraction]]) -> Refutation:
-        known = [(k, c / factors[k]) for k, c in parts if isinstance(k, int)]
-        whole = lcm(*(c.denominator for _, c in known))
-        weights = {k: int(c * whole) for k, c in known}
+        weights = whole_multiples({k: c / factors[k] for k, c in parts if isinstance(k, int)})
         return Refutation(weights if system.refuted_by(weights) else {k: -w for k, w in weights.items()})
 
     for number, row in enumerate(system.rows):

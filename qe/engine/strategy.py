@@ -192,7 +192,7 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.QUESTION, "convex", on.large_linear_system, SHORTCUT),
     Attempt(Scope.QUESTION, "local variables", on.many_linear_cases),
-    Attempt(Scope.QUESTION, "search", on.many_linear_cases, SHORTCUT),
+    Attempt(Scope.QUESTION, "search", on.many_linear_cases),
     Attempt(Scope.QUESTION, "standard simplification", on.quantified),
     Attempt(Scope.QUESTION, "definitions", on.definitions),
     Attempt(Scope.QUESTION, "witness", on.inner_blocks, SHORTCUT),

@@ -9,9 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
-from math import gcd
+from math import gcd, lcm
+from typing import TypeVar
 
 from flint import fmpq, fmpz_mat, nmod_mat
+
+Key = TypeVar("Key")
 
 _FILL = 24
 """New entries that a pivot may make by hand."""
@@ -44,6 +47,12 @@ def solve_sparse(rows: Iterable[Mapping[int, int]], right: Iterable[int]) -> dic
                 total -= values[k] * c
         values[j] = total / row[j]
     return {j: Fraction(int(v.p), int(v.q)) for j, v in values.items()}
+
+
+def whole_multiples(values: Mapping[Key, Fraction]) -> dict[Key, int]:
+    """The values times the least number that makes all of them whole."""
+    scale = lcm(*(v.denominator for v in values.values()))
+    return {key: v.numerator * (scale // v.denominator) for key, v in values.items()}
 
 
 _RIGHT = -1  # the column of the right side

@@ -14,9 +14,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import lcm, prod
+from math import prod
 
 from qe.exact.ring import Poly
+from qe.exact.sparse_solve import whole_multiples
 from qe.formula.build import atom, conj
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import Atomic, Formula
@@ -62,18 +63,13 @@ def _piece(whole: Formula, variables: frozenset[str]) -> Piece:
         found = constant_direction(body, parameters) if len(parameters) > 1 else {}
         if not found:
             break
-        direction = _whole(found)
+        direction = whole_multiples(found)
         name = min(direction, key=lambda v: (direction[v], v))
         if direction[name] < 0:
             direction = {v: -w for v, w in direction.items()}
         steps.append((name, direction))
         body = substituted(body, {name: Fraction(0)})
     return Piece(whole, body, tuple(steps))
-
-
-def _whole(direction: Mapping[str, Fraction]) -> dict[str, int]:
-    scale = lcm(*(w.denominator for w in direction.values()))
-    return {v: int(w * scale) for v, w in direction.items()}
 
 
 def _moved(formula: Formula, name: str, direction: Direction) -> Formula:

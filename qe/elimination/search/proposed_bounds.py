@@ -15,7 +15,7 @@ from qe.convex.exact_basis import proportions
 from qe.convex.highs import FloatRows, Offers
 from qe.elimination.search.linear_forms import Direction, Monomial
 from qe.exact.linear_bounds import Bound, Bounds, Offered, Term, weakest
-from qe.exact.sparse_solve import solve_sparse
+from qe.exact.sparse_solve import solve_sparse, whole_multiples
 
 _APART = 1e-6
 """How far from its bound a form is looked for where that is strict, in proportion."""
@@ -107,7 +107,7 @@ class ProposedBounds(Bounds):
 
     def _exact(self, ray: Mapping[int, float]) -> list[Term]:
         """Multiples of the bounds of these rows, about so large, that contradict each other; none where they do not."""
-        weights: Mapping[int, Fraction | int] = proportions(ray)
+        weights = proportions(ray)
         if not self._cancels(weights):
             first, *support = ray or (0,)
             columns: dict[int, dict[int, int]] = {}
@@ -116,14 +116,14 @@ class ProposedBounds(Bounds):
                     columns.setdefault(j, {})[i] = c
             right = self._rows[first]
             solved = solve_sparse(columns.values(), [-right.get(j, 0) for j in columns])
-            weights = {first: 1, **(solved or {})}
+            weights = whole_multiples({first: Fraction(1), **(solved or {})})
             if not self._cancels(weights):
                 return []
         return self.contradicted(weights) or self.contradicted({i: -w for i, w in weights.items()})
 
-    def _cancels(self, weights: Mapping[int, Fraction | int]) -> bool:
+    def _cancels(self, weights: Mapping[int, int]) -> bool:
         """Whether these multiples of the rows, not none of them, add up to zero."""
-        sums: dict[int, Fraction | int] = {}
+        sums: dict[int, int] = {}
         for i, w in weights.items():
             for j, c in self._rows[i].items():
                 sums[j] = sums.get(j, 0) + w * c
