@@ -20,13 +20,7 @@ def conjunction(values: Iterable[Truth]) -> Truth:
 
 def disjunction(values: Iterable[Truth]) -> Truth:
     """True if any value is True, False if all are False, otherwise unknown. Stops early."""
-    result: Truth = False
-    for value in values:
-        if value is True:
-            return True
-        if value is None:
-            result = None
-    return result
+    return negation(conjunction(map(negation, values)))
 
 
 def negation(value: Truth) -> Truth:

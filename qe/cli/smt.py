@@ -114,12 +114,13 @@ class Solver(Checks):
         fail = FailingBehind(Failing(text, source), line, column)
         self.script.fail = fail
         self.begin()
-        if self.late and (skipped := _READ.match(text)):
-            self.passed_over(skipped[1])
+        read = _READ.match(text)
+        if self.late and read:
+            self.passed_over(read[1])
             return
-        asserts = re.match(r"\s*\(\s*assert\b", text) is not None
+        asserts = read is not None and read[1] == "assert"
         try:
-            if asserts and self.asserted(text, fail):
+            if read and self.changed(text, fail):
                 return
             commands = parse(text, fail)
         except InputError as error:
@@ -131,9 +132,9 @@ class Solver(Checks):
             if self.done:
                 return
 
-    def asserted(self, text: str, fail: s.Fail) -> bool:
-        """Whether an assertion is read without places, which takes half the time; where there is an error, it is read
-        once more to see where."""
+    def changed(self, text: str, fail: s.Fail) -> bool:
+        """Whether what declares, defines or asserts is read without places, which takes half the time; where there is
+        an error, it is read once more to see where."""
         try:
             (command,) = parse(text, fail, placed=False)
             if not self.script.change(cast(list[Expression], command)):
@@ -167,12 +168,10 @@ class Solver(Checks):
             kept = self.script.keep(cast(list[Expression], command)) if command_name(command) else True
             self.lost[-1] = self.lost[-1] or not kept
             self.error(error)
-        except Unable as error:
+        except (Unable, RecursionError) as error:
             self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
-            self.error(InputError(f"unable: {error}"))
-        except RecursionError:
-            self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
-            self.error(InputError("the command is nested too deeply"))
+            deep = isinstance(error, RecursionError)
+            self.error(InputError("the command is nested too deeply" if deep else f"unable: {error}"))
         else:
             if reply is not None:
                 self.put(reply)

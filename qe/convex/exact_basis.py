@@ -45,8 +45,7 @@ def decided(
     """
     inequalities = [i for i, row in enumerate(system.rows) if not row.is_equation]
     strict = [i for i in inequalities if system.rows[i].is_strict]
-    orders = [inequalities, strict] if 0 < len(strict) < len(inequalities) else [inequalities]
-    for slack in map(frozenset, (strict, inequalities) if system.is_sparse else orders):
+    for slack in map(frozenset, (strict, inequalities) if system.is_sparse else (inequalities, strict)):
         scales = [max(map(abs, row.terms.values())) if i in slack else 0 for i, row in enumerate(system.rows)]
         problem: Slackened | None = Slackened(system, scales)
         while problem is not None:

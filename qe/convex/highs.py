@@ -94,7 +94,7 @@ def highs(problem: Slackened, seconds: float | None) -> Proposal | None:
     solver.passModel(model.program)
     solver.run()
     if solver.getModelStatus() == highspy.HighsModelStatus.kInfeasible:
-        return _contradiction(solver, model)
+        return _contradiction(seconds, model)
     basis, solution = solver.getBasis(), solver.getSolution()
     if solver.getModelStatus() != highspy.HighsModelStatus.kOptimal or not basis.valid:
         return None
@@ -108,12 +108,10 @@ def highs(problem: Slackened, seconds: float | None) -> Proposal | None:
     return Proposal(columns, rows, list(solution.col_value), model.multipliers(solution.row_dual, cost=True))
 
 
-def _contradiction(solver: Any, model: _Model) -> Proposal | None:
+def _contradiction(seconds: float | None, model: _Model) -> Proposal | None:
     """What the simplex method without presolving says of conditions that cannot hold together."""
-    for name, value in _DUAL.items():
-        solver.setOptionValue(name, value)
-    solver.setOptionValue("simplex_iteration_limit", _MOST_STEPS + model.problem.size)
-    solver.clearSolver()
+    solver = _solver(seconds, {**_DUAL, "simplex_iteration_limit": _MOST_STEPS + model.problem.size})
+    solver.passModel(model.program)
     solver.run()
     _, known, ray = solver.getDualRay()
     return Proposal((), (), (), model.multipliers(ray), ray=True) if known else None

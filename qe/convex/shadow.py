@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd
 
 from qe.convex.cone import Cone, Vector, combination, dot
 from qe.convex.polyhedron import Check, HalfSpace, Polyhedron
 from qe.exact.linear_bounds import LinearBounds
+from qe.exact.sparse_solve import whole_multiples
 
 _GROWTH = 4
 """Rows that the elimination of a variable may add."""
@@ -111,17 +112,16 @@ class _Rows:
                 self.bounds.at_most(x, Fraction(value), strict=False, reason=None)
             if self.bounds.conflict(check) is None:
                 return None
-            weights = [(i, w) for i, w in self.bounds.contradiction() if isinstance(i, int)]
+            weights = whole_multiples({i: w for i, w in self.bounds.contradiction() if isinstance(i, int)})
         finally:
             self.bounds.back(mark)
-        whole = lcm(*(w.denominator for _, w in weights))
         total = dict.fromkeys(self.variables, 0)
-        for i, w in weights:
+        for i, w in weights.items():
             for j, c in self.rows[i].items():
-                total[j] += int(w * whole) * c
+                total[j] += w * c
         content = gcd(*total.values()) or 1
         cut = tuple(total.pop(j) // content for j in self.kept)
-        if any(w < 0 for _, w in weights) or any(total.values()) or dot(cut, point) <= 0:
+        if any(w < 0 for w in weights.values()) or any(total.values()) or dot(cut, point) <= 0:
             raise ArithmeticError("no half-space that excludes the point")
         return cut
 
@@ -139,9 +139,7 @@ class _Rows:
             self.bounds.back(mark)
         values = self.bounds.point()
         self.bounds.back(mark)
-        point = [values[self.variables[j]] for j in self.kept]
-        whole = lcm(*(v.denominator for v in point))
-        return tuple(int(v * whole) for v in point)
+        return tuple(whole_multiples({j: values[self.variables[j]] for j in self.kept}).values())
 
 
 def _row(half: HalfSpace) -> dict[int, int]:

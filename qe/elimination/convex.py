@@ -9,7 +9,7 @@ from functools import partial
 from qe.convex.linear_point import LinearContradiction, linear_point
 from qe.convex.optimum import Decision, decide
 from qe.convex.system import NotConvex
-from qe.elimination.protocol import Context, Outcome, certified_by, point_evidence
+from qe.elimination.protocol import Context, Outcome, certified_by, witness_of
 from qe.exact.number import Number
 from qe.formula.block import Block
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
@@ -42,13 +42,12 @@ class ConvexOptimisation:
                 return None
             known = found.values
             if known is None:
-                answer, evidence = problem.asked(FALSE), {"proof": {"certificate": found.certificate}}
-                context.log.step("convex", problem.formula, answer, evidence=evidence)
+                answer, refuted = problem.asked(FALSE), {"proof": {"certificate": found.certificate}}
+                context.log.step("convex", problem.formula, answer, evidence=refuted)
                 return Outcome(answer, certificate=found.certificate)
         values = {name: known.get(name, Fraction(0)) for name in dual.variables}
-        answer = problem.asked(TRUE)
-        context.log.step("convex", problem.formula, answer, evidence=point_evidence(dual, values))
-        return Outcome(answer, values)
+        evidence = certified_by(partial(witness_of, dual, values))
+        return Outcome(context.log.step("convex", problem.formula, problem.asked(TRUE), evidence=evidence), values)
 
 
 def _by_farkas(problem: Block, answer: Formula, point: LinearContradiction) -> Certificate:

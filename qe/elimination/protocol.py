@@ -19,13 +19,8 @@ from qe.proof.run_log import RunLog
 from qe.proof.step import Nested
 
 
-def point_evidence(block: Block, values: Values) -> dict[str, object]:
-    """The evidence that a block holds, or not, by these values of its variables, made where somebody asks for it."""
-    return certified_by(partial(witness_of, block, values))
-
-
 def certified_by(make: Callable[[], Certificate]) -> dict[str, object]:
-    """The evidence of a step of which this makes the certificate."""
+    """The evidence of a step of which this makes the certificate, where somebody wants it."""
     return {"proof": OnDemand(partial(_made, make))}
 
 

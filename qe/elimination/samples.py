@@ -14,8 +14,9 @@ import random
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from functools import partial
 
-from qe.elimination.protocol import Context, Outcome, point_evidence
+from qe.elimination.protocol import Context, Outcome, certified_by, witness_of
 from qe.exact.number import Values
 from qe.exact.ring import Poly
 from qe.formula.block import Block
@@ -61,7 +62,7 @@ class SampledPoints:
         if known is None:
             return None
         values: Values = {name: known.get(name, Fraction(0)) for name in dual.variables}
-        evidence, answer = point_evidence(dual, values), problem.asked(TRUE)
+        evidence, answer = certified_by(partial(witness_of, dual, values)), problem.asked(TRUE)
         context.log.step("point or multipliers", problem.formula, answer, evidence=evidence)
         return Outcome(answer, values)
 
