@@ -170,8 +170,8 @@ class Solver(Checks):
             self.error(error)
         except (Unable, RecursionError) as error:
             self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
-            deep = isinstance(error, RecursionError)
-            self.error(InputError("the command is nested too deeply" if deep else f"unable: {error}"))
+            said = f"unable: {error}" if isinstance(error, Unable) else "the command is nested too deeply"
+            self.error(InputError(said))
         else:
             if reply is not None:
                 self.put(reply)

@@ -25,7 +25,6 @@ def _run(name: str, module: str) -> int:
         print(f"{name}: interrupted", file=sys.stderr)
         return 130
     finally:
-        gc.freeze()
         gc.set_threshold(20_000, 20, 50)  # there are few circles: looking for them took a third of a long script
         gc.enable()
     return int(main())

@@ -13,7 +13,7 @@ from itertools import accumulate
 from math import inf
 from typing import Any
 
-from qe.convex.linear_rows import LinearRows, Row
+from qe.convex.linear_rows import LinearRows
 
 _DUAL: Mapping[str, object] = {"presolve": "off", "solver": "simplex", "simplex_strategy": 1}
 _MOST_STEPS = 5_000
@@ -137,10 +137,10 @@ class _Model:
         self.numbers, self.units, self.terms = list[int](), list[int](), list[Mapping[int, float]]()
         self.least, self.most = dict[int, tuple[float, int]](), {problem.size: (float(problem.highest), -1)}
         upper, lower = list[float](), list[float]()
-        self.base = min(map(_unit, problem.system.rows), default=1)
-        for i, row in enumerate(problem.system.rows):
+        units = [1 << max(0, max(map(abs, row.terms.values())).bit_length() - 20) for row in problem.system.rows]
+        self.base = min(units, default=1)
+        for i, (row, unit) in enumerate(zip(problem.system.rows, units)):
             given, right = problem.terms(i), problem.right(i)
-            unit = _unit(row)
             if len(given) == 1 and not row.is_equation:
                 ((j, c),) = given.items()
                 bounds, number = (self.most if c > 0 else self.least), float(Fraction(right) / c)
@@ -173,10 +173,6 @@ class _Model:
             if rest and i >= 0:
                 worth[i] = -rest / (self.problem.system.rows[i].terms[j] / self.base)
         return worth
-
-
-def _unit(row: Row) -> int:
-    return 1 << max(0, max(map(abs, row.terms.values())).bit_length() - 20)
 
 
 def _program(

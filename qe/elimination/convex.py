@@ -29,13 +29,12 @@ class ConvexOptimisation:
     def run(self, problem: Block, context: Context) -> Outcome | None:
         """A decision with its certificate; None where the set is not a convex one that can be read."""
         dual = problem.dual
-        point = linear_point(dual.body, budget=context.budget)
-        if isinstance(point, LinearContradiction):
+        known: LinearContradiction | Mapping[str, Number] | None = linear_point(dual.body, budget=context.budget)
+        if isinstance(known, LinearContradiction):
             answer = problem.asked(FALSE)
-            make = partial(_by_farkas, problem, answer, point)
+            make = partial(_by_farkas, problem, answer, known)
             context.log.step("convex", problem.formula, answer, evidence=certified_by(make))
             return Outcome(answer, make=make)
-        known: Mapping[str, Number] | None = point
         if known is None:
             found = decide_convex(Exists(dual.variables, dual.body), budget=context.budget)
             if found is None:

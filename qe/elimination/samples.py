@@ -14,9 +14,8 @@ import random
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from functools import partial
 
-from qe.elimination.protocol import Context, Outcome, certified_by, witness_of
+from qe.elimination.protocol import Context, Outcome, witness_of
 from qe.exact.number import Values
 from qe.exact.ring import Poly
 from qe.formula.block import Block
@@ -62,8 +61,8 @@ class SampledPoints:
         if known is None:
             return None
         values: Values = {name: known.get(name, Fraction(0)) for name in dual.variables}
-        evidence, answer = certified_by(partial(witness_of, dual, values)), problem.asked(TRUE)
-        context.log.step("point or multipliers", problem.formula, answer, evidence=evidence)
+        evidence = {"proof": {"certificate": witness_of(dual, values)}}
+        answer = context.log.step("point or multipliers", problem.formula, problem.asked(TRUE), evidence=evidence)
         return Outcome(answer, values)
 
 

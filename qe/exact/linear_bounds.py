@@ -153,11 +153,11 @@ class LinearBounds(Bounds):
         if x not in self.rows:
             self._move(x, (fmpq(value.numerator, value.denominator), _ZERO))
 
-    def conflict(self, check: Callable[[], object]) -> set[Hashable] | None:
+    def conflict(self, check: Callable[[], object], *, now: bool = True) -> set[Hashable] | None:
         """None where all bounds can hold together; else reasons that cannot, by Farkas's lemma on one row.
 
-        No reason can be left out of them as long as the row stands. ``check`` is called between pivots. Raises
-        ``TooMuch``.
+        No reason can be left out of them as long as the row stands. ``check`` is called between pivots; it is
+        always ``now``. Raises ``TooMuch``.
         """
         pivots, self.stuck = 0, None
         while True:

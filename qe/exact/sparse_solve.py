@@ -10,11 +10,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
 from math import gcd, lcm
-from typing import TypeVar
 
 from flint import fmpq, fmpz_mat, nmod_mat
 
-Key = TypeVar("Key")
+from qe.exact.poly import T
 
 _FILL = 24
 """New entries that a pivot may make by hand."""
@@ -49,7 +48,7 @@ def solve_sparse(rows: Iterable[Mapping[int, int]], right: Iterable[int]) -> dic
     return {j: Fraction(int(v.p), int(v.q)) for j, v in values.items()}
 
 
-def whole_multiples(values: Mapping[Key, Fraction]) -> dict[Key, int]:
+def whole_multiples(values: Mapping[T, Fraction]) -> dict[T, int]:
     """The values times the least number that makes all of them whole."""
     scale = lcm(*(v.denominator for v in values.values()))
     return {key: v.numerator * (scale // v.denominator) for key, v in values.items()}

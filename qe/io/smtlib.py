@@ -53,20 +53,16 @@ def read(text: str, *, source: str = "<text>") -> Formula:
     fail = Failing(text, source)
     try:
         with without_collections(text):
-            formula = _read(text, fail)
+            try:
+                formula = _asserted(parse(text, fail, placed=False), fail)
+            except ParseError:  # once more, to see where it is
+                formula = _asserted(parse(text, fail), fail)
         depth = _depth(formula)
     except RecursionError:
         raise fail("the script is nested too deeply", -1) from None
     if depth > MAX_DEPTH:
         raise fail(f"the formula is nested more than {MAX_DEPTH} levels deep", -1)
     return formula
-
-
-def _read(text: str, fail: Failing) -> Formula:
-    try:
-        return _asserted(parse(text, fail, placed=False), fail)
-    except ParseError:  # once more, to see where it is
-        return _asserted(parse(text, fail), fail)
 
 
 def _asserted(commands: list[Expression], fail: Failing) -> Formula:

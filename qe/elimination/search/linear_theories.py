@@ -171,10 +171,7 @@ class Forms:
         if not self.changed and not now:
             return None
         self.changed = False
-        if isinstance(self.bounds, ProposedBounds):
-            conflict = self.bounds.conflict(self.check, now=now)
-        else:
-            conflict = self.bounds.conflict(self.check)
+        conflict = self.bounds.conflict(self.check, now=now)
         return None if conflict is None else _literals(self.bounds.weakened(self._offered))
 
     def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:

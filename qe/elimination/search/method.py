@@ -1,10 +1,9 @@
 """Boolean search: existential sentences with many cases, by a SAT solver over the signs of their polynomials.
 
-The clauses are those of ``qe.elimination.search.clauses``. Each model of theirs chooses atoms that make the formula
-true; if these hold at a point, so does the formula; if not, some of them cannot hold together, which is a further
-clause. First
-``qe.elimination.search.guided`` looks for such clauses while the solver decides; whether they leave no model is seen by
-a solver that has nothing but clauses, and goes on where they do.
+The clauses are those of ``clauses``. Each model of theirs chooses atoms that make the formula true; if these hold at a
+point, so does the formula; if not, some of them cannot hold together, which is a further clause. First ``guided`` looks
+for such clauses while the solver decides; whether they leave no model is seen by a solver that has nothing but clauses,
+and goes on where they do.
 
 THEOREM. If the clauses have no model, the sentence is false: every clause added is true at all real points, and
 a real point that makes the formula true gives a model of all of them. There are finitely many choices, each of which is
