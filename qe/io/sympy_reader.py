@@ -79,7 +79,7 @@ class Reader:
             relation = _ASSUMED.get(str(e.function).removeprefix("Q."))
             if relation is not None and len(e.arguments) == 1:
                 return s.Comparison([self.real(e.arguments[0]), s.Number(0)], [relation], -1)
-        if isinstance(e, sp.Expr) and not isinstance(e, sp.Symbol) and e.free_symbols:
+        if isinstance(e, sp.Expr | sp.Poly) and not isinstance(e, sp.Symbol) and e.free_symbols:
             return s.Comparison([self.real(e), s.Number(0)], [Relation.EQ], -1)  # as solve reads it
         hint = f"; a truth value may be written {shown(e)} > 0" if isinstance(e, sp.Symbol) else ""
         raise InputError(f"formula: a Boolean combination of relations expected, {shown(e)} found{hint}")
@@ -121,6 +121,8 @@ class Reader:
             return s.Number(decimal_of(e))
         if e in (sp.S.Infinity, sp.S.NegativeInfinity):
             return s.Infinity(-1) if e is sp.S.Infinity else s.Minus(s.Infinity(-1))
+        if isinstance(e, sp.Poly):
+            return self.real(e.as_expr())
         if isinstance(e, sp.Add):
             return s.Sum([self.real(a) for a in e.args])
         if isinstance(e, sp.Mul):
@@ -153,9 +155,11 @@ class Reader:
         if isinstance(e, sp.Determinant):
             return isinstance(e.arg, sp.MatrixBase) and all(map(_is_polynomial, e.arg))
         if isinstance(e, sp.Sum | sp.Integral):
-            finite = all(len(limit) == 3 and limit[1].is_Rational and limit[2].is_Rational for limit in e.limits)
-            whole = isinstance(e, sp.Integral) or all(end.is_Integer for limit in e.limits for end in limit[1:])
-            return finite and whole and _is_polynomial(e.args[0])
+            ends = (
+                [end for limit in e.limits for end in limit[1:]] if all(len(limit) == 3 for limit in e.limits) else []
+            )
+            fits = all(end.is_Integer for end in ends) if isinstance(e, sp.Sum) else all(map(_is_polynomial, ends))
+            return bool(ends) and fits and not any(end.is_infinite for end in ends) and _is_polynomial(e.args[0])
         return isinstance(e, sp.Derivative) and _is_polynomial(e.args[0])
 
     def refusal(self, e: Any) -> str:

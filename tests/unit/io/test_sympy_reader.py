@@ -54,6 +54,8 @@ def holds(expression: Any, x: Fraction, y: Fraction = Fraction(0)) -> bool:
     (sympy.Q.nonnegative(X) & ~sympy.Q.zero(X), lambda x: x > 0),
     (sympy.Derivative(X**3 - X, X) > 0, lambda x: 3 * x * x > 1),
     (sympy.Integral(X, (X, 0, 1)) < X, lambda x: x > Fraction(1, 2)),
+    (sympy.Integral(Y, (Y, 0, X)) < X, lambda x: 0 < x < 2),
+    (sympy.Poly(X**2 - X, X), lambda x: x in (0, 1)),
     (sympy.Sum(X * Y**0 * sympy.Symbol("n"), (sympy.Symbol("n"), 0, 3)) > 1, lambda x: 6 * x > 1),
     (sympy.Determinant(sympy.Matrix([[X, 1], [1, X]])) > 0, lambda x: x * x > 1),
     (Eq(sympy.Matrix([X, X**2]), sympy.Matrix([-1, 1])), lambda x: x == -1),
