@@ -77,7 +77,7 @@ def _solutions(
     cases = tuple(region.cells)
     lines = [str(case) for case in cases]
     by_value = cases_by_value(region.table, len(region.order) - solved, budget, known)
-    if by_value is not None and sum(map(len, by_value)) < sum(map(len, lines)):
+    if by_value is not None and sum(map(len, by_value)) <= sum(map(len, lines)):
         lines = by_value
     region.limits = whole
     solutions = Solutions(region.order, cases, region, tuple(lines))

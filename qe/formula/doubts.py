@@ -81,7 +81,7 @@ def numbers_as_names(free: Iterable[str], text: str, names: Iterable[str] = ()) 
     doubtful = [
         name
         for name in _NUMBERS
-        if name in free and re.search(rf"(?<![\w`]){name}(?!\w)", text) and "\\" not in text
+        if name in free and re.search(rf"(?<![^\W\d])(?<!`){name}(?!\w)", text) and "\\" not in text
         if not alphabet & {chr(ord(name) - 1), chr(ord(name) + 1)}
     ]
     verb = "is a variable here, no number" if len(doubtful) == 1 else "are variables here, no numbers"

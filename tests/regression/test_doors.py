@@ -57,6 +57,7 @@ def test_letters_are_variables_and_noted_where_their_neighbours_are_none(name: s
     with pytest.warns(qe.DoubtfulInput, match=f"^{name} is a variable here, no number$") as noted:
         assert qe.equivalent(qe.eliminate(f"ex x. x > 0 and {name}*x = 1"), f"{name} > 0")
     assert noted[0].filename == __file__
+    assert noted_in(f"x^2 + 3{name} = 0") == [f"{name} is a variable here, no number"]
     for quiet in (f"ex {name}. {name}*x = 1", f"`{name}`*x = 1", *(f"{name}*x = {other}" for other in neighbours)):
         assert not noted_in(quiet), quiet
     with pytest.warns(qe.DoubtfulInput, match=f"{name} is a variable"):
