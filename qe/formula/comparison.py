@@ -7,13 +7,11 @@ from math import gcd, prod
 from typing import NamedTuple
 
 from qe.exact.ring import Poly
+from qe.formula.linear_forms import Forms, in_linear_forms, is_short, with_forms
 from qe.formula.notation import Level, Monomial, Notation, digits, monomials, oriented, polynomial, positive
 from qe.formula.relation import Relation
 from qe.formula.syntax import Atom, Formula
 from qe.spelling import NUMBERS
-
-MOST_FACTORED = 40
-"""Terms, and total degree, up to which a polynomial is factored to be written."""
 
 Side = tuple[list[Monomial], Relation, list[Monomial], int]
 """The left side of a comparison, the relation, and the right side with its denominator."""
@@ -29,9 +27,11 @@ class Range(NamedTuple):
     term: list[Monomial]
     under: Relation
     high: End
+    forms: Forms
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         """As formulas are."""
+        notation = with_forms(self.forms, notation)
         middle = f"{notation.relation(self.above)} {polynomial(self.term, notation)} {notation.relation(self.under)}"
         return f"{_end(*self.low, notation)} {middle} {_end(*self.high, notation)}"
 
@@ -53,7 +53,9 @@ def sides(poly: Poly, relation: Relation) -> Side:
     if not linear and [c for c, _ in parts] == [1, -1] and variable and variable[0] not in dict(first):
         return [(1, last)], between.flipped, [(1, first)], 1
     bounded = len(terms) < len(parts) and all(c > 0 for c, _ in terms) and (len(names) > 1 or len(terms) == 1)
-    if not (linear or bounded):
+    if bounded and not linear:
+        return _bounded(poly, relation)
+    if not linear:
         return parts, between, [], 1
     return [(c, m) for c, m in parts if c > 0], between, [(-c, m) for c, m in parts if c < 0], 1
 
@@ -84,8 +86,11 @@ def ranges(parts: Sequence[Formula]) -> list[Formula | Range]:
 def _between(first: Formula | Range, second: Formula) -> Range | None:
     if not (isinstance(first, Atom) and isinstance(second, Atom)):
         return None
+    (one, forms), (two, others) = in_linear_forms(first.poly), in_linear_forms(second.poly)
+    if forms != others:
+        one, two, forms = first.poly, second.poly, {}
     for form in (_bounded, sides):
-        lower, upper = form(first.poly, first.relation), form(second.poly, second.relation)
+        lower, upper = form(one, first.relation), form(two, second.relation)
         if lower[1] in (Relation.LT, Relation.LE):
             lower, upper = upper, lower
         left, above, low, below = lower
@@ -93,7 +98,7 @@ def _between(first: Formula | Range, second: Formula) -> Range | None:
         if left == same and above in (Relation.GT, Relation.GE) and under in (Relation.LT, Relation.LE):
             known = form is _bounded and not any(powers for _, powers in (*low, *high))
             empty = known and _number(low) * over >= _number(high) * below
-            return None if empty else Range((low, below), above.flipped, left, under, (high, over))
+            return None if empty else Range((low, below), above.flipped, left, under, (high, over), forms)
     return None
 
 
@@ -119,10 +124,11 @@ def _end(parts: list[Monomial], divisor: int, notation: Notation) -> str:
 
 
 def written(poly: Poly, relation: Relation, notation: Notation) -> str:
-    """``poly relation 0`` by its ``sides``, or as a product of factors compared with 0 where that is no longer."""
-    left, between, right, divisor = sides(poly, relation)
-    text = f"{polynomial(left, notation)} {notation.relation(between)} {_end(right, divisor, notation)}"
-    if not 1 < poly.term_count() <= MOST_FACTORED or not 1 < poly.total_degree <= MOST_FACTORED:
+    """``poly relation 0`` by its ``sides``, in linear forms where that is shorter, or as a product of factors compared
+    with 0 where that is no longer."""
+    shorter, forms = in_linear_forms(poly)
+    text = _by_sides(shorter, relation, with_forms(forms, notation) if forms else notation)
+    if not is_short(poly):
         return text
     unit, factors = poly.factors()
     if len(factors) < 2:
@@ -131,6 +137,11 @@ def written(poly: Poly, relation: Relation, notation: Notation) -> str:
     between = relation.flipped if negative % 2 else relation
     product = f"{_product(poly.ring.constant(1), factors, notation)} {notation.relation(between)} 0"
     return min(product, text, key=len)
+
+
+def _by_sides(poly: Poly, relation: Relation, notation: Notation) -> str:
+    left, between, right, divisor = sides(poly, relation)
+    return f"{polynomial(left, notation)} {notation.relation(between)} {_end(right, divisor, notation)}"
 
 
 def _product(one: Poly, factors: Sequence[tuple[Poly, int]], notation: Notation) -> str:

@@ -10,7 +10,8 @@ from typing import Never
 
 from qe.formula.comparison import Range, ranges, sides
 from qe.formula.features import length
-from qe.formula.notation import Monomial, digits, positive
+from qe.formula.linear_forms import Forms, in_linear_forms
+from qe.formula.notation import Monomial, digits, monomials, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 from qe.io.latex import GREEK
 from qe.spelling import PI, visible
@@ -78,7 +79,9 @@ def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, br
         case Constant(value):
             return f"<mi>{'true' if value else 'false'}</mi>"
         case Atom():
-            parts, relation, right, divisor = sides(formula.poly, formula.relation)
+            poly, forms = in_linear_forms(formula.poly)
+            draw = _with_forms(forms, draw)
+            parts, relation, right, divisor = sides(poly, formula.relation)
             end = f"{_relation(relation)}{_end(right, divisor, draw)}"
             lines = _line_starts(parts) if broken else [0]
             if len(lines) > 1:
@@ -104,11 +107,20 @@ def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, br
 def _operands(formula: And | Or, draw: Draw, broken: bool) -> Iterator[str]:
     for part in ranges(formula.args) if isinstance(formula, And) else formula.args:
         if isinstance(part, Range):
-            low, above, term, under, high = part
-            middle = f"{_relation(above)}{polynomial(term, draw)}{_relation(under)}"
+            low, above, term, under, high, forms = part
+            middle = f"{_relation(above)}{polynomial(term, _with_forms(forms, draw))}{_relation(under)}"
             yield f"<mrow>{_end(*low, draw)}{middle}{_end(*high, draw)}</mrow>"
         else:
             yield expression(part, bracket=True, draw=draw, broken=broken)
+
+
+def _with_forms(forms: Forms, draw: Draw) -> Draw:
+    """Linear forms in the place of variables."""
+    drawn: dict[str, str] = {}
+    for name, (form, less) in forms.items():
+        shift = _operator("−" if less > 0 else "+") + _end([(abs(less.numerator), ())], less.denominator, draw)
+        drawn[name] = bracketed(polynomial(monomials(form), draw) + (shift if less else ""))
+    return lambda name: drawn.get(name) or draw(name)
 
 
 def _end(parts: list[Monomial], divisor: int, draw: Draw) -> str:
