@@ -53,9 +53,9 @@ def sides(poly: Poly, relation: Relation) -> Side:
     if not linear and [c for c, _ in parts] == [1, -1] and variable and variable[0] not in dict(first):
         return [(1, last)], between.flipped, [(1, first)], 1
     bounded = len(terms) < len(parts) and all(c > 0 for c, _ in terms) and (len(names) > 1 or len(terms) == 1)
-    if bounded and not linear:
-        return _bounded(poly, relation)
-    if not linear:
+    if bounded and len(terms) > 1 and all(c == terms[0][0] and [k for _, k in m] == [2] for c, m in terms):
+        return _bounded(poly, relation)  # a sphere and its squared radius
+    if not (linear or bounded):
         return parts, between, [], 1
     return [(c, m) for c, m in parts if c > 0], between, [(-c, m) for c, m in parts if c < 0], 1
 

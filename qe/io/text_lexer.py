@@ -251,9 +251,8 @@ class State:
 
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
     condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
-    variables lie in; ``behind`` its formula; ``signed``: a comparison with zero that holds of them.
-    ``brackets``: of those that are open, from outside; ``closed``: whether the last one that ended
-    held a term.
+    variables lie in; ``behind`` its formula; ``signed``: a comparison with zero that holds of them. ``brackets``: of
+    those that are open, from outside; ``closed``: whether the last one that ended held a term.
     """
 
     def __init__(self, text: str) -> None:
@@ -279,11 +278,12 @@ class State:
             behind = at + len(value)
             kind = "COMMA" if self.goes_on(behind) or self.bounds_another(behind) else kind
         if kind == "COMMA" and self.header:
-            at += len(value)
-            more = (self.behind and self.bound.isdisjoint(re.findall(WORD, self.text[at:]))) or self.goes_on(at)
-            if self.bounded and (more or self.bounds_another(at)):  # ∃ x > 0, y > 0: …
+            rest = at + len(value)
+            more = self.behind and self.bound.isdisjoint(re.findall(WORD, self.text[rest:]))
+            more = more or self.goes_on(rest) or (self.bounds_another(rest) if self.spoken or self.bounded else False)
+            if self.bounded and more:  # ∃ x > 0, y > 0: …
                 kind, value = "QUANTIFIER", self.quantifier
-            elif self.spoken and not (more or self.bounds_another(at)):
+            elif self.spoken and not more:
                 kind = "DOT"
         if self.signed and self.header and kind not in ("NAME", "COMMA"):
             yield from self.signs(at)

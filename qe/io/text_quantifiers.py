@@ -88,14 +88,8 @@ class QuantifiedParser(Parser):
 
     def bound(self) -> tuple[list[str], Within | None]:
         """The variables of a quantifier and what they range over, up to the token that has to follow them."""
-        ends = [
-            "DOT",
-            "QUANTIFIER",
-            "OPEN",
-            "LEFT",
-            "CLOSE",
-            *([END] if self.conditions and len(self.stack) == 1 else []),
-        ]
+        is_behind = self.conditions and len(self.stack) == 1
+        ends = ["DOT", "QUANTIFIER", "OPEN", "LEFT", "CLOSE", *([END] if is_behind else [])]
         if self.token.kind in ("NUMBER", "MINUS"):
             return self.between(ends)
         names, within = self.names(), None

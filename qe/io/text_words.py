@@ -48,5 +48,6 @@ def quantity(value: str) -> str:
     """The letter of QEPCAD for words that say how many (L: at least, M: at most), with the number."""
     words = value.split()
     if words[-1] in COUNTS or words[-1].isdecimal():
-        return f"{ {'least': 'L', 'most': 'M'}.get(words[-2], 'X') } {COUNTS.get(words[-1], words[-1])}"
+        letter = {"least": "L", "most": "M"}.get(words[-2], "X")
+        return f"{letter} {COUNTS.get(words[-1], words[-1])}"
     return {"many": "G" if "but" in words else "F", "all": "G", "connected": "C"}.get(words[-1], "X 1")
