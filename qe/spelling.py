@@ -20,8 +20,8 @@ QUOTED = r"`(?:[^`\\\n]|\\.)+`"
 KEYWORDS = frozenset(
     (
         *("ex", "exists", "Ex", "Exists", "EXISTS", "all", "forall", "All", "ForAll", "Forall", "FORALL"),
-        *("and", "AND", "or", "OR", "not", "NOT", "implies", "iff", "in", "if", "then", "else", "Reals", "ℝ"),
-        *("true", "True", "TRUE", "false", "False", "FALSE", "oo", "infinity", "Infinity", "inf", "Inf"),
+        *("and", "AND", "or", "OR", "not", "NOT", "implies", "iff", "in", "if", "If", "then", "Then", "else"),
+        *("true", "True", "TRUE", "false", "False", "FALSE", "oo", "infinity", "Infinity", "inf", "Inf", "Reals", "ℝ"),
     )
 )
 """Words that mean something else in the text syntax."""

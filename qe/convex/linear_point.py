@@ -12,6 +12,7 @@ from qe.convex.linear_rows import LinearRows, linear_atoms
 from qe.exact.linear_bounds import LinearBounds, TooMuch
 from qe.exact.ring import Poly
 from qe.exact.sparse_solve import whole_multiples
+from qe.exact.sparse_text import digits
 from qe.formula.syntax import Formula
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
@@ -34,9 +35,9 @@ class LinearContradiction:
             content, primitive = poly.normal()
             sums[primitive] = sums.get(primitive, 0) + weight * int(content)
         kept = {p: c for p, c in sums.items() if c and not p.is_constant}
-        identity: list[Json] = [[str(c), [[k, 1]]] for k, c in enumerate(kept.values())]
+        identity: list[Json] = [[digits(c), [[k, 1]]] for k, c in enumerate(kept.values())]
         if self.total:
-            identity.append([str(-self.total), []])
+            identity.append([digits(-self.total), []])
         listed: list[Json] = [poly_to_text(p) for p in kept]
         lemmas: list[Json] = [{"identity": identity}] if kept else []
         return {"theory": {"polynomials": listed, "lemmas": lemmas, "cases": []}}

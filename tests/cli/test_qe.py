@@ -95,7 +95,7 @@ def test_convert(output: str) -> None:
     assert process.returncode == 0, process.stderr
     if output != "latex":
         back = run("convert", "-", "--format", output, stdin=process.stdout)
-        assert back.stdout == "ex y. 2*x^2 + 2*y^2 < 3\n"
+        assert back.stdout == "ex y. x^2 + y^2 < 3/2\n"
 
 
 def test_region_with_certificate_and_picture(tmp_path: Path) -> None:

@@ -19,7 +19,7 @@ from tests.unit.rules.applied import steps_of
 BALLS, PLANE, QUADRICS, CUBIC = StepKind.BALLS, StepKind.HALF_PLANE, StepKind.QUADRICS, StepKind.CUBIC_INTERVAL
 
 DISCS = "ex x, y. x^2 + y^2 <= r^2 and (x - a)^2 + (y - b)^2 <= s^2"
-NEAR, FAR = "r^2 + 2*r*s + s^2 - a^2 - b^2", "r^2 - 2*r*s + s^2 - a^2 - b^2"
+NEAR, FAR = "(r + s)^2 - a^2 - b^2", "(r - s)^2 - a^2 - b^2"
 ELLIPSE = "b^2*(x - c)^2 + a^2*(y - d)^2 - a^2*b^2"
 DISC = "(x - c)^2 + (y - d)^2 - r^2"
 IN_DISC = f"a /= 0 and b /= 0 and (ex x, y. {ELLIPSE} = 0 and x^2 + y^2 > 1)"
@@ -33,9 +33,9 @@ UNIT = f"ex x. 0 <= x and x <= 1 and {FORM}"
 
 
 @each(
-    (f"r >= 0 and s > 0 and ({DISCS})", "r >= 0 and s > 0 and r^2 + 2*r*s + s^2 - a^2 - b^2 >= 0"),
-    (f"r >= 0 and s <= 0 and ({DISCS})", "r >= 0 and s <= 0 and r^2 - 2*r*s + s^2 - a^2 - b^2 >= 0"),
-    (DISCS, "r^2 - a^2 - b^2 + 2*r*s + s^2 >= 0 or r^2 - a^2 - b^2 - 2*r*s + s^2 >= 0"),
+    (f"r >= 0 and s > 0 and ({DISCS})", "r >= 0 and s > 0 and (r + s)^2 - a^2 - b^2 >= 0"),
+    (f"r >= 0 and s <= 0 and ({DISCS})", "r >= 0 and s <= 0 and (r - s)^2 - a^2 - b^2 >= 0"),
+    (DISCS, "(r + s)^2 - a^2 - b^2 >= 0 or (r - s)^2 - a^2 - b^2 >= 0"),
     ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
     ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "-2 < a < 2"),
     ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 >= 9"),
