@@ -20,21 +20,23 @@ from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, neg
 from qe.formula.syntax import FALSE, Atom, Constant, Formula, Relation
 from qe.optimization.finite import listed
-from qe.optimization.values import Goal
+from qe.optimization.values import Goal, Members, first_answer, new_name, with_proof
 from qe.options import Budget, Options
-from qe.proof.answer import UNPROVED, Answer, Guarantee
+from qe.proof.answer import Answer, Guarantee
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
 from qe.services import SymPyForm
 
 Number = Fraction | RealAlgebraic
-Members = list[tuple[str, Certificate]]
 
 SHOWN = 8
 """So many points stand in the short forms."""
 
 LEVEL_WORK = 2_000
 """Units of work for finding the factor of an irrational value's polynomial that holds its points."""
+
+FIRST_WORK, GUESS_WORK, BOUND_WORK = 5_000, 100_000, 20_000
+"""Units of work for the values before an optimum is guessed, for the guess, and for its proof."""
 
 POINT = "point"
 """The label of the certificate of a point."""
@@ -49,10 +51,11 @@ class GlobalOptimum(SymPyForm):
     the points that have it (``qe.region`` of it describes them); quantifiers of the constraints stand in it.
     ``points``: all of them, ascending, where they are finitely many and that is seen with little work; else empty.
     INFEASIBLE: no point meets the constraints; UNBOUNDED: there is no bound. For both ``value`` and
-    ``attained`` are None. ``values``: a formula of ``variable``, the values that are taken. ``certificate``: a
-    bundle that proves them, the least of them, and the point; None where the elimination had no certificate.
-    ``answer``: how the values were found. ``guarantee``: CHECKED where ``check`` was asked for and separate code
-    accepted the certificate; otherwise ``reason`` says why not.
+    ``attained`` are None. ``values``: a formula of ``variable``, the values that are taken; where the optimum was
+    guessed, those that are no better. ``certificate``: a bundle that proves the values, the least of them, and the
+    point, or that no value is better, and the point; None where the elimination had no certificate.
+    ``answer``: how the values were found, or that none is better. ``guarantee``: CHECKED where ``check`` was asked for
+    and separate code accepted the certificate; otherwise ``reason`` says why not.
     """
 
     status: OptimumStatus
@@ -104,17 +107,50 @@ def best(sign: int, goal: Goal, *, budget: Budget | None = None, check: bool = F
     Raises ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     limits = budget or Budget()
-    values, unproved = goal.values(limits, check=check)
-    optimum, members = _found(sign, goal, unproved, limits)
-    if check:
-        limits.keep(replace(optimum, reason=UNPROVED))
-    answer = goal.proved(values, limits, check=check)
-    if answer.certificate is None:
-        return replace(optimum, answer=answer)
-    return replace(optimum, answer=answer, certificate=Certificate.bundle([("values", answer.certificate), *members]))
+    try:
+        outcome, answer = first_answer(goal.taken, limits.part(FIRST_WORK), check=check)
+    except Unable:
+        limits.check("an optimum")
+        found = _guessed(sign, goal, limits, check=check)
+        if found is not None:
+            return found
+        outcome, answer = first_answer(goal.taken, limits, check=check)
+    optimum, members = _least(sign, goal, answer, limits)
+    return with_proof(optimum, goal.taken, outcome, "values", members, limits, check=check)
 
 
-def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[GlobalOptimum, Members]:
+def _guessed(sign: int, goal: Goal, limits: Budget, *, check: bool) -> GlobalOptimum | None:
+    """An optimum that was guessed, as no point has a better value, and one has this; None where one of the three
+    fails."""
+    from qe.optimization.guess import guess
+
+    try:
+        guessed = guess(sign, goal, limits.part(GUESS_WORK))
+        if guessed is None:
+            return None
+        value, point = guessed
+        better = _beyond(sign, goal, value, limits)
+        question = exists((goal.value, *goal.variables), conj((goal.conditions, goal.graph, better)))
+        outcome, answer = first_answer(question, limits.part(BOUND_WORK), check=check)
+        if answer.formula != FALSE:
+            return None
+        optimum = attained_by(goal, value, neg(better), answer, limits, point)
+    except Unable:
+        limits.check("a guess")
+        return None
+    return with_proof(optimum, question, outcome, "bound", _proof_of(goal, optimum), limits, check=check)
+
+
+def _beyond(sign: int, goal: Goal, value: Number, limits: Budget) -> Formula:
+    """That the objective's value is less (``sign`` 1) or greater (-1) than a number."""
+    number = new_name(goal.ring.names)
+    ring = Ring.of((number, goal.value))
+    side = atom((ring.var(goal.value) - ring.var(number)) * sign, Relation.LT)
+    below = exists((number,), conj((side, *number_conditions(ring, number, value))))
+    return convert(solve(below, Options(), limits).formula, goal.ring)
+
+
+def _least(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[GlobalOptimum, Members]:
     """The optimum by the values that are taken, and what proves it beside the proof of these."""
     taken = answer.formula
     assert taken is not None
@@ -122,35 +158,29 @@ def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[Globa
         return _without(OptimumStatus.UNBOUNDED if taken.value else OptimumStatus.INFEASIBLE, goal, answer), []
     table = decompose(taken, (goal.value,), ("",), budget=limits).table
     pieces = merge(table, budget=limits)
-    members = [("least", Certificate.cells(table))]
+    least = ("least", Certificate.cells(table))
     if not pieces:
-        return _without(OptimumStatus.INFEASIBLE, goal, answer), members
+        return _without(OptimumStatus.INFEASIBLE, goal, answer), [least]
     end, attained = pieces[0].ranges[0].end(lower=True) if sign > 0 else pieces[-1].ranges[0].end(lower=False)
     if end is None:
-        return _without(OptimumStatus.UNBOUNDED, goal, answer), members
+        return _without(OptimumStatus.UNBOUNDED, goal, answer), [least]
     assert end.value is not None
     value = simplest(end.value)
-    point: Values = {}
-    having: Formula = FALSE
-    points: tuple[Mapping[str, Number], ...] = ()
-    if attained:
-        points, having = stationary(goal, value), level_set(goal, value, limits)
-        point = dict(points[0]) if points else point_of(goal, value, limits)
-        points = points or listed(having, goal.variables, limits)
-        place = exists((goal.value, *goal.variables), _place(goal, value))
-        members += _proof_of(place, {**point, goal.value: value})
-    optimum = GlobalOptimum(
-        status=OptimumStatus.OPTIMAL,
-        value=value,
-        attained=attained,
-        point=point,
-        minimisers=having,
-        values=taken,
-        variable=goal.value,
-        answer=answer,
-        points=points,
-    )
-    return optimum, members
+    if not attained:
+        bare = _without(OptimumStatus.OPTIMAL, goal, answer)
+        return replace(bare, value=value, attained=False), [least]
+    optimum = attained_by(goal, value, taken, answer, limits)
+    return optimum, [least, *_proof_of(goal, optimum)]
+
+
+def attained_by(
+    goal: Goal, value: Number, taken: Formula, answer: Answer, limits: Budget, known: Values | None = None
+) -> GlobalOptimum:
+    """The optimum with the points that have it, of which one may be ``known``."""
+    points, having = stationary(goal, value), level_set(goal, value, limits)
+    point = dict(points[0]) if points else known or point_of(goal, value, limits)
+    points, optimal = points or listed(having, goal.variables, limits), OptimumStatus.OPTIMAL
+    return GlobalOptimum(optimal, value, True, point, having, taken, goal.value, answer, points=points)
 
 
 def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
@@ -167,11 +197,13 @@ def _without(status: OptimumStatus, goal: Goal, answer: Answer) -> GlobalOptimum
     return GlobalOptimum(status, None, None, {}, FALSE, answer.formula, goal.value, answer)
 
 
-def _proof_of(place: Formula, known: Values) -> Members:
+def _proof_of(goal: Goal, optimum: GlobalOptimum) -> Members:
     """A certificate of the point; none where the constraints have quantifiers."""
-    problem = Block.of(place)
+    assert optimum.value is not None
+    problem = Block.of(exists((goal.value, *goal.variables), _place(goal, optimum.value)))
     if problem is None or not problem.is_flat:
         return []
+    known = {**optimum.point, goal.value: optimum.value}
     return [(POINT, witness_of(problem, {name: known.get(name, Fraction(0)) for name in problem.variables}))]
 
 

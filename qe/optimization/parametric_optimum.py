@@ -21,14 +21,13 @@ from qe.exact.number import Number, simplest
 from qe.formula.build import conj, convert, exists
 from qe.formula.syntax import FALSE, Formula
 from qe.optimization import written
-from qe.optimization.finite import listed
-from qe.optimization.global_optimum import GlobalOptimum, level_set, number_conditions, point_of
+from qe.optimization.global_optimum import GlobalOptimum, attained_by, number_conditions
 from qe.optimization.minimisers import minimisers, points
-from qe.optimization.values import Goal
+from qe.optimization.values import Goal, first_answer, with_proof
 from qe.options import Budget, Options
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
-from qe.proof.answer import UNPROVED, Answer, Guarantee
+from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
@@ -141,18 +140,16 @@ class ParametricOptimum(SymPyForm):
         here = exists(self.parameters, conj((convert(self.values, self._goal.ring), *fixed)))
         taken = solve(here, Options(), budget).formula
         values = fibre_of(self._table, list(given.values()), budget=budget)
+        nowhere = partial(GlobalOptimum, point={}, minimisers=FALSE, values=taken, variable=self.variable)
         if not values:
-            return GlobalOptimum(OptimumStatus.INFEASIBLE, None, None, {}, FALSE, taken, self.variable, self.answer)
+            return nowhere(OptimumStatus.INFEASIBLE, None, None, answer=self.answer)
         end = values[0] if self._sign > 0 else values[-1]
         value, attained = (end.lower, end.lower_closed) if self._sign > 0 else (end.upper, end.upper_closed)
         if value is None:
-            return GlobalOptimum(OptimumStatus.UNBOUNDED, None, None, {}, FALSE, taken, self.variable, self.answer)
-        value = simplest(value)
-        point = point_of(place, value, budget) if attained else {}
-        having = level_set(place, value, budget) if attained else FALSE
-        points = listed(having, place.variables, budget)
-        optimal = OptimumStatus.OPTIMAL
-        return GlobalOptimum(optimal, value, attained, point, having, taken, self.variable, self.answer, points=points)
+            return nowhere(OptimumStatus.UNBOUNDED, None, None, answer=self.answer)
+        if not attained:
+            return nowhere(OptimumStatus.OPTIMAL, simplest(value), False, answer=self.answer)
+        return attained_by(place, simplest(value), taken, self.answer, budget)
 
     def to_dict(self) -> dict[str, object]:
         """The cases as plain data: where, value, attained, minimisers, each as text that ``str`` writes."""
@@ -180,7 +177,7 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
     limits = budget or Budget()
     if not goal.graph.is_quantifier_free:
         goal = replace(goal, graph=solve(goal.graph, Options(), limits).formula)
-    values, unproved = goal.values(limits, check=check)
+    values, unproved = first_answer(goal.taken, limits, check=check)
     taken = values.formula
     order = (*goal.parameters, goal.value)
     table = decompose(taken, order, ("",) * len(order), budget=limits).table
@@ -206,13 +203,8 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
         _table=table,
         _sign=sign,
     )
-    if check:
-        limits.keep(replace(optimum, reason=UNPROVED))
-    answer = goal.proved(values, limits, check=check)
-    if answer.certificate is None:
-        return replace(optimum, answer=answer)
-    members = [("values", answer.certificate), ("cases", Certificate.cells(table))]
-    return replace(optimum, answer=answer, certificate=Certificate.bundle(members))
+    members = [("cases", Certificate.cells(table))]
+    return with_proof(optimum, goal.taken, values, "values", members, limits, check=check)
 
 
 def _closed(cell: Cell, levels: int, sign: int) -> Cell:

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
+from typing import TypeVar
 
 from qe.elimination.protocol import Outcome
 from qe.engine.run import answer_to, answered, proved
@@ -19,8 +20,13 @@ from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED, Answer
+from qe.proof.certificate import Certificate
 
 VALUE = "value"
+
+Kind = TypeVar("Kind")
+Members = list[tuple[str, Certificate]]
+"""Certificates with their labels."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,12 +96,19 @@ class Goal:
         """That the value is taken somewhere."""
         return exists(self.variables, conj((self.conditions, self.graph)))
 
-    def values(self, budget: Budget, *, check: bool) -> tuple[Outcome, Answer]:
-        """The values that are taken, as a formula in ``value`` and the parameters; nothing is proved yet."""
-        outcome = answered(self.taken, Options(certify=check), budget)
-        return outcome, replace(answer_to(self.taken, outcome), certificate=None, reason=UNPROVED if check else "")
 
-    def proved(self, outcome: Outcome, budget: Budget, *, check: bool) -> Answer:
-        """The values with their certificate."""
-        options = Options(certify=check)
-        return answer_to(self.taken, proved(self.taken, outcome, options, budget))
+def first_answer(question: Formula, budget: Budget, *, check: bool) -> tuple[Outcome, Answer]:
+    """The answer to a question on the way to an optimum; nothing is proved yet."""
+    outcome = answered(question, Options(certify=check), budget)
+    return outcome, replace(answer_to(question, outcome), certificate=None, reason=UNPROVED if check else "")
+
+
+def with_proof(
+    optimum: Kind, question: Formula, outcome: Outcome, label: str, members: Members, budget: Budget, *, check: bool
+) -> Kind:
+    """An optimum (a dataclass) with the proved answer to the question it comes from, and what else proves it."""
+    if check:
+        budget.keep(replace(optimum, reason=UNPROVED))  # type: ignore[type-var]
+    answer = answer_to(question, proved(question, outcome, Options(certify=check), budget))
+    proof = None if answer.certificate is None else Certificate.bundle([(label, answer.certificate), *members])
+    return replace(optimum, answer=answer, certificate=proof)  # type: ignore[type-var]
