@@ -34,6 +34,7 @@ SEEDS = {
         "ForAll[{x, y}, x > 0 && y ∈ Reals, Implies[x² >= y, Abs[x] != 2]]",
         "∃x∀y: 2x³ ≤ y ∨ ¬(x = .5) # note",
         "(if x > 0 then min(x, y) else max(1e-3, `a b`)) = sign(x)^(1/2) and x in [0, oo)",
+        "(∀x∈R)(∃ positive y) y > x; if x > 1 then at most two z: z^2 = x for all real x and y",
         "(E x, y)(A z)[ x > z => y not in [0, 1) ∪ {2} ]. for all x, there exists y such that x =< ∛y;",
         r"\exists x\, \forall y\colon x^{2} \geq \frac{1}{2} \land 4ac \neq 0",
     ],

@@ -41,6 +41,7 @@ class QuantifiedParser(Parser):
         headers = [(token, *self.bound())]
         while self.token.kind == "QUANTIFIER":
             headers.append((self.advance(), *self.bound()))
+        conditions: list[s.Node] = []
 
         def make(body: s.Node) -> s.Node:
             body = _under(True, conditions, body)
@@ -48,8 +49,9 @@ class QuantifiedParser(Parser):
                 body = _quantified(*header, body)
             return body
 
-        conditions: list[s.Node] = []
-        if self.token.kind == "CLOSE" and is_first:
+        if self.token.kind == "CLOSE":
+            if not is_first:
+                raise self.unexpected(("DOT", "COMMA", "QUANTIFIER"))
             self.in_front(make)
             return None
         kind, text, _ = self.advance()

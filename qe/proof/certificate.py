@@ -247,7 +247,9 @@ def table_of(certificate: Certificate) -> CellTable | None:
     from qe.proof.cells_json import cells_from_json
 
     evidence, payload = certificate.evidence_for("cells"), certificate.payload
-    if not isinstance(evidence, dict) or not isinstance(payload, dict) or payload["start"] != payload["answer"]:
+    if not isinstance(evidence, dict) or not isinstance(payload, dict) or "start" not in payload:
+        return None
+    if payload["start"] != payload.get("answer"):
         return None
     table = cells_from_json(Entry(evidence.get("cells"), "payload.steps[0].evidence.cells"))
     return None if any(table.quantifiers) else table

@@ -26,6 +26,7 @@ from tests.tables import each
     ("((x) > 0", 0, "this '(' is never closed", ""),
     ("(x + (y > 0", 8, "unexpected '>'", "an operator or ')'"),
     ("x > 0)", 5, "this ')' has no partner", ""),
+    ("(x > 0 and ∃y)", 13, "unexpected ')'", "'.' or ','"),
     ("x === y", 4, "'===' is not used", ""),
     ("x ||| y", 2, "", ""),
     ("x! > 0", 1, "it is no factorial", ""),

@@ -30,6 +30,13 @@ def test_three_balls_are_two_pieces_with_radical_bounds() -> None:
     assert qe.verify(again.certificate).accepted
 
 
+@each('"start"', '"answer"')
+def test_a_damaged_file_is_refused(member: str) -> None:
+    """A certificate without its answer ended in a KeyError."""
+    with pytest.raises((qe.InputError, qe.CertificateRejected)):
+        Region.from_json(qe.region("x^2 <= 2").to_json().replace(member, '"other"', 1))
+
+
 def test_bounds_of_open_and_unbounded_sets() -> None:
     region = qe.region("x > 1 and x*y >= 1")
     bounds = region.bounds("x")
