@@ -28,7 +28,8 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
     unused: dict[str, None] = {}
     joined: dict[str, str] = {}
     for variables, free in (*blocks, (solved, formula.free)):
-        unused |= dict.fromkeys(name for name in variables if name not in free)
+        occurring = {*free}
+        unused |= dict.fromkeys(name for name in variables if name not in occurring)
         joined |= {**joined_names(free, variables), **_made_of(free)} if typed else {}
     if unused and format in _WRITTEN_OUT:  # what is used as well cancels
         bound = Counter(name for variables, _ in blocks for name in variables)
@@ -66,7 +67,8 @@ def joined_names(names: Iterable[str], letters: Collection[str]) -> dict[str, st
 
 def _made_of(names: Collection[str]) -> dict[str, str]:
     """The names that are made of others of them alone, as ``ab`` beside a and b, each with the product of these."""
-    return {name: "*".join(name) for name in names if len(name) > 1 and {*name} <= {*names}}
+    known = {*names}
+    return {name: "*".join(name) for name in names if len(name) > 1 and known.issuperset(name)}
 
 
 def products_as_names(names: Collection[str], noted: Collection[str]) -> tuple[str, ...]:
