@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from fractions import Fraction
 from types import SimpleNamespace
@@ -84,6 +85,12 @@ def test_a_half_space_for_a_quadratic_plan(root):
     assert restore(plan.problem, plan.certificate).path.points == plan.path.points
     with pytest.raises(CertificateRejected):
         restore(problem, plan.certificate)
+
+
+def test_the_region_of_formula_8_is_printed_as_the_readme_shows_it(root):
+    printed = re.search(r"as it is printed: `(.*?)`", (root / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    plan = make_plan(load_problem(root / "examples" / "three_balls.toml"))
+    assert " ".join(printed[1].split()) == str(plan.answer.formula)
 
 
 def found_again(plan):
