@@ -269,8 +269,7 @@ class Solver(Checks):
 
     def info(self, key: str) -> str:
         if key == ":reason-unknown":
-            reason = self.result.reason if self.result is not None else ""
-            return f"(:reason-unknown {reason or 'incomplete'})"
+            return f"(:reason-unknown {self.result.reason if self.result and self.result.reason else 'incomplete'})"
         if key == ":assertion-stack-levels":
             return f"(:assertion-stack-levels {len(self.script.levels)})"
         return f"({key} {_INFO[key]})" if key in _INFO else "unsupported"

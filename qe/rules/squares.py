@@ -40,7 +40,7 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     ring = polys[0].ring
     orthant = frozenset(i for i in range(ring.size) if -1 not in facts.signs(generator(ring, i)))
     stated = (*conjuncts(body), *context.known)
-    bounds, forms = bounds_of(stated), [*conditions_of(stated)]
+    bounds, forms = bounds_of(stated), dict(conditions_of(stated))
     signs: dict[Poly, frozenset[int]] = {}
     proofs: list[Identity] = []
 
@@ -57,7 +57,8 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
         for sign in (1, -1):
             context.watch()
             p = poly * sign
-            proof = nowhere_negative(p, orthant) or positive_on_cone(p, bounds) or positive_under(p, forms, orthant)
+            under = () if poly in forms else forms.values()  # of conditions that imply one another one has to stay
+            proof = nowhere_negative(p, orthant) or positive_on_cone(p, bounds) or positive_under(p, under, orthant)
             if proof is None:
                 continue
             signs[poly] = frozenset((sign,)) if proof.strict else frozenset((0, sign))

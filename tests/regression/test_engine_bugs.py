@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from fractions import Fraction
-from itertools import product
+from itertools import combinations, product
 
 import pytest
 import sympy
@@ -203,3 +203,25 @@ def test_a_factor_that_is_zero_in_the_field_of_a_coordinate() -> None:
     solutions = qe.solve("l*y^2 + 16*m*x + 16*x = 0, 2*y*(l*x + m + 1) = 0, x*y^2 = 0, 8*x^2 + y^2 = 24", "x, y, l, m")
     assert equivalent(str(solutions), "x = 0 and y^2 = 24 and l = 0 and m = -1 or x^2 = 3 and y = 0 and m = -1")
     assert "x = sqrt(3)" in str(solutions) and "y = 2*sqrt(6)" in str(solutions)
+
+
+@each(
+    "x*y*z >= 1 and x > 0 and y > 0 and z > 0 and x + y + z < 2",  # Cauchy: no sum below 3 where the product is 1
+    "x*y + y*z + z*x >= 3 and x > 0 and y > 0 and z > 0 and x^2 + y^2 + z^2 <= 2",
+    "x*y*z >= 1 and x^2*y^2*z^2 >= 1 and x > 0 and y > 0 and z > 0 and x + y + z < 2",
+)
+def test_a_condition_does_not_prove_itself_away(text: str) -> None:
+    """What makes other conditions homogeneous was dropped by an identity that used it, and the answer was true."""
+    assert qe.decide(f"ex x, y, z. {text}") is False
+    assert qe.decide(f"ex x, y, z. {text}", check=True) is False
+
+
+def test_points_of_a_circle_apart_stay_apart() -> None:
+    """Four points of the unit circle, two by two at a distance of 1 or more: that of three pairs was forgotten."""
+    names = "abcd"
+    circle = [f"{p}x^2 + {p}y^2 = 1" for p in names]
+    apart = [f"({p}x - {q}x)^2 + ({p}y - {q}y)^2 >= 1" for p, q in combinations(names, 2)]
+    found = qe.find_instance(" and ".join(circle + apart))
+    assert found is not None
+    for p, q in combinations(names, 2):
+        assert (found[f"{p}x"] - found[f"{q}x"]) ** 2 + (found[f"{p}y"] - found[f"{q}y"]) ** 2 >= 1
