@@ -1,34 +1,38 @@
-"""Points tried in floating point: existential sentences of inequalities that hold in some open set are often true at a
-point that a few hundred trials find. A point counts only where exact arithmetic confirms it; none found says nothing.
+"""Points tried in floating point: existential sentences are often true at a point that a few hundred trials find. A
+point counts only where exact arithmetic confirms it; none found says nothing.
 
-Trials go down the total violation, the sum over conjuncts and the least over disjuncts of how far an atom is from
-holding, one variable at a time (coordinate search: Hooke, Jeeves 1961), from points drawn between the bounds. Where
-several curved conditions pull in different directions, as in packings, all variables go at once: to the border of one
-violated condition after the other, as its slope says, and beyond (relaxation: Agmon 1954; Motzkin, Schoenberg 1954).
+Trials start at points drawn between the bounds. All variables go at once: to the border of one condition that is not
+met after the other, as its slope says, and beyond where it is an inequality (relaxation: Agmon 1954; Motzkin,
+Schoenberg 1954); of a disjunction the part that is nearest to holding counts. Where the point ends, each equation is
+solved for a variable that those solved before do not have, where there are such; the values of others are rounded.
 """
 
 from __future__ import annotations
 
 import math
 import random
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, witness_of
-from qe.exact.number import Values
-from qe.exact.ring import Poly
+from qe.errors import Unable
+from qe.exact.algebraic import real_roots
+from qe.exact.number import Values, simplest
+from qe.exact.poly import Poly
 from qe.formula.block import Block
-from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options
+from qe.rules.lift import Solve, holds_at
 
-STARTS, ROUNDS = 8, 12
-"""Points to start from, and sweeps over the variables from each."""
+STARTS, CURVED_FROM, OF_CURVED = 12, 3, 60
+"""Points to start from; curved conditions from which on there are more of them."""
 
-CURVED_FROM, RELAXED, SWEEPS_OF_ALL = 3, (1.3, 1.7), 60
-"""Curved conditions from which on all variables go at once, how far across the border, and how often from a point."""
+RELAXED, SWEEPS_OF_ALL, MARGIN, NEAR = (1.3, 1.7), 60, 1e-6, 1e-3
+"""How far across the border inequalities go, and how often from a point; how far inside they hold for certain, and how
+far outside they may yet be met by round numbers, in proportion to the terms."""
 
 TERMS_OF_A_CELL = 20
 """Terms of a formula that are tried at all values of one variable in about the time of a cell."""
@@ -39,20 +43,28 @@ SWEEPS = 3
 FAR = 1e3
 """Where a variable has no bound, points are drawn up to here, mostly close to zero."""
 
-Violation = Callable[[Sequence[float]], float]
+Terms = list[tuple[float, Sequence[tuple[int, int]]]]
+"""A polynomial in floating point: coefficients with the variables and their powers."""
+
+Condition = tuple[Atom, Terms, list[tuple[int, Terms]]]
+"""An atom with its polynomial, which is to be positive where it is an inequality, and the slopes by variables."""
+
+Pulls = Callable[[Sequence[float]], list[Condition]]
+"""The conditions that count at a point."""
+
 Box = Sequence[tuple[float, float]]
 
 
 class SampledPoints:
-    """Sentences of inequalities in several variables that are true at a point which trials find."""
+    """Sentences in several variables that are true at a point which trials find."""
 
     name = "samples"
 
     def suits(self, problem: Block, options: Options) -> str | None:
-        """Sentences of one block without equations."""
-        if not problem.is_flat or problem.free or violation(problem.positive) is None:
+        """Sentences of one block without root atoms."""
+        if not problem.is_flat or problem.free or pulls(problem.positive) is None:
             return None
-        return "inequalities alone"
+        return "conditions that pull a point"
 
     def run(self, problem: Block, context: Context) -> Outcome | None:
         """A point that was verified; None says nothing."""
@@ -66,124 +78,135 @@ class SampledPoints:
         return Outcome(answer, values)
 
 
-def find(body: Formula, budget: Budget) -> dict[str, Fraction] | None:
-    """A rational point at which the quantifier-free body holds, or None. Raises ``BudgetExceeded``."""
-    measure, ring = violation(body), body.ring
-    if measure is None or ring is None:
+def find(body: Formula, budget: Budget) -> Values | None:
+    """A point at which the quantifier-free body holds, or None. Raises ``BudgetExceeded``."""
+    pulled, ring = pulls(body), body.ring
+    if pulled is None or ring is None:
         return None
-    rng, places = random.Random(0), [ring.index[name] for name in body.free]
+    rng, polys = random.Random(0), list(polynomials(body))
     box = bounds(body, len(ring.names))
-    units = 1 + sum(poly.term_count() for poly in polynomials(body)) // TERMS_OF_A_CELL
-    conditions = sloping(body)
-    for k in range(SWEEPS_OF_ALL if conditions else 0):
+    units = 1 + sum(poly.term_count() for poly in polys) // TERMS_OF_A_CELL
+    for k in range(OF_CURVED if sum(poly.total_degree > 1 for poly in polys) >= CURVED_FROM else STARTS):
         point = [_drawn(rng, *limits) for limits in box]
-        if relaxed(conditions, point, RELAXED[k % 2], budget, units) and (known := _confirmed(body, point)):
-            return known
-    for _ in range(STARTS):
-        point = [_drawn(rng, *limits) for limits in box]
-        if _descended(measure, point, places, box, budget, units) <= 0 and (known := _confirmed(body, point)):
-            return known
+        with suppress(OverflowError):
+            if relaxed(pulled, point, RELAXED[k % 2], budget, units) and (at := _confirmed(body, pulled, point)):
+                return at
     return None
 
 
-def _confirmed(body: Formula, point: Sequence[float]) -> dict[str, Fraction] | None:
-    """A rational point close by at which the body holds."""
+def _confirmed(body: Formula, conditions: Pulls, point: Sequence[float]) -> Values | None:
+    """A point close by at which the body holds, with rational values but for what equations are solved for."""
     assert body.ring is not None
-    for rounded in _rounded(point):
-        named = dict(zip(body.ring.names, rounded, strict=True))
-        if holds_at(body, named):
-            return {name: named[name] for name in body.free}
+    order = _solvable([one for one in conditions(point) if one[0].relation is Relation.EQ], point)
+    for rounded in _rounded(point) if order is not None else ():
+        with suppress(Unable):
+            known = _solved(order or (), dict(zip(body.ring.names, rounded, strict=True)), point)
+            if known is not None and holds_at(body, known):
+                return {name: known[name] for name in body.free}
     return None
 
 
-Terms = list[tuple[float, Sequence[tuple[int, int]]]]
-"""A polynomial that is to be positive, in floating point: coefficients with the variables and their powers."""
-
-Condition = tuple[Terms, list[tuple[int, Terms]]]
-
-
-def sloping(body: Formula, curved: int = CURVED_FROM) -> list[Condition]:
-    """The atoms of a conjunction of inequalities of which so many are curved, each with its slope by variables; [] for
-    others."""
-    sides = Relation.EQ, Relation.NE
-    atoms = [part for part in conjuncts(body) if isinstance(part, Atom) and part.relation not in sides]
-    if len(atoms) < len(conjuncts(body)) or sum(a.poly.total_degree > 1 for a in atoms) < curved:
-        return []
-    try:
-        return [
-            (_terms(a.poly, a.relation), [(i, _terms(a.poly.derivative(i), a.relation)) for i in a.poly.variables])
-            for a in atoms
+def _solvable(equations: list[Condition], point: Sequence[float]) -> list[tuple[Poly, int]] | None:
+    """The equations in an order in which each has a variable, given with it, that is in none of those before: best one
+    that is linear, or else steep. None where there is no such order."""
+    order: list[tuple[Poly, int]] = []
+    while equations:
+        count = Counter(i for _, _, slopes in equations for i, _ in slopes)
+        alone = [
+            (one[0].poly, i, abs(_value(terms, point))) for one in equations for i, terms in one[2] if count[i] == 1
         ]
-    except OverflowError:
-        return []
+        if not alone:
+            return None
+        poly, i, _ = max(alone, key=lambda choice: (choice[0].degree(choice[1]) == 1, choice[2]))
+        order.insert(0, (poly, i))
+        equations = [one for one in equations if one[0].poly is not poly]
+    return order
 
 
-def relaxed(conditions: list[Condition], point: list[float], far: float, budget: Budget, units: int) -> bool:
-    """Whether the point meets all conditions in floating point, once it was moved along the slopes of those that it did
-    not meet, ``far`` times as long as they say that the border is away."""
-    with suppress(OverflowError):
-        for sweep in range(SWEEPS_OF_ALL):
-            if not sweep % 10:
-                budget.spend(units)
-                budget.check("samples")
-            holds = True
-            for terms, slopes in conditions:
-                values = [c * math.prod([point[i] ** k for i, k in powers]) for c, powers in terms]
-                short = 1e-6 * sum(map(abs, values)) - sum(values)
-                if short > 0:
-                    holds = False
-                    slope = [(i, sum([c * math.prod([point[j] ** k for j, k in p]) for c, p in t])) for i, t in slopes]
-                    steep = sum([d * d for _, d in slope])
-                    for i, d in slope:
-                        point[i] += far * short * d / steep if steep > 0 else 0.0
-            if holds:
-                return True
-    return False
+def _solved(order: Sequence[tuple[Poly, int]], values: Values, point: Sequence[float]) -> Values | None:
+    """The values with those that the equations give to their variables, near to the point. Raises ``Unable``."""
+    for poly, i in order:
+        names = poly.ring.names
+        known = {j: value for j in poly.variables if j != i and isinstance(value := values[names[j]], Fraction)}
+        one = poly.at_rationals(known)
+        if one.degree(i) == 1:
+            rest, lead = one.coefficients(i)
+            values[names[i]] = Solve(names[i], -rest, lead).value(values)
+        elif one.variables == (i,) and (roots := real_roots(one.to_univariate(i))):
+            values[names[i]] = simplest(min(roots, key=lambda root: abs(float(root) - point[i])))
+        else:
+            return None
+    return values
 
 
-def violation(body: Formula) -> Violation | None:
-    """How far a formula of inequalities is from holding at a point, 0 where it does; None for other formulas."""
+def pulls(body: Formula) -> Pulls | None:
+    """The atoms in floating point; None for formulas with quantifiers or root atoms, and numbers beyond it."""
     match body:
-        case Atom(poly, relation) if relation is not Relation.EQ:
-            return _of_atom(poly, relation)
+        case Atom(poly, relation):
+            try:
+                slopes = [(i, _terms(poly.derivative(i), relation)) for i in poly.variables]
+                condition: Condition = body, _terms(poly, relation), slopes
+            except OverflowError:
+                return None
+            return lambda at: [condition]
         case And(args) | Or(args):
-            parts = [violation(arg) for arg in args]
-            known = [part for part in parts if part is not None]
-            if isinstance(body, And) and len(known) == len(parts):
-                return lambda at: sum([part(at) for part in known])
-            if isinstance(body, Or) and known:
-                return lambda at: min([part(at) for part in known])
+            parts = [part for arg in args if (part := pulls(arg)) is not None]
+            if isinstance(body, And) and len(parts) == len(args):
+                return lambda at: [condition for part in parts for condition in part(at)]
+            if isinstance(body, Or) and parts:
+                return lambda at: min((part(at) for part in parts), key=lambda chosen: _total(chosen, at))
     return None
 
 
-def _terms(poly: Poly, relation: Relation) -> Terms:
-    """What is positive where the atom holds. Raises ``OverflowError``."""
-    sign = 1.0 if relation in (Relation.GT, Relation.GE) else -1.0
+def relaxed(conditions: Pulls, point: list[float], far: float, budget: Budget, units: int) -> bool:
+    """Whether the point is near to meeting the conditions, once it was moved along the slopes of those that it did not
+    meet, inequalities ``far`` times as long as they say that the border is away. Raises ``OverflowError``."""
+    worst = math.inf
+    for sweep in range(SWEEPS_OF_ALL):
+        if not worst:
+            break
+        if not sweep % 10:
+            budget.spend(units)
+            budget.check("samples")
+        worst = 0.0
+        for condition in conditions(point):
+            away, amiss = _amiss(condition, point)
+            if away:
+                worst = max(worst, amiss)
+                slope = [(i, _value(terms, point)) for i, terms in condition[2]]
+                steep = sum([d * d for _, d in slope])
+                step = away if condition[0].relation is Relation.EQ else far * away
+                for i, d in slope:
+                    point[i] += step * d / steep if steep > 0 else 0.0
+    return worst < NEAR
+
+
+def _amiss(condition: Condition, at: Sequence[float]) -> tuple[float, float]:
+    """What the polynomial of a condition lacks, and that in proportion to its terms; 0 where the condition is met."""
+    relation = condition[0].relation
+    values = [c * math.prod([at[i] ** k for i, k in powers]) for c, powers in condition[1]]
+    total, size = sum(values), sum(map(abs, values))
+    if relation is Relation.EQ:
+        away = -total if abs(total) > 1e-12 * size else 0.0
+    elif relation is Relation.NE:
+        away = math.copysign(max(0.0, MARGIN * size - abs(total)), total)
+    else:
+        away = max(0.0, MARGIN * size - total)
+    return away, abs(away) / size if away else 0.0
+
+
+def _total(conditions: Sequence[Condition], at: Sequence[float]) -> float:
+    return sum([_amiss(condition, at)[1] for condition in conditions])
+
+
+def _value(terms: Terms, at: Sequence[float]) -> float:
+    return sum([c * math.prod([at[i] ** k for i, k in powers]) for c, powers in terms])
+
+
+def _terms(poly: Poly, relation: Relation = Relation.GT) -> Terms:
+    """What is positive where an inequality holds. Raises ``OverflowError``."""
+    sign = -1.0 if relation in (Relation.LT, Relation.LE) else 1.0
     return [(sign * float(c), powers) for powers, c in poly.sparse_terms()]
-
-
-def _of_atom(poly: Poly, relation: Relation) -> Violation:
-    """Relative to the sum of the absolute values of its terms; a little beyond the border is asked for."""
-    try:
-        terms = _terms(poly, relation)
-    except OverflowError:
-        return lambda at: math.inf
-
-    def measured(at: Sequence[float]) -> float:
-        total = size = 0.0
-        try:
-            for c, powers in terms:
-                for i, k in powers:
-                    c *= at[i] ** k
-                total += c
-                size += abs(c)
-        except OverflowError:
-            return 1.0
-        if relation is Relation.NE:
-            total = abs(total)
-        return max(0.0, 1e-9 - total / size) if 0.0 < size < math.inf else 1.0
-
-    return measured
 
 
 def bounds(body: Formula, count: int) -> Box:
@@ -224,43 +247,9 @@ def _drawn(rng: random.Random, low: float, high: float) -> float:
     return low + (high - low) * math.pow(rng.random(), rng.choice((1, 1, 3)))
 
 
-def _descended(
-    measure: Violation, point: list[float], places: Sequence[int], box: Box, budget: Budget, units: int
-) -> float:
-    """The violation at a point that is moved along one variable after the other as long as it falls; ``units`` of work
-    for each."""
-    best = measure(point)
-    for k in range(ROUNDS):
-        before = best
-        for place in places:
-            budget.spend(units)
-            budget.check("samples")
-            kept = point[place]
-            for value in _moves(kept, 0.5 / 2**k, *box[place]):
-                if best <= 0:
-                    return best
-                point[place] = value
-                size = measure(point)
-                if size < best:
-                    best, kept = size, value
-            point[place] = kept
-        if best <= 0 or (best == before and k > ROUNDS // 2):
-            return best
-    return best
-
-
-def _moves(value: float, step: float, low: float, high: float) -> Iterator[float]:
-    """Other values of a variable: doubled, halved, turned, a step up and down, and into the interval from its ends."""
-    if low < high < math.inf and low > -math.inf:
-        width = (high - low) * step
-        yield from (x for x in (value - width, value + width, high - width / 2, low + width / 2) if low <= x <= high)
-    reach = max(abs(value), 1.0) * 2 * step
-    yield from (x for x in (2 * value, value / 2, -value, value - reach, value + reach) if low <= x <= high)
-
-
 def _rounded(point: Sequence[float]) -> Iterator[list[Fraction]]:
-    """Rational points close by, simple ones first."""
+    """Rational points close by, simple ones first; one has zeros for what is almost zero."""
     if all(map(math.isfinite, point)):
-        for digits in (1, 2, 3, 6, 12):
-            yield [Fraction(f"{x:.{digits}g}") for x in point]
+        for digits in ("1g", "2f", "2g", "3g", "6g", "12g"):
+            yield [Fraction(f"{x:.{digits}}") for x in point]
         yield [Fraction(x) for x in point]

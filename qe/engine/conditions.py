@@ -24,6 +24,9 @@ CAD_FIRST_VARIABLES = 4
 CRITICAL_PARAMETERS = 2
 """Up to this many parameters critical values go first for convex conditions."""
 
+MANY_FROM = 8
+"""Sentences with equations, in so many variables, are tried at points."""
+
 CONVEX_FROM, CONVEX_CURVED = 4, 4
 """Existential sentences in so many variables are first tried as convex problems; in one variable less where so many
 polynomials are not linear; with fewer, the others are faster."""
@@ -175,6 +178,13 @@ def curved_inequalities(problem: Block, options: Options) -> str | None:
     if any(isinstance(part, Atom) and part.relation is Relation.EQ for part in problem.conditions):
         return None
     return f"inequalities in {len(problem.variables)} variables"
+
+
+def curved_in_many_variables(problem: Block, options: Options) -> str | None:
+    """A sentence in at least ``MANY_FROM`` variables, not linear."""
+    if len(problem.variables) < MANY_FROM or not problem.is_flat or problem.free or not problem.curved:
+        return None
+    return f"{len(problem.variables)} variables"
 
 
 def _falls_apart(problem: Block) -> bool:

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.elimination.protocol import Context
-from qe.elimination.samples import relaxed, sloping
+from qe.elimination.samples import pulls, relaxed
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.formula.features import features, length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Formula
-from qe.formula.traverse import atoms
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula
+from qe.formula.traverse import atoms, conjuncts
 from qe.options import Budget
 from qe.proof.step import Nested
 
@@ -143,12 +143,12 @@ def _middle(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction]:
 
 
 def _pulled(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction] | None:
-    """Where the inequalities of a conjunction pull the point in the middle, about; None for other formulas.
+    """Where the conditions of a conjunction pull the point in the middle, about; None for other formulas.
 
     In a convex set with interior points this mostly ends after a few rounds; what it ends at is only a proposal.
     """
-    conditions, start, ring = sloping(formula, 0), _middle(formula, names), formula.ring
-    if not conditions or ring is None:
+    conditions, start, ring = pulls(formula), _middle(formula, names), formula.ring
+    if conditions is None or ring is None or not all(isinstance(part, Atom) for part in conjuncts(formula)):
         return None
     with suppress(OverflowError, ValueError):  # beyond the range of floats
         point = [float(start.get(name, 0)) for name in ring.names]
